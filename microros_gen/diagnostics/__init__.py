@@ -1,0 +1,7 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a user is told: places in sources, diagnostics and their printed form."""
+
+from microros_gen.diagnostics.diagnostic import Diagnostic, Diagnostics, Severity, UserError, nearest
+from microros_gen.diagnostics.source import Source, Span
+
+__all__ = ["Diagnostic", "Diagnostics", "Severity", "Source", "Span", "UserError", "nearest"]

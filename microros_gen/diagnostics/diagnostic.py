@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Diagnostics: collected while a step goes on, raised together at its end, printed by the command line."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from enum import Enum
+
+from microros_gen.diagnostics.source import Span
+
+
+class Severity(Enum):
+    """How bad it is: an error ends the run, a warning does not."""
+
+    ERROR = "error"
+    WARNING = "warning"
+
+
+@dataclass(frozen=True)
+class Diagnostic:
+    """One message to the user: what is wrong, where, and what to do (`hint`)."""
+
+    message: str
+    span: Span | None = None
+    hint: str | None = None
+    severity: Severity = Severity.ERROR
+
+    def headline(self) -> str:
+        """Return `file:line:col: error: what. hint` (without a place: `microros-gen: error: …`)."""
+        where = str(self.span) if self.span else "microros-gen"
+        text = f"{where}: {self.severity.value}: {self.message}"
+        return f"{text}. {self.hint}" if self.hint else text
+
+    def render(self) -> str:
+        """Return the headline, then the source line with a caret below the place where there is one."""
+        if self.span is None:
+            return self.headline()
+        line = self.span.source.line(self.span.line)
+        if not line.strip():
+            return self.headline()
+        lead = "".join("\t" if c == "\t" else " " for c in line[: self.span.column - 1])
+        end = min(self.span.end_column or self.span.column + 1, len(line) + 1)
+        caret = "^" + "~" * max(0, end - self.span.column - 1)
+        return f"{self.headline()}\n  {line.rstrip()}\n  {lead}{caret}"
+
+
+class UserError(Exception):
+    """The one exception for user mistakes; it holds every diagnostic of the step that raised it."""
+
+    def __init__(self, diagnostics: Iterable[Diagnostic], status: int = 2) -> None:
+        """Hold `diagnostics` (at least one); `status` is the exit status that the command line ends with."""
+        self.diagnostics = tuple(diagnostics)
+        self.status = status
+        super().__init__("\n".join(d.headline() for d in self.diagnostics))
+
+
+class Diagnostics:
+    """A collector: a step adds what it finds and goes on; `check()` at its end raises all errors at once."""
+
+    def __init__(self) -> None:
+        self._found: list[Diagnostic] = []
+
+    def error(self, message: str, span: Span | None = None, hint: str | None = None) -> None:
+        """Add an error."""
+        self._add(Diagnostic(message, span, hint))
+
+    def warning(self, message: str, span: Span | None = None, hint: str | None = None) -> None:
+        """Add a warning."""
+        self._add(Diagnostic(message, span, hint, Severity.WARNING))
+
+    def extend(self, diagnostics: Iterable[Diagnostic]) -> None:
+        """Add what another step found."""
+        for diagnostic in diagnostics:
+            self._add(diagnostic)
+
+    def check(self) -> None:
+        """Raise `UserError` with everything found when there is an error among it."""
+        if self.has_errors():
+            raise UserError(self._found)
+
+    def has_errors(self) -> bool:
+        """Return whether an error was added."""
+        return any(d.severity is Severity.ERROR for d in self._found)
+
+    def __iter__(self) -> Iterator[Diagnostic]:
+        return iter(self._found)
+
+    def _add(self, diagnostic: Diagnostic) -> None:
+        if diagnostic not in self._found:
+            self._found.append(diagnostic)
+
+
+def nearest(name: str, known: Iterable[str]) -> str | None:
+    """Return the hint `did you mean 'x'?` for the known name closest to `name`, or None when none is close."""
+    choices = sorted(known)
+    close = difflib.get_close_matches(name, choices, n=1, cutoff=0.5) or difflib.get_close_matches(
+        name.lower(), [c.lower() for c in choices], n=1, cutoff=0.5
+    )
+    if not close:
+        return None
+    match = next((c for c in choices if c == close[0]), next(c for c in choices if c.lower() == close[0]))
+    return f"Did you mean '{match}'?"

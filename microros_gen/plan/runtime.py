@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The numbers and tables of the C runtime: everything that microros_config.h and microros_plan.c print."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from microros_gen.model.types import TypeName
+
+
+@dataclass(frozen=True)
+class NodePlan:
+    """A declared node. `participant_name` is what goes on the wire: `name`, or `namespace/name`."""
+
+    index: int
+    name: str
+    namespace: str
+    participant_name: str
+    domain_id: int
+
+
+@dataclass(frozen=True)
+class PublisherPlan:
+    """A declared publisher; `topic` is the expanded ROS name (`/imu/data`), `dds_topic` is `rt` + topic."""
+
+    index: int
+    node: int
+    topic: str
+    dds_topic: str
+    type: TypeName
+    reliable: bool
+
+
+@dataclass(frozen=True)
+class RuntimePlan:
+    """Sizes are bytes, times are milliseconds.
+
+    `declared` is false for an application without `nodes:`: then names come from the calls and are kept in
+    pools (`nodes_max`, `publishers_max` slots, names of at most `name_size` bytes with their terminator).
+    `client_key` None: the port supplies it (`session.key: device`).
+    `error_text_size` 0: codes only. `best_effort_size` 0 or `reliable_slots` 0: there is no such stream.
+    """
+
+    plan_id: str
+    error_text_size: int
+    agent_host: str
+    agent_port: int
+    mtu: int
+    input_size: int
+    client_key: int | None
+    session_id: int
+    best_effort_size: int
+    reliable_slots: int
+    reliable_slot_size: int
+    declared: bool
+    nodes_max: int
+    publishers_max: int
+    name_size: int
+    nodes: tuple[NodePlan, ...]
+    publishers: tuple[PublisherPlan, ...]
+    arena_size: int
+    on_full: str
+    on_full_block_ms: int
+    connect_timeout_ms: int = 1000
+    create_timeout_ms: int = 1000
+    close_timeout_ms: int = 300
+    heartbeat_period_ms: int = 100
+    liveliness_period_ms: int = 1000
+    liveliness_attempts: int = 3
