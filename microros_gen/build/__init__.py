@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TODO"""
+"""Runs the tool chain: compiles the output folder to a library and an image, and measures them."""

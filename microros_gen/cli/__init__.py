@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TODO"""
+"""The command line: one file a command; `main` picks it and prints diagnostics."""

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Compiles an output folder: objects that are up to date stay, the rest is compiled side by side."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+from microros_gen.build.toolchain import WARNINGS, Toolchain, run
+from microros_gen.diagnostics import Diagnostic, UserError
+
+OBJECTS = ".build"
+LIBRARY = "lib/libmicroros.a"
+
+
+@dataclass(frozen=True)
+class BuildReport:
+    """What was built (paths relative to the output folder), and how many objects were compiled or kept."""
+
+    library: str
+    image: str | None
+    compiled: int
+    kept: int
+
+
+@dataclass(frozen=True)
+class _Unit:
+    source: str
+    object: str
+    command: tuple[str, ...]
+
+
+def compile_tree(
+    out: Path, sources: Sequence[str], example: str | None, image: str, tools: Toolchain
+) -> BuildReport:
+    """Compile `sources` (relative paths) to lib/libmicroros.a, and `example` with it to bin/`image`.
+
+    Raises UserError with status 1 and the compiler's own words when a step fails.
+    """
+    library_units = [_unit(source, tools) for source in sources]
+    example_units = [_unit(example, tools)] if example else []
+    stamps = _Stamps(out / OBJECTS / "stamps.json")
+    units = [*library_units, *example_units]
+    stale = [unit for unit in units if not stamps.is_fresh(out, unit)]
+    try:
+        _compile(out, stale, stamps)
+    finally:
+        stamps.save(units)
+    if stale or not (out / LIBRARY).is_file():
+        _archive(out, [u.object for u in library_units], tools)
+    linked = f"bin/{image}" if example else None
+    if linked and (stale or not (out / linked).is_file()):
+        _link(out, example_units[0].object, linked, tools)
+    _remove_others(out, {u.object for u in units}, {LIBRARY, linked or ""})
+    return BuildReport(LIBRARY, linked, len(stale), len(units) - len(stale))
+
+
+class _Stamps:
+    """For each object, a digest of the command and of every file that it was made from."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._stamps: dict[str, dict[str, object]] = {}
+        self._digests: dict[str, str] = {}
+        try:
+            self._stamps = json.loads(path.read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            self._stamps = {}
+
+    def is_fresh(self, out: Path, unit: _Unit) -> bool:
+        stamp = self._stamps.get(unit.object)
+        if not isinstance(stamp, dict) or not (out / unit.object).is_file():
+            return False
+        files = stamp.get("files")
+        return isinstance(files, list) and stamp.get("digest") == self._digest(out, unit, files)
+
+    def record(self, out: Path, unit: _Unit, files: list[str]) -> None:
+        self._stamps[unit.object] = {"digest": self._digest(out, unit, files), "files": files}
+
+    def save(self, units: Iterable[_Unit]) -> None:
+        kept = {u.object: self._stamps[u.object] for u in units if u.object in self._stamps}
+        self._path.parent.mkdir(parents=True, exist_ok=True)
+        self._path.write_text(json.dumps(kept, sort_keys=True), encoding="utf-8")
+
+    def _digest(self, out: Path, unit: _Unit, files: Iterable[str]) -> str:
+        parts = [*unit.command, *(self._file_digest(out / f) for f in files)]
+        return hashlib.sha256("\0".join(parts).encode()).hexdigest()
+
+    def _file_digest(self, path: Path) -> str:
+        key = str(path)
+        if key not in self._digests:
+            try:
+                self._digests[key] = hashlib.sha256(path.read_bytes()).hexdigest()
+            except OSError:
+                self._digests[key] = "missing"
+        return self._digests[key]
+
+
+def _unit(source: str, tools: Toolchain) -> _Unit:
+    target = f"{OBJECTS}/{source.removesuffix('.c')}.o"
+    depends = target.removesuffix(".o") + ".d"
+    command = (tools.compiler, *WARNINGS, *tools.c_flags, "-Iinclude", "-MMD", "-MF", depends, "-c", source)
+    return _Unit(source, target, (*command, "-o", target))
+
+
+def _compile(out: Path, units: Sequence[_Unit], stamps: _Stamps) -> None:
+    for unit in units:
+        (out / unit.object).parent.mkdir(parents=True, exist_ok=True)
+    with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+        results = list(pool.map(lambda unit: run(unit.command, out), units))
+    failed = []
+    for unit, result in zip(units, results, strict=True):
+        if result.returncode == 0:
+            stamps.record(out, unit, _dependencies(out / unit.object))
+        else:
+            failed.append(Diagnostic(f"{unit.source} does not compile:\n{result.stdout.rstrip()}"))
+    if failed:
+        raise UserError(failed, status=1)
+
+
+def _dependencies(object_path: Path) -> list[str]:
+    text = object_path.with_suffix(".d").read_text(encoding="utf-8").replace("\\\n", " ")
+    names = text.split(":", 1)[1].replace("\\ ", "\0").split()
+    return [name.replace("\0", " ") for name in names]
+
+
+def _archive(out: Path, objects: Sequence[str], tools: Toolchain) -> None:
+    (out / LIBRARY).parent.mkdir(parents=True, exist_ok=True)
+    fresh = f"{OBJECTS}/libmicroros.a"
+    (out / fresh).unlink(missing_ok=True)
+    _must_succeed([tools.archiver, "rcsD", fresh, *objects], out, "the library cannot be archived")
+    (out / fresh).replace(out / LIBRARY)
+
+
+def _link(out: Path, main_object: str, image: str, tools: Toolchain) -> None:
+    (out / image).parent.mkdir(parents=True, exist_ok=True)
+    fresh = f"{OBJECTS}/image"
+    command = [tools.compiler, *tools.link_flags, main_object, LIBRARY, *tools.libraries, "-o", fresh]
+    _must_succeed(command, out, "the example cannot be linked")
+    (out / fresh).replace(out / image)
+
+
+def _must_succeed(command: Sequence[str], out: Path, what: str) -> None:
+    result = run(command, out)
+    if result.returncode != 0:
+        raise UserError([Diagnostic(f"{what}:\n{result.stdout.rstrip()}")], status=1)
+
+
+def _remove_others(out: Path, objects: set[str], products: set[str]) -> None:
+    for path in (out / OBJECTS).rglob("*.o"):
+        if path.relative_to(out).as_posix() not in objects:
+            path.unlink()
+            path.with_suffix(".d").unlink(missing_ok=True)
+    for folder in ("lib", "bin"):
+        for path in (out / folder).glob("*"):
+            if path.is_file() and path.relative_to(out).as_posix() not in products:
+                path.unlink()
