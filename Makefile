@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+# make demo | test | lint | bench | golden. Each sets up its own virtual environment in .venv first.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+
+.PHONY: demo test lint bench golden clean
+
+demo: $(VENV)/ros.stamp
+	@$(BIN)/python examples/demo/demo.py
+
+test: $(VENV)/dev.stamp
+	@$(PYTHON) tests/tools/system_packages.py
+	@$(BIN)/python tests/tools/run_suite.py
+
+lint: $(VENV)/dev.stamp
+	@$(BIN)/python -m pytest -q tests/house
+
+bench: $(VENV)/dev.stamp
+	@$(PYTHON) tests/tools/system_packages.py
+	@$(BIN)/python tests/bench/bench.py
+
+golden: $(VENV)/dev.stamp
+	@$(BIN)/python tests/tools/update_golden.py
+
+$(VENV)/bin/python:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10))' \
+	  || { echo "microros-gen needs Python 3.10 or newer: make PYTHON=/path/to/python3 $(MAKECMDGOALS)"; exit 2; }
+	@$(PYTHON) -m venv $(VENV) \
+	  || { rm -rf $(VENV); echo "Install what makes virtual environments: apt-get install python3-venv"; exit 2; }
+
+$(VENV)/ros.stamp: $(VENV)/bin/python pyproject.toml
+	@echo "Setting up $(VENV) with ROS 2 Jazzy from PyPI (once) ..."
+	@$(BIN)/python -m pip install -q --disable-pip-version-check -e '.[ros]'
+	@touch $@
+
+$(VENV)/dev.stamp: $(VENV)/bin/python pyproject.toml
+	@echo "Setting up $(VENV) with ROS 2 Jazzy and the test tools from PyPI (once) ..."
+	@$(BIN)/python -m pip install -q --disable-pip-version-check -e '.[ros,dev]'
+	@touch $@ $(VENV)/ros.stamp
+
+clean:
+	rm -rf build $(VENV)

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`make demo`: builds the image, starts the agent, runs the image, and shows what a ROS 2 subscriber gets."""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+FOLDER = Path(__file__).resolve().parent
+ROOT = FOLDER.parent.parent
+OUT = ROOT / "build" / "demo"
+PORTS = range(8888, 8908)
+
+
+class PartFailedError(Exception):
+    """One part of the demo failed; the text says which and what it said."""
+
+
+def main() -> int:
+    """Run the parts in turn; print which one failed."""
+    sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
+    try:
+        port = free_port()
+        build(port)
+        show(port)
+    except PartFailedError as error:
+        print(f"demo: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+def free_port() -> int:
+    """Return the first free UDP port; the usual one when it can be had."""
+    for port in PORTS:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+            try:
+                probe.bind(("127.0.0.1", port))
+            except OSError:
+                continue
+            return port
+    raise PartFailedError(f"ports: UDP ports {PORTS[0]} to {PORTS[-1]} are all in use")
+
+
+def build(port: int) -> None:
+    """Generate and compile the application for the host."""
+    start = time.monotonic()
+    command = [sys.executable, "-m", "microros_gen", "build", "-c", str(FOLDER / "microros.yaml"), "-o", str(OUT)]
+    command += ["--agent", f"127.0.0.1:{port}"]
+    print(f"1. build: microros-gen build -c {(FOLDER / 'microros.yaml').relative_to(ROOT)}")
+    if subprocess.run(command, check=False).returncode != 0:
+        raise PartFailedError("build: the image could not be built (see above)")
+    print(f"   {time.monotonic() - start:.1f} s")
+
+
+def show(port: int) -> None:
+    """Run agent, listener and image together until the listener has enough."""
+    environment = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", **os.environ, "PYTHONUNBUFFERED": "1"}
+    with ExitStack() as stack:
+        print(f"2. agent: microros-gen agent udp4 --port {port}")
+        agent_command = [sys.executable, "-m", "microros_gen", "agent", "udp4", "--port", str(port)]
+        stack.enter_context(part("agent", agent_command, environment, "agent ready"))
+        print("3. listener: an rclpy node in a process of its own")
+        listener_command = [sys.executable, str(FOLDER / "subscriber.py")]
+        listener = stack.enter_context(part("listener", listener_command, environment, "listener ready"))
+        print(f"4. image: {(OUT / 'bin/pure_sender').relative_to(ROOT)}")
+        image = stack.enter_context(part("image", [str(OUT / "bin/pure_sender")], environment, None))
+        assert listener.stdout is not None
+        for line in listener.stdout:
+            print(f"   {line}", end="")
+        if listener.wait() != 0:
+            state = f"ended with status {image.returncode}" if image.poll() is not None else "was still running"
+            raise PartFailedError(f"listener: it did not get its samples; the image {state}")
+
+
+@contextmanager
+def part(
+    name: str, command: list[str], environment: dict[str, str], ready: str | None
+) -> Iterator[subprocess.Popen[str]]:
+    """Start a process, wait for the line that says it is ready, and end it afterwards."""
+    output = subprocess.PIPE if ready else None
+    process = subprocess.Popen(command, env=environment, stdout=output, text=True)
+    try:
+        if ready:
+            wait_for(process, name, ready)
+        yield process
+    finally:
+        if process.poll() is None:
+            process.send_signal(signal.SIGTERM)
+        try:
+            process.wait(timeout=10)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
+def wait_for(process: subprocess.Popen[str], name: str, ready: str) -> None:
+    """Read lines until the one that starts with `ready`."""
+    assert process.stdout is not None
+    for line in process.stdout:
+        if line.startswith(ready):
+            return
+        print(f"   {line}", end="")
+    raise PartFailedError(f"{name}: it ended with status {process.wait()} before it was ready")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

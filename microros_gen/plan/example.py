@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The profile's example application: which members of each message it fills, and with what."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from microros_gen.model.types import Field, Message, NamedType, Primitive, StringType, TypeName
+
+_TIME = TypeName("builtin_interfaces", "msg", "Time")
+# Enough to see every part of an Imu move, and still readable for a message of a hundred members.
+_MOST_VALUES = 16
+
+
+@dataclass(frozen=True)
+class MemberValue:
+    """A member path (`linear_acceleration.x`) and the C expression or text that it gets."""
+
+    member: str
+    value: str
+
+
+@dataclass(frozen=True)
+class Filling:
+    """What the example writes into one message: time stamps, numbers from its counter, texts."""
+
+    stamps: tuple[str, ...]
+    values: tuple[MemberValue, ...]
+    texts: tuple[MemberValue, ...]
+
+
+def plan_filling(message: Message, messages: Mapping[TypeName, Message], text: str) -> Filling:
+    """Fill every plain member of `message` that has no default of its own; arrays and sequences stay as they are."""
+    members = tuple(_plain_members(message, messages, ""))
+    stamps = tuple(path for path, field in members if field.type == NamedType(_TIME))
+    numbers = [(path, f.type) for path, f in members if isinstance(f.type, Primitive)]
+    values = tuple(MemberValue(path, _expression(kind)) for path, kind in numbers[:_MOST_VALUES])
+    texts = tuple(
+        MemberValue(path, text)
+        for path, f in members
+        if isinstance(f.type, StringType) and not f.type.wide and (f.type.bound is None or f.type.bound >= len(text))
+    )
+    return Filling(stamps, values, texts)
+
+
+def _plain_members(
+    message: Message, messages: Mapping[TypeName, Message], prefix: str
+) -> Iterator[tuple[str, Field]]:
+    for field in message.fields:
+        path = f"{prefix}{field.name}"
+        if field.default is not None:
+            continue
+        if isinstance(field.type, NamedType) and field.type.name != _TIME:
+            yield from _plain_members(messages[field.type.name], messages, f"{path}.")
+        elif isinstance(field.type, (Primitive, StringType, NamedType)):
+            yield path, field
+
+
+def _expression(kind: Primitive) -> str:
+    if kind is Primitive.BOOL:
+        return "(count % 2u) == 1u"
+    if kind is Primitive.FLOAT32:
+        return "0.1f * (float)count"
+    if kind is Primitive.FLOAT64:
+        return "0.1 * (double)count"
+    return "count" if kind is Primitive.UINT32 else f"({kind.c_type})count"

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Data flows one way: a folder of the package imports only from folders that stand before it."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import microros_gen
+
+PACKAGE = Path(microros_gen.__file__).parent
+# docs/architecture.md, "The house". The agent stands aside: it may use what is before `parse`.
+ORDER = (
+    "diagnostics",
+    "model",
+    "parse",
+    "sources",
+    "resolve",
+    "plan",
+    "render",
+    "output",
+    "build",
+    "agent",
+    "cli",
+)
+AGENT_MAY = {"agent", "diagnostics", "model"}
+
+
+def imports(path: Path) -> Iterator[tuple[int, str]]:
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from ((node.lineno, alias.name) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path}:{node.lineno}: a relative import"
+            yield node.lineno, node.module or ""
+
+
+def violations(package: Path) -> list[str]:
+    found = []
+    for path in sorted(package.rglob("*.py")):
+        folder = path.relative_to(package).parts[0]
+        if folder not in ORDER:
+            continue
+        for line, module in imports(path):
+            parts = module.split(".")
+            if parts[0] != "microros_gen" or len(parts) == 1:
+                continue
+            used = parts[1]
+            allowed = AGENT_MAY if folder == "agent" else set(ORDER[: ORDER.index(folder) + 1]) - {"agent"}
+            if folder == "cli":
+                allowed = set(ORDER)
+            if used not in allowed:
+                found.append(f"{path.relative_to(package)}:{line}: {folder} imports {used}")
+    return found
+
+
+def test_imports_point_one_way() -> None:
+    assert violations(PACKAGE) == []
+
+
+def test_every_folder_with_code_has_its_place() -> None:
+    folders = {p.relative_to(PACKAGE).parts[0] for p in PACKAGE.rglob("*.py") if p.parent != PACKAGE}
+    assert folders <= set(ORDER)
+
+
+def test_the_check_finds_a_wrong_import(tmp_path: Path) -> None:
+    (tmp_path / "model").mkdir()
+    (tmp_path / "model" / "x.py").write_text("from microros_gen.render import y\n")
+    assert violations(tmp_path) == ["model/x.py:1: model imports render"]
+
+
+def test_only_reading_writing_and_building_touch_the_disk() -> None:
+    """`parse`, `resolve`, `plan`, `model` and `diagnostics` compute; they open no file and start no process."""
+    forbidden = {"subprocess", "socket", "tempfile", "shutil"}
+    for folder in ("diagnostics", "model", "parse", "resolve", "plan"):
+        for path in sorted((PACKAGE / folder).rglob("*.py")):
+            names = {module.split(".")[0] for _, module in imports(path)}
+            assert not names & forbidden, f"{path.name} uses {names & forbidden}"

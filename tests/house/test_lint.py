@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Formatters, linters and types are part of the default run."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PYTHON_FOLDERS = ["microros_gen", "tests", "examples"]
+
+
+def run(*command: str) -> None:
+    result = subprocess.run(command, cwd=ROOT, text=True, capture_output=True, check=False)
+    assert result.returncode == 0, result.stdout + result.stderr
+
+
+def c_files() -> list[str]:
+    folder = ROOT / "microros_gen" / "components"
+    return [str(p.relative_to(ROOT)) for p in sorted(folder.rglob("*.[ch]"))]
+
+
+def test_ruff_check() -> None:
+    run(sys.executable, "-m", "ruff", "check", *PYTHON_FOLDERS)
+
+
+def test_ruff_format() -> None:
+    run(sys.executable, "-m", "ruff", "format", "--check", *PYTHON_FOLDERS)
+
+
+def test_mypy_strict() -> None:
+    run(sys.executable, "-m", "mypy", "-p", "microros_gen")
+
+
+def test_clang_format() -> None:
+    run("clang-format", "--dry-run", "--Werror", *c_files())
+
+
+@pytest.mark.parametrize("folder", ["microros_gen", "profiles", "tests", "examples"])
+def test_every_source_carries_the_licence(folder: str) -> None:
+    endings = {".py", ".c", ".h", ".yaml", ".lark", ".cmake"}
+    for path in sorted((ROOT / folder).rglob("*")):
+        golden = "golden" in path.parts or "corpus" in path.parts
+        if path.suffix in endings and path.is_file() and not golden:
+            head = path.read_text(encoding="utf-8").splitlines()[:3]
+            assert any("SPDX-License-Identifier: Apache-2.0" in line for line in head), path

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Looks for the programs that the suite runs; installs their Debian packages when it may, else says how to."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+# program or file → Debian package
+NEEDED = {
+    "gcc": "gcc",
+    "clang": "clang",
+    "clang-format": "clang-format",
+    "clang-tidy": "clang-tidy",
+    "cppcheck": "cppcheck",
+    "cmake": "cmake",
+    "g++": "g++",
+    "make": "make",
+    "nm": "binutils",
+    "valgrind": "valgrind",
+}
+MULTILIB = "gcc-multilib"
+
+
+def missing_packages() -> list[str]:
+    """Return the Debian packages to install, sorted."""
+    missing = {package for program, package in NEEDED.items() if shutil.which(program) is None}
+    if shutil.which("gcc") is None or not _links_32_bit():
+        missing |= {MULTILIB, "g++-multilib"}
+    return sorted(missing)
+
+
+def _links_32_bit() -> bool:
+    test = ["g++", "-m32", "-x", "c++", "-", "-o", os.devnull]
+    if shutil.which("g++") is None:
+        return False
+    source = "#include <cstdint>\nint main() { return 0; }\n"
+    return subprocess.run(test, input=source, text=True, capture_output=True, check=False).returncode == 0
+
+
+def main() -> int:
+    """Install or tell; 0 when nothing is missing afterwards."""
+    packages = missing_packages()
+    if not packages:
+        return 0
+    command = ["apt-get", "install", "-y", "--no-install-recommends", *packages]
+    may = Path("/etc/debian_version").exists() and hasattr(os, "geteuid") and os.geteuid() == 0
+    if not may:
+        print("The suite needs some packages. Install them with:\n  sudo " + " ".join(command))
+        return 2
+    print("Installing " + " ".join(packages) + " ...", flush=True)
+    environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
+    for step in (["apt-get", "update", "-qq"], command):
+        result = subprocess.run(step, env=environment, capture_output=True, text=True, check=False)
+        if result.returncode != 0:
+            print(result.stdout + result.stderr)
+            print("Installing them failed; the command was:\n  " + " ".join(step))
+            return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
