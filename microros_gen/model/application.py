@@ -28,7 +28,10 @@ class ComponentChange:
 
 @dataclass(frozen=True)
 class Transport:
-    """How the firmware reaches its agent. `mtu`: largest datagram or frame payload, bytes; None: planned."""
+    """How the firmware reaches its agent. `mtu`: largest datagram or frame payload, bytes; None: planned.
+
+    `type_span` None and `type` udp: the application does not say, so a profile's choice holds.
+    """
 
     type: str = "udp"
     host: str = "127.0.0.1"
@@ -36,11 +39,13 @@ class Transport:
     mtu: int | None = None
     span: Span | None = None
     mtu_span: Span | None = None
+    type_span: Span | None = None
+    agent_span: Span | None = None
 
 
 @dataclass(frozen=True)
 class Qos:
-    """QoS of an endpoint; the values are those of rmw/types.h in lower case."""
+    """QoS of an endpoint; the values are those of rmw/types.h in lower case, the defaults rmw_qos_profile_default."""
 
     reliability: str = "reliable"
     durability: str = "volatile"
@@ -54,13 +59,16 @@ class LimitRule:
     """One capacity rule. `path` is `*`, a type (`sensor_msgs/msg/Imu`) or a type and a field path below it.
 
     `path` for a field is `("sensor_msgs/msg/Imu", "header", "frame_id")`. `string` counts bytes without the
-    terminator, `sequence` counts elements; None where the rule says nothing of it.
+    terminator, `sequence` counts elements; None where the rule says nothing of it. `single` is true for a field
+    that got one number (`position: 6`): then both hold it, and it means whichever of the two the field is; for a
+    sequence of strings it is ambiguous. In the own limits of an endpoint, `*` holds for all of its message.
     """
 
     path: tuple[str, ...]
     string: int | None = None
     sequence: int | None = None
     span: Span | None = None
+    single: bool = False
 
 
 @dataclass(frozen=True)
@@ -74,6 +82,64 @@ class EndpointDecl:
     limits: tuple[LimitRule, ...] = ()
     span: Span | None = None
     type_span: Span | None = None
+    topic_span: Span | None = None
+
+
+@dataclass(frozen=True)
+class TimerDecl:
+    """A timer of a node; its period in microseconds."""
+
+    name: str
+    period_us: int
+    span: Span | None = None
+
+
+@dataclass(frozen=True)
+class ParameterDecl:
+    """A parameter of a node. `type` is bool, integer, double or string; `size` bounds a string, bytes without NUL.
+
+    `minimum`, `maximum` and `step` are the range of rcl_interfaces/msg/ParameterDescriptor; None: no range.
+    """
+
+    name: str
+    type: str
+    default: bool | int | float | str | None = None
+    description: str = ""
+    read_only: bool = False
+    minimum: int | float | None = None
+    maximum: int | float | None = None
+    step: int | float | None = None
+    size: int | None = None
+    span: Span | None = None
+
+
+@dataclass(frozen=True)
+class ExecutorDecl:
+    """An executor and what it runs: names of timers, topics and services of the node, in this order.
+
+    `handles` empty: everything of the node. `timeout_us` is how long one spin waits for work at most.
+    """
+
+    name: str
+    handles: tuple[Named, ...] = ()
+    timeout_us: int | None = None
+    span: Span | None = None
+
+
+@dataclass(frozen=True)
+class TaskDecl:
+    """A periodic task. Times in microseconds; `deadline_us` None: the period; `wcet_us`: worst-case run time.
+
+    `criticality` is low, normal or high; tasks of a higher one keep their deadlines first.
+    """
+
+    name: str
+    period_us: int
+    deadline_us: int | None = None
+    wcet_us: int | None = None
+    criticality: str = "normal"
+    executor: str | None = None
+    span: Span | None = None
 
 
 @dataclass(frozen=True)
@@ -85,6 +151,10 @@ class NodeDecl:
     domain_id: int = 0
     endpoints: tuple[EndpointDecl, ...] = ()
     span: Span | None = None
+    timers: tuple[TimerDecl, ...] = ()
+    parameters: tuple[ParameterDecl, ...] = ()
+    executors: tuple[ExecutorDecl, ...] = ()
+    name_span: Span | None = None
 
 
 @dataclass(frozen=True)
@@ -97,6 +167,8 @@ class Memory:
     stack: int | None = None
     ram_span: Span | None = None
     flash_span: Span | None = None
+    arena_span: Span | None = None
+    stack_span: Span | None = None
 
 
 @dataclass(frozen=True)
@@ -106,11 +178,16 @@ class TargetRef:
     name: str = "host"
     rtos: str | None = None
     span: Span | None = None
+    rtos_span: Span | None = None
 
 
 @dataclass(frozen=True)
 class Application:
-    """The whole file. `interfaces` are `pkg` or `pkg/msg/Type`; `pools` count entities where no nodes are given."""
+    """The whole file. `interfaces` are `pkg` or `pkg/msg/Type`; `pools` count entities where no nodes are given.
+
+    `logging` (console, callback, rosout) and `clock` (steady, ros) are axes like `entities` and `liveliness`.
+    `spans` holds the places of top-level keys and of the keys of `pools` (as `pools.history`), for later steps.
+    """
 
     distro: str = "jazzy"
     profiles: tuple[Named, ...] = ()
@@ -128,3 +205,7 @@ class Application:
     on_full: str = "error"
     on_full_block_ms: int = 0
     error_text: bool = True
+    logging: Named | None = None
+    clock: Named | None = None
+    tasks: tuple[TaskDecl, ...] = ()
+    spans: Mapping[str, Span] = field(default_factory=dict)

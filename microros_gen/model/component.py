@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from microros_gen.diagnostics import Span
 from microros_gen.model.application import ComponentChange, Named
@@ -45,3 +46,65 @@ class Profile:
     transport: Named | None = None
     builtin: bool = False
     span: Span | None = None
+    logging: Named | None = None
+    clock: Named | None = None
+
+
+@dataclass(frozen=True)
+class ResolvedProfile:
+    """A profile with everything that it extends folded in; what stands nearer to it wins.
+
+    `adds` and `drops` hold each component once, with the place that decided it. `axes` maps an axis (`entities`,
+    `transport`, `liveliness`, `logging`, `clock`) to the value chosen and its place.
+    """
+
+    name: str
+    summary: str
+    adds: tuple[Named, ...] = ()
+    drops: tuple[Named, ...] = ()
+    axes: Mapping[str, Named] = field(default_factory=dict)
+    builtin: bool = False
+    span: Span | None = None
+
+
+@dataclass(frozen=True)
+class XrceProfile:
+    """A profile of OMG DDS-XRCE 1.0, clause 2. `allows` names the submessages that a client may exchange."""
+
+    name: str
+    summary: str
+    allows: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True)
+class AxisValue:
+    """What one value of an axis brings (profiles/middleware.yaml).
+
+    `component` is selected with it; `xrce` are XRCE profiles of the client, `agent` of the agent's side alone.
+    `allows` names submessages that it adds to those of the XRCE profiles.
+    """
+
+    axis: str
+    value: str
+    component: str | None = None
+    xrce: tuple[str, ...] = ()
+    agent: tuple[str, ...] = ()
+    allows: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Middleware:
+    """The middleware table (profiles/middleware.yaml): D1.4, 4.10.3.2 and OMG DDS-XRCE 1.0, clause 2.
+
+    `components` maps a micro-ROS component to the XRCE profiles that it needs; `axes` maps an axis to its values,
+    `defaults` to the value that holds where nobody chose.
+    """
+
+    components: Mapping[str, tuple[str, ...]]
+    xrce_profiles: Mapping[str, XrceProfile]
+    axes: Mapping[str, Mapping[str, AxisValue]]
+    defaults: Mapping[str, str]
+
+
+Catalogue = Mapping[str, Component]
+"""All components by name, as `sources.components.load_catalogue` reads them; cannot be changed."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from microros_gen.model.application import Named
 from microros_gen.model.component import Component
 
 
@@ -18,10 +19,23 @@ class Chosen:
 
 @dataclass(frozen=True)
 class ChosenComponent:
-    """A component and why it is there, for example `profile pure_sender` or `needed by publish`."""
+    """A component and why it is there, for example `profile pure_sender` or `needed by publish`.
+
+    `causes` are the choices of the user at the end of those reasons (profiles, keys, declarations), with places.
+    """
 
     component: Component
     reasons: tuple[str, ...]
+    causes: tuple[Named, ...] = ()
+
+
+@dataclass(frozen=True)
+class ChosenAxis:
+    """The value of an axis (`entities`, `transport`, `liveliness`, `logging`, `clock`) and who chose it."""
+
+    axis: str
+    value: str
+    reason: str
 
 
 @dataclass(frozen=True)
@@ -41,6 +55,7 @@ class Selection:
     sends: tuple[Chosen, ...]
     receives: tuple[Chosen, ...]
     objects: tuple[Chosen, ...]
+    axes: tuple[ChosenAxis, ...] = ()
 
     def has(self, component: str) -> bool:
         """Return whether `component` is selected."""
