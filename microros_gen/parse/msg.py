@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads .msg files as ROS 2 Jazzy does (rosidl_adapter and the readers behind it).
+
+A .msg file is line oriented: each line is taken apart into declaration and comment here, the grammar
+`msg.lark` parses the declaration, and what it may say is checked after that. So every faulty line is
+reported in one run.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+
+from lark import Lark, Token
+from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedToken
+
+from microros_gen.diagnostics import Diagnostics, Source, Span
+from microros_gen.model.types import Field, Message, TypeName
+from microros_gen.parse.msg_declarations import Declaration, Line, read_declaration
+from microros_gen.parse.msg_names import package_name_fault, type_name_fault
+
+_BYTE_ORDER_MARK = "\ufeff"
+_WORDS = {
+    "PRIMITIVE": "a type",
+    "STRING": "a type",
+    "TYPE_NAME": "a type",
+    "NAME": "a name",
+    "BOUND": "a number above zero",
+    "TEXT": "a value",
+    "NUMBER": "a value",
+    "QUOTED": "a string",
+    "BARE": "a string",
+    "_GAP": "a space",
+    "_EQUAL": "'='",
+    "_AT_MOST": "'<='",
+    "_SLASH": "'/'",
+    "_OPEN": "'['",
+    "_CLOSE": "']'",
+    "_LAST_CLOSE": "']'",
+    "_COMMA": "','",
+    "$END": "the end of the line",
+}
+
+
+@dataclass
+class _Entry:
+    """A declaration with the comment lines that belong to it so far."""
+
+    declaration: Declaration
+    comment: list[str]
+
+
+@dataclass
+class _File:
+    """What was found in a file so far."""
+
+    source: Source
+    comment: list[str] = field(default_factory=list)
+    entries: list[_Entry] = field(default_factory=list)
+
+
+def parse_msg(source: Source, name: TypeName, diagnostics: Diagnostics) -> Message | None:
+    """Return the message that `source` declares as type `name`, or None when it has an error.
+
+    Every error and warning goes to `diagnostics`, with its line and columns. Fields of other messages' types
+    are named and not looked up.
+    """
+    found = Diagnostics()
+    if source.text.startswith(_BYTE_ORDER_MARK):
+        source = Source(source.name, source.text[1:])
+        found.warning(
+            "the file begins with a byte order mark",
+            Span(source, 1, 1),
+            "ROS 2 refuses it: save as UTF-8 without it",
+        )
+    for fault in (package_name_fault(name.package), type_name_fault(name.name)):
+        if fault is not None:
+            found.error(
+                fault, Span(source, 1, 1), "ROS 2 takes no other names for folders and files of interfaces"
+            )
+    file = _read_lines(source, name, found)
+    _check_duplicates(file.entries, found)
+    diagnostics.extend(found)
+    return None if found.has_errors() else _message(file, name)
+
+
+def _read_lines(source: Source, name: TypeName, diagnostics: Diagnostics) -> _File:
+    file = _File(source)
+    pending: list[str] = []
+    at_top = True
+    # Each tab counts as one space, also inside of strings, so columns stay what they are.
+    for number, line in enumerate(source.text.replace("\t", " ").splitlines(), 1):
+        if at_top and line.startswith("#"):
+            file.comment.append(line.lstrip("#"))
+            continue
+        at_top = False
+        text, mark, comment = line.rstrip().partition("#")
+        if mark:
+            comment = comment.lstrip("#")
+            if text and not text.strip():
+                # An indented comment goes on with that of the declaration above it.
+                if file.entries:
+                    file.entries[-1].comment.append(comment)
+                continue
+            pending.append(comment)
+            text = text.rstrip()
+        if not text:
+            continue
+        declaration = _parse_line(Line(source, number, text, bool(mark)), name.package, diagnostics)
+        if declaration is not None:
+            file.entries.append(_Entry(declaration, pending))
+        pending = []
+    return file
+
+
+def _parse_line(line: Line, package: str, diagnostics: Diagnostics) -> Declaration | None:
+    try:
+        tree = _grammar().parse(line.text)
+    except UnexpectedInput as fault:
+        _report_syntax(line, fault, diagnostics)
+        return None
+    return read_declaration(tree, line, package, diagnostics)
+
+
+@lru_cache(maxsize=1)
+def _grammar() -> Lark:
+    """Return the parser of one declaration, built when the first one is read."""
+    return Lark.open("msg.lark", rel_to=__file__, parser="lalr", lexer="contextual", maybe_placeholders=False)
+
+
+def _report_syntax(line: Line, fault: UnexpectedInput, diagnostics: Diagnostics) -> None:
+    expected: Iterable[str] = ()
+    column = len(line.text) + 1
+    found = "the end of the line"
+    if isinstance(fault, UnexpectedCharacters):
+        expected, column = fault.allowed or (), fault.column
+        found = f"'{line.text[column - 1]}'"
+    elif isinstance(fault, UnexpectedToken):
+        expected = fault.accepts or fault.expected
+        token: Token = getattr(fault, "token")  # noqa: B009 (the stubs of lark-parser lack it)
+        if token.type != "$END":
+            column = token.column or column
+            found = f"'{token.strip()}'" if token.strip() else "a space"
+    if column == 1 and line.text.startswith(" "):
+        diagnostics.error(
+            "a declaration begins in the first column", line.span(1, 2), "Remove the space before it"
+        )
+        return
+    words = sorted({_WORDS[name] for name in expected if name in _WORDS})
+    diagnostics.error(
+        f"expected {' or '.join(words) or 'something else'}, found {found}",
+        line.span(column, column + 1),
+        _syntax_hint(line, column, set(expected)),
+    )
+
+
+def _syntax_hint(line: Line, column: int, expected: set[str]) -> str | None:
+    if column > len(line.text) and " " not in line.text:
+        return "A field is written 'type name', a constant 'type NAME=value'"
+    rest = line.text[column - 1 :]
+    if "_GAP" in expected and rest.startswith("["):
+        return "An array has one dimension; a message of its own can hold a second one"
+    if "_OPEN" in expected and "_GAP" not in expected and "_AT_MOST" not in expected:
+        return "The default of an array is written '[1, 2]'"
+    if rest.startswith("<"):
+        return "Only strings have a bound here, written 'string<=10'; that of a sequence is 'type[<=10]'"
+    return None
+
+
+def _check_duplicates(entries: list[_Entry], diagnostics: Diagnostics) -> None:
+    first: dict[str, int] = {}
+    for entry in entries:
+        declaration = entry.declaration
+        line = first.setdefault(declaration.name, declaration.name_span.line)
+        if line != declaration.name_span.line:
+            diagnostics.error(
+                f"the name '{declaration.name}' is declared twice",
+                declaration.name_span,
+                f"Line {line} has it first",
+            )
+
+
+def _message(file: _File, name: TypeName) -> Message:
+    fields, constants = [], []
+    for entry in file.entries:
+        comment = _documentation(entry.comment)
+        element = entry.declaration.element
+        if isinstance(element, Field):
+            fields.append(replace(element, comment=comment))
+        else:
+            constants.append(replace(element, comment=comment))
+    return Message(
+        name, tuple(fields), tuple(constants), _documentation(file.comment), Span(file.source, 1, 1)
+    )
+
+
+def _documentation(lines: Sequence[str]) -> tuple[str, ...]:
+    """Return the lines without common indent, without empty ones at both ends and never two of them in a
+    row."""
+    kept: list[str] = []
+    for line in lines:
+        if line or (kept and kept[-1]):
+            kept.append(line)
+    if kept and not kept[-1]:
+        kept.pop()
+    return tuple(textwrap.dedent("\n".join(kept)).split("\n")) if kept else ()

@@ -1,0 +1,331 @@
+# SPDX-License-Identifier: Apache-2.0
+"""From the syntax tree of one declaration in a .msg file to a field or a constant, with every check of its
+parts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from lark import Token, Tree
+
+from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
+from microros_gen.model.types import (
+    ArrayType,
+    Constant,
+    ElementType,
+    Field,
+    FieldType,
+    NamedType,
+    Primitive,
+    ScalarValue,
+    SequenceType,
+    StringType,
+    TypeName,
+    Value,
+)
+from microros_gen.parse import msg_names
+from microros_gen.parse.msg_values import (
+    InvalidValueError,
+    positive_integer,
+    primitive_value,
+    scalar_value,
+    string_elements,
+)
+
+LARGEST_BOUND = 2**32 - 1
+"""The most elements or characters that CDR can count (DDS-XTypes 1.3, 7.4.3.5.3: lengths are UInt32)."""
+
+_PRIMITIVES = {p.value: p for p in Primitive}
+_ONCE_PRIMITIVE = {"time": "builtin_interfaces/Time", "duration": "builtin_interfaces/Duration"}
+
+
+class SyntaxNode(Protocol):
+    """A node of lark's tree, as lark 1.x and lark-parser 0.12 both type it."""
+
+    @property
+    def data(self) -> str:
+        """The name of the rule or its alias."""
+
+    @property
+    def children(self) -> list[Any]:
+        """Nodes and tokens."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """One declaration as text; `commented` says whether a comment stands behind it."""
+
+    source: Source
+    number: int
+    text: str
+    commented: bool
+
+    def span(self, column: int, end: int) -> Span:
+        """Return the place from `column` up to `end` (exclusive) in this line."""
+        return Span(self.source, self.number, column, max(end, column + 1))
+
+    def span_of(self, token: Token) -> Span:
+        """Return the place of `token` without the space around it."""
+        column = _column(token) + len(token) - len(token.lstrip())
+        return self.span(column, column + len(token.strip()))
+
+
+@dataclass(frozen=True)
+class Declaration:
+    """A field or constant (without its comment) and where its name stands."""
+
+    element: Field | Constant
+    name_span: Span
+
+    @property
+    def name(self) -> str:
+        """The declared name."""
+        return self.element.name
+
+
+class _DeclarationError(Exception):
+    """One error in a declaration: its place, what is wrong and a hint."""
+
+    def __init__(self, span: Span, message: str, hint: str | None = None) -> None:
+        super().__init__(message)
+        self.span, self.message, self.hint = span, message, hint
+
+
+def read_declaration(
+    tree: SyntaxNode, line: Line, package: str, diagnostics: Diagnostics
+) -> Declaration | None:
+    """Return what `tree` declares, or None with every error in `diagnostics`. `package` is that of the
+    file."""
+    type_node, name, *rest = tree.children
+    is_constant = tree.data == "constant"
+    faults: list[_DeclarationError] = []
+    field_type: FieldType | None = None
+    value: Value | None = None
+    try:
+        field_type = _constant_type(type_node, line) if is_constant else _field_type(type_node, line, package)
+    except _DeclarationError as fault:
+        faults.append(fault)
+    try:
+        _check_name(name, line, is_constant, diagnostics)
+    except _DeclarationError as fault:
+        faults.append(fault)
+    try:
+        if field_type is not None and (rest or is_constant):
+            value = _value(field_type, rest[0] if rest else None, line, is_constant, diagnostics)
+    except _DeclarationError as fault:
+        faults.append(fault)
+    for found in faults:
+        diagnostics.error(found.message, found.span, found.hint)
+    if faults or field_type is None:
+        return None
+    field_type = _as_jazzy_reads(field_type, line, diagnostics)
+    span = line.span(1, _column(name) + len(name))
+    if is_constant:
+        assert isinstance(field_type, (Primitive, StringType))
+        assert isinstance(value, (bool, int, float, str))
+        return Declaration(Constant(str(name), field_type, value, span=span), line.span_of(name))
+    return Declaration(Field(str(name), field_type, value, span=span), line.span_of(name))
+
+
+def _check_name(name: Token, line: Line, is_constant: bool, diagnostics: Diagnostics) -> None:
+    check = msg_names.constant_name_fault if is_constant else msg_names.field_name_fault
+    fault = check(str(name))
+    if fault is not None:
+        raise _DeclarationError(line.span_of(name), *fault)
+    warning = None if is_constant else msg_names.field_name_warning(str(name))
+    if warning is not None:
+        diagnostics.warning(warning[0], line.span_of(name), warning[1])
+
+
+def _field_type(node: SyntaxNode, line: Line, package: str) -> FieldType:
+    if node.data != "array":
+        return _element_type(node, line, package)
+    element_node, extent = node.children
+    element = _element_type(element_node, line, package)
+    if extent.data == "unbounded":
+        return SequenceType(element)
+    size = _bound(
+        _token(extent), line, "the size of an array" if extent.data == "fixed" else "the bound of a sequence"
+    )
+    return ArrayType(element, size) if extent.data == "fixed" else SequenceType(element, size)
+
+
+def _constant_type(node: SyntaxNode, line: Line) -> Primitive | StringType:
+    start = _token(node)
+    if node.data == "array":
+        raise _DeclarationError(
+            line.span_of(start), "a constant cannot be an array", "Declare one constant for each element"
+        )
+    if node.data == "string" and len(node.children) > 1:
+        raise _DeclarationError(
+            line.span_of(start), "the type of a constant has no bound", f"Write '{start}'"
+        )
+    element = _element_type(node, line, "")
+    if isinstance(element, NamedType):
+        raise _DeclarationError(
+            line.span_of(start), "a constant has a primitive type or is a string", "Take another type"
+        )
+    return element
+
+
+def _element_type(node: SyntaxNode, line: Line, package: str) -> ElementType:
+    if node.data == "primitive":
+        return _PRIMITIVES[str(node.children[0])]
+    if node.data == "string":
+        wide = node.children[0] == "wstring"
+        if len(node.children) == 1:
+            return StringType(wide)
+        return StringType(wide, _bound(node.children[1], line, "the bound of a string"))
+    return NamedType(_type_name(node.children, line, package))
+
+
+def _type_name(parts: list[Token], line: Line, package: str) -> TypeName:
+    first, last = parts[0], parts[-1]
+    span = line.span(_column(first), _column(last) + len(last))
+    written = "/".join(parts)
+    if len(parts) > 2:
+        raise _DeclarationError(span, f"'{written}' is not a type", f"Write '{parts[0]}/{parts[-1]}'")
+    if written in _ONCE_PRIMITIVE:
+        raise _DeclarationError(
+            span, f"'{written}' is no type of ROS 2", f"Write '{_ONCE_PRIMITIVE[written]}'"
+        )
+    if len(parts) == 2:
+        fault = msg_names.package_name_fault(str(first))
+        if fault is not None:
+            raise _DeclarationError(line.span_of(first), fault)
+        package = str(first)
+    fault = msg_names.type_name_fault(str(last))
+    if fault is not None:
+        known = [*_PRIMITIVES, "string", "wstring"]
+        raise _DeclarationError(span, fault, nearest(str(last), known) if len(parts) == 1 else None)
+    return TypeName(package, "msg", str(last))
+
+
+def _bound(token: Token, line: Line, what: str) -> int:
+    number = positive_integer(str(token))
+    if number is None:
+        raise _DeclarationError(line.span_of(token), f"{what} is a whole number above zero, not '{token}'")
+    if number > LARGEST_BOUND:
+        raise _DeclarationError(line.span_of(token), f"{what} is at most {LARGEST_BOUND}, not {number}")
+    return number
+
+
+def _value(
+    field_type: FieldType,
+    node: SyntaxNode | Token | None,
+    line: Line,
+    is_constant: bool,
+    diagnostics: Diagnostics,
+) -> Value:
+    """Return the value of a constant or default; `node` is None where nothing stands behind the `=`."""
+    if not is_constant:
+        _check_no_equal(line)
+    if isinstance(field_type, NamedType) or (
+        not isinstance(field_type, (Primitive, StringType)) and isinstance(field_type.element, NamedType)
+    ):
+        assert isinstance(node, Token)
+        raise _DeclarationError(line.span_of(node), "a field of a message's type has no default", "Remove it")
+    if isinstance(field_type, (Primitive, StringType)):
+        return _scalar(field_type, node, line, diagnostics)
+    assert isinstance(node, Tree)  # the grammar has no other default for arrays
+    tokens: list[Any] = node.children
+    values = _elements(field_type.element, tokens, line)
+    _check_count(field_type, len(values), line)
+    return values
+
+
+def _check_no_equal(line: Line) -> None:
+    _, _, rest = line.text.partition(" ")
+    if "=" in rest:
+        column = len(line.text) - len(rest) + rest.index("=") + 1
+        raise _DeclarationError(
+            line.span(column, column + 1),
+            "a default cannot hold '=': ROS 2 takes this line for a constant",
+            "A constant is written 'type NAME=value'",
+        )
+
+
+def _scalar(
+    kind: Primitive | StringType, node: SyntaxNode | Token | None, line: Line, diagnostics: Diagnostics
+) -> ScalarValue:
+    if node is None:
+        if isinstance(kind, StringType):
+            return ""
+        raise _DeclarationError(
+            line.span(len(line.text) + 1, 0), "the constant has no value", "Write it behind the '='"
+        )
+    assert isinstance(node, Token)
+    text = str(node)
+    try:
+        value = scalar_value(kind, text)
+    except InvalidValueError as fault:
+        raise _DeclarationError(line.span_of(node), fault.message, fault.hint) from None
+    if isinstance(kind, StringType) and text[0] in "\"'" and (text[-1] != text[0] or text in "\"'"):
+        reason = "The '#' begins a comment, inside of quotes too" if line.commented else "Close it"
+        diagnostics.warning(f"the quote is not closed: the text is {value!r}", line.span_of(node), reason)
+    return value
+
+
+def _elements(kind: ElementType, tokens: list[Token], line: Line) -> tuple[ScalarValue, ...]:
+    if isinstance(kind, StringType):
+        try:
+            return string_elements(kind, [str(token) for token in tokens])
+        except InvalidValueError as fault:
+            raise _DeclarationError(_over(tokens, line), fault.message, fault.hint) from None
+    assert isinstance(kind, Primitive)
+    values = []
+    for token in tokens:
+        try:
+            values.append(primitive_value(kind, token.strip()))
+        except InvalidValueError as fault:
+            raise _DeclarationError(line.span_of(token), fault.message, fault.hint) from None
+    return tuple(values)
+
+
+def _over(tokens: list[Token], line: Line) -> Span:
+    first, last = line.span_of(tokens[0]), line.span_of(tokens[-1])
+    return line.span(first.column, last.end_column or last.column + 1)
+
+
+def _check_count(field_type: ArrayType | SequenceType, count: int, line: Line) -> None:
+    span = line.span(len(line.text), len(line.text) + 1)
+    if isinstance(field_type, ArrayType):
+        if count != field_type.size:
+            raise _DeclarationError(span, f"the default has {count} elements and the array {field_type.size}")
+    elif field_type.bound is not None and count > field_type.bound:
+        raise _DeclarationError(
+            span, f"the default has {count} elements and the sequence takes {field_type.bound}"
+        )
+
+
+def _as_jazzy_reads(field_type: FieldType, line: Line, diagnostics: Diagnostics) -> FieldType:
+    """Return the type that rosidl_parser of Jazzy makes of it.
+
+    It takes the bound of a wide string for the bound of the sequence around it where that has none of its
+    own, so the type hash and every peer have the bounded sequence.
+    """
+    if not isinstance(field_type, SequenceType) or field_type.bound is not None:
+        return field_type
+    element = field_type.element
+    if not isinstance(element, StringType) or not element.wide or element.bound is None:
+        return field_type
+    diagnostics.warning(
+        f"ROS 2 Jazzy reads wstring<={element.bound}[] as a sequence of at most {element.bound} elements",
+        line.span(1, line.text.index(" ") + 1),
+        f"Write wstring<={element.bound}[<=N] with the number of elements that you mean",
+    )
+    return SequenceType(element, element.bound)
+
+
+def _token(node: SyntaxNode) -> Token:
+    """Return the first token below `node`."""
+    first: Any = node
+    while isinstance(first, Tree):
+        first = first.children[0]
+    token: Token = first
+    return token
+
+
+def _column(token: Token) -> int:
+    return token.column or 1

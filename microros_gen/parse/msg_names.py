@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which names ROS 2 Jazzy takes in a .msg file (rosidl_adapter), and which it cannot compile."""
+
+from __future__ import annotations
+
+import keyword
+import re
+
+_LOWER = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
+_UPPER = re.compile(r"[A-Z][A-Z0-9]*(?:_[A-Z0-9]+)*")
+_CAMEL = re.compile(r"[A-Z][A-Za-z0-9]*")
+_SAMPLE = "Sample_"
+_SUFFIXES = ("_Request", "_Response", "_Goal", "_Result", "_Feedback")
+
+_C99 = """auto break case char const continue default do double else enum extern float for goto if inline int
+long register restrict return short signed sizeof static struct switch typedef union unsigned void volatile
+while"""
+_CPP17 = """alignas alignof and and_eq asm bitand bitor bool catch char16_t char32_t class compl const_cast
+constexpr decltype delete dynamic_cast explicit export false friend mutable namespace new noexcept not not_eq
+nullptr operator or or_eq private protected public reinterpret_cast static_assert static_cast template this
+thread_local throw true try typeid typename using virtual wchar_t xor xor_eq"""
+
+C_KEYWORDS = frozenset(_C99.split())
+"""ISO/IEC 9899:1999 6.4.1, those that a field's name can be (lower case, no leading underscore)."""
+
+CPP_KEYWORDS = frozenset(_CPP17.split())
+"""ISO/IEC 14882:2017 5.11 and its alternative tokens, without those of C99."""
+
+
+def is_package_name(name: str) -> bool:
+    """Return whether `name` can be a package: lower case, digits and single underscores, a letter first."""
+    return _LOWER.fullmatch(name) is not None
+
+
+def is_type_name(name: str) -> bool:
+    """Return whether `name` can be a message type: CamelCase, with the prefix and suffixes that rosidl
+    makes."""
+    name = name.removeprefix(_SAMPLE)
+    for suffix in _SUFFIXES:
+        name = name.removesuffix(suffix)
+    return _CAMEL.fullmatch(name) is not None
+
+
+def package_name_fault(name: str) -> str | None:
+    """Return what is wrong with a package's name, or None."""
+    if is_package_name(name):
+        return None
+    return (
+        f"'{name}' is not a package name: lower case letters, digits and single underscores, a letter first"
+    )
+
+
+def type_name_fault(name: str) -> str | None:
+    """Return what is wrong with a message type's name, or None."""
+    if is_type_name(name):
+        return None
+    return f"'{name}' is not a message type: CamelCase, letters and digits only, a capital letter first"
+
+
+def field_name_fault(name: str) -> tuple[str, str | None] | None:
+    """Return what is wrong with a field's name and a hint, or None."""
+    if _LOWER.fullmatch(name) is None:
+        rule = "lower case letters, digits and single underscores, a letter first, no underscore last"
+        return f"'{name}' is not a field name: {rule}", _suggestion(name.lower(), _LOWER)
+    language = "C" if name in C_KEYWORDS else "C++" if name in CPP_KEYWORDS else None
+    if language is not None:
+        return (
+            f"'{name}' is a keyword of {language}, so no field can have this name",
+            f"For example '{name}_value'",
+        )
+    return None
+
+
+def field_name_warning(name: str) -> tuple[str, str] | None:
+    """Return a warning and its hint for a name that only Python nodes cannot use, or None."""
+    if keyword.iskeyword(name):
+        return f"'{name}' is a keyword of Python: rclpy cannot use this message", "Take another name"
+    return None
+
+
+def constant_name_fault(name: str) -> tuple[str, str | None] | None:
+    """Return what is wrong with a constant's name and a hint, or None."""
+    if _UPPER.fullmatch(name) is not None:
+        return None
+    rule = "upper case letters, digits and single underscores, a letter first, no underscore last"
+    return f"'{name}' is not a constant name: {rule}", _suggestion(name.upper(), _UPPER)
+
+
+def _suggestion(name: str, form: re.Pattern[str]) -> str | None:
+    """Return a hint with the name nearest to `name` that has the form, or None where there is none."""
+    better = re.sub(r"_+", "_", re.sub(r"[^A-Za-z0-9]", "_", name)).strip("_")
+    return f"For example '{better}'" if form.fullmatch(better) else None

@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where interface files are found and how they are read.
+
+Four kinds of places are searched in this order: the user's paths (`--interface-path`), the prefixes of
+AMENT_PREFIX_PATH, the packages that pip installed (`sys.prefix`), and the set that ships with this tool. A
+package that is found in one place hides the same package in all later places.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+from types import MappingProxyType
+
+from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.model.types import TypeName
+
+KIND_OF_SUFFIX: Mapping[str, str] = MappingProxyType({".msg": "msg"})
+"""The interface files that are read: suffix → kind, which is also the folder that holds them."""
+
+UNREAD_SUFFIXES = (".idl",)
+"""Interface files that ROS 2 knows and this version does not read; they are named in diagnostics."""
+
+_INTERFACE_FOLDERS = ("msg", "srv", "action")
+_PACKAGE_NAME = re.compile(r"<name>\s*([a-z][a-z0-9_]*)\s*</name>")
+
+
+class Origin(Enum):
+    """The kind of place where a package was found, in the order of the search."""
+
+    PATH = "path"
+    AMENT = "ament"
+    PIP = "pip"
+    SHIPPED = "shipped"
+
+
+@dataclass(frozen=True)
+class PackagePlace:
+    """One package: `folder` is the one that holds `msg/`, printed as the user gave it."""
+
+    name: str
+    folder: Path
+    origin: Origin
+
+
+@dataclass(frozen=True)
+class InterfaceFinder:
+    """Finds packages and reads their interface files. It holds only where to look; it keeps nothing that it
+    read.
+
+    `paths`: folders that the user named, each a package or a folder of packages. `ament`: prefixes, in order.
+    `pip`: prefixes of Python environments. `shipped`: the folder of the definitions that come with the tool.
+    """
+
+    paths: tuple[Path, ...] = ()
+    ament: tuple[Path, ...] = ()
+    pip: tuple[Path, ...] = ()
+    shipped: Path | None = None
+
+    @staticmethod
+    def from_environment(
+        paths: Iterable[Path] = (),
+        environ: Mapping[str, str] | None = None,
+        prefix: Path | None = None,
+    ) -> InterfaceFinder:
+        """Return the finder of a run: `paths`, then AMENT_PREFIX_PATH of `environ`, `prefix`, the shipped
+        set.
+
+        `environ` is `os.environ` and `prefix` is `sys.prefix` unless given.
+        """
+        environment = os.environ if environ is None else environ
+        ament = [Path(p) for p in environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if p]
+        return InterfaceFinder(
+            paths=tuple(paths),
+            ament=tuple(ament),
+            pip=(Path(sys.prefix) if prefix is None else prefix,),
+            shipped=shipped_folder(),
+        )
+
+    def packages(self) -> tuple[PackagePlace, ...]:
+        """Return every package that holds interface files, by name, each at its first place."""
+        found: dict[str, PackagePlace] = {}
+        for folder, origin in self._roots():
+            for place in _packages_below(folder, origin):
+                found.setdefault(place.name, place)
+        return tuple(found[name] for name in sorted(found))
+
+    def package(self, name: str) -> PackagePlace | None:
+        """Return the first place of package `name`, or None where no place has it."""
+        for folder, origin in self._roots():
+            if origin is Origin.PATH:
+                place = next((p for p in _packages_below(folder, origin) if p.name == name), None)
+            else:
+                place = PackagePlace(name, folder / name, origin) if _is_package(folder / name) else None
+            if place is not None:
+                return place
+        return None
+
+    def types(self, package: str) -> tuple[TypeName, ...]:
+        """Return the interface types of `package` that can be read, sorted; empty where it is unknown."""
+        place = self.package(package)
+        return types_in(place) if place is not None else ()
+
+    def read(self, name: TypeName, diagnostics: Diagnostics) -> Source | None:
+        """Return the text of type `name`, or None where there is no such file or it cannot be read.
+
+        A file that exists and is not UTF-8 or not readable is an error in `diagnostics`.
+        """
+        place = self.package(name.package)
+        if place is None:
+            return None
+        return read_type(place, name, diagnostics)
+
+    def check_paths(self, diagnostics: Diagnostics) -> None:
+        """Report each of the user's paths that is no folder, cannot be read or holds no interface package."""
+        for path in self.paths:
+            fault = _path_fault(path)
+            if fault is not None:
+                diagnostics.error(f"the interface path '{path}' {fault[0]}", hint=fault[1])
+
+    def searched(self) -> str:
+        """Return where the search looks, in words, for a diagnostic."""
+        places = [str(path) for path in self.paths]
+        places += [f"{prefix / 'share'} (AMENT_PREFIX_PATH)" for prefix in self.ament]
+        places += [f"{prefix / 'share'} (pip)" for prefix in self.pip]
+        if self.shipped is not None:
+            places.append("the definitions that ship with microros-gen")
+        return ", ".join(places) if places else "nowhere: no place was given"
+
+    def _roots(self) -> Iterable[tuple[Path, Origin]]:
+        yield from ((path, Origin.PATH) for path in self.paths)
+        yield from ((prefix / "share", Origin.AMENT) for prefix in self.ament)
+        yield from ((prefix / "share", Origin.PIP) for prefix in self.pip)
+        if self.shipped is not None:
+            yield self.shipped, Origin.SHIPPED
+
+
+def shipped_folder() -> Path:
+    """Return the folder of the definitions that come with this tool."""
+    return Path(__file__).resolve().parent.parent / "idl"
+
+
+def types_in(place: PackagePlace) -> tuple[TypeName, ...]:
+    """Return the types in `place` that can be read, sorted by kind and name."""
+    return tuple(
+        TypeName(place.name, kind, stem)
+        for suffix, kind in KIND_OF_SUFFIX.items()
+        for stem in _stems(place.folder / kind, suffix)
+    )
+
+
+def read_type(place: PackagePlace, name: TypeName, diagnostics: Diagnostics) -> Source | None:
+    """Read the file of type `name` in `place`; None where there is none, with an error where it is
+    unreadable."""
+    suffix = next((s for s, kind in KIND_OF_SUFFIX.items() if kind == name.kind), None)
+    if suffix is None:
+        return None
+    path = place.folder / name.kind / f"{name.name}{suffix}"
+    try:
+        data = path.read_bytes()
+    except FileNotFoundError:
+        return None
+    except OSError as fault:
+        diagnostics.error(f"cannot read '{path}': {fault.strerror}", hint="Check the file's permissions")
+        return None
+    try:
+        return Source(str(path), data.decode("utf-8"))
+    except UnicodeDecodeError as fault:
+        line = data.count(b"\n", 0, fault.start) + 1
+        diagnostics.error(
+            f"'{path}' is not UTF-8: byte 0x{data[fault.start]:02x} in line {line}",
+            hint="Save the file as UTF-8, which is what ROS 2 reads",
+        )
+        return None
+
+
+def unread_types_in(place: PackagePlace) -> tuple[str, ...]:
+    """Return the files in `place` in a form that is not read yet: .idl files without a .msg beside them."""
+    known = {(name.kind, name.name) for name in types_in(place)}
+    return tuple(
+        f"{kind}/{stem}{suffix}"
+        for kind in KIND_OF_SUFFIX.values()
+        for suffix in UNREAD_SUFFIXES
+        for stem in _stems(place.folder / kind, suffix)
+        if (kind, stem) not in known
+    )
+
+
+def _stems(folder: Path, suffix: str) -> list[str]:
+    try:
+        return sorted(entry.stem for entry in folder.iterdir() if entry.suffix == suffix)
+    except OSError:
+        return []
+
+
+def _is_package(folder: Path) -> bool:
+    return any((folder / kind).is_dir() for kind in _INTERFACE_FOLDERS)
+
+
+def _packages_below(folder: Path, origin: Origin) -> list[PackagePlace]:
+    if origin is Origin.PATH and _is_package(folder):
+        return [PackagePlace(_name_of(folder), folder, origin)]
+    try:
+        entries = sorted(folder.iterdir())
+    except OSError:
+        return []
+    children = [entry for entry in entries if _is_package(entry)]
+    named = origin is Origin.PATH
+    return [PackagePlace(_name_of(c) if named else c.name, c, origin) for c in children]
+
+
+def _name_of(folder: Path) -> str:
+    """Return the name in the folder's package.xml (REP-149), or the folder's own."""
+    try:
+        manifest = (folder / "package.xml").read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        return folder.resolve().name
+    match = _PACKAGE_NAME.search(manifest)
+    return match.group(1) if match else folder.resolve().name
+
+
+def _path_fault(path: Path) -> tuple[str, str] | None:
+    if not path.exists():
+        return "does not exist", "Name a folder that holds interface packages, or one package"
+    if not path.is_dir():
+        return "is not a folder", "Name the package's folder, the one that holds msg/"
+    try:
+        next(path.iterdir(), None)
+    except OSError as fault:
+        return f"cannot be read: {fault.strerror}", "Check the folder's permissions"
+    if _packages_below(path, Origin.PATH):
+        return None
+    inner = next((d for d in ("share", "src") if _packages_below(path / d, Origin.PATH)), None)
+    if inner is not None:
+        return "holds no interface package", f"Did you mean '{path / inner}'?"
+    return (
+        "holds no interface package",
+        "A package has a folder msg/; its parent folder or itself can be named",
+    )
