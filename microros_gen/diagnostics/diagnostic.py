@@ -100,5 +100,5 @@ def nearest(name: str, known: Iterable[str]) -> str | None:
     )
     if not close:
         return None
-    match = next((c for c in choices if c == close[0]), next(c for c in choices if c.lower() == close[0]))
+    match = next(c for c in choices if close[0] in (c, c.lower()))
     return f"Did you mean '{match}'?"
