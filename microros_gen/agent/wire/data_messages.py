@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Submessages that carry or ask for samples: WRITE_DATA, READ_DATA, DATA."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from microros_gen.agent.wire.cdr import Reader, Writer
+from microros_gen.agent.wire.constants import DATA_FORMAT_MASK, SubmessageId
+
+DATA_PREFIX = 4
+"""Bytes of WRITE_DATA and DATA before the data: request id and object id."""
+
+
+@dataclass(frozen=True)
+class WriteData:
+    """WRITE_DATA: a sample for a writer; `data` is the CDR body, without encapsulation header in FORMAT_DATA."""
+
+    ID: ClassVar = SubmessageId.WRITE_DATA
+    request: int
+    object: int
+    data: bytes
+    format: int = 0
+
+    @staticmethod
+    def decode(reader: Reader, flags: int) -> WriteData:
+        """Read the payload."""
+        return WriteData(reader.identifier(), reader.identifier(), reader.rest(), flags & DATA_FORMAT_MASK)
+
+    def encode(self, writer: Writer) -> int:
+        """Write the payload; return the flags beside the byte order."""
+        writer.identifier(self.request).identifier(self.object).raw(self.data)
+        return self.format
+
+
+@dataclass(frozen=True)
+class Data:
+    """DATA: a sample from a reader, in answer to the READ_DATA of the same request id."""
+
+    ID: ClassVar = SubmessageId.DATA
+    request: int
+    object: int
+    data: bytes
+    format: int = 0
+
+    @staticmethod
+    def decode(reader: Reader, flags: int) -> Data:
+        """Read the payload."""
+        return Data(reader.identifier(), reader.identifier(), reader.rest(), flags & DATA_FORMAT_MASK)
+
+    def encode(self, writer: Writer) -> int:
+        """Write the payload; return the flags beside the byte order."""
+        writer.identifier(self.request).identifier(self.object).raw(self.data)
+        return self.format
+
+
+@dataclass(frozen=True)
+class DeliveryControl:
+    """How much is asked for: samples (0xFFFF: no end), seconds, bytes/s, milliseconds between two."""
+
+    max_samples: int
+    max_elapsed_time: int = 0
+    max_bytes_per_second: int = 0
+    min_pace_period: int = 0
+
+    @staticmethod
+    def read(reader: Reader) -> DeliveryControl:
+        """Read it at the reader's place."""
+        return DeliveryControl(reader.u16(), reader.u16(), reader.u16(), reader.u16())
+
+    def write(self, writer: Writer) -> None:
+        """Append it."""
+        writer.u16(self.max_samples).u16(self.max_elapsed_time)
+        writer.u16(self.max_bytes_per_second).u16(self.min_pace_period)
+
+
+@dataclass(frozen=True)
+class ReadData:
+    """READ_DATA: deliver samples of a reader on stream `stream`."""
+
+    ID: ClassVar = SubmessageId.READ_DATA
+    request: int
+    object: int
+    stream: int
+    format: int = 0
+    content_filter: str | None = None
+    delivery: DeliveryControl | None = None
+
+    @staticmethod
+    def decode(reader: Reader, flags: int) -> ReadData:
+        """Read the payload."""
+        head = (reader.identifier(), reader.identifier(), reader.u8(), reader.u8())
+        content_filter = reader.optional(reader.string)
+        return ReadData(*head, content_filter, reader.optional(lambda: DeliveryControl.read(reader)))
+
+    def encode(self, writer: Writer) -> int:
+        """Write the payload; return the flags beside the byte order."""
+        writer.identifier(self.request).identifier(self.object).u8(self.stream).u8(self.format)
+        writer.optional(writer.string, self.content_filter)
+        writer.optional(lambda delivery: delivery.write(writer), self.delivery)
+        return 0

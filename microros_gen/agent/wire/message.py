@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Messages: the header, and the submessages one after another (DDS-XRCE 1.0, clauses 8.3.2 to 8.3.4)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from microros_gen.agent.wire.constants import FLAG_LITTLE, SubmessageId
+from microros_gen.agent.wire.errors import MalformedError
+
+SUBMESSAGE_HEADER = 4
+"""Bytes of a submessage header."""
+Span = tuple[int, int, int, int]
+"""One submessage in a message: id, flags, offset of its payload, offset behind its payload."""
+
+
+@dataclass(frozen=True)
+class Header:
+    """Header of a message; `key` is there for session ids below 0x80 only."""
+
+    session: int
+    stream: int
+    sequence: int
+    key: bytes = b""
+
+    def encode(self) -> bytes:
+        """Return its 4 or 8 bytes."""
+        return header_bytes(self.session, self.stream, self.sequence, self.key)
+
+    @staticmethod
+    def decode(data: bytes) -> Header:
+        """Read the header of `data`; MalformedError when it is cut off."""
+        size = header_size(data)
+        return Header(data[0], data[1], data[2] | data[3] << 8, bytes(data[4:size]))
+
+
+def header_bytes(session: int, stream: int, sequence: int, key: bytes) -> bytes:
+    """Return a message header; `key` (4 bytes) is left out for session ids from 0x80."""
+    head = bytes((session, stream, sequence & 0xFF, sequence >> 8))
+    return head + key if session < 0x80 else head
+
+
+def header_size(data: bytes) -> int:
+    """Return 4 or 8; MalformedError when `data` is shorter than that."""
+    size = 4 if data and data[0] >= 0x80 else 8
+    if len(data) < size:
+        raise MalformedError("short_header", f"{len(data)} bytes")
+    return size
+
+
+def split(data: bytes, at: int, rest_when_zero: bool = False) -> list[Span]:
+    """Return the submessages of `data` from offset `at` on (the end of the header).
+
+    A submessage header begins at a multiple of 4 from the start of `data`. With `rest_when_zero` a WRITE_DATA
+    of length 0 takes everything to the end: so a client sends more than 65,535 bytes in fragments.
+    MalformedError when a payload leaves the message; trailing bytes too few for a header are padding.
+    """
+    found: list[Span] = []
+    size = len(data)
+    while at + SUBMESSAGE_HEADER <= size:
+        end = at + SUBMESSAGE_HEADER + (data[at + 2] | data[at + 3] << 8)
+        if rest_when_zero and data[at] == SubmessageId.WRITE_DATA and end == at + SUBMESSAGE_HEADER:
+            end = size
+        if end > size:
+            raise MalformedError("submessage_length", f"{end - size} bytes more than there are")
+        found.append((data[at], data[at + 1], at + SUBMESSAGE_HEADER, end))
+        at = end + (-end & 3)
+    return found
+
+
+def submessage_bytes(identifier: int, payload: bytes, flags: int = FLAG_LITTLE) -> bytes:
+    """Return a submessage with its header; `payload` has at most 65,535 bytes."""
+    return bytes((identifier, flags, len(payload) & 0xFF, len(payload) >> 8)) + payload
+
+
+def join(header: Header, submessages: Iterable[bytes]) -> bytes:
+    """Return one message of complete submessages, each padded with zeros to begin at a multiple of 4."""
+    out = bytearray(header.encode())
+    for submessage in submessages:
+        out += bytes(-len(out) & 3)
+        out += submessage
+    return bytes(out)

@@ -1,0 +1,250 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Submessages about clients, agents and time: CREATE_CLIENT, STATUS_AGENT, GET_INFO, INFO, TIMESTAMP*."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from microros_gen.agent.wire.cdr import Reader, Writer
+from microros_gen.agent.wire.constants import COOKIE, VENDOR, VERSION, ObjectKind, SubmessageId
+from microros_gen.agent.wire.errors import MalformedError
+
+Properties = tuple[tuple[str, str], ...]
+
+
+def _read_properties(reader: Reader) -> Properties | None:
+    return reader.optional(lambda: reader.sequence(lambda: (reader.string(), reader.string())))
+
+
+def _write_properties(writer: Writer, properties: Properties | None) -> None:
+    def pair(item: tuple[str, str]) -> None:
+        writer.string(item[0]).string(item[1])
+
+    writer.optional(lambda items: writer.sequence(pair, items), properties)
+
+
+@dataclass(frozen=True)
+class CreateClient:
+    """CREATE_CLIENT: the client introduces itself; `mtu` is the largest message in bytes that it takes."""
+
+    ID: ClassVar = SubmessageId.CREATE_CLIENT
+    key: bytes
+    session: int
+    mtu: int
+    properties: Properties | None = None
+    cookie: bytes = COOKIE
+    version: bytes = VERSION
+    vendor: bytes = VENDOR
+
+    @staticmethod
+    def decode(reader: Reader, flags: int) -> CreateClient:
+        """Read the payload."""
+        cookie, version, vendor, key = reader.raw(4), reader.raw(2), reader.raw(2), reader.raw(4)
+        session = reader.u8()
+        properties = _read_properties(reader)
+        return CreateClient(key, session, reader.u16(), properties, cookie, version, vendor)
+
+    def encode(self, writer: Writer) -> int:
+        """Write the payload; return the flags beside the byte order."""
+        writer.raw(self.cookie).raw(self.version).raw(self.vendor).raw(self.key).u8(self.session)
+        _write_properties(writer, self.properties)
+        writer.u16(self.mtu)
+        return 0
+
+
+@dataclass(frozen=True)
+class AgentConfig:
+    """AGENT_Representation: who the agent is."""
+
+    cookie: bytes = COOKIE
+    version: bytes = VERSION
+    vendor: bytes = VENDOR
+    properties: Properties | None = None
+
+    @staticmethod
+    def read(reader: Reader) -> AgentConfig:
+        """Read it at the reader's place."""
+        return AgentConfig(reader.raw(4), reader.raw(2), reader.raw(2), _read_properties(reader))
+
+    def write(self, writer: Writer) -> None:
+        """Append it."""
+        writer.raw(self.cookie).raw(self.version).raw(self.vendor)
+        _write_properties(writer, self.properties)
+
+
+@dataclass(frozen=True)
+class StatusAgent:
+    """STATUS_AGENT: answer to CREATE_CLIENT."""
+
+    ID: ClassVar = SubmessageId.STATUS_AGENT
+    status: int
+    implementation_status: int = 0
+    agent: AgentConfig = AgentConfig()
+
+    @staticmethod
+    def decode(reader: Reader, flags: int) -> StatusAgent:
+        """Read the payload."""
+        return StatusAgent(reader.u8(), reader.u8(), AgentConfig.read(reader))
+
+    def encode(self, writer: Writer) -> int:
+        """Write the payload; return the flags beside the byte order."""
+        self.agent.write(writer.u8(self.status).u8(self.implementation_status))
+        return 0
+
+
+@dataclass(frozen=True)
+class GetInfo:
+    """GET_INFO: ask for INFO on an object; bit 0 of `mask` is configuration, bit 1 activity."""
+
+    ID: ClassVar = SubmessageId.GET_INFO
+    request: int
+    object: int
+    mask: int
+
+    @staticmethod
+    def decode(reader: Reader, flags: int) -> GetInfo:
+        """Read the payload."""
+        return GetInfo(reader.identifier(), reader.identifier(), reader.u32())
+
+    def encode(self, writer: Writer) -> int:
+        """Write the payload; return the flags beside the byte order."""
+        writer.identifier(self.request).identifier(self.object).u32(self.mask)
+        return 0
+
+
+# Discriminant of a TransportLocator → bytes of the address, code of the port; 3 is a string instead.
+_LOCATOR_ADDRESS = {0: 2, 1: 4, 2: 16}
+_LOCATOR_STRING = 3
+
+
+@dataclass(frozen=True)
+class Locator:
+    """TransportLocator: where an agent listens; `kind` 0 small, 1 IPv4, 2 IPv6, 3 text (UTF-8)."""
+
+    kind: int
+    address: bytes
+    port: int = 0
+
+    @staticmethod
+    def read(reader: Reader) -> Locator:
+        """Read it at the reader's place."""
+        kind = reader.u8()
+        if kind == _LOCATOR_STRING:
+            return Locator(kind, reader.string().encode("utf-8"))
+        if kind not in _LOCATOR_ADDRESS:
+            raise MalformedError("locator", f"kind {kind}")
+        address = reader.raw(_LOCATOR_ADDRESS[kind])
+        return Locator(kind, address, (reader.u8, reader.u16, reader.u32)[kind]())
+
+    def write(self, writer: Writer) -> None:
+        """Append it."""
+        writer.u8(self.kind)
+        if self.kind == _LOCATOR_STRING:
+            writer.string(self.address.decode("utf-8"))
+        else:
+            writer.raw(self.address)
+            (writer.u8, writer.u16, writer.u32)[self.kind](self.port)
+
+
+@dataclass(frozen=True)
+class AgentActivity:
+    """AGENT_ActivityInfo: whether the agent takes clients (1), and where."""
+
+    availability: int = 1
+    locators: tuple[Locator, ...] = ()
+
+
+@dataclass(frozen=True)
+class Info:
+    """INFO about the agent: answer to GET_INFO. `implementation_status`: 1 for a client in session, else 0."""
+
+    ID: ClassVar = SubmessageId.INFO
+    request: int
+    object: int
+    status: int = 0
+    implementation_status: int = 0
+    config: AgentConfig | None = None
+    activity: AgentActivity | None = None
+
+    @staticmethod
+    def decode(reader: Reader, flags: int) -> Info:
+        """Read the payload; information on other objects than the agent is refused."""
+        head = (reader.identifier(), reader.identifier(), reader.u8(), reader.u8())
+        config = reader.optional(lambda: Info._read_config(reader))
+        return Info(*head, config, reader.optional(lambda: Info._read_activity(reader)))
+
+    @staticmethod
+    def _read_config(reader: Reader) -> AgentConfig:
+        Info._expect_agent(reader.u8())
+        return AgentConfig.read(reader)
+
+    @staticmethod
+    def _read_activity(reader: Reader) -> AgentActivity:
+        Info._expect_agent(reader.u8())
+        return AgentActivity(reader.i16(), reader.sequence(lambda: Locator.read(reader)))
+
+    @staticmethod
+    def _expect_agent(kind: int) -> None:
+        if kind != ObjectKind.AGENT:
+            raise MalformedError("info_kind", f"kind {kind:#04x}")
+
+    def encode(self, writer: Writer) -> int:
+        """Write the payload; return the flags beside the byte order."""
+        writer.identifier(self.request).identifier(self.object)
+        writer.u8(self.status).u8(self.implementation_status)
+        writer.optional(lambda config: config.write(writer.u8(ObjectKind.AGENT)), self.config)
+        writer.optional(lambda activity: self._write_activity(writer, activity), self.activity)
+        return 0
+
+    @staticmethod
+    def _write_activity(writer: Writer, activity: AgentActivity) -> None:
+        writer.u8(ObjectKind.AGENT).i16(activity.availability)
+        writer.sequence(lambda locator: locator.write(writer), activity.locators)
+
+
+Time = tuple[int, int]
+"""Seconds (signed) and nanoseconds since the epoch."""
+
+
+def _read_time(reader: Reader) -> Time:
+    return reader.i32(), reader.u32()
+
+
+@dataclass(frozen=True)
+class Timestamp:
+    """TIMESTAMP: the client asks for the agent's time."""
+
+    ID: ClassVar = SubmessageId.TIMESTAMP
+    transmit: Time
+
+    @staticmethod
+    def decode(reader: Reader, flags: int) -> Timestamp:
+        """Read the payload."""
+        return Timestamp(_read_time(reader))
+
+    def encode(self, writer: Writer) -> int:
+        """Write the payload; return the flags beside the byte order."""
+        writer.i32(self.transmit[0]).u32(self.transmit[1])
+        return 0
+
+
+@dataclass(frozen=True)
+class TimestampReply:
+    """TIMESTAMP_REPLY: when the agent sent this and got the question, and the question's own time."""
+
+    ID: ClassVar = SubmessageId.TIMESTAMP_REPLY
+    transmit: Time
+    receive: Time
+    originate: Time
+
+    @staticmethod
+    def decode(reader: Reader, flags: int) -> TimestampReply:
+        """Read the payload."""
+        return TimestampReply(_read_time(reader), _read_time(reader), _read_time(reader))
+
+    def encode(self, writer: Writer) -> int:
+        """Write the payload; return the flags beside the byte order."""
+        for seconds, nanoseconds in (self.transmit, self.receive, self.originate):
+            writer.i32(seconds).u32(nanoseconds)
+        return 0
