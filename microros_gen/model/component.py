@@ -51,6 +51,18 @@ class Profile:
 
 
 @dataclass(frozen=True)
+class ProfileSet:
+    """Profiles as they were read: what was asked for, and everything that it extends.
+
+    Keys of `profiles`, and the names in `requested` and in each profile's `extends`, are the name of a built-in
+    profile or the path of a user's file.
+    """
+
+    requested: tuple[Named, ...]
+    profiles: Mapping[str, Profile]
+
+
+@dataclass(frozen=True)
 class ResolvedProfile:
     """A profile with everything that it extends folded in; what stands nearer to it wins.
 

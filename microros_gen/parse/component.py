@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`component.yaml` → Component. The format: docs/architecture.md, "What a component brings"."""
+
+from __future__ import annotations
+
+from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.model.component import Component
+from microros_gen.model.xrce import OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
+from microros_gen.parse.tree_read import check_keys, expect_mapping, read_choice, read_names, read_text
+from microros_gen.parse.yaml_tree import MappingNode, parse_yaml
+
+LAYERS = ("micro-ROS", "middleware", "port")
+_REQUIRED = ("component", "summary", "layer", "status")
+_LISTS = ("needs", "xrce", "sends", "receives", "objects", "headers", "sources")
+_STATUS = ("ready", "planned")
+
+
+def parse_component(source: Source, diagnostics: Diagnostics) -> Component | None:
+    """Return the component that `source` describes; None and errors in `diagnostics` where it is not one."""
+    before = diagnostics.has_errors()
+    node = expect_mapping(parse_yaml(source, diagnostics), "a component file", diagnostics)
+    if node is None:
+        if not diagnostics.has_errors():
+            diagnostics.error(f"the component file '{source.name}' is empty")
+        return None
+    check_keys(node, (*_REQUIRED, *_LISTS), _REQUIRED, diagnostics)
+    layer = read_choice(node, "layer", LAYERS, diagnostics)
+    status = read_choice(node, "status", _STATUS, diagnostics)
+    component = Component(
+        name=read_text(node, "component", diagnostics),
+        summary=read_text(node, "summary", diagnostics),
+        layer=layer.name if layer else "",
+        ready=status is not None and status.name == "ready",
+        needs=_names(node, "needs", diagnostics),
+        xrce=_names(node, "xrce", diagnostics, XRCE_PROFILES),
+        sends=_names(node, "sends", diagnostics, tuple(SUBMESSAGES)),
+        receives=_names(node, "receives", diagnostics, tuple(SUBMESSAGES)),
+        objects=_names(node, "objects", diagnostics, tuple(OBJECT_KINDS)),
+        headers=_names(node, "headers", diagnostics),
+        sources=_names(node, "sources", diagnostics),
+    )
+    return component if before or not diagnostics.has_errors() else None
+
+
+def _names(
+    node: MappingNode, key: str, diagnostics: Diagnostics, known: tuple[str, ...] | None = None
+) -> tuple[str, ...]:
+    return tuple(name.name for name in read_names(node, key, diagnostics, known))

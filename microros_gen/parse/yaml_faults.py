@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a user is told about a text that is no YAML."""
+
+from __future__ import annotations
+
+import re
+
+import yaml
+
+from microros_gen.diagnostics import Diagnostic, Source, Span
+
+# What PyYAML's scanner, parser and composer say → message and hint. First match counts.
+_FAULTS: tuple[tuple[str, str, str | None], ...] = (
+    (r"'\\t'", "a tab", "YAML is indented with spaces only; replace the tab by spaces"),
+    (
+        r"found unexpected end of stream",
+        "a quoted text does not end",
+        "Close it with the quote it began with",
+    ),
+    (r"mapping values are not allowed", "a ':' where no key can be", "Quote a text that has ': ' in it"),
+    (
+        r"could not find expected ':'",
+        "a line without ':'",
+        "Write `key: value`, with a space after the colon",
+    ),
+    (
+        r"undefined alias",
+        "an alias (*) to a name that no anchor (&) gives",
+        "Quote a text that begins with '*'",
+    ),
+    (r"duplicate anchor", "an anchor (&) of this name was given before", "Use another name"),
+    (
+        r"but found another document",
+        "a second document begins here",
+        "Remove the '---' line; a file is one document",
+    ),
+    (r"expected ',' or '\]'", "a list in [ ] is not closed or lacks a comma", "Add ',' or ']'"),
+    (r"expected ',' or '}'", "a mapping in { } is not closed or lacks a comma", "Add ',' or '}'"),
+    (r"expected <block end>, but found '-'", "a list item where a key was expected", "Indent the '-' alike"),
+    (
+        r"expected <block end>",
+        "the indentation does not fit the lines above",
+        "Align the keys of one mapping",
+    ),
+    (
+        r"sequence entries are not allowed",
+        "a '-' where no list can begin",
+        "Put the list on lines of its own",
+    ),
+    (
+        r"unknown escape character",
+        "an unknown escape in a text",
+        "Use '…' quotes, which take a backslash as it is",
+    ),
+    (r"found character '[@`%]'", "a text cannot begin with this character", "Put it into quotes"),
+    (r"found character", "a character that cannot stand here", "Put the text into quotes"),
+    (r"did not find expected|expected the node content", "a value is missing here", None),
+)
+
+
+def yaml_fault(source: Source, error: Exception) -> Diagnostic:
+    """Return the diagnostic for what PyYAML raised on the text of `source`."""
+    if isinstance(error, yaml.MarkedYAMLError):
+        return _marked(source, error)
+    if isinstance(error, yaml.reader.ReaderError):
+        return _unreadable(source, error)
+    if isinstance(error, RecursionError):
+        return Diagnostic("nested too deeply", Span(source, 1, 1), "Flatten it")
+    return Diagnostic(f"not valid YAML: {error}", Span(source, 1, 1))
+
+
+def _marked(source: Source, error: yaml.MarkedYAMLError) -> Diagnostic:
+    problem = error.problem or error.context or "it cannot be read"
+    mark = error.problem_mark or error.context_mark
+    span = Span(source, mark.line + 1, mark.column + 1) if mark else Span(source, 1, 1)
+    if "found unexpected end of stream" in problem and error.context_mark:
+        span = Span(source, error.context_mark.line + 1, error.context_mark.column + 1)
+    tab = _tab_in_indent(source, span.line)
+    if tab:
+        span, problem = tab, r"'\t'"
+    for pattern, message, hint in _FAULTS:
+        if re.search(pattern, problem):
+            return Diagnostic(f"not valid YAML: {message}", span, hint)
+    return Diagnostic(f"not valid YAML: {problem}", span)
+
+
+def _tab_in_indent(source: Source, line: int) -> Span | None:
+    text = source.line(line)
+    indent = text[: len(text) - len(text.lstrip(" \t-"))]
+    return Span(source, line, indent.index("\t") + 1) if "\t" in indent else None
+
+
+def _unreadable(source: Source, error: yaml.reader.ReaderError) -> Diagnostic:
+    before = source.text[: error.position]
+    line = before.count("\n") + 1
+    column = len(before) - (before.rfind("\n") + 1) + 1
+    code = error.character if isinstance(error.character, int) else ord(error.character)
+    message = f"not valid YAML: the character U+{code:04X} cannot stand in a text"
+    return Diagnostic(message, Span(source, line, column), 'Remove it, or write it as "\\x…" in quotes')

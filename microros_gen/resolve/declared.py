@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the declarations of an application ask for: components of the API, and streams."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from microros_gen.diagnostics import Span
+from microros_gen.model.application import Application, EndpointDecl, NodeDecl
+from microros_gen.model.names import expand_topic_name
+from microros_gen.resolve.profiles import at
+
+STREAM_BEST_EFFORT = "stream_best_effort"
+STREAM_RELIABLE = "stream_reliable"
+STREAM_RELIABLE_INPUT = "stream_reliable_input"
+
+COMPONENT_OF_KIND = {
+    "publisher": "publish",
+    "subscription": "subscribe",
+    "service": "services",
+    "client": "services",
+}
+
+
+@dataclass(frozen=True)
+class Demand:
+    """`component` is asked for by `text` (readable, with its place), which stands at `span`."""
+
+    component: str
+    text: str
+    span: Span | None = None
+
+
+def declared_components(application: Application) -> Iterator[Demand]:
+    """Yield the micro-ROS component that each declaration of a node needs in order to be created at all."""
+    for node in application.nodes:
+        for endpoint in node.endpoints:
+            yield Demand(COMPONENT_OF_KIND[endpoint.kind], _article(endpoint.kind), endpoint.span)
+        for timer in node.timers:
+            yield Demand("timers", "a timer", timer.span)
+        for parameter in node.parameters:
+            yield Demand("parameters", "a parameter", parameter.span)
+        for executor in node.executors:
+            yield Demand("executor", "an executor", executor.span)
+
+
+def stream_demands(application: Application, selected: frozenset[str], entities: str) -> Iterator[Demand]:
+    """Yield the streams that entities and their creation need, for the components that are `selected`.
+
+    A client without entities of its own making (`preconfigured`) creates nothing. Without `nodes:` any entity may
+    be created, reliable ones too: rclc_publisher_init_default and rclc_subscription_init_default are.
+    """
+    if entities != "preconfigured":
+        yield Demand(STREAM_BEST_EFFORT, f"entities: {entities} (CREATE goes on the best effort stream)")
+    if application.nodes:
+        for node in application.nodes:
+            for endpoint in node.endpoints:
+                yield from _endpoint_demands(node, endpoint, selected)
+        return
+    span = application.spans.get("interfaces")
+    if "publish" in selected:
+        text = "publishers without `nodes:` ({} makes a {} one)"
+        yield Demand(STREAM_RELIABLE, text.format("rclc_publisher_init_default", "reliable"), span)
+        yield Demand(STREAM_BEST_EFFORT, text.format("rclc_publisher_init_best_effort", "best effort"), span)
+    if "subscribe" in selected:
+        text = "subscriptions without `nodes:` (rclc_subscription_init_default makes a reliable one)"
+        yield Demand(STREAM_RELIABLE_INPUT, text, span)
+        yield Demand(STREAM_BEST_EFFORT, "READ_DATA of subscriptions", span)
+
+
+def _endpoint_demands(node: NodeDecl, endpoint: EndpointDecl, selected: frozenset[str]) -> Iterator[Demand]:
+    if COMPONENT_OF_KIND[endpoint.kind] not in selected:
+        return
+    reliable = endpoint.qos.reliability == "reliable"
+    where = f"{expand_topic_name(endpoint.topic, node.name, node.namespace)}{at(endpoint.span)}"
+    if endpoint.kind == "publisher":
+        stream = STREAM_RELIABLE if reliable else STREAM_BEST_EFFORT
+        yield Demand(stream, f"a {_reliability(reliable)} publisher on {where}", endpoint.span)
+    elif endpoint.kind == "subscription":
+        yield Demand(STREAM_BEST_EFFORT, f"READ_DATA of a subscription on {where}", endpoint.span)
+        if reliable:
+            yield Demand(STREAM_RELIABLE_INPUT, f"a reliable subscription on {where}", endpoint.span)
+
+
+def _reliability(reliable: bool) -> str:
+    return "reliable" if reliable else "best effort"
+
+
+def _article(kind: str) -> str:
+    return f"a {kind}"

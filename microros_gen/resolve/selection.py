@@ -1,0 +1,323 @@
+# SPDX-License-Identifier: Apache-2.0
+"""From profiles and the application to components, XRCE profiles, submessages and objects, each with its reasons.
+
+Pure: everything that is read comes in as data. The order of profiles, components and keys in the input does not
+change the result.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+
+from microros_gen.diagnostics import Diagnostics, Span, nearest
+from microros_gen.model.application import Application, Named
+from microros_gen.model.component import AxisValue, Catalogue, Middleware, ResolvedProfile
+from microros_gen.model.selection import Chosen, ChosenAxis, ChosenComponent, Selection
+from microros_gen.model.xrce import MICRO_ROS_COMPONENTS, OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
+from microros_gen.resolve.axes import AxisChoice, choose_axes
+from microros_gen.resolve.declared import STREAM_RELIABLE, declared_components, stream_demands
+from microros_gen.resolve.profiles import at, signed, unique_changes
+
+HOST_PORT = "port_posix"
+_LAYERS = ("micro-ROS", "middleware", "port")
+
+
+def resolve_selection(
+    application: Application,
+    profiles: tuple[ResolvedProfile, ...],
+    catalogue: Catalogue,
+    middleware: Middleware,
+    diagnostics: Diagnostics,
+    port: str | None = None,
+) -> Selection:
+    """Return everything that the application and its profiles select, each item with its reasons.
+
+    `port` is the component of the target (`Target.port`); without it the host has `port_posix`, another target none.
+    Contradictions and unknown components go to `diagnostics`, each with both places; then the selection is only
+    good for showing. Planned components are selected like others: `check_ready` names them.
+    """
+    axes = choose_axes(application, profiles, middleware, diagnostics)
+    picker = _Picker(catalogue, diagnostics)
+    _pick_from_profiles(picker, application, profiles)
+    if not picker.causes:
+        diagnostics.error(
+            "nothing is selected", None, "Add `profiles: [pure_sender]`, or --profile pure_sender"
+        )
+    for choice in axes.values():
+        _pick_axis(picker, choice, middleware)
+    _pick_port(picker, application, port)
+    picker.close()
+    for demand in stream_demands(application, frozenset(picker.causes), axes["entities"].value):
+        picker.pick(demand.component, demand.text, demand.span)
+    picker.close()
+    _check(picker, application, profiles, axes, middleware)
+    return _selection(picker, profiles, axes, middleware)
+
+
+def check_ready(selection: Selection, diagnostics: Diagnostics) -> None:
+    """Report what is selected and planned only: an error for each choice of the user that leads to it."""
+    asked: dict[Named, list[str]] = {}
+    for chosen in selection.components:
+        if not chosen.component.ready:
+            for cause in chosen.causes:
+                asked.setdefault(cause, []).append(chosen.component.name)
+    for cause, names in sorted(asked.items(), key=lambda item: item[0].name):
+        several = len(names) > 1
+        diagnostics.error(
+            f"{cause.name} needs the component{'s' if several else ''} {', '.join(names)}, which this version of "
+            f"microros-gen does not have yet",
+            cause.span,
+            "Take another; `microros-gen profiles` shows which are ready, `microros-gen resolve` why each is needed",
+        )
+
+
+@dataclass(frozen=True)
+class _Reason:
+    """One reason of a component: a choice of the user, or (`needed_by`) another component."""
+
+    text: str
+    span: Span | None = None
+    needed_by: str | None = None
+
+
+class _Picker:
+    """Components on their way in, with reasons. A component that there is not is reported once a place."""
+
+    def __init__(self, catalogue: Catalogue, diagnostics: Diagnostics) -> None:
+        self.catalogue = catalogue
+        self.diagnostics = diagnostics
+        self.causes: dict[str, list[_Reason]] = {}
+
+    def pick(self, name: str, text: str, span: Span | None, needed_by: str | None = None) -> None:
+        """Select `name` because of `text`."""
+        if name not in self.catalogue:
+            self.unknown(name, text, span)
+            return
+        reason = _Reason(text, span, needed_by)
+        reasons = self.causes.setdefault(name, [])
+        if reason not in reasons:
+            reasons.append(reason)
+
+    def unknown(self, name: str, text: str, span: Span | None) -> None:
+        """Report a component that there is not."""
+        hint = nearest(name, self.catalogue) or f"There are {', '.join(MICRO_ROS_COMPONENTS)}"
+        self.diagnostics.error(f"there is no component '{name}' ({text})", span, hint)
+
+    def close(self) -> None:
+        """Add everything that the selected components need."""
+        waiting = sorted(self.causes)
+        while waiting:
+            name = waiting.pop(0)
+            for need in self.catalogue[name].needs:
+                if need not in self.causes:
+                    waiting.append(need)
+                self.pick(need, f"needed by {name}", None, name)
+
+    def roots(self, name: str) -> tuple[Named, ...]:
+        """Return the choices of the user that lead to `name`, sorted."""
+        seen: set[str] = set()
+        found: dict[str, Named] = {}
+        waiting = [name]
+        while waiting:
+            current = waiting.pop()
+            if current in seen:
+                continue
+            seen.add(current)
+            for reason in self.causes.get(current, ()):
+                if reason.needed_by is not None:
+                    waiting.append(reason.needed_by)
+                else:
+                    found.setdefault(reason.text, Named(reason.text, reason.span))
+        return tuple(found[text] for text in sorted(found))
+
+
+def _pick_from_profiles(
+    picker: _Picker, application: Application, profiles: tuple[ResolvedProfile, ...]
+) -> None:
+    own = unique_changes(application.components, picker.diagnostics)
+    for profile in profiles:
+        for add in profile.adds:
+            if add.name not in own or own[add.name].add:
+                picker.pick(add.name, f"profile {profile.name}", add.span)
+    _check_profile_drops(picker, profiles, own)
+    for change in own.values():
+        if change.add:
+            picker.pick(change.name, f"components: {signed(change)}{at(change.span)}", change.span)
+        elif change.name not in picker.catalogue:
+            picker.unknown(change.name, f"components: {signed(change)}", change.span)
+        elif not any(change.name == add.name for p in profiles for add in p.adds):
+            picker.diagnostics.warning(
+                f"'{signed(change)}' drops nothing: no selected profile has '{change.name}'", change.span
+            )
+
+
+def _check_profile_drops(
+    picker: _Picker, profiles: tuple[ResolvedProfile, ...], own: Mapping[str, object]
+) -> None:
+    for dropping in profiles:
+        for drop in dropping.drops:
+            if drop.name not in picker.catalogue:
+                picker.unknown(drop.name, f"profile {dropping.name}", drop.span)
+            for adding in profiles:
+                add = next((a for a in adding.adds if a.name == drop.name), None)
+                if add is not None and drop.name not in own:
+                    picker.diagnostics.error(
+                        f"the profile '{dropping.name}' drops '{drop.name}' and the profile '{adding.name}' has it"
+                        f"{at(add.span)}",
+                        drop.span,
+                        f"Decide in the application: `components: [+{drop.name}]` or `[-{drop.name}]`",
+                    )
+
+
+def _pick_axis(picker: _Picker, choice: AxisChoice, middleware: Middleware) -> None:
+    brought = middleware.axes[choice.axis][choice.value].component
+    if brought is not None:
+        picker.pick(brought, choice.text, choice.span)
+
+
+def _pick_port(picker: _Picker, application: Application, port: str | None) -> None:
+    target = application.target
+    name = port or (HOST_PORT if target.name == "host" else None)
+    if name is not None:
+        picker.pick(name, f"target: {target.name}{at(target.span)}", target.span)
+
+
+def _check(
+    picker: _Picker,
+    application: Application,
+    profiles: tuple[ResolvedProfile, ...],
+    axes: Mapping[str, AxisChoice],
+    middleware: Middleware,
+) -> None:
+    drops = [(d.name, d.span, f"'-{d.name}'") for d in application.components if not d.add]
+    added = {c.name for c in application.components if c.add}
+    for profile in profiles:
+        text = f"'-{{}}' of the profile {profile.name}"
+        drops += [(d.name, d.span, text.format(d.name)) for d in profile.drops if d.name not in added]
+    for name, span, text in drops:
+        _check_drop(picker, name, span, text)
+    _check_declarations(picker, application)
+    _check_axis_components(picker, axes, middleware)
+    _check_liveliness(picker, axes["liveliness"])
+    _check_discovery(picker, axes["transport"])
+
+
+def _check_drop(picker: _Picker, name: str, span: Span | None, text: str) -> None:
+    reasons = picker.causes.get(name, [])
+    needing = sorted(r.needed_by for r in reasons if r.needed_by is not None)
+    direct = [
+        r for r in reasons if r.needed_by is None and not r.text.startswith(("profile ", "components: "))
+    ]
+    if needing:
+        roots = [r for r in picker.roots(name) if f"-{name}" not in r.name]
+        because = "; ".join(f"{r.name}{at(r.span) if not r.name.endswith(')') else ''}" for r in roots)
+        message = f"{text} drops a component that {', '.join(needing)} needs (selected by {because})"
+        picker.diagnostics.error(message, span, f"Drop {needing[0]} too, or remove {text}")
+    elif direct:
+        message = f"{text} drops a component that is selected by {direct[0].text}"
+        picker.diagnostics.error(message, span, f"Change `{direct[0].text.split(':')[0]}:`, or remove {text}")
+
+
+def _check_declarations(picker: _Picker, application: Application) -> None:
+    for demand in declared_components(application):
+        if demand.component not in picker.causes:
+            picker.diagnostics.error(
+                f"{demand.text} needs the component '{demand.component}', which nothing selects",
+                demand.span,
+                f"Add `components: [+{demand.component}]`, or a profile that has it",
+            )
+
+
+def _check_axis_components(picker: _Picker, axes: Mapping[str, AxisChoice], middleware: Middleware) -> None:
+    for axis, choice in axes.items():
+        chosen = middleware.axes[axis][choice.value].component
+        for other in middleware.axes[axis].values():
+            if other.component is None or other.component in (chosen, "clock_ros"):
+                continue
+            if other.component in picker.causes:
+                root = picker.roots(other.component)[0]
+                picker.diagnostics.error(
+                    f"the component '{other.component}' ({root.name}) belongs to {axis}: {other.value} and contradicts "
+                    f"{choice.text}",
+                    root.span or choice.span,
+                    f"Write `{axis}: {other.value}` instead of it",
+                )
+
+
+def _check_liveliness(picker: _Picker, choice: AxisChoice) -> None:
+    if choice.value == "acknack" and STREAM_RELIABLE not in picker.causes:
+        picker.diagnostics.error(
+            f"{choice.text} needs a reliable stream, and nothing that is selected has one",
+            choice.span,
+            "Make a publisher reliable, or write `liveliness: ping`",
+        )
+
+
+def _check_discovery(picker: _Picker, choice: AxisChoice) -> None:
+    if "discovery" in picker.causes and choice.value in ("serial", "custom"):
+        root = picker.roots("discovery")[0]
+        picker.diagnostics.error(
+            f"{choice.text} contradicts the component 'discovery' ({root.name}{'' if '(' in root.name else at(root.span)}): "
+            f"agents are searched for by UDP multicast",
+            choice.span or root.span,
+            "Write `transport: {type: udp}`, or drop it: `components: [-discovery]`",
+        )
+
+
+def _selection(
+    picker: _Picker,
+    profiles: tuple[ResolvedProfile, ...],
+    axes: Mapping[str, AxisChoice],
+    middleware: Middleware,
+) -> Selection:
+    components = tuple(_chosen(picker, name) for name in sorted(picker.causes, key=_component_order(picker)))
+    values = [middleware.axes[choice.axis][choice.value] for choice in axes.values()]
+    creates = axes["entities"].value != "preconfigured"
+    parts = [c.component for c in components]
+    xrce = [(n, p.name) for p in parts for n in (*p.xrce, *middleware.components.get(p.name, ()))]
+    xrce += [(n, axes[v.axis].text) for v in values for n in v.xrce]
+    objects = [(o, p.name) for p in parts for o in p.objects] if creates else []
+    return Selection(
+        profiles=tuple(p.name for p in profiles),
+        components=components,
+        entities=axes["entities"].value,
+        transport=axes["transport"].value,
+        liveliness=axes["liveliness"].value,
+        xrce_profiles=_gather(xrce, XRCE_PROFILES),
+        agent_profiles=_gather(_agent_side(values, axes), XRCE_PROFILES),
+        sends=_gather(((s, p.name) for p in parts for s in p.sends), tuple(SUBMESSAGES)),
+        receives=_gather(((s, p.name) for p in parts for s in p.receives), tuple(SUBMESSAGES)),
+        objects=_gather(objects, tuple(OBJECT_KINDS)),
+        axes=tuple(ChosenAxis(c.axis, c.value, c.reason) for c in axes.values()),
+    )
+
+
+def _agent_side(values: Iterable[AxisValue], axes: Mapping[str, AxisChoice]) -> list[tuple[str, str]]:
+    return [(name, axes[value.axis].text) for value in values for name in value.agent]
+
+
+def _component_order(picker: _Picker) -> Callable[[str], tuple[int, int, str]]:
+    def key(name: str) -> tuple[int, int, str]:
+        layer = _LAYERS.index(picker.catalogue[name].layer)
+        place = (
+            MICRO_ROS_COMPONENTS.index(name) if name in MICRO_ROS_COMPONENTS else len(MICRO_ROS_COMPONENTS)
+        )
+        return layer, place, name
+
+    return key
+
+
+def _chosen(picker: _Picker, name: str) -> ChosenComponent:
+    reasons = sorted({(r.needed_by is not None, r.text) for r in picker.causes[name]})
+    texts = tuple(text for _, text in reasons)
+    return ChosenComponent(picker.catalogue[name], texts, picker.roots(name))
+
+
+def _gather(pairs: Iterable[tuple[str, str]], order: tuple[str, ...]) -> tuple[Chosen, ...]:
+    reasons: dict[str, list[str]] = {}
+    for name, reason in pairs:
+        known = reasons.setdefault(name, [])
+        if reason not in known:
+            known.append(reason)
+    return tuple(Chosen(name, tuple(reasons[name])) for name in sorted(reasons, key=order.index))
