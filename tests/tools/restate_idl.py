@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Restates interface packages: reads their .msg files and prints names, types, constants and defaults anew.
+
+Nothing else of the read files is kept, comments least of all; the short notes below are this project's own.
+Run it when a new distribution is taken up:
+
+    python tests/tools/restate_idl.py SHARE… [--output microros_gen/idl] [--package NAME…]
+
+SHARE is a folder of packages, for example `share` of an installed ROS 2.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from microros_gen.diagnostics import Diagnostics, UserError
+from microros_gen.model.msg_text import message_text
+from microros_gen.model.types import Message, TypeName
+from microros_gen.parse.msg import parse_msg
+from microros_gen.sources.interfaces import InterfaceFinder, shipped_folder
+
+PACKAGES = (
+    "action_msgs",
+    "actionlib_msgs",
+    "builtin_interfaces",
+    "diagnostic_msgs",
+    "example_interfaces",
+    "geometry_msgs",
+    "lifecycle_msgs",
+    "nav_msgs",
+    "rcl_interfaces",
+    "rmw_dds_common",
+    "rosgraph_msgs",
+    "sensor_msgs",
+    "service_msgs",
+    "shape_msgs",
+    "std_msgs",
+    "stereo_msgs",
+    "tf2_msgs",
+    "trajectory_msgs",
+    "type_description_interfaces",
+    "unique_identifier_msgs",
+    "visualization_msgs",
+)
+
+# Units of REP-103 and what a value means where the name does not say it. In this project's own words.
+NOTES: Mapping[str, Mapping[str, str]] = {
+    "builtin_interfaces/msg/Duration": {"sec": "s, may be negative", "nanosec": "ns, always added to sec"},
+    "builtin_interfaces/msg/Time": {"sec": "s since the epoch of the clock", "nanosec": "ns, added to sec"},
+    "geometry_msgs/msg/Accel": {"linear": "m/s^2", "angular": "rad/s^2"},
+    "geometry_msgs/msg/Inertia": {"m": "kg", "com": "m", "ixx": "kg m^2"},
+    "geometry_msgs/msg/Point": {"x": "m", "y": "m", "z": "m"},
+    "geometry_msgs/msg/Point32": {"x": "m", "y": "m", "z": "m"},
+    "geometry_msgs/msg/Pose2D": {"x": "m", "y": "m", "theta": "rad"},
+    "geometry_msgs/msg/PoseWithCovariance": {"covariance": "row major, 6x6: x y z, then about X Y Z"},
+    "geometry_msgs/msg/Twist": {"linear": "m/s", "angular": "rad/s"},
+    "geometry_msgs/msg/TwistWithCovariance": {"covariance": "row major, 6x6: linear x y z, angular x y z"},
+    "geometry_msgs/msg/Wrench": {"force": "N", "torque": "N m"},
+    "sensor_msgs/msg/BatteryState": {
+        "voltage": "V",
+        "temperature": "degree Celsius, NaN where not measured",
+        "current": "A, negative while discharging, NaN where not measured",
+        "charge": "A h, NaN where not measured",
+        "capacity": "A h, NaN where not measured",
+        "design_capacity": "A h",
+        "percentage": "0 to 1, NaN where not measured",
+    },
+    "sensor_msgs/msg/FluidPressure": {"fluid_pressure": "Pa", "variance": "Pa^2, 0: unknown"},
+    "sensor_msgs/msg/Illuminance": {"illuminance": "lx", "variance": "lx^2, 0: unknown"},
+    "sensor_msgs/msg/Imu": {
+        "orientation_covariance": "rad^2, row major, about X Y Z; [0] is -1: no orientation",
+        "angular_velocity": "rad/s",
+        "angular_velocity_covariance": "(rad/s)^2, row major; [0] is -1: not measured",
+        "linear_acceleration": "m/s^2",
+        "linear_acceleration_covariance": "(m/s^2)^2, row major; [0] is -1: not measured",
+    },
+    "sensor_msgs/msg/JointState": {"position": "rad or m", "velocity": "rad/s or m/s", "effort": "N m or N"},
+    "sensor_msgs/msg/LaserScan": {
+        "angle_min": "rad",
+        "angle_max": "rad",
+        "angle_increment": "rad",
+        "time_increment": "s between two measurements",
+        "scan_time": "s between two scans",
+        "range_min": "m",
+        "range_max": "m",
+        "ranges": "m",
+    },
+    "sensor_msgs/msg/MagneticField": {
+        "magnetic_field": "T",
+        "magnetic_field_covariance": "T^2, row major, about x y z",
+    },
+    "sensor_msgs/msg/NavSatFix": {
+        "latitude": "degree, north is positive",
+        "longitude": "degree, east is positive",
+        "altitude": "m above the WGS 84 ellipsoid",
+        "position_covariance": "m^2, row major, east north up",
+    },
+    "sensor_msgs/msg/Range": {"field_of_view": "rad", "min_range": "m", "max_range": "m", "range": "m"},
+    "sensor_msgs/msg/RelativeHumidity": {"relative_humidity": "0 to 1", "variance": "0: unknown"},
+    "sensor_msgs/msg/Temperature": {
+        "temperature": "degree Celsius",
+        "variance": "square of that, 0: unknown",
+    },
+    "std_msgs/msg/Header": {"stamp": "when the data was taken", "frame_id": "coordinate frame of the data"},
+}
+
+
+def restated(message: Message) -> Message:
+    """Return `message` without its comments, with the notes of this project."""
+    notes = dict(NOTES.get(str(message.name), {}))
+    fields = tuple(replace(f, comment=(n,) if (n := notes.pop(f.name, "")) else ()) for f in message.fields)
+    if notes:
+        raise SystemExit(f"{message.name} has no field {', '.join(notes)}")
+    constants = tuple(replace(constant, comment=()) for constant in message.constants)
+    return replace(message, fields=fields, constants=constants, comment=())
+
+
+def restate(finder: InterfaceFinder, name: TypeName, output: Path) -> None:
+    """Write one type below `output`; UserError where its file has an error."""
+    diagnostics = Diagnostics()
+    source = finder.read(name, diagnostics)
+    message = parse_msg(source, name, diagnostics) if source is not None else None
+    diagnostics.check()
+    assert message is not None
+    target = output / name.package / name.kind / f"{name.name}.msg"
+    target.parent.mkdir(parents=True, exist_ok=True)
+    target.write_text(message_text(restated(message)), encoding="utf-8", newline="\n")
+
+
+def main() -> None:
+    """Restate the packages and say how many types each has."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("share", type=Path, nargs="+", help="folder of packages to read")
+    parser.add_argument("--output", type=Path, default=shipped_folder(), help="folder to write")
+    parser.add_argument("--package", action="append", help="only this package")
+    options = parser.parse_args()
+    finder = InterfaceFinder(paths=tuple(options.share))
+    try:
+        for package in options.package or PACKAGES:
+            names = finder.types(package)
+            for name in names:
+                restate(finder, name, options.output)
+            sys.stdout.write(f"{package}: {len(names)}\n")
+    except UserError as fault:
+        sys.exit(str(fault))
+
+
+if __name__ == "__main__":
+    main()
