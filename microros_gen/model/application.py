@@ -45,7 +45,10 @@ class Transport:
 
 @dataclass(frozen=True)
 class Qos:
-    """QoS of an endpoint; the values are those of rmw/types.h in lower case, the defaults rmw_qos_profile_default."""
+    """QoS of an endpoint.
+
+    The values are those of rmw/types.h in lower case, the defaults rmw_qos_profile_default.
+    """
 
     reliability: str = "reliable"
     durability: str = "volatile"
@@ -59,9 +62,10 @@ class LimitRule:
     """One capacity rule. `path` is `*`, a type (`sensor_msgs/msg/Imu`) or a type and a field path below it.
 
     `path` for a field is `("sensor_msgs/msg/Imu", "header", "frame_id")`. `string` counts bytes without the
-    terminator, `sequence` counts elements; None where the rule says nothing of it. `single` is true for a field
-    that got one number (`position: 6`): then both hold it, and it means whichever of the two the field is; for a
-    sequence of strings it is ambiguous. In the own limits of an endpoint, `*` holds for all of its message.
+    terminator, `sequence` counts elements; None where the rule says nothing of it. `single` is true for a
+    field that got one number (`position: 6`): then both hold it, and it means whichever of the two the field
+    is; for a sequence of strings it is ambiguous. In the own limits of an endpoint, `*` holds for all of its
+    message.
     """
 
     path: tuple[str, ...]
@@ -73,7 +77,10 @@ class LimitRule:
 
 @dataclass(frozen=True)
 class EndpointDecl:
-    """A publisher, subscription, service or client of a node (`topic` holds the service name for the latter)."""
+    """A publisher, subscription, service or client of a node.
+
+    `topic` holds the service's name for the latter two. {node} and {ns} in it are replaced.
+    """
 
     kind: str
     topic: str
@@ -96,9 +103,10 @@ class TimerDecl:
 
 @dataclass(frozen=True)
 class ParameterDecl:
-    """A parameter of a node. `type` is bool, integer, double or string; `size` bounds a string, bytes without NUL.
+    """A parameter of a node. `type` is bool, integer, double or string.
 
-    `minimum`, `maximum` and `step` are the range of rcl_interfaces/msg/ParameterDescriptor; None: no range.
+    `size` bounds a string, bytes without its terminator. `minimum`, `maximum` and `step` are the range of
+    rcl_interfaces/msg/ParameterDescriptor; None: no range.
     """
 
     name: str
@@ -183,10 +191,11 @@ class TargetRef:
 
 @dataclass(frozen=True)
 class Application:
-    """The whole file. `interfaces` are `pkg` or `pkg/msg/Type`; `pools` count entities where no nodes are given.
+    """The whole file. `interfaces` are `pkg` or `pkg/msg/Type`.
 
-    `logging` (console, callback, rosout) and `clock` (steady, ros) are axes like `entities` and `liveliness`.
-    `spans` holds the places of top-level keys and of the keys of `pools` (as `pools.history`), for later steps.
+    `pools` count entities where no nodes are given. `logging` (console, callback, rosout) and `clock`
+    (steady, ros) are axes like `entities` and `liveliness`. `spans` holds the places of top-level keys and of
+    the keys of `pools` (as `pools.history`), for later steps.
     """
 
     distro: str = "jazzy"

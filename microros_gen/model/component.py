@@ -54,8 +54,8 @@ class Profile:
 class ProfileSet:
     """Profiles as they were read: what was asked for, and everything that it extends.
 
-    Keys of `profiles`, and the names in `requested` and in each profile's `extends`, are the name of a built-in
-    profile or the path of a user's file.
+    Keys of `profiles`, and the names in `requested` and in each profile's `extends`, are the name of a
+    built-in profile or the path of a user's file.
     """
 
     requested: tuple[Named, ...]
@@ -66,8 +66,8 @@ class ProfileSet:
 class ResolvedProfile:
     """A profile with everything that it extends folded in; what stands nearer to it wins.
 
-    `adds` and `drops` hold each component once, with the place that decided it. `axes` maps an axis (`entities`,
-    `transport`, `liveliness`, `logging`, `clock`) to the value chosen and its place.
+    `adds` and `drops` hold each component once, with the place that decided it. `axes` maps an axis
+    (`entities`, `transport`, `liveliness`, `logging`, `clock`) to the value chosen and its place.
     """
 
     name: str
@@ -92,8 +92,8 @@ class XrceProfile:
 class AxisValue:
     """What one value of an axis brings (profiles/middleware.yaml).
 
-    `component` is selected with it; `xrce` are XRCE profiles of the client, `agent` of the agent's side alone.
-    `allows` names submessages that it adds to those of the XRCE profiles.
+    `component` is selected with it; `xrce` are XRCE profiles of the client, `agent` of the agent's side
+    alone. `allows` names submessages that it adds to those of the XRCE profiles.
     """
 
     axis: str
@@ -108,8 +108,8 @@ class AxisValue:
 class Middleware:
     """The middleware table (profiles/middleware.yaml): D1.4, 4.10.3.2 and OMG DDS-XRCE 1.0, clause 2.
 
-    `components` maps a micro-ROS component to the XRCE profiles that it needs; `axes` maps an axis to its values,
-    `defaults` to the value that holds where nobody chose.
+    `components` maps a micro-ROS component to the XRCE profiles that it needs; `axes` maps an axis to its
+    values, `defaults` to the value that holds where nobody chose.
     """
 
     components: Mapping[str, tuple[str, ...]]

@@ -21,7 +21,8 @@ class Chosen:
 class ChosenComponent:
     """A component and why it is there, for example `profile pure_sender` or `needed by publish`.
 
-    `causes` are the choices of the user at the end of those reasons (profiles, keys, declarations), with places.
+    `causes` are the choices of the user at the end of those reasons (profiles, keys, declarations), with
+    places.
     """
 
     component: Component

@@ -64,7 +64,10 @@ OBJECT_KINDS: Mapping[str, int] = MappingProxyType(
         "client": 0x0E,
     }
 )
-"""Object kind → its number (clause 7.7); requester and replier are an addition of the reference implementation."""
+"""Object kind → its number (clause 7.7).
+
+Requester and replier are an addition of the reference implementation.
+"""
 
 MICRO_ROS_COMPONENTS = (
     "node",

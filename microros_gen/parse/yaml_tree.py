@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """YAML text → a tree of nodes with places.
 
-Plain scalars follow the core schema of YAML 1.2 (clause 10.3.2), not YAML 1.1, whose booleans and numbers surprise:
+Plain scalars follow the core schema of YAML 1.2 (clause 10.3.2), not YAML 1.1, whose booleans and numbers
+surprise:
 
 - `true` and `false` (also True, TRUE, …) are booleans; `yes`, `no`, `on`, `off` are texts.
 - `10`, `-3`, `0x1F` and `0o17` are integers; `1.5`, `1e3`, `.inf` and `.nan` are floats; `10:30` is a text.
 - A number with a leading zero (`010`) is eight to some readers and ten to others: an error.
 - `null`, `~` and nothing are null.
 
-One document a text. Aliases (`*name`) are taken; an alias inside its own anchor, tags (`!x`), merge keys (`<<`), keys
-that are no texts, and the same key twice are errors.
+One document a text. Aliases (`*name`) are taken; an alias inside its own anchor, tags (`!x`), merge keys
+(`<<`), keys that are no texts, and the same key twice are errors.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ import yaml
 from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.parse.yaml_faults import yaml_fault
 
-Data = Union[None, bool, int, float, str, "list[Data]", "dict[str, Data]"]
+Data = Union[bool, int, float, str, "list[Data]", "dict[str, Data]", None]
 
 LARGEST_TREE = 100_000
 """Nodes that a text may have once its aliases are written out; more is an accident or an attack."""
@@ -48,7 +49,7 @@ _NOT_A_NUMBER = (".nan", ".NaN", ".NAN")
 class ScalarNode:
     """A scalar: `value` is what it means, `text` what stands in the file; `plain` where it has no quotes."""
 
-    value: None | bool | int | float | str
+    value: bool | int | float | str | None
     text: str
     plain: bool
     span: Span
@@ -87,11 +88,11 @@ class MappingNode:
         return iter(self.entries.values())
 
 
-YamlNode = Union[ScalarNode, SequenceNode, MappingNode]
+YamlNode = ScalarNode | SequenceNode | MappingNode
 
 
 def parse_yaml(source: Source, diagnostics: Diagnostics, c_loader: bool = True) -> YamlNode | None:
-    """Return the tree of `source`; None where it is empty (only comments) or broken, which is in `diagnostics`.
+    """Return the tree of `source`; None where it is empty or broken (then `diagnostics` has errors).
 
     `c_loader` false: leave libyaml aside although it is there. The result is the same.
     """
@@ -105,7 +106,10 @@ def parse_yaml(source: Source, diagnostics: Diagnostics, c_loader: bool = True) 
 
 
 def to_data(node: YamlNode) -> Data:
-    """Return the tree as plain data (dict, list, scalars). A node that aliases name stands in it more than once."""
+    """Return the tree as plain data (dict, list, scalars).
+
+    A node that aliases name stands in it more than once.
+    """
     if isinstance(node, ScalarNode):
         return node.value
     if isinstance(node, SequenceNode):

@@ -48,8 +48,8 @@ def declared_components(application: Application) -> Iterator[Demand]:
 def stream_demands(application: Application, selected: frozenset[str], entities: str) -> Iterator[Demand]:
     """Yield the streams that entities and their creation need, for the components that are `selected`.
 
-    A client without entities of its own making (`preconfigured`) creates nothing. Without `nodes:` any entity may
-    be created, reliable ones too: rclc_publisher_init_default and rclc_subscription_init_default are.
+    A client without entities of its own making (`preconfigured`) creates nothing. Without `nodes:` any entity
+    may be created, reliable ones too: rclc_publisher_init_default and rclc_subscription_init_default are.
     """
     if entities != "preconfigured":
         yield Demand(STREAM_BEST_EFFORT, f"entities: {entities} (CREATE goes on the best effort stream)")

@@ -12,10 +12,10 @@ from microros_gen.model.xrce import BUILTIN_PROFILES
 
 
 def resolve_profiles(profiles: ProfileSet, diagnostics: Diagnostics) -> tuple[ResolvedProfile, ...]:
-    """Return the requested profiles, folded; the built-in ones first in the order of D1.4, then others by name.
+    """Return the requested profiles, folded: built-in ones in the order of D1.4, then others by name.
 
-    Errors: a profile that extends itself, `+x` and `-x` in one file, and bases that disagree about an axis or a
-    component where the profile itself decides nothing.
+    Errors: a profile that extends itself, `+x` and `-x` in one file, and bases that disagree about an axis or
+    a component where the profile itself decides nothing.
     """
     folder = _Folder(profiles, diagnostics)
     found = {r.name: r for name in profiles.requested if (r := folder.fold(name.name, name.span)) is not None}
@@ -38,7 +38,10 @@ def axes_of(profile: Profile) -> dict[str, Named]:
 def unique_changes(
     changes: tuple[ComponentChange, ...], diagnostics: Diagnostics
 ) -> dict[str, ComponentChange]:
-    """Return the changes of one file by component; `+x` and `-x` in it are an error that names both places."""
+    """Return the changes of one file by component.
+
+    `+x` and `-x` in it are an error that names both places.
+    """
     found: dict[str, ComponentChange] = {}
     for change in changes:
         first = found.setdefault(change.name, change)
@@ -94,8 +97,8 @@ class _Folder:
         drops = {n.name: n for base in reversed(bases) for n in base.drops if n.name not in own}
         for name in sorted(set(adds) & set(drops)):
             self._diagnostics.error(
-                f"the profile '{profile.name}' extends one that has '{name}'{at(adds[name].span)} and one that "
-                f"drops it{at(drops[name].span)}",
+                f"the profile '{profile.name}' extends one that has '{name}'{at(adds[name].span)} and "
+                f"one that drops it{at(drops[name].span)}",
                 profile.span,
                 f"Decide with +{name} or -{name} in its components",
             )

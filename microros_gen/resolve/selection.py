@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""From profiles and the application to components, XRCE profiles, submessages and objects, each with its reasons.
+"""From profiles and application to components, XRCE profiles, submessages and objects, with reasons.
 
-Pure: everything that is read comes in as data. The order of profiles, components and keys in the input does not
-change the result.
+Pure: everything that is read comes in as data. The order of profiles, components and keys in the input does
+not change the result.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ def resolve_selection(
 ) -> Selection:
     """Return everything that the application and its profiles select, each item with its reasons.
 
-    `port` is the component of the target (`Target.port`); without it the host has `port_posix`, another target none.
-    Contradictions and unknown components go to `diagnostics`, each with both places; then the selection is only
-    good for showing. Planned components are selected like others: `check_ready` names them.
+    `port` is the component of the target (`Target.port`); without it the host has `port_posix`, another
+    target none. Contradictions and unknown components go to `diagnostics`, each with both places; then the
+    selection is only good for showing. Planned components are selected like others: `check_ready` names them.
     """
     axes = choose_axes(application, profiles, middleware, diagnostics)
     picker = _Picker(catalogue, diagnostics)
@@ -65,10 +65,10 @@ def check_ready(selection: Selection, diagnostics: Diagnostics) -> None:
     for cause, names in sorted(asked.items(), key=lambda item: item[0].name):
         several = len(names) > 1
         diagnostics.error(
-            f"{cause.name} needs the component{'s' if several else ''} {', '.join(names)}, which this version of "
-            f"microros-gen does not have yet",
+            f"{cause.name} needs the component{'s' if several else ''} {', '.join(names)}, which this "
+            f"version of microros-gen does not have yet",
             cause.span,
-            "Take another; `microros-gen profiles` shows which are ready, `microros-gen resolve` why each is needed",
+            "`microros-gen profiles` shows what is ready, `microros-gen resolve` why each is needed",
         )
 
 
@@ -163,8 +163,8 @@ def _check_profile_drops(
                 add = next((a for a in adding.adds if a.name == drop.name), None)
                 if add is not None and drop.name not in own:
                     picker.diagnostics.error(
-                        f"the profile '{dropping.name}' drops '{drop.name}' and the profile '{adding.name}' has it"
-                        f"{at(add.span)}",
+                        f"the profile '{dropping.name}' drops '{drop.name}' and the profile "
+                        f"'{adding.name}' has it{at(add.span)}",
                         drop.span,
                         f"Decide in the application: `components: [+{drop.name}]` or `[-{drop.name}]`",
                     )
@@ -211,7 +211,7 @@ def _check_drop(picker: _Picker, name: str, span: Span | None, text: str) -> Non
     ]
     if needing:
         roots = [r for r in picker.roots(name) if f"-{name}" not in r.name]
-        because = "; ".join(f"{r.name}{at(r.span) if not r.name.endswith(')') else ''}" for r in roots)
+        because = "; ".join(placed(root) for root in roots)
         message = f"{text} drops a component that {', '.join(needing)} needs (selected by {because})"
         picker.diagnostics.error(message, span, f"Drop {needing[0]} too, or remove {text}")
     elif direct:
@@ -238,11 +238,16 @@ def _check_axis_components(picker: _Picker, axes: Mapping[str, AxisChoice], midd
             if other.component in picker.causes:
                 root = picker.roots(other.component)[0]
                 picker.diagnostics.error(
-                    f"the component '{other.component}' ({root.name}) belongs to {axis}: {other.value} and contradicts "
-                    f"{choice.text}",
+                    f"the component '{other.component}' ({root.name}) belongs to {axis}: {other.value} "
+                    f"and contradicts {choice.text}",
                     root.span or choice.span,
                     f"Write `{axis}: {other.value}` instead of it",
                 )
+
+
+def placed(cause: Named) -> str:
+    """Return a cause with its place, where its text has none."""
+    return cause.name if cause.name.endswith(")") else f"{cause.name}{at(cause.span)}"
 
 
 def _check_liveliness(picker: _Picker, choice: AxisChoice) -> None:
@@ -258,8 +263,8 @@ def _check_discovery(picker: _Picker, choice: AxisChoice) -> None:
     if "discovery" in picker.causes and choice.value in ("serial", "custom"):
         root = picker.roots("discovery")[0]
         picker.diagnostics.error(
-            f"{choice.text} contradicts the component 'discovery' ({root.name}{'' if '(' in root.name else at(root.span)}): "
-            f"agents are searched for by UDP multicast",
+            f"{choice.text} contradicts the component 'discovery' ({placed(root)}): agents are searched for "
+            f"by UDP multicast",
             choice.span or root.span,
             "Write `transport: {type: udp}`, or drop it: `components: [-discovery]`",
         )

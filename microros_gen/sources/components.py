@@ -21,7 +21,7 @@ def components_folder() -> Path:
 def load_catalogue(folder: Path | None = None) -> Catalogue:
     """Return every component below `folder` (the tool's own unless given) by name, in the order of the names.
 
-    Raises UserError with everything that is wrong: an unreadable or faulty file, a component that is not named as
+    Raises UserError with all that is wrong: an unreadable or faulty file, a component that is not named as
     its folder, and a `needs` that names no component.
     """
     root = components_folder() if folder is None else folder

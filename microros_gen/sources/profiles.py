@@ -19,7 +19,7 @@ _SUFFIXES = (".yaml", ".yml")
 
 
 def profiles_folder() -> Path:
-    """Return the folder of the profiles that ship with the tool: in a wheel, else in the repository checkout."""
+    """Return the folder of the profiles that ship with the tool: in a wheel, else in the repository."""
     package = Path(__file__).resolve().parent.parent
     installed = package / "profiles"
     return installed if installed.is_dir() else package.parent / "profiles"
@@ -49,7 +49,10 @@ def load_builtin_profiles(folder: Path | None = None) -> Mapping[str, Profile]:
 
 
 def load_middleware(folder: Path | None = None) -> Middleware:
-    """Return the middleware table of `folder` (that of the tool unless given). Raises UserError where it is faulty."""
+    """Return the middleware table of `folder` (the tool's unless given).
+
+    Raises UserError where it is faulty.
+    """
     root = profiles_folder() if folder is None else folder
     diagnostics = Diagnostics()
     source = _read(root / MIDDLEWARE_FILE, f"profiles/{MIDDLEWARE_FILE}", diagnostics)
@@ -68,8 +71,9 @@ def load_profiles(
     """Read the requested profiles and all that they extend.
 
     A reference is the name of a built-in profile, the name of a file `NAME.yaml` in `near` (the folder of the
-    application file), or a path (with a `/` or an ending .yaml or .yml) from there. What a user's profile extends is
-    looked for next to that file. What cannot be found or read is an error in `diagnostics` and left out.
+    application file), or a path (with a `/` or an ending .yaml or .yml) from there. What a user's profile
+    extends is looked for next to that file. What cannot be found or read is an error in `diagnostics` and
+    left out.
     """
     reader = _Reader(load_builtin_profiles(builtin_folder), diagnostics)
     keys = [reader.take(name, near) for name in requested]

@@ -1,0 +1,251 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The application file (`microros.yaml`) → Application."""
+
+from __future__ import annotations
+
+import ipaddress
+import re
+from types import MappingProxyType
+
+from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
+from microros_gen.model.application import (
+    Application,
+    Memory,
+    Named,
+    NodeDecl,
+    TargetRef,
+    TaskDecl,
+    Transport,
+)
+from microros_gen.parse.application_nodes import check_unique, parse_nodes, positive_time
+from microros_gen.parse.limits import application_limits
+from microros_gen.parse.schema import validate_application
+from microros_gen.parse.tree_read import component_change
+from microros_gen.parse.tree_values import (
+    child,
+    entries,
+    int_of,
+    items,
+    named_of,
+    number_of,
+    size_of,
+    span_of,
+    text_of,
+)
+from microros_gen.parse.yaml_tree import MappingNode, ScalarNode, YamlNode, parse_yaml
+
+LONGEST_BLOCK_MS = 60_000
+"""Longest time that `on_full: block …` may take, milliseconds."""
+
+LARGEST_UDP_PAYLOAD = 65_507
+"""Bytes that fit one UDP datagram over IPv4 (RFC 768, RFC 791)."""
+
+_BLOCK = re.compile(r"block ([0-9]+) ?(ms|s)")
+_WITHOUT_ADDRESS = ("serial", "custom")
+
+
+def parse_application(source: Source, diagnostics: Diagnostics) -> Application | None:
+    """Return the application that `source` describes; None where `diagnostics` got errors from it.
+
+    Every fault is reported in one run: what the schema refuses, and what is wrong with names, addresses and
+    times.
+    """
+    found = Diagnostics()
+    tree = parse_yaml(source, found)
+    if tree is not None or not found.has_errors():
+        validate_application(tree, source, found)
+    application = _application(tree, found) if isinstance(tree, MappingNode) else None
+    diagnostics.extend(sorted(found, key=lambda d: (d.span.line, d.span.column) if d.span else (0, 0)))
+    return None if found.has_errors() else application
+
+
+def _application(tree: MappingNode, diagnostics: Diagnostics) -> Application:
+    default = Application()
+    nodes = parse_nodes(child(tree, "nodes"), diagnostics)
+    pools = {e.key: n for e in entries(child(tree, "pools")) if (n := int_of(e.value)) is not None}
+    on_full, block_ms = _on_full(child(tree, "on_full"), diagnostics)
+    return Application(
+        distro=text_of(child(tree, "distro")) or default.distro,
+        profiles=_names(child(tree, "profiles")),
+        components=tuple(component_change(c.name, c.span) for c in _names(child(tree, "components"))),
+        entities=named_of(child(tree, "entities")),
+        liveliness=named_of(child(tree, "liveliness")),
+        transport=_transport(child(tree, "transport"), diagnostics),
+        session_key=_session_key(child(child(tree, "session"), "key")),
+        target=_target(child(tree, "target")),
+        nodes=nodes,
+        interfaces=_names(child(tree, "interfaces")),
+        pools=MappingProxyType(pools),
+        limits=application_limits(child(tree, "limits")),
+        memory=_memory(child(tree, "memory")),
+        on_full=on_full,
+        on_full_block_ms=block_ms,
+        error_text=text_of(child(tree, "errors")) != "code",
+        logging=named_of(child(tree, "logging")),
+        clock=named_of(child(tree, "clock")),
+        tasks=_tasks(child(tree, "tasks"), nodes, diagnostics),
+        spans=MappingProxyType(_spans(tree)),
+    )
+
+
+def _names(node: YamlNode | None) -> tuple[Named, ...]:
+    return tuple(named for item in items(node) if (named := named_of(item)) is not None)
+
+
+def _spans(tree: MappingNode) -> dict[str, Span]:
+    spans = {entry.key: entry.key_span for entry in tree}
+    for owner in ("pools", "memory", "session", "transport"):
+        spans |= {f"{owner}.{entry.key}": entry.key_span for entry in entries(child(tree, owner))}
+    return spans
+
+
+def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
+    if node is None:
+        return Transport()
+    kind, agent, mtu = child(node, "type"), child(node, "agent"), child(node, "mtu")
+    type_name = text_of(kind) or Transport().type
+    host, port = _agent(agent, diagnostics) or (Transport().host, Transport().port)
+    if agent is not None and type_name in _WITHOUT_ADDRESS:
+        message = f"transport: {type_name} has no agent address"
+        diagnostics.error(message, agent.span, "Remove `agent`, or take type: udp or tcp")
+    size = int_of(mtu)
+    if size is not None and type_name == "udp" and size > LARGEST_UDP_PAYLOAD:
+        message = f"'transport.mtu' is {size}; a UDP datagram holds {LARGEST_UDP_PAYLOAD}"
+        diagnostics.error(message, span_of(mtu), f"Set mtu: {LARGEST_UDP_PAYLOAD} or less")
+    return Transport(type_name, host, port, size, node.span, span_of(mtu), span_of(kind), span_of(agent))
+
+
+def _agent(node: YamlNode | None, diagnostics: Diagnostics) -> tuple[str, int] | None:
+    """Return host and port; a host name, an IPv6 address and a missing or wrong port are errors."""
+    text = text_of(node)
+    if text is None:
+        return None
+    span = span_of(node)
+    host, separator, port = text.rpartition(":")
+    if text.count(":") > 1:
+        diagnostics.error(f"the agent '{text}' has an IPv6 address", span, "Write its IPv4 address and port")
+        return None
+    if not separator:
+        diagnostics.error(f"the agent '{text}' lacks its port", span, f'Write "{text}:8888"')
+        return None
+    valid = _check_host(host, span, diagnostics)
+    if not port.isascii() or not port.isdigit() or not 1 <= int(port) <= 65535:
+        message = f"the agent's port must be a whole number between 1 and 65535; it is '{port}'"
+        diagnostics.error(message, span, "The public agent's examples use 8888")
+        return None
+    return (host, int(port)) if valid else None
+
+
+def _check_host(host: str, span: Span | None, diagnostics: Diagnostics) -> bool:
+    try:
+        ipaddress.IPv4Address(host)
+    except ValueError as fault:
+        if re.fullmatch(r"[0-9.]*", host):
+            reason = str(fault).split(" in ")[0]
+            hint = f"Write four numbers from 0 to 255 without leading zeros ({reason})"
+            diagnostics.error(f"the agent's address '{host}' is no IPv4 address", span, hint)
+        else:
+            hint = "A device has no DNS to resolve it: write the IPv4 address"
+            diagnostics.error(f"the agent's address '{host}' is a host name", span, hint)
+        return False
+    return True
+
+
+def _session_key(node: YamlNode | None) -> int | str | None:
+    number = int_of(node)
+    return number if number is not None else text_of(node)
+
+
+def _target(node: YamlNode | None) -> TargetRef:
+    if isinstance(node, ScalarNode):
+        return TargetRef(text_of(node) or TargetRef().name, None, node.span)
+    name, rtos = child(node, "name"), child(node, "rtos")
+    return TargetRef(text_of(name) or TargetRef().name, text_of(rtos), span_of(name), span_of(rtos))
+
+
+def _memory(node: YamlNode | None) -> Memory:
+    parts = {key: child(node, key) for key in ("arena", "ram_budget", "flash_budget", "stack")}
+    return Memory(
+        arena=size_of(parts["arena"]) or 0,
+        ram_budget=size_of(parts["ram_budget"]),
+        flash_budget=size_of(parts["flash_budget"]),
+        stack=size_of(parts["stack"]),
+        ram_span=span_of(parts["ram_budget"]),
+        flash_span=span_of(parts["flash_budget"]),
+        arena_span=span_of(parts["arena"]),
+        stack_span=span_of(parts["stack"]),
+    )
+
+
+def _on_full(node: YamlNode | None, diagnostics: Diagnostics) -> tuple[str, int]:
+    text = text_of(node) or "error"
+    match = _BLOCK.fullmatch(text)
+    if match is None:
+        return text, 0
+    milliseconds = int(match.group(1)) * (1000 if match.group(2) == "s" else 1)
+    if not 1 <= milliseconds <= LONGEST_BLOCK_MS:
+        message = f"'on_full: {text}' must block between 1 ms and {LONGEST_BLOCK_MS // 1000} s"
+        diagnostics.error(message, span_of(node), "`on_full: error` does not block at all")
+    return "block", milliseconds
+
+
+def _tasks(
+    node: YamlNode | None, nodes: tuple[NodeDecl, ...], diagnostics: Diagnostics
+) -> tuple[TaskDecl, ...]:
+    tasks = tuple(_task(item, diagnostics) for item in items(node))
+    check_unique("task", [(t.name, t.span) for t in tasks], diagnostics)
+    executors = {e.name for n in nodes for e in n.executors}
+    for item, task in zip(items(node), tasks, strict=True):
+        if task.executor is not None and task.executor not in executors:
+            hint = nearest(task.executor, executors) or "Declare it below `executors` of a node"
+            message = f"the task '{task.name}' spins the executor '{task.executor}', which no node has"
+            diagnostics.error(message, span_of(child(item, "executor")), hint)
+    return tasks
+
+
+def _task(item: YamlNode, diagnostics: Diagnostics) -> TaskDecl:
+    name = text_of(child(item, "name")) or ""
+    period, rate = positive_time(item, "period", diagnostics), child(item, "rate")
+    if (child(item, "period") is None) == (rate is None) and isinstance(item, MappingNode):
+        has = "both a period and a rate" if rate is not None else "neither a period nor a rate"
+        diagnostics.error(
+            f"the task '{name}' has {has}", item.span, "Give one: `period: 10 ms` or `rate: 100 Hz`"
+        )
+    if rate is not None and period is None:
+        period = _rate_period(rate, diagnostics)
+    task = TaskDecl(
+        name=name,
+        period_us=period or 0,
+        deadline_us=positive_time(item, "deadline", diagnostics),
+        wcet_us=positive_time(item, "wcet", diagnostics),
+        criticality=text_of(child(item, "criticality")) or TaskDecl.criticality,
+        executor=text_of(child(item, "executor")),
+        span=item.span,
+    )
+    _check_task(task, diagnostics)
+    return task
+
+
+def _rate_period(node: YamlNode, diagnostics: Diagnostics) -> int | None:
+    number = number_of(node)
+    text = text_of(node)
+    if number is None and text is not None and re.fullmatch(r"[0-9]+([.][0-9]+)? ?Hz", text):
+        number = float(text.removesuffix("Hz"))
+    if number is None or number != number:
+        return None
+    if number <= 0 or not 1e-6 <= number <= 1e6:
+        diagnostics.error(
+            "'rate' must be between 0.000001 Hz and 1000000 Hz", node.span, "Write a rate such as 100 Hz"
+        )
+        return None
+    return int(1_000_000 / number + 0.5)
+
+
+def _check_task(task: TaskDecl, diagnostics: Diagnostics) -> None:
+    limit = task.deadline_us or task.period_us
+    if task.deadline_us and task.period_us and task.deadline_us > task.period_us:
+        message = f"the deadline of the task '{task.name}' is longer than its period"
+        diagnostics.error(message, task.span, f"Set deadline: {task.period_us} us or less")
+    elif task.wcet_us and limit and task.wcet_us > limit:
+        message = f"the task '{task.name}' runs for {task.wcet_us} us and must be done after {limit} us"
+        diagnostics.error(message, task.span, "Lower `rate`, or raise `deadline`")

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Values of a tree that a schema has judged.
+
+What does not fit was reported before, and reads as not there.
+"""
+
+from __future__ import annotations
+
+import re
+
+from microros_gen.diagnostics import Span
+from microros_gen.model.application import Named
+from microros_gen.parse.yaml_tree import Entry, MappingNode, ScalarNode, SequenceNode, YamlNode
+
+_SIZE = re.compile(r"([0-9]+) ?(B|kB|KiB|MB|MiB)")
+_SIZE_UNITS = {"B": 1, "kB": 1000, "KiB": 1024, "MB": 1_000_000, "MiB": 1024 * 1024}
+_TIME = re.compile(r"([0-9]+(?:[.][0-9]+)?) ?(us|ms|s)")
+_TIME_UNITS = {"us": 1, "ms": 1000, "s": 1_000_000}
+
+
+def child(node: YamlNode | None, key: str) -> YamlNode | None:
+    """Return the value of `key` where `node` is a mapping that has it."""
+    return node.get(key) if isinstance(node, MappingNode) else None
+
+
+def entries(node: YamlNode | None) -> tuple[Entry, ...]:
+    """Return the entries of a mapping; nothing of anything else."""
+    return tuple(node) if isinstance(node, MappingNode) else ()
+
+
+def items(node: YamlNode | None) -> tuple[YamlNode, ...]:
+    """Return the items of a sequence; nothing of anything else."""
+    return node.items if isinstance(node, SequenceNode) else ()
+
+
+def span_of(node: YamlNode | None) -> Span | None:
+    """Return the place of `node`."""
+    return node.span if node is not None else None
+
+
+def text_of(node: YamlNode | None) -> str | None:
+    """Return the text of a scalar that is a text."""
+    value = node.value if isinstance(node, ScalarNode) else None
+    return value if isinstance(value, str) else None
+
+
+def bool_of(node: YamlNode | None) -> bool | None:
+    """Return the value of a scalar that is true or false."""
+    value = node.value if isinstance(node, ScalarNode) else None
+    return value if isinstance(value, bool) else None
+
+
+def int_of(node: YamlNode | None) -> int | None:
+    """Return the value of a scalar that is a whole number (2.0 is one, as in JSON Schema)."""
+    value = number_of(node)
+    return int(value) if value is not None and value == value // 1 and abs(value) < 2**63 else None
+
+
+def number_of(node: YamlNode | None) -> int | float | None:
+    """Return the value of a scalar that is a number."""
+    value = node.value if isinstance(node, ScalarNode) else None
+    return value if isinstance(value, (int, float)) and not isinstance(value, bool) else None
+
+
+def named_of(node: YamlNode | None) -> Named | None:
+    """Return the text of a scalar with its place."""
+    text = text_of(node)
+    return Named(text, node.span) if text is not None and node is not None else None
+
+
+def size_of(node: YamlNode | None) -> int | None:
+    """Return bytes: a whole number, or `8 KiB`."""
+    number = int_of(node)
+    if number is not None:
+        return number if number >= 0 else None
+    match = _SIZE.fullmatch(text_of(node) or "")
+    return int(match.group(1)) * _SIZE_UNITS[match.group(2)] if match else None
+
+
+def time_of(node: YamlNode | None) -> int | None:
+    """Return microseconds: `20 ms`; a part of one is rounded away."""
+    match = _TIME.fullmatch(text_of(node) or "")
+    return int(float(match.group(1)) * _TIME_UNITS[match.group(2)] + 0.5) if match else None
