@@ -9,7 +9,7 @@ reported in one run.
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
@@ -131,41 +131,43 @@ def _grammar() -> Lark:
 
 
 def _report_syntax(line: Line, fault: UnexpectedInput, diagnostics: Diagnostics) -> None:
-    expected: Iterable[str] = ()
+    expected: set[str] = set()
     column = len(line.text) + 1
-    found = "the end of the line"
     if isinstance(fault, UnexpectedCharacters):
-        expected, column = fault.allowed or (), fault.column
-        found = f"'{line.text[column - 1]}'"
+        expected, column = set(fault.allowed or ()), fault.column
     elif isinstance(fault, UnexpectedToken):
-        expected = fault.accepts or fault.expected
+        expected = set(fault.accepts or fault.expected)
         token: Token = getattr(fault, "token")  # noqa: B009 (the stubs of lark-parser lack it)
         if token.type != "$END":
             column = token.column or column
-            found = f"'{token.strip()}'" if token.strip() else "a space"
-    if column == 1 and line.text.startswith(" "):
-        diagnostics.error(
-            "a declaration begins in the first column", line.span(1, 2), "Remove the space before it"
-        )
+    found = line.text[column - 1 : column]
+    if column == 1 and found == " ":
+        span = line.span(1, len(line.text) - len(line.text.lstrip()) + 1)
+        diagnostics.error("a declaration begins in the first column", span, "Remove the space before it")
         return
     words = sorted({_WORDS[name] for name in expected if name in _WORDS})
+    what = {"": "the end of the line", " ": "a space"}.get(found, f"'{found}'")
     diagnostics.error(
-        f"expected {' or '.join(words) or 'something else'}, found {found}",
+        f"expected {' or '.join(words)}, found {what}",
         line.span(column, column + 1),
-        _syntax_hint(line, column, set(expected)),
+        _syntax_hint(line.text, column, expected),
     )
 
 
-def _syntax_hint(line: Line, column: int, expected: set[str]) -> str | None:
-    if column > len(line.text) and " " not in line.text:
+def _syntax_hint(text: str, column: int, expected: set[str]) -> str | None:
+    rest = text[column - 1 :]
+    if not rest and " " not in text:
         return "A field is written 'type name', a constant 'type NAME=value'"
-    rest = line.text[column - 1 :]
-    if "_GAP" in expected and rest.startswith("["):
+    if expected == {"_GAP"} and rest.startswith("["):
         return "An array has one dimension; a message of its own can hold a second one"
-    if "_OPEN" in expected and "_GAP" not in expected and "_AT_MOST" not in expected:
+    if expected == {"_OPEN"}:
         return "The default of an array is written '[1, 2]'"
-    if rest.startswith("<"):
+    if "_AT_MOST" in expected and rest.startswith(" "):
+        return "The type and its size are written without a space"
+    if "_GAP" in expected and rest.startswith("<"):
         return "Only strings have a bound here, written 'string<=10'; that of a sequence is 'type[<=10]'"
+    if "QUOTED" in expected and rest[:1] in ("'", '"'):
+        return "The quote is not closed"
     return None
 
 
@@ -197,8 +199,7 @@ def _message(file: _File, name: TypeName) -> Message:
 
 
 def _documentation(lines: Sequence[str]) -> tuple[str, ...]:
-    """Return the lines without common indent, without empty ones at both ends and never two of them in a
-    row."""
+    """Return the lines without common indent, empty ones at both ends and two empty ones in a row."""
     kept: list[str] = []
     for line in lines:
         if line or (kept and kept[-1]):

@@ -4,6 +4,8 @@ parts."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -34,9 +36,20 @@ from microros_gen.parse.msg_values import (
 )
 
 LARGEST_BOUND = 2**32 - 1
-"""The most elements or characters that CDR can count (DDS-XTypes 1.3, 7.4.3.5.3: lengths are UInt32)."""
+"""The most elements or characters that CDR can count: lengths have 32 bits (DDS-XTypes 1.3, 7.4.3)."""
 
 _PRIMITIVES = {p.value: p for p in Primitive}
+_OTHER_LANGUAGES = {
+    **{
+        "boolean": "bool",
+        "octet": "byte",
+        "short": "int16",
+        "int": "int32",
+        "long": "int64",
+        "unsigned": "uint32",
+    },
+    **{"float": "float32", "double": "float64", "str": "string", "wchar": "wstring"},
+}
 _ONCE_PRIMITIVE = {"time": "builtin_interfaces/Time", "duration": "builtin_interfaces/Duration"}
 
 
@@ -95,47 +108,66 @@ class _DeclarationError(Exception):
 def read_declaration(
     tree: SyntaxNode, line: Line, package: str, diagnostics: Diagnostics
 ) -> Declaration | None:
-    """Return what `tree` declares, or None with every error in `diagnostics`. `package` is that of the
-    file."""
+    """Return what `tree` declares, or None with errors in `diagnostics`; `package` is that of the file."""
+    if tree.data == "constant":
+        return _constant(tree, line, diagnostics)
+    return _field(tree, line, package, diagnostics)
+
+
+def _constant(tree: SyntaxNode, line: Line, diagnostics: Diagnostics) -> Declaration | None:
     type_node, name, *rest = tree.children
-    is_constant = tree.data == "constant"
-    faults: list[_DeclarationError] = []
-    field_type: FieldType | None = None
-    value: Value | None = None
-    try:
-        field_type = _constant_type(type_node, line) if is_constant else _field_type(type_node, line, package)
-    except _DeclarationError as fault:
-        faults.append(fault)
-    try:
-        _check_name(name, line, is_constant, diagnostics)
-    except _DeclarationError as fault:
-        faults.append(fault)
-    try:
-        if field_type is not None and (rest or is_constant):
-            value = _value(field_type, rest[0] if rest else None, line, is_constant, diagnostics)
-    except _DeclarationError as fault:
-        faults.append(fault)
-    for found in faults:
-        diagnostics.error(found.message, found.span, found.hint)
-    if faults or field_type is None:
+    kind, name_ok = None, False
+    with _reported(diagnostics):
+        kind = _constant_type(type_node, line)
+    with _reported(diagnostics):
+        name_ok = _check_name(name, line, msg_names.constant_name_fault)
+    if kind is None or not name_ok:
         return None
-    field_type = _as_jazzy_reads(field_type, line, diagnostics)
-    span = line.span(1, _column(name) + len(name))
-    if is_constant:
-        assert isinstance(field_type, (Primitive, StringType))
-        assert isinstance(value, (bool, int, float, str))
-        return Declaration(Constant(str(name), field_type, value, span=span), line.span_of(name))
-    return Declaration(Field(str(name), field_type, value, span=span), line.span_of(name))
+    with _reported(diagnostics):
+        value = _scalar(kind, rest[0] if rest else None, line, diagnostics)
+        return Declaration(Constant(str(name), kind, value, span=_whole(line, name)), line.span_of(name))
+    return None
 
 
-def _check_name(name: Token, line: Line, is_constant: bool, diagnostics: Diagnostics) -> None:
-    check = msg_names.constant_name_fault if is_constant else msg_names.field_name_fault
-    fault = check(str(name))
-    if fault is not None:
-        raise _DeclarationError(line.span_of(name), *fault)
-    warning = None if is_constant else msg_names.field_name_warning(str(name))
+def _field(tree: SyntaxNode, line: Line, package: str, diagnostics: Diagnostics) -> Declaration | None:
+    type_node, name, *rest = tree.children
+    field_type, name_ok = None, False
+    with _reported(diagnostics):
+        _check_no_equal(line)
+        name_ok = _check_name(name, line, msg_names.field_name_fault)
+    with _reported(diagnostics):
+        field_type = _field_type(type_node, line, package)
+    if field_type is None or not name_ok:
+        return None
+    warning = msg_names.field_name_warning(str(name))
     if warning is not None:
         diagnostics.warning(warning[0], line.span_of(name), warning[1])
+    with _reported(diagnostics):
+        default = _default(field_type, rest[0], line, diagnostics) if rest else None
+        field_type = _as_jazzy_reads(field_type, line, diagnostics)
+        return Declaration(Field(str(name), field_type, default, span=_whole(line, name)), line.span_of(name))
+    return None
+
+
+@contextmanager
+def _reported(diagnostics: Diagnostics) -> Iterator[None]:
+    """Turn the error of one part into a diagnostic and go on."""
+    try:
+        yield
+    except _DeclarationError as fault:
+        diagnostics.error(fault.message, fault.span, fault.hint)
+
+
+def _whole(line: Line, name: Token) -> Span:
+    """Return the place of a declaration: type and name."""
+    return line.span(1, _column(name) + len(name))
+
+
+def _check_name(name: Token, line: Line, fault_of: Callable[[str], tuple[str, str | None] | None]) -> bool:
+    fault = fault_of(str(name))
+    if fault is not None:
+        raise _DeclarationError(line.span_of(name), *fault)
+    return True
 
 
 def _field_type(node: SyntaxNode, line: Line, package: str) -> FieldType:
@@ -197,38 +229,36 @@ def _type_name(parts: list[Token], line: Line, package: str) -> TypeName:
         package = str(first)
     fault = msg_names.type_name_fault(str(last))
     if fault is not None:
-        known = [*_PRIMITIVES, "string", "wstring"]
-        raise _DeclarationError(span, fault, nearest(str(last), known) if len(parts) == 1 else None)
+        raise _DeclarationError(span, fault, _type_hint(str(last)) if len(parts) == 1 else None)
     return TypeName(package, "msg", str(last))
+
+
+def _type_hint(name: str) -> str | None:
+    if name in _OTHER_LANGUAGES:
+        return f"Write '{_OTHER_LANGUAGES[name]}'"
+    return nearest(name, [*_PRIMITIVES, "string", "wstring"])
 
 
 def _bound(token: Token, line: Line, what: str) -> int:
     number = positive_integer(str(token))
     if number is None:
-        raise _DeclarationError(line.span_of(token), f"{what} is a whole number above zero, not '{token}'")
+        hint = "Write '<=N' for at most N elements" if token[0] in "<>" else None
+        raise _DeclarationError(
+            line.span_of(token), f"{what} is a whole number above zero, not '{token}'", hint
+        )
     if number > LARGEST_BOUND:
         raise _DeclarationError(line.span_of(token), f"{what} is at most {LARGEST_BOUND}, not {number}")
     return number
 
 
-def _value(
-    field_type: FieldType,
-    node: SyntaxNode | Token | None,
-    line: Line,
-    is_constant: bool,
-    diagnostics: Diagnostics,
-) -> Value:
-    """Return the value of a constant or default; `node` is None where nothing stands behind the `=`."""
-    if not is_constant:
-        _check_no_equal(line)
-    if isinstance(field_type, NamedType) or (
-        not isinstance(field_type, (Primitive, StringType)) and isinstance(field_type.element, NamedType)
-    ):
+def _default(field_type: FieldType, node: SyntaxNode | Token, line: Line, diagnostics: Diagnostics) -> Value:
+    if isinstance(field_type, (Primitive, StringType)):
+        assert isinstance(node, Token)
+        return _scalar(field_type, node, line, diagnostics)
+    if isinstance(field_type, NamedType) or isinstance(field_type.element, NamedType):
         assert isinstance(node, Token)
         raise _DeclarationError(line.span_of(node), "a field of a message's type has no default", "Remove it")
-    if isinstance(field_type, (Primitive, StringType)):
-        return _scalar(field_type, node, line, diagnostics)
-    assert isinstance(node, Tree)  # the grammar has no other default for arrays
+    assert isinstance(node, Tree)  # the grammar has no other default for these arrays
     tokens: list[Any] = node.children
     values = _elements(field_type.element, tokens, line)
     _check_count(field_type, len(values), line)
@@ -247,15 +277,15 @@ def _check_no_equal(line: Line) -> None:
 
 
 def _scalar(
-    kind: Primitive | StringType, node: SyntaxNode | Token | None, line: Line, diagnostics: Diagnostics
+    kind: Primitive | StringType, node: Token | None, line: Line, diagnostics: Diagnostics
 ) -> ScalarValue:
+    """Return the value of a constant or default; `node` is None where nothing stands behind the `=`."""
     if node is None:
         if isinstance(kind, StringType):
             return ""
         raise _DeclarationError(
             line.span(len(line.text) + 1, 0), "the constant has no value", "Write it behind the '='"
         )
-    assert isinstance(node, Token)
     text = str(node)
     try:
         value = scalar_value(kind, text)

@@ -33,8 +33,7 @@ def is_package_name(name: str) -> bool:
 
 
 def is_type_name(name: str) -> bool:
-    """Return whether `name` can be a message type: CamelCase, with the prefix and suffixes that rosidl
-    makes."""
+    """Return whether `name` can be a message type: CamelCase, or with an affix that rosidl makes."""
     name = name.removeprefix(_SAMPLE)
     for suffix in _SUFFIXES:
         name = name.removesuffix(suffix)
@@ -61,7 +60,7 @@ def field_name_fault(name: str) -> tuple[str, str | None] | None:
     """Return what is wrong with a field's name and a hint, or None."""
     if _LOWER.fullmatch(name) is None:
         rule = "lower case letters, digits and single underscores, a letter first, no underscore last"
-        return f"'{name}' is not a field name: {rule}", _suggestion(name.lower(), _LOWER)
+        return f"'{name}' is not a field name: {rule}", _suggestion(_separated(name).lower(), _LOWER)
     language = "C" if name in C_KEYWORDS else "C++" if name in CPP_KEYWORDS else None
     if language is not None:
         return (
@@ -83,10 +82,17 @@ def constant_name_fault(name: str) -> tuple[str, str | None] | None:
     if _UPPER.fullmatch(name) is not None:
         return None
     rule = "upper case letters, digits and single underscores, a letter first, no underscore last"
-    return f"'{name}' is not a constant name: {rule}", _suggestion(name.upper(), _UPPER)
+    return f"'{name}' is not a constant name: {rule}", _suggestion(_separated(name).upper(), _UPPER)
+
+
+def _separated(name: str) -> str:
+    """Return `camelCase` as `camel_Case`."""
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name)
 
 
 def _suggestion(name: str, form: re.Pattern[str]) -> str | None:
     """Return a hint with the name nearest to `name` that has the form, or None where there is none."""
+    if name[0] in "<[":
+        return "The type and its size are written without a space"
     better = re.sub(r"_+", "_", re.sub(r"[^A-Za-z0-9]", "_", name)).strip("_")
     return f"For example '{better}'" if form.fullmatch(better) else None

@@ -60,6 +60,8 @@ def scalar_value(kind: Primitive | StringType, text: str) -> ScalarValue:
 
 def primitive_value(kind: Primitive, text: str) -> bool | int | float:
     """Return the number or truth value of `text`. Raises InvalidValueError."""
+    if not text:
+        raise InvalidValueError("a value is missing")
     if kind is Primitive.BOOL:
         if text.lower() not in _BOOLEANS:
             raise InvalidValueError(f"'{text}' is not a bool", "Write true, false, 1 or 0")
@@ -95,8 +97,7 @@ def string_elements(kind: StringType, texts: list[str]) -> tuple[str, ...]:
 
 
 def positive_integer(text: str) -> int | None:
-    """Return the bound or size that `text` gives, as Python's int() reads it, or None when it is not above
-    zero."""
+    """Return the number that `text` gives as Python's int() reads it, or None when it is not above zero."""
     try:
         number = int(text)
     except ValueError:
@@ -111,7 +112,7 @@ def _integer_value(kind: Primitive, text: str) -> int:
     except ValueError:
         raise InvalidValueError(
             f"'{text}' is not an integer",
-            f"A {kind.value} is a whole number from {low} to {high}, decimal, 0x…, 0o… or 0b…",
+            f"The type {kind.value} takes {low} to {high}, written in decimal or as 0x…, 0o… or 0b…",
         ) from None
     if not low <= number <= high:
         raise InvalidValueError(f"{text} does not fit {kind.value}", f"Its range is {low} to {high}")
@@ -130,7 +131,7 @@ def _float_value(kind: Primitive, text: str) -> float:
         number = float(text)
     except ValueError:
         raise InvalidValueError(
-            f"'{text}' is not a number", f"A {kind.value} is written like 1, -0.5 or 1.5e-3"
+            f"'{text}' is not a number", "A number is written like 1, -0.5 or 1.5e-3"
         ) from None
     if not math.isfinite(number):
         reason = "it is too large" if any(c.isdigit() for c in text) else "C has no literal for it"
@@ -148,8 +149,7 @@ def _float_value(kind: Primitive, text: str) -> float:
 
 
 def _checked_string(kind: StringType, text: str) -> str:
-    """Return `text` without its outer quotes, its length checked as rosidl_adapter does: characters as
-    written."""
+    """Return `text` without its outer quotes; its characters are counted as they are written."""
     value = _unquoted(text)
     if kind.bound is not None and len(value) > kind.bound:
         raise InvalidValueError(
@@ -172,8 +172,7 @@ def _unquoted(text: str) -> str:
 
 
 def _bare_element(text: str) -> str:
-    """Return an element without the quotes that make it one element; rosidl also takes off the space inside
-    them."""
+    """Return an element without its quotes and, as rosidl, without the space inside of them."""
     text = text.strip(" ")
     if text[0] in "\"'":
         text = text[1:-1].replace("\\" + text[0], text[0])
@@ -221,8 +220,7 @@ def _python_escape(match: re.Match[str]) -> str:
 
 
 def _closes(literal: str) -> bool:
-    """Return whether the IDL string literal around `literal` ends at its last quote and not before or
-    after."""
+    """Return whether the IDL string literal around `literal` ends at its last quote."""
     run = 0
     for character in literal:
         if character == '"' and run % 2 == 0:

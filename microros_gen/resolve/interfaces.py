@@ -225,8 +225,7 @@ class _Resolver:
 
 
 def _dependency_order(found: Mapping[TypeName, Interface], diagnostics: Diagnostics) -> list[TypeName]:
-    """Return the names so that each comes after what it is made of; report each cycle and leave its types
-    out."""
+    """Return the names, each after what it is made of; report cycles and leave their types out."""
     graph = {name: _needs(interface.message) & found.keys() for name, interface in found.items()}
     while True:
         sorter = TopologicalSorter(graph)
@@ -248,8 +247,7 @@ def _dependency_order(found: Mapping[TypeName, Interface], diagnostics: Diagnost
 def _report_cycle(
     cycle: list[TypeName], found: Mapping[TypeName, Interface], diagnostics: Diagnostics
 ) -> None:
-    """Report a cycle (its first type again at its end) at the field that leads from its least type
-    onwards."""
+    """Report a cycle (its first type again at its end) at the field that leads on from its least type."""
     ring = cycle[:-1]
     start = ring.index(min(ring))
     ring = ring[start:] + ring[:start]

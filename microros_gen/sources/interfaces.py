@@ -155,8 +155,7 @@ def types_in(place: PackagePlace) -> tuple[TypeName, ...]:
 
 
 def read_type(place: PackagePlace, name: TypeName, diagnostics: Diagnostics) -> Source | None:
-    """Read the file of type `name` in `place`; None where there is none, with an error where it is
-    unreadable."""
+    """Read the file of type `name` in `place`; None where there is none or, with an error, no text."""
     suffix = next((s for s, kind in KIND_OF_SUFFIX.items() if kind == name.kind), None)
     if suffix is None:
         return None

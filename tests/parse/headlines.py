@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the reader of .msg files says of texts, as lines; run in two environments."""
+
+from __future__ import annotations
+
+from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.model.types import TypeName
+from microros_gen.parse.msg import parse_msg
+
+
+def headlines(texts: list[str]) -> list[str]:
+    """Return for each text whether it is taken, and every diagnostic."""
+    found = []
+    for text in texts:
+        diagnostics = Diagnostics()
+        message = parse_msg(Source("Foo.msg", text), TypeName("pkg_a", "msg", "Foo"), diagnostics)
+        found.append(f"{text!r} {message is not None}")
+        found.extend(diagnostic.headline() for diagnostic in diagnostics)
+    return found

@@ -1,0 +1,336 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The reader of .msg files: model, places and words of its diagnostics, round trip through the printer."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import time
+from dataclasses import replace
+
+import pytest
+from corpus import BAD, GOOD
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from microros_gen.diagnostics import Diagnostics, Severity, Source
+from microros_gen.model.msg_text import message_text
+from microros_gen.model.types import (
+    ArrayType,
+    Constant,
+    ElementType,
+    Field,
+    FieldType,
+    Message,
+    NamedType,
+    Primitive,
+    SequenceType,
+    StringType,
+    TypeName,
+    Value,
+)
+from microros_gen.parse.msg import parse_msg
+from microros_gen.parse.msg_names import C_KEYWORDS, CPP_KEYWORDS
+from microros_gen.sources.interfaces import shipped_folder
+
+NAME = TypeName("pkg_a", "msg", "Foo")
+
+
+def read(text: str) -> tuple[Message | None, list[str]]:
+    """Return the message and each diagnostic's headline."""
+    diagnostics = Diagnostics()
+    message = parse_msg(Source("Foo.msg", text), NAME, diagnostics)
+    return message, [d.headline() for d in diagnostics]
+
+
+def good(text: str) -> Message:
+    message, said = read(text)
+    assert message is not None, said
+    return without_places(message)
+
+
+def without_places(message: Message) -> Message:
+    return replace(
+        message,
+        span=None,
+        fields=tuple(replace(f, span=None) for f in message.fields),
+        constants=tuple(replace(c, span=None) for c in message.constants),
+    )
+
+
+def test_model_of_a_whole_file() -> None:
+    text = """\
+# What it is.
+#   indented
+
+# Above the constant.
+uint8 MODE = 0x2   # behind it
+string<=8[<=4] names ['a', "b"]  # [m/s]
+  # and below
+
+float64[9] covariance
+Bar bar
+other/Baz[] more
+"""
+    assert good(text) == Message(
+        NAME,
+        (
+            Field("names", SequenceType(StringType(bound=8), 4), ("a", "b"), ("[m/s]", "and below")),
+            Field("covariance", ArrayType(Primitive.FLOAT64, 9)),
+            Field("bar", NamedType(TypeName("pkg_a", "msg", "Bar"))),
+            Field("more", SequenceType(NamedType(TypeName("other", "msg", "Baz")))),
+        ),
+        (Constant("MODE", Primitive.UINT8, 2, ("Above the constant.", "behind it")),),
+        ("What it is.", "  indented"),
+    )
+
+
+def test_values_have_the_type_of_their_field() -> None:
+    message = good("bool a 1\nfloat32 b 1\nint32 c 0b11\nfloat64[] d [1]\nwstring e 5")
+    assert [f.default for f in message.fields] == [True, 1.0, 3, (1.0,), "5"]
+    assert [type(f.default) for f in message.fields] == [bool, float, int, tuple, str]
+
+
+def test_places_of_declarations() -> None:
+    message, _ = read("\n\nint32 speed 5 # x\nint32   MAX=7")
+    assert message is not None
+    spans = [e.span for e in [*message.fields, *message.constants]]
+    assert [(s.line, s.column, s.end_column) for s in spans if s] == [(3, 1, 12), (4, 1, 12)]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("int32", "1:6: error: expected '[' or a space, found the end of the line"),
+        ("int32[3 a", "1:8: error: expected ']', found a space"),
+        ("int32[2][3] a", "1:9: error: expected a space, found '['. An array has one dimension"),
+        ("int32[] a 5", "1:11: error: expected '[', found '5'. The default of an array is written '[1, 2]'"),
+        ("string[] a ['x]", "1:13: error: expected ']' or a string, found '''. The quote is not closed"),
+        ("string<5 a", "1:7: error: expected '<=' or '[' or a space, found '<'"),
+        ("  int32 a", "1:1: error: a declaration begins in the first column"),
+        ("double a", "1:1: error: 'double' is not a message type: CamelCase"),
+        ("double a", "Write 'float64'"),
+        ("Int32 a\nunit8 a", "2:1: error: 'unit8' is not a message type"),
+        ("unit8 a", "Did you mean 'uint8'?"),
+        ("time a", "1:1: error: 'time' is no type of ROS 2. Write 'builtin_interfaces/Time'"),
+        ("a/msg/B a", "1:1: error: 'a/msg/B' is not a type. Write 'a/B'"),
+        ("int32 imuTemp", "1:7: error: 'imuTemp' is not a field name"),
+        ("int32 imuTemp", "For example 'imu_temp'"),
+        ("int32 maxSpeed=5", "For example 'MAX_SPEED'"),
+        ("int32 class", "1:7: error: 'class' is a keyword of C++"),
+        ("int32 a\nbool b\nint32 a", "3:7: error: the name 'a' is declared twice. Line 1 has it first"),
+        ("uint8 a  256 # x", "1:10: error: 256 does not fit uint8. Its range is 0 to 255"),
+        ("uint8[] a [1,  256]", "1:16: error: 256 does not fit uint8"),
+        ("string<=3 a 'abcd'", "1:13: error: the string has 4 characters and its type takes 3"),
+        ("int32[2] a [1]", "1:14: error: the default has 1 elements and the array 2"),
+        ("string a x=y", "1:11: error: a default cannot hold '='"),
+        ("int32 a 1e3", "1:9: error: '1e3' is not an integer"),
+        ("float32 a 1e39", "1:11: error: 1e39 does not fit float32"),
+        ("string[0] a", "1:8: error: the size of an array is a whole number above zero, not '0'"),
+    ],
+)
+def test_errors_say_where_what_and_what_to_do(text: str, said: str) -> None:
+    message, found = read(text)
+    assert message is None
+    assert any(said in line for line in found), found
+    assert all(line.startswith("Foo.msg:") for line in found)
+
+
+def test_every_faulty_line_is_reported_in_one_run() -> None:
+    text = "int32 a\nint32 B\nint32[ c\nuint8 d 300\nint32 e\nfloat F\nint32 a"
+    _, found = read(text)
+    assert [line.split(":")[1] for line in found] == ["2", "3", "4", "6", "6", "7"]
+
+
+def test_each_error_has_a_caret_below_its_text() -> None:
+    diagnostics = Diagnostics()
+    parse_msg(Source("Foo.msg", "# x\r\nuint8\tspeed\t300\r\n"), NAME, diagnostics)
+    assert next(iter(diagnostics)).render().splitlines()[1:] == ["  uint8\tspeed\t300", "       \t     \t^~~"]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("\ufeffint32 a", "1:1: warning: the file begins with a byte order mark"),
+        (
+            "wstring<=5[] a",
+            "1:1: warning: ROS 2 Jazzy reads wstring<=5[] as a sequence of at most 5 elements",
+        ),
+        ("int32 from", "1:7: warning: 'from' is a keyword of Python"),
+        (
+            "string a 'b#c'",
+            "1:10: warning: the quote is not closed: the text is \"'b\". The '#' begins a comment",
+        ),
+        ('string A="b', "1:10: warning: the quote is not closed"),
+    ],
+)
+def test_warnings_do_not_stop(text: str, said: str) -> None:
+    message, found = read(text)
+    assert message is not None
+    assert len(found) == 1
+    assert said in found[0]
+
+
+def test_columns_behind_a_byte_order_mark_are_those_of_an_editor() -> None:
+    _, found = read("\ufeffint32 A")
+    assert any(line.startswith("Foo.msg:1:7: error") for line in found), found
+
+
+def test_what_is_taken_has_no_error_and_what_is_refused_has_one() -> None:
+    for text in [*GOOD, *BAD]:
+        diagnostics = Diagnostics()
+        message = parse_msg(Source("Foo.msg", text), NAME, diagnostics)
+        errors = [d for d in diagnostics if d.severity is Severity.ERROR]
+        assert (message is None) == bool(errors), text
+        lines = text.replace("\ufeff", "").splitlines()
+        for error in errors:
+            assert error.span is not None
+            assert error.span.column <= len(lines[error.span.line - 1]) + 1, text
+
+
+# --- round trip: model → text → the same model
+
+NAMES = st.from_regex(r"[a-z][a-z0-9]{0,3}(_[a-z0-9]{1,3}){0,2}", fullmatch=True).filter(
+    lambda name: name not in C_KEYWORDS | CPP_KEYWORDS
+)
+TYPE_NAMES = st.from_regex(r"[A-Z][A-Za-z0-9]{0,6}", fullmatch=True)
+CHARACTERS = st.characters(exclude_categories=["Cs"], exclude_characters="\0")
+PLAIN = st.text(st.sampled_from("abc XYZ09_-+.,;:!?()[]{}<>/"), max_size=8)
+SIZES = st.integers(1, 2**32 - 1)
+RANGES = dict.fromkeys((Primitive.BYTE, Primitive.CHAR), (0, 255)) | {
+    p: (-(2 ** (8 * p.size - 1)), 2 ** (8 * p.size - 1) - 1)
+    if p.value[0] == "i"
+    else (0, 2 ** (8 * p.size) - 1)
+    for p in Primitive
+    if "int" in p.value
+}
+
+
+def scalars(kind: Primitive | StringType) -> st.SearchStrategy[bool | int | float | str]:
+    if isinstance(kind, StringType):
+        if kind.bound is None:
+            return st.text(CHARACTERS, max_size=12)
+        bound = kind.bound
+        return PLAIN.map(lambda text: text[:bound])
+    if kind is Primitive.BOOL:
+        return st.booleans()
+    if kind in RANGES:
+        return st.integers(*RANGES[kind])
+    width = 32 if kind is Primitive.FLOAT32 else 64
+    return st.floats(allow_nan=False, allow_infinity=False, width=width)
+
+
+ELEMENTS: st.SearchStrategy[ElementType] = st.one_of(
+    st.sampled_from(Primitive),
+    st.builds(StringType, st.booleans(), st.none() | SIZES),
+    st.builds(NamedType, st.builds(TypeName, NAMES, st.just("msg"), TYPE_NAMES)),
+)
+
+
+@st.composite
+def field_types(draw: st.DrawFn) -> FieldType:
+    element = draw(ELEMENTS)
+    shape = draw(st.sampled_from(["scalar", "array", "sequence", "bounded"]))
+    if shape == "scalar":
+        return element
+    if shape == "array":
+        return ArrayType(element, draw(st.integers(1, 4)))
+    wide = isinstance(element, StringType) and element.wide and element.bound is not None
+    return SequenceType(element, draw(SIZES) if shape == "bounded" or wide else None)
+
+
+@st.composite
+def defaults(draw: st.DrawFn, field_type: FieldType) -> Value | None:
+    if isinstance(field_type, (Primitive, StringType)):
+        return draw(st.none() | scalars(field_type))
+    if isinstance(field_type, NamedType) or isinstance(field_type.element, NamedType):
+        return None
+    least, most = 0, 4
+    if isinstance(field_type, ArrayType):
+        least = most = field_type.size
+    elif field_type.bound is not None:
+        most = min(most, field_type.bound)
+    element = field_type.element
+    values = scalars(element)
+    if isinstance(element, StringType) and element.bound is not None:
+        # An escaped blank at an element's end takes more of the bound than a blank.
+        values = values.map(lambda text: str(text).strip())
+    return draw(st.none() | st.lists(values, min_size=least, max_size=most).map(tuple))
+
+
+LINES = st.text(st.characters(categories=["L", "N", "P", "S"]), min_size=1, max_size=12)
+COMMENTS = st.lists(LINES.filter(lambda line: not line.startswith("#")), max_size=3).map(tuple)
+
+
+@st.composite
+def messages(draw: st.DrawFn) -> Message:
+    fields = []
+    for name in draw(st.lists(NAMES, max_size=4, unique=True)):
+        field_type = draw(field_types())
+        fields.append(Field(name, field_type, draw(defaults(field_type)), draw(COMMENTS)))
+    constants = []
+    for name in draw(st.lists(NAMES, max_size=3, unique_by=str.upper)):
+        kind = draw(st.sampled_from(Primitive) | st.builds(StringType, st.booleans()))
+        constants.append(Constant(name.upper(), kind, draw(scalars(kind)), draw(COMMENTS)))
+    return Message(NAME, tuple(fields), tuple(constants), draw(COMMENTS))
+
+
+@settings(max_examples=300, deadline=None)
+@given(messages())
+def test_a_printed_message_reads_as_the_same_message(message: Message) -> None:
+    text = message_text(message)
+    again, said = read(text)
+    assert again is not None, said
+    assert without_places(again) == message
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.text(st.sampled_from("int8 strg<=[]#\"'\\,=\n\taAB/_5é.-"), max_size=60))
+def test_no_text_makes_the_reader_fail(text: str) -> None:
+    message, said = read(text)
+    assert (message is None) == any(": error: " in line for line in said)
+
+
+# --- other oracles
+
+
+def compiles(compiler: list[str], word: str) -> bool:
+    text = f"struct s {{ int {word}; }};\nint f(struct s * p) {{ return p->{word}; }}\n"
+    command = [*compiler, "-fsyntax-only", "-"]
+    run = subprocess.run(command, input=text.encode(), capture_output=True, check=False)
+    return run.returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("compiler", "words"),
+    [
+        (["gcc", "-x", "c", "-std=c99", "-pedantic-errors"], C_KEYWORDS),
+        (["g++", "-x", "c++", "-std=c++17", "-pedantic-errors"], C_KEYWORDS | CPP_KEYWORDS),
+    ],
+    ids=["C99", "C++17"],
+)
+def test_keywords_are_those_of_the_compilers(compiler: list[str], words: frozenset[str]) -> None:
+    if shutil.which(compiler[0]) is None:
+        pytest.skip(f"needs {compiler[0]}")
+    if "c++" in compiler:
+        words = words - {"restrict"}
+    for word in sorted(words):
+        assert not compiles(compiler, word), word
+    for word in ["data", "concept", "module", "final", "override", "main", "size_t"]:
+        assert compiles(compiler, word), word
+
+
+def test_reading_the_standard_interfaces_takes_a_fraction_of_a_second() -> None:
+    paths = sorted(shipped_folder().glob("*/msg/*.msg"))
+    sources = [(Source(str(p), p.read_text(encoding="utf-8")), p) for p in paths]
+    assert len(sources) > 150
+    best = 1.0
+    for _ in range(3):
+        start = time.perf_counter()
+        for source, path in sources:
+            assert (
+                parse_msg(source, TypeName(path.parent.parent.name, "msg", path.stem), Diagnostics())
+                is not None
+            )
+        best = min(best, time.perf_counter() - start)
+    assert best < 0.25, f"{best:.3f} s"
