@@ -15,7 +15,7 @@ DATA_PREFIX = 4
 
 @dataclass(frozen=True)
 class WriteData:
-    """WRITE_DATA: a sample for a writer; `data` is the CDR body, without encapsulation header in FORMAT_DATA."""
+    """WRITE_DATA: a sample for a writer; `data` is the CDR body, in FORMAT_DATA without its header."""
 
     ID: ClassVar = SubmessageId.WRITE_DATA
     request: int
@@ -57,7 +57,7 @@ class Data:
 
 @dataclass(frozen=True)
 class DeliveryControl:
-    """How much is asked for: samples (0xFFFF: no end), seconds, bytes/s, milliseconds between two."""
+    """How much is asked for: samples (0xFFFF: no end), seconds, bytes/s, ms between two samples."""
 
     max_samples: int
     max_elapsed_time: int = 0

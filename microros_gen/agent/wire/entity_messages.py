@@ -35,8 +35,8 @@ _WITHOUT_PARENT = frozenset((ObjectKind.TYPE, ObjectKind.QOSPROFILE, ObjectKind.
 class Create:
     """CREATE: make an object. `body` is the text (reference or XML, UTF-8) or the binary representation.
 
-    `parent` is the id of the participant, publisher or subscriber that it belongs to; 0 for a participant, which
-    has a `domain` instead, and for what belongs to nothing. `little`: byte order of the binary representation.
+    `parent` is the id of the participant, publisher or subscriber that it belongs to; 0 for a participant,
+    which has a `domain` instead, and for what belongs to nothing. `little`: byte order of a binary `body`.
     """
 
     ID: ClassVar = SubmessageId.CREATE
@@ -128,7 +128,7 @@ class StatusReply:
 
 @dataclass(frozen=True)
 class Acknack:
-    """ACKNACK: all before `first` arrived; bit i of `missing` (16 bits) asks for message `first + i` again."""
+    """ACKNACK: all before `first` arrived; bit i of `missing` (16 bits) asks for `first + i` again."""
 
     ID: ClassVar = SubmessageId.ACKNACK
     first: int

@@ -157,7 +157,7 @@ class AgentActivity:
 
 @dataclass(frozen=True)
 class Info:
-    """INFO about the agent: answer to GET_INFO. `implementation_status`: 1 for a client in session, else 0."""
+    """INFO about the agent: answer to GET_INFO. `implementation_status`: 1 in session, else 0."""
 
     ID: ClassVar = SubmessageId.INFO
     request: int

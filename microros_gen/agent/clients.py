@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The clients that an agent knows, by key and by address."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Hashable, Iterator
+from dataclasses import dataclass, field
+
+from microros_gen.agent.objects import ObjectTree
+from microros_gen.agent.session import Session
+from microros_gen.agent.transport.base import Transport
+
+
+@dataclass(eq=False)
+class Client:
+    """A client in session. Times are seconds of the agent's monotonic clock."""
+
+    session: Session
+    objects: ObjectTree
+    transport: Transport
+    address: Hashable
+    timeout_s: float
+    heard: float
+    probed: float = 0.0
+    asleep: bool = False
+    """Not heard for `timeout_s`: its entities are not in the ROS graph, and return when it is heard."""
+    unacknowledged: set[int] = field(default_factory=set)
+    """Reliable input streams whose ACKNACK is still to be sent."""
+    ready: deque[tuple[bytes, int, int, bool]] = field(default_factory=deque)
+    """To be processed: message, offset of its first submessage, its stream, whether fragments made it."""
+    stream: int = 0
+    """Stream of the message that is processed now."""
+
+    @property
+    def name(self) -> str:
+        """Key as the log shows it."""
+        return self.session.link.key.hex().upper()
+
+    @property
+    def place(self) -> str:
+        """Address as the log shows it."""
+        return self.transport.name_of(self.address)
+
+    def send(self, message: bytes) -> None:
+        """Send one message."""
+        self.transport.send(message, self.address)
+
+
+class ClientTable:
+    """Clients by key and by address; one address has one client."""
+
+    def __init__(self) -> None:
+        self._by_key: dict[bytes, Client] = {}
+        self._by_address: dict[Hashable, Client] = {}
+        self.at = self._by_address.get
+        """Return the client at an address, or None."""
+
+    def __len__(self) -> int:
+        return len(self._by_key)
+
+    def __iter__(self) -> Iterator[Client]:
+        return iter(list(self._by_key.values()))
+
+    def with_key(self, key: bytes) -> Client | None:
+        """Return the client with a key, or None."""
+        return self._by_key.get(key)
+
+    def add(self, client: Client) -> None:
+        """Add a client whose key and address are free."""
+        self._by_key[client.session.link.key] = client
+        self._by_address[client.address] = client
+
+    def move(self, client: Client, transport: Transport, address: Hashable) -> Client | None:
+        """Put a client at another address; return the client that had it, which has none now."""
+        evicted = self._by_address.get(address)
+        if self._by_address.get(client.address) is client:
+            del self._by_address[client.address]
+        client.transport, client.address = transport, address
+        self._by_address[address] = client
+        return evicted if evicted is not client else None
+
+    def remove(self, client: Client) -> None:
+        """Take a client out."""
+        self._by_key.pop(client.session.link.key, None)
+        if self._by_address.get(client.address) is client:
+            del self._by_address[client.address]
+
+    def longest_asleep(self) -> Client | None:
+        """Return the sleeping client that was heard least recently, or None."""
+        return min((c for c in self._by_key.values() if c.asleep), key=lambda c: c.heard, default=None)

@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The agent without sockets and without a clock of its own: takes messages, answers them, watches time-outs.
+
+`receive` never raises, whatever the bytes: what is malformed is counted, and told once per kind.
+"""
+
+from __future__ import annotations
+
+import time
+import traceback
+from collections.abc import Callable, Hashable
+from pathlib import Path
+
+from microros_gen.agent.clients import Client, ClientTable
+from microros_gen.agent.limits import PROBES, Limits
+from microros_gen.agent.lobby import Lobby
+from microros_gen.agent.log import EventLog
+from microros_gen.agent.operations import Operations
+from microros_gen.agent.representation import References
+from microros_gen.agent.ros.bridge import Bridge, BridgeError
+from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.wire.constants import (
+    DATA_FORMAT_MASK,
+    FLAG_LITTLE,
+    STREAM_RELIABLE,
+    ObjectKind,
+    SubmessageId,
+)
+from microros_gen.agent.wire.data_messages import DATA_PREFIX
+from microros_gen.agent.wire.errors import MalformedError
+from microros_gen.agent.wire.message import header_size, split
+from microros_gen.agent.wire.submessages import decode
+
+WRITE_DATA = int(SubmessageId.WRITE_DATA)
+ENCAPSULATION = (b"\x00\x00\x00\x00", b"\x00\x01\x00\x00")
+"""What a sample gets in front for DDS, by the byte order flag of its WRITE_DATA: XCDR1, big or little."""
+
+
+class Agent:
+    """Serves the clients of any number of transports with one bridge to ROS 2."""
+
+    def __init__(
+        self,
+        bridge: Bridge,
+        log: EventLog,
+        limits: Limits,
+        references: References | None = None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._bridge = bridge
+        self._log = log
+        self._limits = limits
+        self._clock = clock
+        self._to_acknowledge: set[Client] = set()
+        self.clients = ClientTable()
+        self._lobby = Lobby(self.clients, bridge, log, limits, references or References())
+        self._operations = Operations(log, limits)
+        self.samples = 0
+        """Samples that were handed to ROS 2."""
+
+    def receive(self, data: bytes, address: Hashable, transport: Transport) -> None:
+        """Take one message. Acknowledgements wait for `flush`."""
+        try:
+            self._receive(data, address, transport)
+        except MalformedError as error:
+            self._refuse(error, address, transport)
+        except Exception as error:  # a fault of this program must not end the service of other clients
+            self._log.count(
+                "internal_" + type(error).__name__,
+                "internal error: {error} at {place}; please report it with the message {data}",
+                error=repr(error),
+                place=_place(error),
+                data=data[:256].hex(),
+            )
+
+    def flush(self) -> None:
+        """Send the acknowledgements of what was received since the last call."""
+        for client in self._to_acknowledge:
+            for stream in client.unacknowledged:
+                client.send(client.session.acknack(stream))
+            client.unacknowledged.clear()
+        self._to_acknowledge.clear()
+
+    def tick(self) -> None:
+        """Send what is due and look for time-outs; to be called some ten times a second."""
+        now = self._clock()
+        for client in self.clients:
+            silent = now - client.heard
+            if client.asleep:
+                if silent > self._limits.sleep_timeout_s:
+                    self._lobby.dismiss(client, "forgotten: it was not heard any more")
+                continue
+            for message in client.session.heartbeats(now):
+                client.send(message)
+            if silent > client.timeout_s:
+                self._lobby.put_to_sleep(client)
+            elif silent > client.timeout_s / 2 and now - client.probed > client.timeout_s / (2 * PROBES):
+                client.probed = now
+                client.send(client.session.probe())
+
+    def close(self) -> None:
+        """Take all clients and their entities out of the ROS graph."""
+        for client in self.clients:
+            self._lobby.dismiss(client, "dropped: the agent stops")
+        self._bridge.close()
+
+    def _receive(self, data: bytes, address: Hashable, transport: Transport) -> None:
+        start = header_size(data)
+        session_id = data[0]
+        client = self.clients.at(address) if start == 4 else self.clients.with_key(data[4:8])
+        if client is None or session_id != client.session.link.session:
+            self._lobby.visit(data, start, client, address, transport, self._clock())
+            return
+        client.heard = self._clock()
+        if start == 8 and client.address != address:
+            self._lobby.move(client, transport, address)
+        if client.asleep:
+            self._lobby.wake(client)
+        stream = data[1]
+        ready = client.ready
+        try:
+            for message in client.session.incoming(stream, data[2] | data[3] << 8, data):
+                ready.append((message, start, stream, False))
+            if stream >= STREAM_RELIABLE:
+                client.unacknowledged.add(stream)
+                self._to_acknowledge.add(client)
+            while ready:
+                self._process(client, *ready.popleft())
+        finally:
+            ready.clear()
+
+    def _process(self, client: Client, data: bytes, start: int, stream: int, whole: bool) -> None:
+        client.stream = stream
+        publish = client.objects.publish
+        for identifier, flags, at, end in split(data, start, whole):
+            if identifier != WRITE_DATA:
+                if not self._operate(client, identifier, flags, data, at, end, whole):
+                    return
+                continue
+            writer = publish.get(data[at + 2] << 8 | data[at + 3]) if end - at > DATA_PREFIX else None
+            if writer is None or flags & DATA_FORMAT_MASK:
+                self._refuse_sample(client, data, at, end, flags)
+                continue
+            try:
+                writer(ENCAPSULATION[flags & FLAG_LITTLE] + data[at + DATA_PREFIX : end])
+                self.samples += 1
+            except BridgeError as error:
+                self._log.count("publish", "client {client}: {reason}", client=client.name, reason=str(error))
+
+    def _operate(
+        self, client: Client, identifier: int, flags: int, data: bytes, at: int, end: int, whole: bool
+    ) -> bool:
+        """Carry out a submessage that is no sample; False when it took the client away."""
+        if identifier == SubmessageId.DELETE and end - at == 4 and data[at + 3] & 0x0F == ObjectKind.CLIENT:
+            self._lobby.leave(client, data, at)
+            self._to_acknowledge.discard(client)
+            client.ready.clear()
+            return False
+        if identifier == SubmessageId.FRAGMENT and whole:
+            raise MalformedError("nested_fragment")
+        if identifier == SubmessageId.HEARTBEAT:
+            self._to_acknowledge.add(client)
+        self._operations.run(client, decode(identifier, flags, data, at, end), self._clock())
+        return True
+
+    def _refuse_sample(self, client: Client, data: bytes, at: int, end: int, flags: int) -> None:
+        if end - at <= DATA_PREFIX:
+            raise MalformedError("empty_sample", f"{end - at} bytes")
+        if flags & DATA_FORMAT_MASK:
+            raise MalformedError("data_format", f"format {flags & DATA_FORMAT_MASK:#04x} is not served")
+        self._log.count(
+            "unknown_writer",
+            "client {client}: a sample for data writer {object}, which it has not created",
+            client=client.name,
+            object=data[at + 2 : at + 4].hex(),
+        )
+
+    def _refuse(self, error: MalformedError, address: Hashable, transport: Transport) -> None:
+        self._log.count(
+            error.kind,
+            "malformed message from {peer} ignored: {detail}",
+            peer=transport.name_of(address),
+            detail=error.detail or error.kind,
+        )
+
+
+def _place(error: Exception) -> str:
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    return f"{Path(last.filename).name}:{last.lineno}"

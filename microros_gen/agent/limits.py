@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What one agent lets its clients use: nothing that comes over the wire makes it grow beyond this."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Limits and time-outs; counts are per client unless they say otherwise."""
+
+    clients: int = 256
+    """Clients of the agent, sleeping ones included."""
+    objects: int = 512
+    """Objects (participants, topics, publishers, writers, …)."""
+    streams: int = 8
+    """Input streams of each kind."""
+    message_bytes: int = 262_144
+    """Largest message that comes in fragments; also what a stream holds behind a gap."""
+    backlog_bytes: int = 65_536
+    """What waits for a reliable stream to the client, beyond the window of 16 messages."""
+    minimum_mtu: int = 32
+    """Smallest message size in bytes that a client may announce; a STATUS has to fit."""
+    domains: int = 16
+    """ROS domains of the agent that are open at one time."""
+    client_timeout_s: float = 30.0
+    """Seconds after which a client that was not heard leaves the ROS graph."""
+    sleep_timeout_s: float = 86_400.0
+    """Seconds until a client that left the graph is forgotten; heard before that, its entities return."""
+
+
+PROBES = 5
+"""A silent client is asked for a sign of life this often before its time-out ends."""

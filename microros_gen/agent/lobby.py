@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How clients come and go: CREATE_CLIENT, messages without a session, sleep, waking and leaving."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+
+from microros_gen.agent.clients import Client, ClientTable
+from microros_gen.agent.limits import Limits
+from microros_gen.agent.log import EventLog, Level
+from microros_gen.agent.objects import ObjectTree
+from microros_gen.agent.operations import agent_info
+from microros_gen.agent.representation import References
+from microros_gen.agent.ros.bridge import Bridge
+from microros_gen.agent.session import Session
+from microros_gen.agent.streams_out import Link
+from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.wire.constants import (
+    COOKIE,
+    SESSION_NONE_WITH_KEY,
+    SESSION_NONE_WITHOUT_KEY,
+    STREAM_NONE,
+    VERSION,
+    ObjectKind,
+    Status,
+)
+from microros_gen.agent.wire.entity_messages import Delete, StatusReply
+from microros_gen.agent.wire.errors import MalformedError
+from microros_gen.agent.wire.message import Header, split
+from microros_gen.agent.wire.session_messages import CreateClient, GetInfo, StatusAgent
+from microros_gen.agent.wire.submessages import Submessage, decode, encode
+
+OUT_OF_SESSION = (SESSION_NONE_WITH_KEY, SESSION_NONE_WITHOUT_KEY)
+HARD_LIVELINESS = "uxr_hl"
+"""Property by which a client asks for a time-out of its own, in ms."""
+
+
+class Lobby:
+    """Lets clients in and out; keeps the client table."""
+
+    def __init__(
+        self, clients: ClientTable, bridge: Bridge, log: EventLog, limits: Limits, references: References
+    ) -> None:
+        self._clients = clients
+        self._bridge = bridge
+        self._log = log
+        self._limits = limits
+        self._references = references
+
+    def visit(
+        self,
+        data: bytes,
+        start: int,
+        client: Client | None,
+        address: Hashable,
+        transport: Transport,
+        now: float,
+    ) -> None:
+        """Answer a message outside of any session: CREATE_CLIENT, GET_INFO, and DELETE of a client long gone.
+
+        `client` is who is known at this address. Everything else is counted, and not answered.
+        """
+        header = Header.decode(data)
+        for identifier, flags, at, end in split(data, start)[:1]:
+            submessage = decode(identifier, flags, data, at, end)
+            if isinstance(submessage, GetInfo):
+                known = client is not None and header.session in OUT_OF_SESSION
+                if client is not None and known:
+                    client.heard = now
+                answer = agent_info(submessage, known)
+                transport.send(header.encode() + encode(answer), address)
+            elif isinstance(submessage, CreateClient) and header.session in OUT_OF_SESSION:
+                self._enter(header, submessage, address, transport, now)
+            elif isinstance(submessage, Delete) and submessage.object & 0x0F == ObjectKind.CLIENT:
+                status = StatusReply(submessage.request, submessage.object, Status.OK)
+                transport.send(header.encode() + encode(status), address)
+            else:
+                raise MalformedError("no_session", f"{submessage.ID.name} without a session")
+
+    def move(self, client: Client, transport: Transport, address: Hashable) -> None:
+        """Note that `client` sends from another address now."""
+        before = client.place
+        evicted = self._clients.move(client, transport, address)
+        if evicted is not None:
+            self.dismiss(evicted, "dropped: another client uses its address")
+        self._log.emit(
+            Level.INFO,
+            "moved",
+            "client {client} moved from {before} to {peer}",
+            client=client.name,
+            before=before,
+            peer=client.place,
+        )
+
+    def leave(self, client: Client, data: bytes, at: int) -> None:
+        """Carry out the DELETE of `client` itself, whose payload begins at `data[at]`, and answer it."""
+        request = data[at] << 8 | data[at + 1]
+        status = StatusReply(request, data[at + 2] << 8 | data[at + 3], Status.OK)
+        answer = client.session.unnumbered(status)
+        self.dismiss(client, "left")
+        client.send(answer)
+
+    def dismiss(self, client: Client, why: str) -> None:
+        """Forget a client; its entities leave the ROS graph."""
+        self._clients.remove(client)
+        client.objects.clear()
+        self._tell(client, "client_gone", "client {client} " + why)
+
+    def put_to_sleep(self, client: Client) -> None:
+        """Take the entities of a client that is not heard out of the ROS graph; its session stays."""
+        client.asleep = True
+        client.objects.suspend()
+        text = "client {client} was not heard for {seconds} s: its entities left the ROS graph"
+        self._tell(client, "client_silent", text, seconds=client.timeout_s)
+
+    def wake(self, client: Client) -> None:
+        """Bring the entities of a client back that is heard again."""
+        client.asleep = False
+        failed = client.objects.resume()
+        self._tell(client, "client_back", "client {client} is heard again: its entities are back")
+        for entity, reason in failed:
+            text = "client {client}: object {object} could not be made again: {reason}"
+            self._tell(client, "client_back_without", text, object=f"{entity.id:#06x}", reason=reason)
+
+    def _enter(
+        self, header: Header, wanted: CreateClient, address: Hashable, transport: Transport, now: float
+    ) -> None:
+        status = self._check(wanted)
+        if status is Status.OK:
+            status = self._admit(wanted, address, transport, now)
+        key = wanted.key if wanted.session < SESSION_NONE_WITHOUT_KEY else b""
+        answer: Submessage = StatusAgent(status)
+        transport.send(Header(wanted.session, STREAM_NONE, 0, key).encode() + encode(answer), address)
+        if status is not Status.OK:
+            self._log.count(
+                f"client_{status.name.lower()}",
+                "a client at {peer} was refused: {status}",
+                peer=transport.name_of(address),
+                status=status.name,
+            )
+
+    def _check(self, wanted: CreateClient) -> Status:
+        if wanted.cookie != COOKIE or wanted.key == bytes(4) or wanted.session in OUT_OF_SESSION:
+            return Status.INVALID_DATA
+        if wanted.version[0] != VERSION[0]:
+            return Status.INCOMPATIBLE
+        return Status.OK if wanted.mtu >= self._limits.minimum_mtu else Status.INVALID_DATA
+
+    def _admit(self, wanted: CreateClient, address: Hashable, transport: Transport, now: float) -> Status:
+        link = Link(wanted.session, wanted.key, wanted.mtu)
+        neighbour = self._clients.at(address)
+        if neighbour is not None and neighbour.session.link.key != wanted.key:
+            self.dismiss(neighbour, "replaced by another at its address")
+        client = self._clients.with_key(wanted.key)
+        if client is not None and client.session.link.session == wanted.session:
+            self._welcome_back(client, link, address, transport, now)
+            return Status.OK
+        if client is not None:
+            self.dismiss(client, "replaced: it came with another session id")
+        if not self._has_room():
+            return Status.RESOURCES
+        name = f"xrce_client_{wanted.key.hex().upper()}"
+        objects = ObjectTree(self._bridge, self._references, self._limits.objects, name)
+        session = Session(link, self._limits)
+        new = Client(session, objects, transport, address, self._timeout(wanted), heard=now)
+        self._clients.add(new)
+        text = "client {client} connected from {peer} (session {session}, MTU {mtu})"
+        self._tell(
+            new, "client_connected", text, peer=new.place, session=f"{wanted.session:#04x}", mtu=wanted.mtu
+        )
+        return Status.OK
+
+    def _welcome_back(
+        self, client: Client, link: Link, address: Hashable, transport: Transport, now: float
+    ) -> None:
+        client.session.reset(link)
+        client.unacknowledged.clear()
+        client.heard = now
+        if client.address != address:
+            self.move(client, transport, address)
+        if client.asleep:
+            self.wake(client)
+        self._tell(client, "client_again", "client {client} connected again, its entities are kept")
+
+    def _has_room(self) -> bool:
+        if len(self._clients) < self._limits.clients:
+            return True
+        sleeper = self._clients.longest_asleep()
+        if sleeper is None:
+            return False
+        self.dismiss(sleeper, "forgotten: its place is needed")
+        return True
+
+    def _timeout(self, wanted: CreateClient) -> float:
+        text = dict(wanted.properties or ()).get(HARD_LIVELINESS, "")
+        if text.isascii() and text.isdigit() and len(text) < 9 and int(text) > 0:
+            return int(text) / 1000
+        return self._limits.client_timeout_s
+
+    def _tell(self, client: Client, event: str, text: str, **fields: str | int | float) -> None:
+        self._log.emit(Level.INFO, event, text, client=client.name, **fields)

@@ -1,0 +1,235 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The objects of one client: creation modes, references between objects, and what they are in ROS 2.
+
+An object is made from others: a writer from its publisher and, in binary form, its topic; those from their
+participant. When one is replaced by something else, what was made from it goes with it. When a participant or
+publisher is deleted, what it contains goes too, and a later DELETE of such a part still succeeds, in whatever
+order a client cleans up. A writer outlives the DELETE of its topic: micro-ROS deletes the topic first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from microros_gen.agent.representation import (
+    Description,
+    Endpoint,
+    Participant,
+    References,
+    Topic,
+    describe,
+)
+from microros_gen.agent.representation.description import UnsupportedKindError
+from microros_gen.agent.representation.reference import UnknownReferenceError
+from microros_gen.agent.ros.bridge import Bridge, BridgeError, Node, Writer
+from microros_gen.agent.wire.constants import ObjectKind, Status
+from microros_gen.agent.wire.entity_messages import Create
+from microros_gen.agent.wire.errors import MalformedError
+
+Publish = Callable[[bytes], None]
+_SERVED = frozenset(
+    (
+        ObjectKind.PARTICIPANT,
+        ObjectKind.TOPIC,
+        ObjectKind.PUBLISHER,
+        ObjectKind.SUBSCRIBER,
+        ObjectKind.DATAWRITER,
+    )
+)
+_CONTAINER = {
+    ObjectKind.TOPIC: ObjectKind.PARTICIPANT,
+    ObjectKind.PUBLISHER: ObjectKind.PARTICIPANT,
+    ObjectKind.SUBSCRIBER: ObjectKind.PARTICIPANT,
+    ObjectKind.DATAWRITER: ObjectKind.PUBLISHER,
+}
+
+
+@dataclass(eq=False)
+class Entity:
+    """One object. `sources`: what it was made from, its container first; `node`, `writer`: its ROS side."""
+
+    id: int
+    description: Description
+    sources: tuple[Entity, ...]
+    node: Node | None = None
+    writer: Writer | None = None
+
+    @property
+    def kind(self) -> int:
+        """Kind of object."""
+        return self.id & 0x0F
+
+    @property
+    def participant(self) -> Entity:
+        """The participant that it belongs to, or is."""
+        return self.sources[0].participant if self.sources else self
+
+    def inside(self, container: Entity) -> bool:
+        """Return whether it is a part of `container`, at any depth."""
+        return bool(self.sources) and (self.sources[0] is container or self.sources[0].inside(container))
+
+    @property
+    def label(self) -> str:
+        """Name for the log; empty for what has no place in ROS."""
+        side = self.node or self.writer
+        return side.label if side else ""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a CREATE came to; `reason` says why it failed, `entity` is what was made."""
+
+    status: Status
+    reason: str = ""
+    entity: Entity | None = None
+
+
+class _RefusedError(Exception):
+    def __init__(self, status: Status, reason: str) -> None:
+        super().__init__(reason)
+        self.status = status
+
+
+class ObjectTree:
+    """Objects by id, in the order of their creation, which has sources before what is made from them."""
+
+    def __init__(self, bridge: Bridge, references: References, maximum: int, fallback_name: str) -> None:
+        self._bridge = bridge
+        self._references = references
+        self._maximum = maximum
+        self._fallback_name = fallback_name
+        self._objects: dict[int, Entity] = {}
+        self._gone_with_container: set[int] = set()
+        self.publish: dict[int, Publish] = {}
+        """How to publish for each data writer, by object id."""
+
+    def __len__(self) -> int:
+        return len(self._objects)
+
+    def __iter__(self) -> Iterator[Entity]:
+        return iter(self._objects.values())
+
+    def create(self, create: Create) -> Outcome:
+        """Carry out a CREATE by the table of creation modes (DDS-XRCE 1.0, table 7)."""
+        try:
+            return self._create(create)
+        except _RefusedError as error:
+            return Outcome(error.status, str(error))
+        except BridgeError as error:
+            return Outcome(error.status, str(error))
+        except MalformedError as error:
+            return Outcome(Status.INVALID_DATA, str(error))
+        except UnknownReferenceError as error:
+            return Outcome(Status.DDS_ERROR, str(error))
+        except UnsupportedKindError as error:
+            return Outcome(Status.DENIED, f"{error} are not served")
+
+    def delete(self, object_id: int) -> Status:
+        """Carry out a DELETE."""
+        entity = self._objects.get(object_id)
+        if entity is not None:
+            contained = [e for e in self if e.inside(entity)]
+            self._remove([entity, *contained])
+            self._gone_with_container.update(e.id for e in contained)
+            return Status.OK
+        if object_id in self._gone_with_container:
+            self._gone_with_container.remove(object_id)
+            return Status.OK
+        return Status.UNKNOWN_REFERENCE
+
+    def clear(self) -> None:
+        """Drop everything; the ROS graph loses it at once."""
+        self._remove(list(self._objects.values()))
+        self._gone_with_container.clear()
+
+    def suspend(self) -> None:
+        """Leave the ROS graph and keep the descriptions."""
+        for entity in reversed(list(self)):
+            self._leave(entity)
+
+    def resume(self) -> list[tuple[Entity, str]]:
+        """Return to the ROS graph; what cannot is dropped and returned with the reason."""
+        failed = []
+        for entity in self:
+            try:
+                self._enter(entity)
+            except BridgeError as error:
+                failed.append((entity, str(error)))
+        for entity, _ in failed:
+            self._remove([entity, *self._made_from(entity)])
+        return failed
+
+    def _create(self, create: Create) -> Outcome:
+        object_id = create.object & 0xFFF0 | create.kind
+        present = self._objects.get(object_id)
+        if present and not create.reuse and not create.replace:
+            return Outcome(Status.ALREADY_EXISTS, "the object exists")
+        if create.kind not in _SERVED:
+            raise _RefusedError(Status.DENIED, f"objects of kind {_kind_name(create.kind)} are not served")
+        description = describe(create, self._references)
+        entity = Entity(object_id, description, self._sources(create, description))
+        if present and create.reuse:
+            if (present.description, present.sources) == (entity.description, entity.sources):
+                return Outcome(Status.OK_MATCHED, entity=present)
+            if not create.replace:
+                return Outcome(Status.MISMATCH, "the object exists and differs")
+        if present:
+            self._remove([present, *self._made_from(present)])
+        elif len(self._objects) >= self._maximum:
+            raise _RefusedError(Status.RESOURCES, f"the client has {self._maximum} objects already")
+        self._enter(entity)
+        self._objects[object_id] = entity
+        self._gone_with_container.discard(object_id)
+        return Outcome(Status.OK, entity=entity)
+
+    def _sources(self, create: Create, description: Description) -> tuple[Entity, ...]:
+        if create.kind == ObjectKind.PARTICIPANT:
+            return ()
+        container = self._find(create.parent, _CONTAINER[ObjectKind(create.kind)])
+        if isinstance(description, Endpoint) and description.topic is None:
+            return container, self._find(description.topic_id, ObjectKind.TOPIC)
+        return (container,)
+
+    def _find(self, object_id: int, kind: ObjectKind) -> Entity:
+        found = self._objects.get(object_id & 0xFFF0 | kind)
+        if found is None:
+            wanted = f"{_kind_name(kind)} {object_id >> 4:#05x}"
+            raise _RefusedError(Status.UNKNOWN_REFERENCE, f"the client has no {wanted}")
+        return found
+
+    def _enter(self, entity: Entity) -> None:
+        description = entity.description
+        if isinstance(description, Participant) and entity.node is None:
+            name = description.name.strip("/") or self._fallback_name
+            entity.node = self._bridge.create_node(name, description.domain)
+        elif isinstance(description, Endpoint) and entity.writer is None:
+            node = entity.participant.node
+            topic = description.topic or entity.sources[1].description
+            if node is None or not isinstance(topic, Topic):
+                raise BridgeError("what it was made from is not there")
+            entity.writer = node.create_writer(topic, description.qos)
+            self.publish[entity.id] = entity.writer.publish
+
+    def _leave(self, entity: Entity) -> None:
+        self.publish.pop(entity.id, None)
+        side = entity.writer or entity.node
+        if side is not None:
+            side.destroy()
+            entity.writer = entity.node = None
+
+    def _remove(self, entities: list[Entity]) -> None:
+        for entity in reversed(entities):
+            self._objects.pop(entity.id, None)
+            self._leave(entity)
+
+    def _made_from(self, source: Entity) -> list[Entity]:
+        made = [source]
+        for entity in self._objects.values():
+            if any(s in made for s in entity.sources):
+                made.append(entity)
+        return made[1:]
+
+
+def _kind_name(kind: int) -> str:
+    return ObjectKind(kind).name.lower()

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What an object is, whichever way the client described it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+
+class Durability(Enum):
+    """DDS durability kinds."""
+
+    VOLATILE = "volatile"
+    TRANSIENT_LOCAL = "transient_local"
+    TRANSIENT = "transient"
+    PERSISTENT = "persistent"
+
+
+@dataclass(frozen=True)
+class Qos:
+    """Quality of service of an endpoint; depth 0 stands for the default of 1, times in ms, 0 for no limit."""
+
+    reliable: bool = True
+    durability: Durability = Durability.VOLATILE
+    keep_last: bool = True
+    depth: int = 0
+    deadline_ms: int = 0
+    lifespan_ms: int = 0
+
+    def __str__(self) -> str:
+        history = f"keep_last {self.depth or 1}" if self.keep_last else "keep_all"
+        return f"{'reliable' if self.reliable else 'best_effort'}, {self.durability.value}, {history}"
+
+
+@dataclass(frozen=True)
+class Participant:
+    """A participant: a ROS node. `name` is `node` or `namespace/node`, or empty."""
+
+    name: str
+    domain: int
+
+
+@dataclass(frozen=True)
+class Topic:
+    """A topic by its DDS names, for example `rt/chatter` and `std_msgs::msg::dds_::String_`."""
+
+    name: str
+    type_name: str
+
+
+@dataclass(frozen=True)
+class Group:
+    """A publisher or a subscriber."""
+
+    name: str = ""
+    partitions: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Endpoint:
+    """A data writer or reader; its topic is described in place (XML) or is the object `topic_id` (binary)."""
+
+    topic: Topic | None
+    topic_id: int
+    qos: Qos
+
+
+@dataclass(frozen=True)
+class Service:
+    """A requester or a replier; topic names may be empty, then they follow from the service's name."""
+
+    name: str
+    request_type: str
+    reply_type: str
+    request_topic: str = ""
+    reply_topic: str = ""
+
+
+Description = Participant | Topic | Group | Endpoint | Service
+
+
+class UnsupportedKindError(Exception):
+    """An object of a kind that the agent does not have; the text names the kind."""

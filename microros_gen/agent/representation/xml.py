@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: Apache-2.0
+"""XML representations, in the profile language that Fast DDS reads.
+
+Defaults are those of that language: writers reliable and transient-local, readers best effort and volatile,
+KEEP_LAST with depth 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+from xml.etree import ElementTree
+
+from microros_gen.agent.representation.description import (
+    Description,
+    Durability,
+    Endpoint,
+    Group,
+    Participant,
+    Qos,
+    Service,
+    Topic,
+    UnsupportedKindError,
+)
+from microros_gen.agent.wire.constants import ObjectKind
+from microros_gen.agent.wire.errors import MalformedError
+
+Element = ElementTree.Element
+_MAXIMUM_DEPTH = 65_535
+
+
+def from_xml(kind: int, text: str, domain: int) -> Description:
+    """Return what `text` describes; MalformedError, or UnsupportedKindError for kinds without an XML form."""
+    if kind not in _READERS:
+        raise UnsupportedKindError(f"XML objects of kind {kind:#04x}")
+    tag, read = _READERS[kind]
+    if not text.strip():
+        if kind in (ObjectKind.PUBLISHER, ObjectKind.SUBSCRIBER):
+            return Group()  # clients send the empty text for these
+        raise MalformedError("xml", "empty")
+    element = _find(_parse(text), tag)
+    return read(element, domain)
+
+
+def _parse(text: str) -> Element:
+    if "<!DOCTYPE" in text or "<!ENTITY" in text:
+        raise MalformedError("xml", "document types and entities are refused")
+    try:
+        root = ElementTree.fromstring(text)
+    except (ElementTree.ParseError, ValueError, LookupError) as error:
+        raise MalformedError("xml", str(error)) from error
+    for element in root.iter():
+        element.tag = str(element.tag).rpartition("}")[2]
+    return root
+
+
+def _find(root: Element, tag: str) -> Element:
+    found = root if root.tag == tag else root.find(tag)
+    if found is None:
+        raise MalformedError("xml", f"no element '{tag}'")
+    return found
+
+
+def _text(element: Element, path: str, default: str = "") -> str:
+    return (element.findtext(path) or default).strip()
+
+
+def _required(element: Element, path: str) -> str:
+    value = _text(element, path)
+    if not value:
+        raise MalformedError("xml", f"no text in '{path}'")
+    return value
+
+
+def _participant(element: Element, domain: int) -> Participant:
+    return Participant(_text(element, "rtps/name") or _text(element, "name"), domain)
+
+
+def _topic(element: Element, _domain: int) -> Topic:
+    return Topic(_required(element, "name"), _required(element, "dataType"))
+
+
+def _group(element: Element, _domain: int) -> Group:
+    names = (name.text or "" for name in element.findall("qos/partition/names/name"))
+    return Group(element.get("name", ""), tuple(name.strip() for name in names))
+
+
+def _writer(element: Element, domain: int) -> Endpoint:
+    return Endpoint(
+        _endpoint_topic(element, domain), 0, _qos(element, "RELIABLE", Durability.TRANSIENT_LOCAL)
+    )
+
+
+def _reader(element: Element, domain: int) -> Endpoint:
+    return Endpoint(_endpoint_topic(element, domain), 0, _qos(element, "BEST_EFFORT", Durability.VOLATILE))
+
+
+def _endpoint_topic(element: Element, domain: int) -> Topic:
+    return _topic(_find(element, "topic"), domain)
+
+
+def _qos(element: Element, reliability: str, durability: Durability) -> Qos:
+    kind = _choice(element, "qos/reliability/kind", reliability, ("RELIABLE", "BEST_EFFORT"))
+    lasting = _choice(
+        element, "qos/durability/kind", durability.name, tuple(member.name for member in Durability)
+    )
+    history = _choice(element, "topic/historyQos/kind", "KEEP_LAST", ("KEEP_LAST", "KEEP_ALL"))
+    depth = _text(element, "topic/historyQos/depth", "1")
+    if not (depth.isascii() and depth.isdigit() and len(depth) < 9 and int(depth) <= _MAXIMUM_DEPTH):
+        raise MalformedError("xml", "a history depth that is no number from 0 to 65535")
+    return Qos(kind == "RELIABLE", Durability[lasting], history == "KEEP_LAST", int(depth))
+
+
+def _choice(element: Element, path: str, default: str, choices: tuple[str, ...]) -> str:
+    value = _text(element, path, default)
+    for ending in ("", "_RELIABILITY_QOS", "_DURABILITY_QOS", "_HISTORY_QOS"):
+        if value.removesuffix(ending) in choices:
+            return value.removesuffix(ending)
+    raise MalformedError("xml", f"'{path}' is none of {', '.join(choices)}")
+
+
+def _service(element: Element, _domain: int) -> Service:
+    names = [element.get(name, "") for name in ("service_name", "request_type", "reply_type")]
+    if not all(names):
+        raise MalformedError("xml", "service_name, request_type or reply_type is missing")
+    topics = (_text(element, "request_topic_name"), _text(element, "reply_topic_name"))
+    return Service(names[0], names[1], names[2], *topics)
+
+
+_READERS: Mapping[int, tuple[str, Callable[[Element, int], Description]]] = MappingProxyType(
+    {
+        ObjectKind.PARTICIPANT: ("participant", _participant),
+        ObjectKind.TOPIC: ("topic", _topic),
+        ObjectKind.PUBLISHER: ("publisher", _group),
+        ObjectKind.SUBSCRIBER: ("subscriber", _group),
+        ObjectKind.DATAWRITER: ("data_writer", _writer),
+        ObjectKind.DATAREADER: ("data_reader", _reader),
+        ObjectKind.REQUESTER: ("requester", _service),
+        ObjectKind.REPLIER: ("replier", _service),
+    }
+)

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The session of one client: its streams in and out. Time comes from the caller; bytes go to the caller."""
+
+from __future__ import annotations
+
+from microros_gen.agent.limits import Limits
+from microros_gen.agent.streams_in import BestEffortIn, Reassembly, ReliableIn
+from microros_gen.agent.streams_out import BestEffortOut, Link, ReliableOut
+from microros_gen.agent.wire.constants import (
+    INFO_ACTIVITY,
+    OBJECT_CLIENT,
+    STREAM_NONE,
+    STREAM_RELIABLE,
+    is_reliable,
+)
+from microros_gen.agent.wire.entity_messages import Acknack, Fragment, Heartbeat
+from microros_gen.agent.wire.errors import MalformedError
+from microros_gen.agent.wire.session_messages import GetInfo
+from microros_gen.agent.wire.submessages import Submessage, encode
+
+
+class Session:
+    """Session `link.session` of the client `link.key`; streams come into being when they are first used."""
+
+    def __init__(self, link: Link, limits: Limits) -> None:
+        self._limits = limits
+        self._open(link)
+
+    def _open(self, link: Link) -> None:
+        self.link = link
+        self._best_effort_in: dict[int, BestEffortIn] = {}
+        self._reliable_in: dict[int, ReliableIn] = {}
+        self._reassembly: dict[int, Reassembly] = {}
+        self._best_effort_out: dict[int, BestEffortOut] = {}
+        self._reliable_out: dict[int, ReliableOut] = {}
+
+    def reset(self, link: Link | None = None) -> None:
+        """Begin all streams again at 0: a RESET, or the client came again (then with its new `link`)."""
+        self._open(link or self.link)
+
+    def incoming(self, stream: int, sequence: int, data: bytes) -> tuple[bytes, ...]:
+        """Take a message from the client; return the messages to process now, in order."""
+        if stream >= STREAM_RELIABLE:
+            reliable = self._reliable_in.get(stream)
+            return (reliable or self._open_reliable(stream)).push(sequence, data)
+        if stream == STREAM_NONE:
+            return (data,)
+        best_effort = self._best_effort_in.get(stream)
+        return (data,) if (best_effort or self._open_best_effort(stream)).accept(sequence) else ()
+
+    def announced(self, heartbeat: Heartbeat) -> tuple[bytes, ...]:
+        """Take a HEARTBEAT; return what to process now. A skipped gap ends the fragments before it."""
+        if not is_reliable(heartbeat.stream):
+            raise MalformedError("heartbeat_stream", f"stream {heartbeat.stream:#04x}")
+        reliable = self._reliable_in.get(heartbeat.stream) or self._open_reliable(heartbeat.stream)
+        ready, lost = reliable.announce(heartbeat.first, heartbeat.last)
+        if lost and heartbeat.stream in self._reassembly:
+            self._reassembly[heartbeat.stream].drop()
+        return ready
+
+    def fragment(self, stream: int, fragment: Fragment) -> bytes | None:
+        """Take a FRAGMENT that came on `stream`; return the submessages that it completes."""
+        if not is_reliable(stream):
+            raise MalformedError("fragment_stream", f"stream {stream:#04x}")
+        reassembly = self._reassembly.get(stream)
+        if reassembly is None:
+            reassembly = self._reassembly[stream] = Reassembly(self._limits.message_bytes)
+        return reassembly.add(fragment.piece, fragment.last)
+
+    def acknack(self, stream: int) -> bytes:
+        """Return the message that tells the client what arrived on reliable stream `stream`."""
+        reliable = self._reliable_in.get(stream)
+        first, missing = reliable.missing() if reliable else (0, 0)
+        return self.unnumbered(Acknack(first, missing, stream))
+
+    def unnumbered(self, submessage: Submessage) -> bytes:
+        """Return a message on stream 0 with one submessage."""
+        return self.link.header(STREAM_NONE, 0) + encode(submessage)
+
+    def send(self, stream: int, submessage: Submessage, now: float) -> list[bytes] | None:
+        """Queue a submessage on `stream`; return the messages to send now, None when it was dropped."""
+        body = encode(submessage)
+        if is_reliable(stream):
+            return self._output(stream).push(body, now)
+        if stream not in self._best_effort_out:
+            self._best_effort_out[stream] = BestEffortOut(self.link, stream)
+        message = self._best_effort_out[stream].push(body)
+        return None if message is None else [message]
+
+    def acknowledged(self, acknack: Acknack, now: float) -> list[bytes]:
+        """Take an ACKNACK; return the messages to send now."""
+        output = self._reliable_out.get(acknack.stream)
+        return output.acknowledge(acknack.first, acknack.missing, now) if output else []
+
+    def heartbeats(self, now: float) -> list[bytes]:
+        """Return the HEARTBEAT messages that are due."""
+        due = (output.heartbeat(now) for output in self._reliable_out.values())
+        return [self.unnumbered(heartbeat) for heartbeat in due if heartbeat]
+
+    def probe(self) -> bytes:
+        """Return a message that makes a client answer: HEARTBEAT where it has reliable streams, else GET_INFO."""
+        if self._reliable_in or self._reliable_out:
+            return self.unnumbered(self._output(STREAM_RELIABLE).probe())
+        return self.unnumbered(GetInfo(0, OBJECT_CLIENT, INFO_ACTIVITY))
+
+    def _output(self, stream: int) -> ReliableOut:
+        if stream not in self._reliable_out:
+            self._reliable_out[stream] = ReliableOut(self.link, stream, self._limits.backlog_bytes)
+        return self._reliable_out[stream]
+
+    def _open_reliable(self, stream: int) -> ReliableIn:
+        self._check_streams(len(self._reliable_in))
+        self._reliable_in[stream] = ReliableIn(self._limits.message_bytes)
+        return self._reliable_in[stream]
+
+    def _open_best_effort(self, stream: int) -> BestEffortIn:
+        self._check_streams(len(self._best_effort_in))
+        self._best_effort_in[stream] = BestEffortIn()
+        return self._best_effort_in[stream]
+
+    def _check_streams(self, open_streams: int) -> None:
+        if open_streams >= self._limits.streams:
+            raise MalformedError("too_many_streams", f"more than {self._limits.streams}")

@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Streams from a client (DDS-XRCE 8.4): best effort drops what is old, reliable restores the order."""
+
+from __future__ import annotations
+
+from microros_gen.agent.wire.constants import RELIABLE_WINDOW
+from microros_gen.agent.wire.errors import MalformedError
+
+HALF = 0x8000
+"""Sequence numbers count modulo 2^16: a difference from here on means 'older'."""
+
+
+class BestEffortIn:
+    """Takes each message that is newer than the last one; gaps are losses."""
+
+    def __init__(self) -> None:
+        self._last: int | None = None
+
+    def accept(self, sequence: int) -> bool:
+        """Return whether the message is to be processed."""
+        if self._last is not None:
+            ahead = (sequence - self._last) & 0xFFFF
+            if ahead == 0 or ahead >= HALF:
+                return False
+        self._last = sequence
+        return True
+
+
+class ReliableIn:
+    """Hands messages on in order and once each; holds those behind a gap, at most `hold_bytes` of them."""
+
+    def __init__(self, hold_bytes: int) -> None:
+        self.next = 0
+        self._announced = 0  # messages from `next` on that are known to exist
+        self._held: dict[int, bytes] = {}
+        self._held_bytes = 0
+        self._hold_bytes = hold_bytes
+
+    def push(self, sequence: int, data: bytes) -> tuple[bytes, ...]:
+        """Take a message; return those that can be processed now, in order. Duplicates are dropped."""
+        if sequence == self.next and not self._held:
+            self._advance()
+            return (data,)
+        ahead = (sequence - self.next) & 0xFFFF
+        if ahead >= RELIABLE_WINDOW or sequence in self._held:
+            return ()
+        self._announced = max(self._announced, ahead + 1)
+        if ahead and self._held_bytes + len(data) > self._hold_bytes:
+            return ()  # not acknowledged, so the client sends it again
+        self._held[sequence] = data
+        self._held_bytes += len(data)
+        return self._ready()
+
+    def announce(self, first: int, last: int) -> tuple[tuple[bytes, ...], bool]:
+        """Take a HEARTBEAT: messages before `first` cannot be had any more, those up to `last` can.
+
+        Returns what can be processed now, and whether messages were given up for it.
+        """
+        skip = (first - self.next) & 0xFFFF
+        lost = 0 < skip < HALF
+        if lost:
+            self._skip_to(first, skip)
+        ready = self._ready()
+        known = (last - self.next + 1) & 0xFFFF
+        if known < HALF:
+            self._announced = max(self._announced, min(known, RELIABLE_WINDOW))
+        return ready, lost
+
+    def missing(self) -> tuple[int, int]:
+        """Return what an ACKNACK says: the next message wanted, and a bit for each that is known to lack."""
+        bitmap = 0
+        for i in range(self._announced):
+            if (self.next + i) & 0xFFFF not in self._held:
+                bitmap |= 1 << i
+        return self.next, bitmap
+
+    def _ready(self) -> tuple[bytes, ...]:
+        ready = []
+        while (data := self._held.pop(self.next, None)) is not None:
+            self._held_bytes -= len(data)
+            self._advance()
+            ready.append(data)
+        return tuple(ready)
+
+    def _skip_to(self, first: int, skip: int) -> None:
+        for sequence in [s for s in self._held if (s - self.next) & 0xFFFF < skip]:
+            self._held_bytes -= len(self._held.pop(sequence))
+        self.next = first
+        self._announced = max(0, self._announced - skip)
+
+    def _advance(self) -> None:
+        self.next = (self.next + 1) & 0xFFFF
+        if self._announced:
+            self._announced -= 1
+
+
+class Reassembly:
+    """Joins the FRAGMENTs of one reliable stream; never holds more than `limit` bytes."""
+
+    def __init__(self, limit: int) -> None:
+        self._limit = limit
+        self._pieces = bytearray()
+        self._refusing = False
+
+    def add(self, piece: bytes, last: bool) -> bytes | None:
+        """Take a piece; return the whole with the last one, else None.
+
+        MalformedError once for each whole that is larger than the limit; all of its pieces are dropped.
+        """
+        refused_before = self._refusing
+        if not refused_before and len(self._pieces) + len(piece) > self._limit:
+            self._refusing = True
+        if self._refusing:
+            self._pieces = bytearray()
+            self._refusing = not last
+            if not refused_before:
+                raise MalformedError("fragments_too_large", f"more than {self._limit} bytes")
+            return None
+        self._pieces += piece
+        if not last:
+            return None
+        whole = bytes(self._pieces)
+        self._pieces = bytearray()
+        return whole
+
+    def drop(self) -> None:
+        """Forget what was gathered: a message between two pieces is lost. What comes is no whole any more."""
+        self._pieces = bytearray()
+        self._refusing = True

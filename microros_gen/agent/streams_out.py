@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Streams to a client: number its messages; reliable ones are kept and repeated until acknowledged."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+
+from microros_gen.agent.streams_in import HALF
+from microros_gen.agent.wire.constants import FLAG_LAST_FRAGMENT, FLAG_LITTLE, RELIABLE_WINDOW, SubmessageId
+from microros_gen.agent.wire.entity_messages import Heartbeat
+from microros_gen.agent.wire.message import SUBMESSAGE_HEADER, header_bytes, submessage_bytes
+
+HEARTBEAT_PERIOD_S = 0.2
+"""Seconds between two HEARTBEATs while something is unacknowledged."""
+
+
+@dataclass(frozen=True)
+class Link:
+    """What the messages to one client share: session id, client key, largest message in bytes."""
+
+    session: int
+    key: bytes
+    mtu: int
+
+    def header(self, stream: int, sequence: int) -> bytes:
+        """Return a message header."""
+        return header_bytes(self.session, stream, sequence, self.key)
+
+    def room(self) -> int:
+        """Return the bytes of submessages, with their headers, that fit one message."""
+        return self.mtu - (4 if self.session >= 0x80 else 8)
+
+
+class BestEffortOut:
+    """Numbers messages; keeps none."""
+
+    def __init__(self, link: Link, stream: int) -> None:
+        self._link = link
+        self._stream = stream
+        self._sequence = 0
+
+    def push(self, submessage: bytes) -> bytes | None:
+        """Return the message that carries `submessage`, or None when it does not fit one message."""
+        if len(submessage) > self._link.room():
+            return None
+        message = self._link.header(self._stream, self._sequence) + submessage
+        self._sequence = (self._sequence + 1) & 0xFFFF
+        return message
+
+
+class ReliableOut:
+    """Window of unacknowledged messages, and behind it a backlog of at most `backlog_bytes`."""
+
+    def __init__(self, link: Link, stream: int, backlog_bytes: int) -> None:
+        self._link = link
+        self.stream = stream
+        self._sequence = 0
+        self._unacknowledged: deque[bytes] = deque()
+        self._backlog: deque[bytes] = deque()
+        self._backlog_bytes = 0
+        self._backlog_limit = backlog_bytes
+        self._heartbeat_at = 0.0
+
+    def push(self, submessage: bytes, now: float) -> list[bytes] | None:
+        """Take a submessage of any size; return the messages to send now, None when there is no room."""
+        if self._backlog_bytes + len(submessage) > self._backlog_limit:
+            return None
+        pieces = self._fragments(submessage) if len(submessage) > self._link.room() else [submessage]
+        self._backlog.extend(pieces)
+        self._backlog_bytes += sum(map(len, pieces))
+        return self._release(now)
+
+    def acknowledge(self, first: int, missing: int, now: float) -> list[bytes]:
+        """Take an ACKNACK; return the messages to send: what it asks for, then what has room now."""
+        done = (first - self._first()) & 0xFFFF
+        if done > len(self._unacknowledged):
+            return []  # older than what is known, or never sent
+        for _ in range(done):
+            self._unacknowledged.popleft()
+        again = [m for i, m in enumerate(self._unacknowledged) if missing >> i & 1]
+        return again + self._release(now)
+
+    def heartbeat(self, now: float) -> Heartbeat | None:
+        """Return the HEARTBEAT that is due at `now` (seconds, monotonic), if one is."""
+        if not self._unacknowledged or now < self._heartbeat_at:
+            return None
+        self._heartbeat_at = now + HEARTBEAT_PERIOD_S
+        return self.probe()
+
+    def probe(self) -> Heartbeat:
+        """Return a HEARTBEAT, also when there is nothing to repeat: a client answers with an ACKNACK."""
+        return Heartbeat(self._first(), (self._sequence - 1) & 0xFFFF, self.stream)
+
+    def _first(self) -> int:
+        return (self._sequence - len(self._unacknowledged)) & 0xFFFF
+
+    def _release(self, now: float) -> list[bytes]:
+        released = []
+        while self._backlog and len(self._unacknowledged) < RELIABLE_WINDOW:
+            body = self._backlog.popleft()
+            self._backlog_bytes -= len(body)
+            message = self._link.header(self.stream, self._sequence) + body
+            self._sequence = (self._sequence + 1) & 0xFFFF
+            if not self._unacknowledged:
+                self._heartbeat_at = now + HEARTBEAT_PERIOD_S
+            self._unacknowledged.append(message)
+            released.append(message)
+        return released
+
+    def _fragments(self, submessage: bytes) -> list[bytes]:
+        size = (self._link.room() - SUBMESSAGE_HEADER) & ~3
+        pieces = [submessage[at : at + size] for at in range(0, len(submessage), size)]
+        last = len(pieces) - 1
+        return [
+            submessage_bytes(
+                SubmessageId.FRAGMENT, piece, FLAG_LITTLE | (FLAG_LAST_FRAGMENT if i == last else 0)
+            )
+            for i, piece in enumerate(pieces)
+        ]
+
+
+assert RELIABLE_WINDOW < HALF

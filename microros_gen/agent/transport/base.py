@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the agent needs of a transport. A stream transport cuts its stream into messages itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable
+from typing import Protocol
+
+Receive = Callable[[bytes, Hashable, "Transport"], None]
+"""Takes one message, the address that it came from, and the transport."""
+
+
+class Transport(Protocol):
+    """One way to clients. Addresses are its own, hashable, and differ from those of other transports."""
+
+    @property
+    def label(self) -> str:
+        """Kind and own address for the log and the ready line, as `udp4 127.0.0.1:8888`."""
+
+    def fileno(self) -> int:
+        """Return the descriptor that becomes readable when something arrives."""
+
+    def pump(self, receive: Receive) -> None:
+        """Hand on what has arrived, without waiting, and not more than a batch of it. Never raises."""
+
+    def send(self, data: bytes, address: Hashable) -> None:
+        """Send one message without waiting; one that cannot go out is lost. Never raises."""
+
+    def name_of(self, address: Hashable) -> str:
+        """Return an address as the log shows it."""
+
+    def close(self) -> None:
+        """Give the descriptor back."""
