@@ -1,0 +1,384 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Limits → the capacity of every string and sequence, for each declared root.
+
+Precedence (design: "The application file"): the own limits of an entity, then those of the application;
+in each of the two:
+
+1. the rule with the longest path from the declared root (`Imu` + `header`, `frame_id`; a prefix covers all
+   below);
+2. a rule on a type that lies on the way, the one that ends nearest to the field first (`Header` + `frame_id`,
+   then `Header`, then the root type itself);
+3. `*`.
+
+A bound in the interface file caps whatever a rule says. Where no rule speaks, the default holds and is
+recorded as such; with defaults switched off a bound is the capacity, and without one the field is an error.
+
+One type has one type support, so two entities of one type share its capacities: the larger of both holds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from enum import Enum
+
+from microros_gen.diagnostics import Diagnostics, Span, nearest
+from microros_gen.model.application import LimitRule
+from microros_gen.model.types import (
+    Field,
+    FieldType,
+    Message,
+    NamedType,
+    SequenceType,
+    StringType,
+    TypeName,
+    element_of,
+)
+from microros_gen.plan.types_size import FieldLimits, TypeLimits, WireSizes, is_fixed
+
+LARGEST_LIMIT = 0x7FFFFFFF
+"""Elements or characters: what a CDR length (uint32) and `int` can both hold."""
+
+
+class Origin(Enum):
+    """Where a capacity comes from."""
+
+    RULE = "rule"
+    BOUND = "bound"
+    DEFAULT = "default"
+
+
+@dataclass(frozen=True)
+class Defaults:
+    """Capacities where no rule speaks; None switches them off (an application file without `*`)."""
+
+    string: int | None = 64
+    sequence: int | None = 16
+
+
+@dataclass(frozen=True)
+class Root:
+    """A declared type: by an endpoint (`rules` are its own limits) or by `interfaces:`.
+
+    `room` is the largest body that its stream takes, bytes; None where the stream follows the message.
+    """
+
+    type: TypeName
+    rules: tuple[LimitRule, ...] = ()
+    span: Span | None = None
+    room: int | None = None
+
+
+@dataclass(frozen=True)
+class Capacity:
+    """One decided capacity.
+
+    `path` holds the members from the root; `kind` is `string` (characters) or `sequence` (elements).
+    """
+
+    root: TypeName
+    path: tuple[str, ...]
+    kind: str
+    value: int
+    origin: Origin
+    span: Span | None = None
+
+    @property
+    def key(self) -> str:
+        """The key for the application file: `sensor_msgs/msg/JointState: {name: {string: 16}}`."""
+        return _yaml_key(self.root, self.path, {self.kind: self.value})
+
+
+@dataclass(frozen=True)
+class Capacities:
+    """The limits of each root (None: nothing of variable length in it), and how each came about."""
+
+    limits: Mapping[TypeName, TypeLimits | None]
+    decided: tuple[Capacity, ...]
+
+    @property
+    def defaulted(self) -> tuple[Capacity, ...]:
+        """What got the default, to be reported to the user."""
+        return tuple(c for c in self.decided if c.origin is Origin.DEFAULT)
+
+
+def plan_capacities(
+    messages: Mapping[TypeName, Message],
+    roots: Iterable[Root],
+    rules: Iterable[LimitRule],
+    defaults: Defaults,
+    diagnostics: Diagnostics,
+) -> Capacities:
+    """Decide every capacity below `roots`; faults of rules and unset fields go to `diagnostics`.
+
+    `rules` are the application's `limits:`. `messages` is closed under dependencies.
+    """
+    application = tuple(rules)
+    checker = _RuleChecker(messages, diagnostics)
+    checker.check(application)
+    limits: dict[TypeName, TypeLimits | None] = {}
+    decided: dict[tuple[TypeName, tuple[str, ...], str], Capacity] = {}
+    shared = _Tier(application)
+    for root in roots:
+        checker.check(root.rules, root.type)
+        tiers = [_Tier(root.rules, root.type), shared] if root.rules else [shared]
+        walk = _Walk(messages, root, tiers, defaults)
+        found = walk.type_limits(root.type, (), (str(root.type),))
+        walk.report_unset(found, diagnostics)
+        limits[root.type] = _larger(limits[root.type], found) if root.type in limits else found
+        for capacity in walk.decided:
+            key = (capacity.root, capacity.path, capacity.kind)
+            if key not in decided or decided[key].value < capacity.value:
+                decided[key] = capacity
+    return Capacities(limits, tuple(decided.values()))
+
+
+class _Tier:
+    """Rules of one origin, ready for look-up."""
+
+    def __init__(self, rules: Iterable[LimitRule], root: TypeName | None = None) -> None:
+        self._rules = {_absolute(rule.path, root): rule for rule in rules}
+        self._starts = frozenset(path[0] for path in self._rules)
+        self._anywhere = self._rules.get(("*",))
+
+    def candidates(self, path: tuple[str, ...], types: tuple[str, ...]) -> Iterator[LimitRule]:
+        """Yield the rules that cover the field at `path`, best first; `types` are the types on the way."""
+        if types[0] in self._starts:
+            yield from self._from(types[0], path, range(len(path), 0, -1))
+        if not self._starts.isdisjoint(types):
+            yield from self._on_the_way(path, types)
+        if self._anywhere is not None:
+            yield self._anywhere
+
+    def _on_the_way(self, path: tuple[str, ...], types: tuple[str, ...]) -> Iterator[LimitRule]:
+        for end in range(len(path), -1, -1):
+            for start in range(0 if end == 0 else 1, min(end + 1, len(types))):
+                yield from self._from(types[start], path[start:], (end - start,))
+
+    def _from(self, start: str, path: tuple[str, ...], lengths: Iterable[int]) -> Iterator[LimitRule]:
+        for length in lengths:
+            rule = self._rules.get((start, *path[:length]))
+            if rule is not None:
+                yield rule
+
+
+class _Walk:
+    """Walks one root and decides."""
+
+    def __init__(
+        self, messages: Mapping[TypeName, Message], root: Root, tiers: list[_Tier], defaults: Defaults
+    ) -> None:
+        self.decided: list[Capacity] = []
+        self._messages = messages
+        self._root = root
+        self._tiers = tiers
+        self._defaults = {"string": defaults.string, "sequence": defaults.sequence}
+        self._unset: list[tuple[tuple[str, ...], str, Field]] = []
+
+    def type_limits(self, name: TypeName, path: tuple[str, ...], types: tuple[str, ...]) -> TypeLimits | None:
+        """Return the limits of the type at `path`; None where nothing in it has a variable length."""
+        message = self._messages[name]
+        fields = tuple(self._field_limits(field, (*path, field.name), types) for field in message.fields)
+        return TypeLimits(fields) if any(f is not None for f in fields) else None
+
+    def report_unset(self, limits: TypeLimits | None, diagnostics: Diagnostics) -> None:
+        """Report the fields that nothing sets, each with a number that would do."""
+        if not self._unset or limits is None:
+            return
+        number = self._fitting()
+        for path, kind, field in self._unset:
+            value = number if number is not None else {"string": 64, "sequence": 16}[kind]
+            key = _yaml_key(self._root.type, path, {kind: value})
+            why = f"; {value} for every unset capacity fits its stream" if number is not None else ""
+            diagnostics.error(
+                f"the {kind} capacity of {self._root.type}.{'.'.join(path)} is not set",
+                self._root.span or field.span,
+                f"Add 'limits: {{{key}}}'{why}",
+            )
+
+    def _field_limits(
+        self, field: Field, path: tuple[str, ...], types: tuple[str, ...]
+    ) -> FieldLimits | None:
+        element = element_of(field.type)
+        sequence = string = nested = None
+        if isinstance(field.type, SequenceType):
+            sequence = self._decide("sequence", field, field.type.bound, path, types)
+        if isinstance(element, StringType):
+            string = self._decide("string", field, element.bound, path, types)
+        if isinstance(element, NamedType):
+            nested = self.type_limits(element.name, path, (*types, str(element.name)))
+        if sequence is None and string is None and nested is None:
+            return None
+        return FieldLimits(sequence, string, nested)
+
+    def _decide(
+        self, kind: str, field: Field, bound: int | None, path: tuple[str, ...], types: tuple[str, ...]
+    ) -> int:
+        for tier in self._tiers:
+            for rule in tier.candidates(path, types):
+                value = rule.string if kind == "string" else rule.sequence
+                if value is not None:
+                    value = value if bound is None else min(value, bound)
+                    return self._note(path, kind, value, Origin.RULE, rule.span)
+        default = self._defaults[kind]
+        if bound is not None and (default is None or bound <= default):
+            return self._note(path, kind, bound, Origin.BOUND, field.span)
+        if default is not None:
+            return self._note(path, kind, default, Origin.DEFAULT, None)
+        self._unset.append((path, kind, field))
+        return 0
+
+    def _note(self, path: tuple[str, ...], kind: str, value: int, origin: Origin, span: Span | None) -> int:
+        self.decided.append(Capacity(self._root.type, path, kind, value, origin, span))
+        return value
+
+    def _fitting(self) -> int | None:
+        """Return the largest number that fits the stream for every unset capacity; None: no number does."""
+        room = self._root.room
+        if room is None or self._size_with(0) > room:
+            return None
+        low, high = 0, 1
+        while high < LARGEST_LIMIT and self._size_with(high) <= room:
+            low, high = high, high * 2
+        while high - low > 1:
+            middle = (low + high) // 2
+            low, high = (middle, high) if self._size_with(middle) <= room else (low, middle)
+        return low or None
+
+    def _size_with(self, number: int) -> int:
+        same = _Walk(self._messages, self._root, self._tiers, Defaults(number, number))
+        limits = same.type_limits(self._root.type, (), (str(self._root.type),))
+        return WireSizes(self._messages).largest(self._root.type, limits)
+
+
+class _RuleChecker:
+    """Finds rules that cannot hold: unknown types and members, numbers above a bound or without meaning."""
+
+    def __init__(self, messages: Mapping[TypeName, Message], diagnostics: Diagnostics) -> None:
+        self._messages = {str(name): message for name, message in messages.items()}
+        self._diagnostics = diagnostics
+
+    def check(self, rules: Iterable[LimitRule], root: TypeName | None = None) -> None:
+        """Check `rules`; paths of an entity's own limits start at its `root`."""
+        for rule in rules:
+            path = _absolute(rule.path, root)
+            self._check_range(rule)
+            if path == ("*",):
+                continue
+            if path[0] not in self._messages:
+                self._unknown_type(rule, path[0])
+                continue
+            field_type = self._follow(rule, path)
+            if field_type is not None:
+                self._check_field(rule, path, field_type)
+
+    def _unknown_type(self, rule: LimitRule, name: str) -> None:
+        near = nearest(name, self._messages)
+        self._diagnostics.warning(
+            f"the limit for '{name}' has no effect: the type is not used", rule.span, near
+        )
+
+    def _check_range(self, rule: LimitRule) -> None:
+        for kind, value in (("string", rule.string), ("sequence", rule.sequence)):
+            if value is not None and not 0 <= value <= LARGEST_LIMIT:
+                self._diagnostics.error(
+                    f"a {kind} limit of {value} is out of range", rule.span, f"0 to {LARGEST_LIMIT}"
+                )
+
+    def _follow(self, rule: LimitRule, path: tuple[str, ...]) -> FieldType | None:
+        """Return the type of the field that `path` ends at; None for a bare type or an unknown member."""
+        message = self._messages[path[0]]
+        found: FieldType | None = None
+        for name in path[1:]:
+            if found is not None:
+                element = element_of(found)
+                if not isinstance(element, NamedType):
+                    self._diagnostics.error(
+                        f"'{'.'.join(path)}': there are no members below a primitive", rule.span
+                    )
+                    return None
+                message = self._messages[str(element.name)]
+            field = next((f for f in message.fields if f.name == name), None)
+            if field is None:
+                near = nearest(name, (f.name for f in message.fields))
+                self._diagnostics.error(f"{message.name} has no member '{name}'", rule.span, near)
+                return None
+            found = field.type
+        return found
+
+    def _check_field(self, rule: LimitRule, path: tuple[str, ...], field_type: FieldType) -> None:
+        element = element_of(field_type)
+        where = ".".join(path)
+        if isinstance(element, NamedType):
+            self._check_below(rule, where, field_type, element.name)
+            return
+        is_sequence = isinstance(field_type, SequenceType)
+        is_string = isinstance(element, StringType)
+        if not is_sequence and not is_string:
+            self._diagnostics.error(f"{where} has a fixed size; it takes no limit", rule.span)
+        elif rule.single and is_sequence and is_string:
+            self._diagnostics.error(
+                f"one number for {where} is ambiguous: it is a sequence of strings",
+                rule.span,
+                f"Write {{sequence: {rule.sequence}, string: …}}",
+            )
+        else:
+            self._check_kind(rule, where, "sequence", is_sequence, rule.sequence, _bound(field_type))
+            self._check_kind(rule, where, "string", is_string, rule.string, _bound(element))
+
+    def _check_kind(
+        self, rule: LimitRule, where: str, kind: str, fits: bool, value: int | None, bound: int | None
+    ) -> None:
+        if value is None or (rule.single and not fits):
+            return
+        if not fits:
+            self._diagnostics.error(f"{where} is no {kind}", rule.span, f"Leave '{kind}' away")
+        elif bound is not None and value > bound:
+            self._diagnostics.error(
+                f"the limit {value} for {where} is above its bound {bound}",
+                rule.span,
+                f"Write at most {bound}",
+            )
+
+    def _check_below(self, rule: LimitRule, where: str, field_type: FieldType, name: TypeName) -> None:
+        if not isinstance(field_type, SequenceType):
+            if is_fixed(self._messages[str(name)], {m.name: m for m in self._messages.values()}):
+                self._diagnostics.error(f"{where} has a fixed size; it takes no limit", rule.span)
+            return
+        self._check_kind(rule, where, "sequence", True, rule.sequence, field_type.bound)
+
+
+def _bound(field_type: FieldType) -> int | None:
+    return field_type.bound if isinstance(field_type, (SequenceType, StringType)) else None
+
+
+def _absolute(path: tuple[str, ...], root: TypeName | None) -> tuple[str, ...]:
+    """Return `path` with its type first; the own limits of an entity may start at a member."""
+    if root is None or path == ("*",) or (path and "/" in path[0]):
+        return path
+    return (str(root), *path)
+
+
+def _larger(one: TypeLimits | None, other: TypeLimits | None) -> TypeLimits | None:
+    if one is None or other is None:
+        return one or other
+    return TypeLimits(tuple(_larger_field(a, b) for a, b in zip(one.fields, other.fields, strict=True)))
+
+
+def _larger_field(one: FieldLimits | None, other: FieldLimits | None) -> FieldLimits | None:
+    if one is None or other is None:
+        return one or other
+    return FieldLimits(
+        _max(one.sequence, other.sequence), _max(one.string, other.string), _larger(one.nested, other.nested)
+    )
+
+
+def _max(one: int | None, other: int | None) -> int | None:
+    return one if other is None else other if one is None else max(one, other)
+
+
+def _yaml_key(root: TypeName, path: tuple[str, ...], values: Mapping[str, int]) -> str:
+    inner = "{" + ", ".join(f"{kind}: {value}" for kind, value in values.items()) + "}"
+    for name in reversed(path):
+        inner = f"{{{name}: {inner}}}"
+    return f"{root}: {inner}"
