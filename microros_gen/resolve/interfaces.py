@@ -197,17 +197,21 @@ class _Resolver:
             message = f"'{name}': interfaces of kind {kinds} are read, not '{name.kind}'{need}"
             self._diagnostics.error(message, span, f"Write {name.package}/msg/{name.name} for a message")
             return
-        near = self._near(name, place, field)
-        self._diagnostics.error(
-            f"package '{name.package}' ({place.folder}) has no type '{name.name}'{need}", span, near
-        )
+        what = f"package '{name.package}' ({place.folder}) has no type '{name.name}'{need}"
+        self._diagnostics.error(what, span, self._near(name, place))
 
-    def _near(self, name: TypeName, place: PackagePlace, field: Field | None) -> str | None:
-        """Return a hint: a ROS 1 habit (`Header` of std_msgs without its package), or the nearest type."""
-        element = element_of(field.type) if field is not None else None
-        common = TypeName("std_msgs", "msg", name.name)
-        if element is not None and name.name == "Header" and self._known(common, None, None):
-            return "Write 'std_msgs/Header': a type without a package is one of the same package"
+    def _near(self, name: TypeName, place: PackagePlace) -> str | None:
+        """Return a hint: a place that this one hides, another package with such a type, the nearest type."""
+        hidden = next((p for p in self._finder.places(name.package) if name in types_in(p)), None)
+        if hidden is not None:
+            return f"It hides {hidden.folder}, which has this type: a package is taken from one place only"
+        packages = (other.name for other in self._finder.packages() if other.name != name.package)
+        elsewhere = (p for p in packages if TypeName(p, name.kind, name.name) in self._finder.types(p))
+        package = next(elsewhere, None)
+        if package is not None:
+            return (
+                f"Did you mean '{package}/{name.name}'? A type without its package is one of the same package"
+            )
         return nearest(name.name, (known.name for known in self._types[place.name]))
 
     def _nothing_to_read(self, place: PackagePlace, span: Span | None) -> None:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
@@ -92,14 +92,18 @@ class InterfaceFinder:
 
     def package(self, name: str) -> PackagePlace | None:
         """Return the first place of package `name`, or None where no place has it."""
+        return next(self.places(name), None)
+
+    def places(self, name: str) -> Iterator[PackagePlace]:
+        """Give every place of package `name`; the first one counts and hides the others."""
         for folder, origin in self._roots():
-            if origin is Origin.PATH:
-                place = next((p for p in _packages_below(folder, origin) if p.name == name), None)
+            if origin is not Origin.PATH:
+                if _is_package(folder / name):
+                    yield PackagePlace(name, folder / name, origin)
+            elif _is_package(folder / name) and _name_of(folder / name) == name:
+                yield PackagePlace(name, folder / name, origin)
             else:
-                place = PackagePlace(name, folder / name, origin) if _is_package(folder / name) else None
-            if place is not None:
-                return place
-        return None
+                yield from (place for place in _packages_below(folder, origin) if place.name == name)
 
     def types(self, package: str) -> tuple[TypeName, ...]:
         """Return the interface types of `package` that can be read, sorted; empty where it is unknown."""
@@ -132,7 +136,7 @@ class InterfaceFinder:
             places.append("the definitions that ship with microros-gen")
         return ", ".join(places) if places else "nowhere: no place was given"
 
-    def _roots(self) -> Iterable[tuple[Path, Origin]]:
+    def _roots(self) -> Iterator[tuple[Path, Origin]]:
         yield from ((path, Origin.PATH) for path in self.paths)
         yield from ((prefix / "share", Origin.AMENT) for prefix in self.ament)
         yield from ((prefix / "share", Origin.PIP) for prefix in self.pip)
@@ -192,7 +196,8 @@ def unread_types_in(place: PackagePlace) -> tuple[str, ...]:
 
 def _stems(folder: Path, suffix: str) -> list[str]:
     try:
-        return sorted(entry.stem for entry in folder.iterdir() if entry.suffix == suffix)
+        entries = [entry for entry in folder.iterdir() if not entry.name.startswith(".")]
+        return sorted(entry.stem for entry in entries if entry.suffix == suffix)
     except OSError:
         return []
 

@@ -9,9 +9,9 @@ import time
 from dataclasses import replace
 
 import pytest
-from corpus import BAD, GOOD
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from msg_corpus import BAD, GOOD
 
 from microros_gen.diagnostics import Diagnostics, Severity, Source
 from microros_gen.model.msg_text import message_text

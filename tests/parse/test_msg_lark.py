@@ -8,21 +8,21 @@ import venv
 from pathlib import Path
 
 import pytest
-from corpus import BAD, GOOD
+from msg_corpus import BAD, GOOD
 
 SCRIPT = """
 import sys
 sys.path[:0] = sys.argv[1:]
 import lark
 assert lark.__version__ == "0.12.0", lark.__version__
-from corpus import BAD, GOOD
-from headlines import headlines
+from msg_corpus import BAD, GOOD
+from msg_headlines import headlines
 print(*headlines([*GOOD, *BAD]), sep="\\n")
 """
 
 
 def test_the_reader_says_the_same_with_lark_parser(tmp_path: Path) -> None:
-    from headlines import headlines
+    from msg_headlines import headlines
 
     venv.create(tmp_path / "venv", with_pip=True)
     python = str(tmp_path / "venv" / "bin" / "python")

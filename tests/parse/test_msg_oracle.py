@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from corpus import BAD, DIFFERENCES, GOOD, RIGHT_NAMES, WRONG_NAMES, Difference
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from msg_corpus import BAD, DIFFERENCES, GOOD, RIGHT_NAMES, WRONG_NAMES, Difference
 from rosidl_pipeline import adapter_message, ros_message
 
 from microros_gen.diagnostics import Diagnostics, Source

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`microros-gen interfaces`: what packages and types there are, and what one of them looks like."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+
+from microros_gen.diagnostics import Diagnostic, Diagnostics, Severity, UserError
+from microros_gen.model.application import Named
+from microros_gen.model.msg_text import type_text, value_text
+from microros_gen.model.types import Constant, Field, Value
+from microros_gen.resolve.interfaces import Interface, InterfaceSet, resolve_interfaces
+from microros_gen.sources.interfaces import InterfaceFinder, types_in
+
+
+@click.command()
+@click.argument("name", required=False)
+@click.option(
+    "--interface-path",
+    "interface_paths",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Folder of packages, or a package; searched before the ament index, pip and the shipped set.",
+)
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(["table", "json"]),
+    default="table",
+    show_default=True,
+    help="Output.",
+)
+def command(name: str | None, interface_paths: tuple[Path, ...], form: str) -> None:
+    """List interface packages; with NAME = pkg its types, with NAME = pkg/Type that type.
+
+    Packages are looked for in --interface-path, AMENT_PREFIX_PATH, packages installed by pip, and the
+    definitions that ship with this tool, in this order; the first place that has a package hides the others.
+    """
+    finder = InterfaceFinder.from_environment(interface_paths)
+    diagnostics = Diagnostics()
+    finder.check_paths(diagnostics)
+    diagnostics.check()
+    if name is None:
+        data, lines = _packages(finder)
+    elif "/" not in name.strip("/"):
+        data, lines = _package(finder, name.strip("/"), diagnostics)
+    else:
+        data, lines = _type(finder, name, diagnostics)
+    _warn(diagnostics)
+    if form == "json":
+        click.echo(json.dumps(data, indent=2, ensure_ascii=False))
+    else:
+        click.echo("\n".join(lines))
+
+
+def _packages(finder: InterfaceFinder) -> tuple[Any, list[str]]:
+    data = [
+        {
+            "package": place.name,
+            "types": len(types_in(place)),
+            "origin": place.origin.value,
+            "folder": str(place.folder),
+        }
+        for place in finder.packages()
+    ]
+    rows = [[str(value) for value in entry.values()] for entry in data]
+    return data, _table(["package", "types", "origin", "folder"], rows)
+
+
+def _package(finder: InterfaceFinder, name: str, diagnostics: Diagnostics) -> tuple[Any, list[str]]:
+    interfaces = _resolved(finder, name, diagnostics)
+    place = interfaces.interfaces[interfaces.roots[0]].place
+    types = [
+        {
+            "type": str(root),
+            "hash": interfaces.type_hash(root),
+            "comment": list(interfaces.message(root).comment),
+        }
+        for root in interfaces.roots
+    ]
+    data = {"package": name, "origin": place.origin.value, "folder": str(place.folder), "types": types}
+    rows = [[str(entry["type"]), "".join(entry["comment"][:1])] for entry in types]
+    return data, [f"{name} ({place.origin.value}: {place.folder})", "", *_table(["type", "comment"], rows)]
+
+
+def _type(finder: InterfaceFinder, name: str, diagnostics: Diagnostics) -> tuple[Any, list[str]]:
+    interfaces = _resolved(finder, name, diagnostics)
+    root = interfaces.roots[0]
+    interface = interfaces.interfaces[root]
+    message = interface.message
+    data = {
+        "type": str(root),
+        "hash": interfaces.type_hash(root),
+        "origin": interface.place.origin.value,
+        "file": interface.source.name,
+        "comment": list(message.comment),
+        "constants": [_entry(constant, constant.value) for constant in message.constants],
+        "fields": [_entry(field, field.default) for field in message.fields],
+        "dependencies": [str(needed) for needed in interfaces.closure(root)],
+    }
+    return data, _type_lines(interface, data)
+
+
+def _type_lines(interface: Interface, data: dict[str, Any]) -> list[str]:
+    lines = [data["type"], *(f"  {line}".rstrip() for line in data["comment"])]
+    lines += ["", f"  hash    {data['hash']}", f"  origin  {data['origin']}: {data['file']}"]
+    for title, value in (("constants", "value"), ("fields", "default")):
+        message = interface.message
+        entries: Sequence[Constant | Field] = message.constants if title == "constants" else message.fields
+        if entries:
+            rows = [_row(entry, spec) for entry, spec in zip(entries, data[title], strict=True)]
+            lines += ["", *(f"  {line}".rstrip() for line in _table([title, "type", value, "comment"], rows))]
+    if data["dependencies"]:
+        lines += ["", "  made of", *(f"  {name}" for name in data["dependencies"])]
+    return lines
+
+
+def _row(entry: Constant | Field, spec: dict[str, Any]) -> list[str]:
+    value = entry.value if isinstance(entry, Constant) else entry.default
+    return [entry.name, spec["type"], "" if value is None else value_text(value), " ".join(entry.comment)]
+
+
+def _entry(entry: Constant | Field, value: Value | None) -> dict[str, Any]:
+    key = "value" if isinstance(entry, Constant) else "default"
+    return {"name": entry.name, "type": type_text(entry.type), key: value, "comment": list(entry.comment)}
+
+
+def _resolved(finder: InterfaceFinder, name: str, diagnostics: Diagnostics) -> InterfaceSet:
+    interfaces = resolve_interfaces((Named(name),), finder, diagnostics)
+    diagnostics.check()
+    if not interfaces.roots:
+        raise UserError([Diagnostic(f"'{name}' has no interface")])
+    return interfaces
+
+
+def _warn(diagnostics: Iterable[Diagnostic]) -> None:
+    for diagnostic in diagnostics:
+        if diagnostic.severity is Severity.WARNING:
+            click.echo(diagnostic.render(), err=True)
+
+
+def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
+    """Return lines with columns as wide as their widest entry; the last one is as long as it is."""
+    widths = [max(len(row[i]) for row in [head, *rows]) for i in range(len(head) - 1)]
+    return [
+        "  ".join([*(cell.ljust(width) for cell, width in zip(row, widths, strict=False)), row[-1]]).rstrip()
+        for row in [head, *rows]
+    ]

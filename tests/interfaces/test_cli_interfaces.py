@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`microros-gen interfaces`."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from microros_gen.cli.interfaces import command
+from microros_gen.diagnostics import UserError
+
+
+def run(*arguments: str) -> Result:
+    return CliRunner().invoke(command, list(arguments), catch_exceptions=True)
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "my_msgs/msg").mkdir(parents=True)
+    fields = "std_msgs/Header header\nfloat32 speed 0.5  # [m/s]\nstring<=5[<=2] a ['x']\n"
+    text = f"# What it is.\n\nuint8 ON = 1\n\n{fields}"
+    (tmp_path / "my_msgs/msg/Drive.msg").write_text(text, encoding="utf-8")
+    return tmp_path
+
+
+def test_packages(folder: Path) -> None:
+    result = run("--interface-path", str(folder))
+    assert result.exit_code == 0
+    rows = [line.split() for line in result.stdout.splitlines()]
+    assert ["my_msgs", "1", "path", str(folder / "my_msgs")] in rows
+    assert any(row[0] == "sensor_msgs" and row[2] in ("pip", "ament", "shipped") for row in rows)
+
+
+def test_types_of_a_package(folder: Path) -> None:
+    result = run("my_msgs", "--interface-path", str(folder))
+    assert result.exit_code == 0
+    assert result.stdout.splitlines()[-1].split(maxsplit=1) == ["my_msgs/msg/Drive", "What it is."]
+    data = json.loads(run("my_msgs", "--interface-path", str(folder), "--format", "json").stdout)
+    assert [entry["type"] for entry in data["types"]] == ["my_msgs/msg/Drive"]
+    assert data["origin"] == "path"
+
+
+def test_one_type(folder: Path) -> None:
+    result = run("my_msgs/Drive", "--interface-path", str(folder))
+    lines = [" ".join(line.split()) for line in result.stdout.splitlines()]
+    assert "ON uint8 1" in lines
+    assert "speed float32 0.5 [m/s]" in lines
+    assert 'a string<=5[<=2] ["x"]' in lines
+    assert "builtin_interfaces/msg/Time" in lines
+
+
+def test_one_type_for_machines(folder: Path) -> None:
+    data = json.loads(run("my_msgs/msg/Drive", "--interface-path", str(folder), "--format", "json").stdout)
+    assert data["hash"].startswith("RIHS01_")
+    assert data["comment"] == ["What it is."]
+    assert data["constants"] == [{"name": "ON", "type": "uint8", "value": 1, "comment": []}]
+    assert data["fields"][1] == {"name": "speed", "type": "float32", "default": 0.5, "comment": ["[m/s]"]}
+    assert data["dependencies"] == ["builtin_interfaces/msg/Time", "std_msgs/msg/Header"]
+    assert data["file"] == str(folder / "my_msgs/msg/Drive.msg")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["nope"], "unknown interface package 'nope'"),
+        (["std_msgs/Nope"], "has no type 'Nope'"),
+        (["--interface-path", "/does/not/exist"], "the interface path '/does/not/exist' does not exist"),
+    ],
+)
+def test_faults_end_with_their_diagnostics(arguments: list[str], said: str) -> None:
+    result = run(*arguments)
+    assert isinstance(result.exception, UserError)
+    assert said in str(result.exception)

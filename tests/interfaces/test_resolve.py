@@ -1,0 +1,236 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where interfaces are found, and how requests become a closed set."""
+
+from __future__ import annotations
+
+import os
+import time
+from itertools import permutations
+from pathlib import Path
+
+import pytest
+
+from microros_gen.diagnostics import Diagnostics, Source, Span
+from microros_gen.model.application import Named
+from microros_gen.model.types import NamedType, TypeName, element_of
+from microros_gen.resolve.interfaces import InterfaceSet, resolve_interfaces
+from microros_gen.sources.interfaces import InterfaceFinder, Origin, shipped_folder
+
+
+def package(folder: Path, name: str, **types: str) -> Path:
+    """Make a package with the files `Type=text`."""
+    (folder / name / "msg").mkdir(parents=True, exist_ok=True)
+    for type_name, text in types.items():
+        (folder / name / "msg" / f"{type_name}.msg").write_text(text, encoding="utf-8")
+    return folder / name
+
+
+def resolve(finder: InterfaceFinder, *requests: str) -> tuple[InterfaceSet, list[str]]:
+    diagnostics = Diagnostics()
+    interfaces = resolve_interfaces(tuple(Named(request) for request in requests), finder, diagnostics)
+    return interfaces, [d.headline() for d in diagnostics]
+
+
+def names(interfaces: InterfaceSet) -> list[str]:
+    return [str(interface.name) for interface in interfaces]
+
+
+def test_search_order_and_hiding(tmp_path: Path) -> None:
+    for place in ("path", "ament/share", "pip/share", "shipped"):
+        package(tmp_path / place, "all", **{place.split("/")[0].capitalize(): "int32 a"})
+    package(tmp_path / "ament/share", "ament_too", A="")
+    package(tmp_path / "pip/share", "ament_too", A="")
+    package(tmp_path / "shipped", "only_shipped", A="")
+    finder = InterfaceFinder(
+        (tmp_path / "path",), (tmp_path / "ament",), (tmp_path / "pip",), tmp_path / "shipped"
+    )
+    assert [(p.name, p.origin) for p in finder.packages()] == [
+        ("all", Origin.PATH),
+        ("ament_too", Origin.AMENT),
+        ("only_shipped", Origin.SHIPPED),
+    ]
+    assert finder.types("all") == (TypeName("all", "msg", "Path"),)
+    _, said = resolve(finder, "all/Ament")
+    assert said == [
+        f"microros-gen: error: package 'all' ({tmp_path}/path/all) has no type 'Ament'. It hides "
+        f"{tmp_path}/ament/share/all, which has this type: a package is taken from one place only"
+    ]
+    assert finder.read(TypeName("all", "msg", "Ament"), Diagnostics()) is None
+
+
+def test_the_environment_gives_the_places(tmp_path: Path) -> None:
+    prefixes = [tmp_path / "one", tmp_path / "two"]
+    package(prefixes[0] / "share", "a", A="int8 one")
+    package(prefixes[1] / "share", "a", A="int8 two")
+    environ = {"AMENT_PREFIX_PATH": os.pathsep.join([str(p) for p in prefixes] + [""])}
+    finder = InterfaceFinder.from_environment((), environ, tmp_path)
+    assert finder.ament == tuple(prefixes)
+    assert finder.shipped == shipped_folder()
+    source = finder.read(TypeName("a", "msg", "A"), Diagnostics())
+    assert source == Source(str(prefixes[0] / "share/a/msg/A.msg"), "int8 one")
+
+
+def test_a_path_is_a_package_or_a_folder_of_packages(tmp_path: Path) -> None:
+    inner = package(tmp_path / "src", "folder_name", A="")
+    (inner / "package.xml").write_text("<package><name>real_name</name></package>", encoding="utf-8")
+    package(tmp_path / "src", "b", B="")
+    for path, expected in ((tmp_path / "src", ["b", "real_name"]), (inner, ["real_name"])):
+        finder = InterfaceFinder((path,))
+        assert [p.name for p in finder.packages()] == expected
+        interfaces, said = resolve(finder, "real_name")
+        assert (names(interfaces), said) == (["real_name/msg/A"], [])
+
+
+def test_a_path_is_printed_as_the_user_gave_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    package(tmp_path / "src", "b", B="int32 X")
+    monkeypatch.chdir(tmp_path)
+    _, said = resolve(InterfaceFinder((Path("src"),)), "b")
+    assert said[0].startswith("src/b/msg/B.msg:1:7: error: 'X' is not a field name")
+
+
+def test_paths_that_hold_nothing_are_errors(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    (tmp_path / "empty").mkdir()
+    package(tmp_path / "prefix/share", "a", A="")
+    paths = tuple(tmp_path / name for name in ("none", "file", "empty", "prefix"))
+    diagnostics = Diagnostics()
+    InterfaceFinder(paths).check_paths(diagnostics)
+    said = [d.headline() for d in diagnostics]
+    assert "'" + str(tmp_path / "none") + "' does not exist" in said[0]
+    assert "file' is not a folder" in said[1]
+    assert "empty' holds no interface package" in said[2]
+    assert f"Did you mean '{tmp_path / 'prefix/share'}'?" in said[3]
+
+
+def test_a_file_that_is_not_utf8_is_an_error(tmp_path: Path) -> None:
+    folder = package(tmp_path, "a")
+    (folder / "msg/A.msg").write_bytes(b"int32 a\n# caf\xe9\nint32 b\n")
+    _, said = resolve(InterfaceFinder((tmp_path,)), "a")
+    assert len(said) == 1
+    assert f"'{folder / 'msg/A.msg'}' is not UTF-8: byte 0xe9 in line 2" in said[0]
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root reads everything")
+def test_an_unreadable_file_is_an_error(tmp_path: Path) -> None:
+    path = package(tmp_path, "a", A="int32 a") / "msg/A.msg"
+    path.chmod(0)
+    _, said = resolve(InterfaceFinder((tmp_path,)), "a")
+    assert f"cannot read '{path}': Permission denied" in said[0]
+
+
+def test_a_folder_with_the_name_of_a_file_is_an_error(tmp_path: Path) -> None:
+    (package(tmp_path, "a") / "msg/A.msg").mkdir()
+    _, said = resolve(InterfaceFinder((tmp_path,)), "a/A")
+    assert "cannot read" in said[0]
+
+
+def test_packages_with_idl_only_say_so(tmp_path: Path) -> None:
+    folder = package(tmp_path, "a")
+    (folder / "msg/A.idl").write_text("", encoding="utf-8")
+    finder = InterfaceFinder((tmp_path,))
+    assert "has only files that cannot be read yet (msg/A.idl)" in resolve(finder, "a")[1][0]
+    assert "A.idl' cannot be read yet" in resolve(finder, "a/A")[1][0]
+    package(tmp_path, "b", B="a/A field")
+    said = resolve(finder, "b/B")[1]
+    assert said[0].startswith(f"{tmp_path}/b/msg/B.msg:1:1: error: ")
+    assert "cannot be read yet, which the field 'field' needs" in said[0]
+
+
+@pytest.mark.parametrize("request_", ["std_msgs/Header", "std_msgs/msg/Header", "/std_msgs/Header"])
+def test_forms_of_a_request(request_: str) -> None:
+    interfaces, said = resolve(InterfaceFinder(shipped=shipped_folder()), request_)
+    assert said == []
+    assert names(interfaces) == ["builtin_interfaces/msg/Time", "std_msgs/msg/Header"]
+    assert interfaces.roots == (TypeName("std_msgs", "msg", "Header"),)
+    assert interfaces.closure(interfaces.roots[0]) == (TypeName("builtin_interfaces", "msg", "Time"),)
+
+
+@pytest.mark.parametrize(
+    ("request_", "said"),
+    [
+        (
+            "std_msg",
+            "unknown interface package 'std_msg'. Did you mean 'std_msgs'? Looked in the definitions",
+        ),
+        ("std_msgs/Strin", "has no type 'Strin'. Did you mean 'String'?"),
+        ("std_msgs/imu", "has no type 'imu'"),
+        ("std_msgs/Imu", "has no type 'Imu'. Did you mean 'sensor_msgs/Imu'?"),
+        ("std_srvs/srv/Empty", "unknown interface package 'std_srvs'"),
+        ("std_msgs/srv/Empty", "interfaces of kind msg are read, not 'srv'. Write std_msgs/msg/Empty"),
+        ("a/b/c/d", "'a/b/c/d' names no interface. Write pkg, pkg/Type or pkg/msg/Type"),
+        ("", "unknown interface package ''"),
+    ],
+)
+def test_requests_that_name_nothing(request_: str, said: str) -> None:
+    interfaces, found = resolve(InterfaceFinder(shipped=shipped_folder()), request_)
+    assert len(interfaces) == 0
+    assert len(found) == 1
+    assert said in found[0]
+
+
+def test_a_fault_stands_at_the_request() -> None:
+    span = Span(Source("microros.yaml", "interfaces: [nope]"), 1, 14, 18)
+    diagnostics = Diagnostics()
+    resolve_interfaces((Named("nope", span),), InterfaceFinder(), diagnostics)
+    (found,) = diagnostics
+    assert found.headline().startswith("microros.yaml:1:14: error: unknown interface package 'nope'")
+    assert "Looked in nowhere" in found.headline()
+
+
+def test_a_missing_dependency_stands_at_the_field_that_needs_it(tmp_path: Path) -> None:
+    package(tmp_path, "a", A="int8 x\nHeader header\nnope/Type[3] other\nstd_msgs/Int33 number")
+    _, said = resolve(InterfaceFinder((tmp_path,), shipped=shipped_folder()), "a")
+    place = f"{tmp_path}/a/msg/A.msg"
+    assert said[0].startswith(f"{place}:2:1: error: package 'a' ({tmp_path}/a) has no type 'Header', which")
+    assert "Did you mean 'std_msgs/Header'? A type without its package is one of the same package" in said[0]
+    assert said[1].startswith(
+        f"{place}:3:1: error: unknown interface package 'nope', which the field 'other'"
+    )
+    assert f"Looked in {tmp_path}, the definitions that ship" in said[1]
+    assert said[2].startswith(f"{place}:4:1: error: ")
+    assert "Did you mean 'Int32'?" in said[2]
+
+
+def test_faults_of_every_file_come_in_one_run(tmp_path: Path) -> None:
+    package(tmp_path, "a", A="int32 X\nb/B b", C="int33 c")
+    package(tmp_path, "b", B="int32 Y")
+    _, said = resolve(InterfaceFinder((tmp_path,)), "a", "b", "c")
+    assert len(said) == 4
+
+
+def test_cycles_are_reported_once_each_at_a_field(tmp_path: Path) -> None:
+    package(tmp_path, "a", Self="int8 x\nSelf me", A="B b", B="c/C[] c", Outside="A a")
+    package(tmp_path, "c", C="int8 x\na/A a")
+    interfaces, said = resolve(InterfaceFinder((tmp_path,)), "a")
+    assert len(said) == 2
+    assert any(s.startswith(f"{tmp_path}/a/msg/Self.msg:2:1: error: a message contains itself") for s in said)
+    ring = "a message contains itself: a/msg/A → a/msg/B → c/msg/C → a/msg/A"
+    assert any(s.startswith(f"{tmp_path}/a/msg/A.msg:1:1: error: {ring}") for s in said)
+    assert names(interfaces) == ["a/msg/Outside"]
+
+
+def test_dependencies_come_first_and_the_order_is_fixed() -> None:
+    finder = InterfaceFinder(shipped=shipped_folder())
+    requests = ["nav_msgs", "sensor_msgs/Imu", "std_msgs/Header"]
+    orders = [names(resolve(finder, *order)[0]) for order in permutations(requests)]
+    assert all(order == orders[0] for order in orders)
+    interfaces, _ = resolve(finder, *requests)
+    before: set[TypeName] = set()
+    for interface in interfaces:
+        needs = [element_of(field.type) for field in interface.message.fields]
+        assert {n.name for n in needs if isinstance(n, NamedType)} <= before
+        before.add(interface.name)
+    assert len(before) == len(interfaces)
+
+
+def test_all_of_common_interfaces_resolves_quickly() -> None:
+    finder = InterfaceFinder(shipped=shipped_folder())
+    requests = [p.name for p in finder.packages()]
+    best = 1.0
+    for _ in range(3):
+        start = time.perf_counter()
+        interfaces, said = resolve(finder, *requests)
+        best = min(best, time.perf_counter() - start)
+    assert said == []
+    assert len(interfaces) > 180
+    assert best < 0.4, f"{best:.3f} s"

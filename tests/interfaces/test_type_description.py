@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Type descriptions and hashes against the .json files that ROS 2 installs, and against its generator."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from rosidl_pipeline import ros_message
+
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.model.application import Named
+from microros_gen.model.type_description import type_description, type_hash, type_id
+from microros_gen.model.types import (
+    ArrayType,
+    Constant,
+    Field,
+    Message,
+    NamedType,
+    Primitive,
+    SequenceType,
+    StringType,
+    TypeName,
+)
+from microros_gen.resolve.interfaces import InterfaceSet, resolve_interfaces
+from microros_gen.sources.interfaces import InterfaceFinder
+
+SHARE = Path(sys.prefix) / "share"
+
+
+@pytest.fixture(scope="module")
+def installed() -> InterfaceSet:
+    """Return every message that ROS 2 installs in this environment."""
+    finder = InterfaceFinder(pip=(Path(sys.prefix),))
+    diagnostics = Diagnostics()
+    names = tuple(Named(place.name) for place in finder.packages() if finder.types(place.name))
+    interfaces = resolve_interfaces(names, finder, diagnostics)
+    diagnostics.check()
+    return interfaces
+
+
+@pytest.mark.ros
+def test_every_installed_description_and_hash_is_equal(installed: InterfaceSet) -> None:
+    compared = 0
+    for interface in installed:
+        path = SHARE / interface.name.package / "msg" / f"{interface.name.name}.json"
+        if not path.exists():  # test_interface_files brings none
+            continue
+        expected = json.loads(path.read_text(encoding="utf-8"))
+        assert installed.type_description(interface.name) == expected["type_description_msg"]
+        hashes = {entry["type_name"]: entry["hash_string"] for entry in expected["type_hashes"]}
+        for name in (interface.name, *installed.closure(interface.name)):
+            assert installed.type_hash(name) == hashes.pop(str(name))
+        assert not hashes, "our closure lacks these"
+        compared += 1
+    assert compared >= 169
+
+
+@pytest.mark.ros
+def test_the_other_descriptions_are_those_of_the_generator_of_ros(
+    installed: InterfaceSet, tmp_path: Path
+) -> None:
+    from rosidl_generator_type_description import calculate_type_hash, extract_full_type_description
+
+    theirs: dict[str, Any] = {}
+    for path in sorted((SHARE / "test_interface_files" / "msg").glob("*.msg")):
+        made = ros_message(path.read_text(encoding="utf-8"), tmp_path, "test_interface_files", path.stem)
+        assert made is not None
+        theirs[made.description["type_name"]] = made.description
+    assert len(theirs) == 12
+    for name in theirs:
+        full = extract_full_type_description(name, theirs)
+        ours = TypeName(*name.split("/"))
+        assert installed.type_description(ours) == full
+        assert installed.type_hash(ours) == calculate_type_hash(full)
+
+
+def test_numbers_of_types_are_those_of_field_type() -> None:
+    """FieldType of type_description_interfaces (REP-2016), by the names of its constants."""
+    finder = InterfaceFinder.from_environment(environ={}, prefix=Path("/nowhere"))
+    interfaces = resolve_interfaces((Named("type_description_interfaces/FieldType"),), finder, Diagnostics())
+    numbers = {c.name: c.value for c in interfaces.message(interfaces.roots[0]).constants}
+    names = {
+        "NESTED_TYPE": NamedType(TypeName("a", "msg", "B")),
+        "STRING": StringType(),
+        "WSTRING": StringType(wide=True),
+        "BOUNDED_STRING": StringType(bound=5),
+        "BOUNDED_WSTRING": StringType(wide=True, bound=5),
+        "BOOLEAN": Primitive.BOOL,
+        "BYTE": Primitive.BYTE,
+        "FLOAT": Primitive.FLOAT32,
+        "DOUBLE": Primitive.FLOAT64,
+        **{p.value.upper(): p for p in Primitive if "int" in p.value},
+    }
+    for name, kind in names.items():
+        assert type_id(kind) == numbers[f"FIELD_TYPE_{name}"]
+        assert type_id(ArrayType(kind, 3)) == numbers[f"FIELD_TYPE_{name}_ARRAY"]
+        assert type_id(SequenceType(kind, 3)) == numbers[f"FIELD_TYPE_{name}_BOUNDED_SEQUENCE"]
+        assert type_id(SequenceType(kind)) == numbers[f"FIELD_TYPE_{name}_UNBOUNDED_SEQUENCE"]
+    assert type_id(Primitive.CHAR) == numbers["FIELD_TYPE_UINT8"]
+
+
+def message(*fields: Field, constants: tuple[Constant, ...] = (), comment: tuple[str, ...] = ()) -> Message:
+    return Message(TypeName("pkg", "msg", "Foo"), fields, constants, comment)
+
+
+def test_the_hash_covers_names_and_types_and_nothing_else() -> None:
+    base = message(Field("a", Primitive.INT32))
+    known = type_hash(base, {})
+    assert known.startswith("RIHS01_")
+    assert len(known) == 71
+    assert type_hash(message(Field("a", Primitive.INT32, 5, ("text",)), comment=("x",)), {}) == known
+    assert type_hash(message(*base.fields, constants=(Constant("A", Primitive.BOOL, True),)), {}) == known
+    assert type_hash(message(Field("b", Primitive.INT32)), {}) != known
+    assert type_hash(message(Field("a", Primitive.UINT32)), {}) != known
+
+
+def test_a_message_without_fields_has_the_member_that_idl_needs() -> None:
+    one = Field("structure_needs_at_least_one_member", Primitive.UINT8)
+    assert type_hash(message(), {}) == type_hash(message(one), {})
+
+
+def test_descriptions_write_defaults_as_ros_does() -> None:
+    fields = (
+        Field("a", Primitive.BOOL, True),
+        Field("b", Primitive.FLOAT64, 1e-7),
+        Field("c", StringType(), "it's"),
+        Field("d", SequenceType(Primitive.INT8), (1,)),
+        Field("e", SequenceType(StringType()), ("x", "y")),
+    )
+    described = type_description(message(*fields), {})["type_description"]["fields"]
+    assert [f["default_value"] for f in described] == ["True", "1e-07", "it's", "(1,)", "('x', 'y')"]
