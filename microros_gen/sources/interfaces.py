@@ -19,6 +19,7 @@ from types import MappingProxyType
 
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.model.types import TypeName
+from microros_gen.parse.msg_names import is_package_name
 
 KIND_OF_SUFFIX: Mapping[str, str] = MappingProxyType({".msg": "msg"})
 """The interface files that are read: suffix → kind, which is also the folder that holds them."""
@@ -96,7 +97,7 @@ class InterfaceFinder:
 
     def places(self, name: str) -> Iterator[PackagePlace]:
         """Give every place of package `name`; the first one counts and hides the others."""
-        for folder, origin in self._roots():
+        for folder, origin in self._roots() if is_package_name(name) else ():
             if origin is not Origin.PATH:
                 if _is_package(folder / name):
                     yield PackagePlace(name, folder / name, origin)

@@ -159,6 +159,8 @@ def test_forms_of_a_request(request_: str) -> None:
         ("std_msgs/srv/Empty", "interfaces of kind msg are read, not 'srv'. Write std_msgs/msg/Empty"),
         ("a/b/c/d", "'a/b/c/d' names no interface. Write pkg, pkg/Type or pkg/msg/Type"),
         ("", "unknown interface package ''"),
+        ("..", "unknown interface package '..'"),
+        ("../idl/std_msgs", "'../idl/std_msgs'"),
     ],
 )
 def test_requests_that_name_nothing(request_: str, said: str) -> None:
