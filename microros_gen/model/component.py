@@ -11,6 +11,17 @@ from microros_gen.model.application import ComponentChange, Named
 
 
 @dataclass(frozen=True)
+class SourceFile:
+    """A file below the component's src/. `when` holds attributes of the RuntimePlan that it stands for.
+
+    `(("on_full", "error"),)`: only in a plan whose `on_full` is `error`; empty: always.
+    """
+
+    path: str
+    when: tuple[tuple[str, str | int | bool], ...] = ()
+
+
+@dataclass(frozen=True)
 class Component:
     """One component: what it needs, what it adds to the wire, which files it brings.
 
@@ -30,7 +41,7 @@ class Component:
     receives: tuple[str, ...] = ()
     objects: tuple[str, ...] = ()
     headers: tuple[str, ...] = ()
-    sources: tuple[str, ...] = ()
+    sources: tuple[SourceFile, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.model.component import Component
+from microros_gen.model.component import Component, SourceFile
 from microros_gen.model.xrce import OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
 from microros_gen.parse.tree_read import check_keys, expect_mapping, read_choice, read_names, read_text
-from microros_gen.parse.yaml_tree import MappingNode, parse_yaml
+from microros_gen.parse.tree_values import items, text_of
+from microros_gen.parse.yaml_tree import MappingNode, ScalarNode, YamlNode, parse_yaml
 
 LAYERS = ("micro-ROS", "middleware", "port")
 _REQUIRED = ("component", "summary", "layer", "status")
@@ -37,9 +38,32 @@ def parse_component(source: Source, diagnostics: Diagnostics) -> Component | Non
         receives=_names(node, "receives", diagnostics, tuple(SUBMESSAGES)),
         objects=_names(node, "objects", diagnostics, tuple(OBJECT_KINDS)),
         headers=_names(node, "headers", diagnostics),
-        sources=_names(node, "sources", diagnostics),
+        sources=_sources(node, diagnostics),
     )
     return component if before or not diagnostics.has_errors() else None
+
+
+def _sources(node: MappingNode, diagnostics: Diagnostics) -> tuple[SourceFile, ...]:
+    """Read a list of `x.c` and `{file: x.c, when: {on_full: error}}`."""
+    found = [(item, _source(item)) for item in items(node.get("sources"))]
+    for item, source in found:
+        if source is None:
+            diagnostics.error(
+                "'sources' must list files", item.span, "Write `x.c` or `{file: x.c, when: {on_full: error}}`"
+            )
+    return tuple(source for _, source in found if source is not None)
+
+
+def _source(item: YamlNode) -> SourceFile | None:
+    if not isinstance(item, MappingNode):
+        text = text_of(item)
+        return SourceFile(text) if text else None
+    text, when = text_of(item.get("file")), item.get("when")
+    if not text or not isinstance(when, MappingNode):
+        return None
+    conditions = ((entry.key, entry.value) for entry in when)
+    values = ((key, node.value) for key, node in conditions if isinstance(node, ScalarNode))
+    return SourceFile(text, tuple((key, v) for key, v in values if isinstance(v, (str, int, bool))))
 
 
 def _names(

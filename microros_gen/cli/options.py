@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The options that every command on a selection shares."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+@dataclass(frozen=True)
+class SelectionOptions:
+    """What the user selected on the command line; empty means: the application file or the default decides."""
+
+    config: Path | None
+    profiles: tuple[str, ...]
+    interfaces: tuple[str, ...]
+    interface_paths: tuple[Path, ...]
+    target: str | None
+    agent: str | None
+
+
+def selection_options(function: F) -> F:
+    """Add the options; the command gets them as keyword arguments of `SelectionOptions`."""
+    for option in reversed(
+        [
+            click.option(
+                "-c",
+                "--config",
+                type=click.Path(path_type=Path),
+                help="Application file. Without it, microros.yaml of this folder where there is one.",
+            ),
+            click.option(
+                "--profile",
+                "profiles",
+                multiple=True,
+                metavar="NAME",
+                help="Profile, built-in or a file; several combine. Replaces `profiles` of the file.",
+            ),
+            click.option(
+                "--interface",
+                "interfaces",
+                multiple=True,
+                metavar="PKG[/msg/Type]",
+                help="Interface, or all of a package. Adds to the file's. Default: std_msgs/msg/Int32.",
+            ),
+            click.option(
+                "--interface-path",
+                "interface_paths",
+                multiple=True,
+                type=click.Path(path_type=Path),
+                metavar="DIR",
+                help="Folder of packages, or a package; searched before the ament index, pip and the shipped set.",
+            ),
+            click.option("--target", metavar="NAME", help="Target, see `microros-gen targets`. Default: host."),
+            click.option(
+                "--agent", metavar="HOST:PORT", help="Where the agent listens. Default: 127.0.0.1:8888."
+            ),
+        ]
+    ):
+        function = option(function)
+    return function
+
+
+def output_option(function: F) -> F:
+    """Add `-o OUT`."""
+    return click.option(
+        "-o",
+        "--output",
+        type=click.Path(path_type=Path),
+        metavar="OUT",
+        help="Output folder; it belongs to the tool. Default: build/<profiles joined by +>.",
+    )(function)

@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The whole plan: entities, streams, pools and names of one selection, as data."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.model.application import Application, EndpointDecl, NodeDecl
+from microros_gen.model.selection import Selection
+from microros_gen.model.target import Target
+from microros_gen.model.types import TypeName
+from microros_gen.plan.names import dds_topic, dds_type, expand_topic, participant_name
+from microros_gen.plan.runtime import NodePlan, PublisherPlan, RuntimePlan
+from microros_gen.plan.streams import CreateNames, StreamPlan, Written, plan_streams
+from microros_gen.plan.types import TypePlan
+
+SESSION_ID = 0x81
+DEFAULT_NAME_SIZE = 64
+ERROR_TEXT_SIZE = 160
+LARGEST_POOL = 250
+
+
+@dataclass(frozen=True)
+class Project:
+    """Everything that the renderer prints. `name` names the image: the profiles joined by `+`."""
+
+    name: str
+    application: Application
+    selection: Selection
+    target: Target
+    types: tuple[TypePlan, ...]
+    roots: tuple[TypeName, ...]
+    streams: StreamPlan
+    runtime: RuntimePlan
+
+
+def plan_project(
+    application: Application,
+    selection: Selection,
+    target: Target,
+    types: tuple[TypePlan, ...],
+    roots: tuple[TypeName, ...],
+    diagnostics: Diagnostics,
+) -> Project:
+    """Size and name everything. Errors are collected; the result is only valid when there are none."""
+    name = "+".join(selection.profiles)
+    by_name = {plan.name: plan for plan in types}
+    nodes, publishers = _declared(application)
+    streams = _streams(application, selection, by_name, roots, diagnostics)
+    _check_budget(application, streams, diagnostics)
+    runtime = RuntimePlan(
+        plan_id="",
+        error_text_size=ERROR_TEXT_SIZE if application.error_text else 0,
+        agent_host=application.transport.host,
+        agent_port=application.transport.port,
+        mtu=streams.mtu,
+        input_size=streams.input_size,
+        client_key=_client_key(application, name),
+        session_id=SESSION_ID,
+        best_effort_size=streams.best_effort_size,
+        reliable_slots=streams.reliable_slots,
+        reliable_slot_size=streams.reliable_slot_size,
+        declared=bool(nodes),
+        nodes_max=len(nodes) or _pool(application, "nodes", 1, diagnostics),
+        publishers_max=len(publishers)
+        if nodes
+        else _pool(application, "publishers", len(roots) if selection.has("publish") else 0, diagnostics),
+        name_size=0 if nodes else application.pools.get("name_size", DEFAULT_NAME_SIZE),
+        nodes=nodes,
+        publishers=publishers,
+        arena_size=application.memory.arena,
+        on_full=application.on_full,
+        on_full_block_ms=application.on_full_block_ms,
+    )
+    plan_id = _plan_id(runtime, selection, types)
+    return Project(
+        name, application, selection, target, types, roots, streams, replace(runtime, plan_id=plan_id)
+    )
+
+
+def publisher_declarations(application: Application) -> tuple[tuple[int, NodeDecl, EndpointDecl], ...]:
+    """Return every declared publisher with its node and the node's index, in the order of the file."""
+    return tuple(
+        (index, node, endpoint)
+        for index, node in enumerate(application.nodes)
+        for endpoint in node.endpoints
+        if endpoint.kind == "publisher"
+    )
+
+
+def type_name(text: str) -> TypeName:
+    """Return the name that `pkg/Type` or `pkg/msg/Type` stands for (already checked)."""
+    parts = text.split("/")
+    return TypeName(parts[0], parts[1] if len(parts) == 3 else "msg", parts[-1])
+
+
+def _declared(application: Application) -> tuple[tuple[NodePlan, ...], tuple[PublisherPlan, ...]]:
+    nodes = tuple(
+        NodePlan(i, n.name, n.namespace, participant_name(n.name, n.namespace), n.domain_id)
+        for i, n in enumerate(application.nodes)
+    )
+    publishers = []
+    for index, (node_index, node, endpoint) in enumerate(publisher_declarations(application)):
+        topic = expand_topic(endpoint.topic, node.name, node.namespace)
+        reliable = endpoint.qos.reliability == "reliable"
+        publishers.append(
+            PublisherPlan(index, node_index, topic, dds_topic(topic), type_name(endpoint.type), reliable)
+        )
+    return nodes, tuple(publishers)
+
+
+def _streams(
+    application: Application,
+    selection: Selection,
+    types: Mapping[TypeName, TypePlan],
+    roots: tuple[TypeName, ...],
+    diagnostics: Diagnostics,
+) -> StreamPlan:
+    creates = _create_names(application, roots) if selection.entities == "binary" else None
+    if not selection.has("publish"):
+        return plan_streams(application, (), creates, diagnostics)
+    if application.nodes:
+        declarations = publisher_declarations(application)
+        written = tuple(_written(node, endpoint, types) for _, node, endpoint in declarations)
+    else:
+        written = tuple(Written(str(r), types[r].max_encoded_size, True, True) for r in roots)
+    return plan_streams(application, written, creates, diagnostics)
+
+
+def _written(node: NodeDecl, endpoint: EndpointDecl, types: Mapping[TypeName, TypePlan]) -> Written:
+    plan = types[type_name(endpoint.type)]
+    reliable = endpoint.qos.reliability == "reliable"
+    label = f"{endpoint.type} on {expand_topic(endpoint.topic, node.name, node.namespace)}"
+    return Written(label, plan.max_encoded_size, reliable, not reliable, endpoint.type_span or endpoint.span)
+
+
+def _create_names(application: Application, roots: tuple[TypeName, ...]) -> CreateNames:
+    longest_type = max((len(dds_type(r)) for r in roots), default=0)
+    if not application.nodes:
+        size = application.pools.get("name_size", DEFAULT_NAME_SIZE) - 1
+        return CreateNames(2 * size + 1, size + len("rt"), longest_type)
+    nodes, publishers = _declared(application)
+    return CreateNames(
+        max(len(n.participant_name) for n in nodes),
+        max((len(p.dds_topic) for p in publishers), default=0),
+        max((len(dds_type(p.type)) for p in publishers), default=0),
+    )
+
+
+def _pool(application: Application, key: str, default: int, diagnostics: Diagnostics) -> int:
+    value = application.pools.get(key, default)
+    if value > LARGEST_POOL:
+        diagnostics.error(
+            f"{value} {key} are more than the {LARGEST_POOL} that one session holds",
+            hint="Select fewer interfaces, or say how many there are at once with "
+            f"`pools: {{{key}: N}}` in the application file",
+        )
+    return value
+
+
+def _client_key(application: Application, name: str) -> int | None:
+    """Return the fixed key, or None where the port supplies it.
+
+    Without `session.key` it follows from the application, so that different applications do not take each
+    other's session; several boards with one application need `session: {key: device}`.
+    """
+    if isinstance(application.session_key, str):
+        return None
+    if application.session_key is not None:
+        return application.session_key
+    text = "/".join([name, *(participant_name(n.name, n.namespace) for n in application.nodes)])
+    return int.from_bytes(hashlib.sha256(text.encode()).digest()[:4], "big") or 1
+
+
+def _check_budget(application: Application, streams: StreamPlan, diagnostics: Diagnostics) -> None:
+    budget = application.memory.ram_budget
+    if budget is not None and streams.ram > budget:
+        diagnostics.error(
+            f"the streams alone take {streams.ram} bytes of RAM and memory.ram_budget is {budget}"
+            f" (reliable {streams.reliable_slots} x {streams.reliable_slot_size}, best effort"
+            f" {streams.best_effort_size}, input {streams.input_size})",
+            application.memory.ram_span,
+            "Lower pools.history or the limits of the largest message, or raise the budget",
+        )
+
+
+def _plan_id(runtime: RuntimePlan, selection: Selection, types: tuple[TypePlan, ...]) -> str:
+    """Return 16 hexadecimal digits that change whenever the library's layout or behaviour does."""
+    parts = [repr(runtime), *(c.component.name for c in selection.components)]
+    parts += [f"{t.name} {t.type_hash} {t.max_encoded_size}" for t in types]
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:16]
