@@ -160,7 +160,7 @@ def test_forms_of_a_request(request_: str) -> None:
         ("a/b/c/d", "'a/b/c/d' names no interface. Write pkg, pkg/Type or pkg/msg/Type"),
         ("", "unknown interface package ''"),
         ("..", "unknown interface package '..'"),
-        ("../idl/std_msgs", "'../idl/std_msgs'"),
+        ("../idl/std_msgs", "unknown interface package '..'"),
     ],
 )
 def test_requests_that_name_nothing(request_: str, said: str) -> None:
