@@ -8,7 +8,7 @@ from microros_gen.model.component import Component, SourceFile
 from microros_gen.model.xrce import OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
 from microros_gen.parse.tree_read import check_keys, expect_mapping, read_choice, read_names, read_text
 from microros_gen.parse.tree_values import items, text_of
-from microros_gen.parse.yaml_tree import MappingNode, ScalarNode, YamlNode, parse_yaml
+from microros_gen.parse.yaml_tree import MappingNode, ScalarNode, SequenceNode, YamlNode, parse_yaml
 
 LAYERS = ("micro-ROS", "middleware", "port")
 _REQUIRED = ("component", "summary", "layer", "status")
@@ -45,12 +45,14 @@ def parse_component(source: Source, diagnostics: Diagnostics) -> Component | Non
 
 def _sources(node: MappingNode, diagnostics: Diagnostics) -> tuple[SourceFile, ...]:
     """Read a list of `x.c` and `{file: x.c, when: {on_full: error}}`."""
-    found = [(item, _source(item)) for item in items(node.get("sources"))]
+    value = node.get("sources")
+    if value is not None and not isinstance(value, SequenceNode):
+        diagnostics.error("'sources' must be a list", value.span, "Write `sources: [a.c, b.c]`")
+    found = [(item, _source(item)) for item in items(value)]
     for item, source in found:
         if source is None:
-            diagnostics.error(
-                "'sources' must list files", item.span, "Write `x.c` or `{file: x.c, when: {on_full: error}}`"
-            )
+            hint = "Write `x.c` or `{file: x.c, when: {on_full: error}}`"
+            diagnostics.error("'sources' must list files", item.span, hint)
     return tuple(source for _, source in found if source is not None)
 
 
@@ -59,11 +61,11 @@ def _source(item: YamlNode) -> SourceFile | None:
         text = text_of(item)
         return SourceFile(text) if text else None
     text, when = text_of(item.get("file")), item.get("when")
-    if not text or not isinstance(when, MappingNode):
+    if not text or not isinstance(when, MappingNode) or set(item.entries) != {"file", "when"}:
         return None
-    conditions = ((entry.key, entry.value) for entry in when)
-    values = ((key, node.value) for key, node in conditions if isinstance(node, ScalarNode))
-    return SourceFile(text, tuple((key, v) for key, v in values if isinstance(v, (str, int, bool))))
+    values = [(e.key, e.value.value) for e in when if isinstance(e.value, ScalarNode)]
+    conditions = tuple((k, v) for k, v in values if isinstance(v, (str, int)))
+    return SourceFile(text, conditions) if len(conditions) == len(when.entries) else None
 
 
 def _names(

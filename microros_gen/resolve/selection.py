@@ -216,7 +216,9 @@ def _check_drop(picker: _Picker, name: str, span: Span | None, text: str) -> Non
         picker.diagnostics.error(message, span, f"Drop {needing[0]} too, or remove {text}")
     elif direct:
         message = f"{text} drops a component that is selected by {direct[0].text}"
-        picker.diagnostics.error(message, span, f"Change `{direct[0].text.split(':')[0]}:`, or remove {text}")
+        key = direct[0].text.partition(":")[0]
+        change = "that" if " " in key else f"`{key}:`"
+        picker.diagnostics.error(message, span, f"Change {change}, or remove {text}")
 
 
 def _check_declarations(picker: _Picker, application: Application) -> None:
@@ -251,7 +253,9 @@ def placed(cause: Named) -> str:
 
 
 def _check_liveliness(picker: _Picker, choice: AxisChoice) -> None:
-    if choice.value == "acknack" and STREAM_RELIABLE not in picker.causes:
+    by_itself = "liveliness_acknack"
+    streams = [r for r in picker.causes.get(STREAM_RELIABLE, ()) if r.needed_by != by_itself]
+    if choice.value == "acknack" and not streams:
         picker.diagnostics.error(
             f"{choice.text} needs a reliable stream, and nothing that is selected has one",
             choice.span,
@@ -294,8 +298,14 @@ def _selection(
         sends=_gather(((s, p.name) for p in parts for s in p.sends), tuple(SUBMESSAGES)),
         receives=_gather(((s, p.name) for p in parts for s in p.receives), tuple(SUBMESSAGES)),
         objects=_gather(objects, tuple(OBJECT_KINDS)),
-        axes=tuple(ChosenAxis(c.axis, c.value, c.reason) for c in axes.values()),
+        axes=tuple(ChosenAxis(c.axis, c.value, c.reason) for c in axes.values() if _matters(picker, c)),
     )
+
+
+def _matters(picker: _Picker, choice: AxisChoice) -> bool:
+    """Return whether to show an axis: one about a component that is not selected matters when it was chosen."""
+    about_component = choice.axis in MICRO_ROS_COMPONENTS
+    return not about_component or choice.span is not None or choice.axis in picker.causes
 
 
 def _agent_side(values: Iterable[AxisValue], axes: Mapping[str, AxisChoice]) -> list[tuple[str, str]]:

@@ -130,7 +130,7 @@ class _Reader:
 
     def _unknown(self, name: Named, near: Path) -> None:
         files = [p.stem for p in sorted(near.glob("*.yaml"))] if not _is_path(name.name) else []
-        hint = nearest(name.name, self._builtin) or nearest(name.name, files)
+        hint = nearest(name.name, [*self._builtin, *files])
         if _is_path(name.name):
             self._diagnostics.error(f"there is no profile file '{name.name}' in '{near}'", name.span, hint)
             return

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`microros-gen profiles [NAME]`: what profiles there are, and what one of them selects."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+import click
+
+from microros_gen.cli.resolve_format import FORMATS, format_selection, format_table
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.model.application import Application, Named
+from microros_gen.model.component import Catalogue, Profile
+from microros_gen.model.selection import Selection
+from microros_gen.resolve.profiles import axes_of, resolve_profiles
+from microros_gen.resolve.selection import resolve_selection
+from microros_gen.sources.components import load_catalogue
+from microros_gen.sources.profiles import load_builtin_profiles, load_middleware, load_profiles
+
+
+@click.command()
+@click.argument("name", required=False)
+@click.option("--format", "kind", type=click.Choice(FORMATS), default="table", show_default=True)
+def command(name: str | None, kind: str) -> None:
+    """List the profiles, or show what profile NAME (built-in, or a file) selects by itself."""
+    catalogue = load_catalogue()
+    if name is None:
+        click.echo(list_profiles(load_builtin_profiles(), catalogue, kind), nl=False)
+    else:
+        click.echo(format_selection(select_profile(name, Path(), catalogue), kind), nl=False)
+
+
+def select_profile(name: str, near: Path, catalogue: Catalogue) -> Selection:
+    """Return what profile `name` selects for the host; raises UserError where it is faulty or unknown."""
+    diagnostics = Diagnostics()
+    loaded = load_profiles([Named(name)], near, diagnostics)
+    resolved = resolve_profiles(loaded, diagnostics)
+    diagnostics.check()
+    application = Application(profiles=loaded.requested)
+    selection = resolve_selection(application, resolved, catalogue, load_middleware(), diagnostics)
+    diagnostics.check()
+    for diagnostic in diagnostics:
+        click.echo(diagnostic.render(), err=True)
+    return selection
+
+
+def list_profiles(profiles: Mapping[str, Profile], catalogue: Catalogue, kind: str) -> str:
+    """Return the list of `profiles` in format `kind`; a profile is ready when all that it selects is."""
+    ready = {name: _is_ready(name, catalogue) for name in profiles}
+    if kind == "json":
+        data = [_data(profile, ready[profile.name]) for profile in profiles.values()]
+        return json.dumps(data, indent=2, sort_keys=True, ensure_ascii=False) + "\n"
+    if kind == "dot":
+        return _dot(profiles)
+    rows = [
+        (p.name, "ready" if ready[p.name] else "planned", ", ".join(_parts(p)), p.summary)
+        for p in profiles.values()
+    ]
+    return format_table(("PROFILE", "STATUS", "COMPONENTS", "WHAT FOR"), rows)
+
+
+def _is_ready(name: str, catalogue: Catalogue) -> bool:
+    return all(c.component.ready for c in select_profile(name, Path(), catalogue).components)
+
+
+def _parts(profile: Profile) -> list[str]:
+    names = [change.name for change in profile.components]
+    return [*names, *(f"{axis}: {value.name}" for axis, value in axes_of(profile).items())]
+
+
+def _data(profile: Profile, ready: bool) -> dict[str, object]:
+    return {
+        "name": profile.name,
+        "summary": profile.summary,
+        "status": "ready" if ready else "planned",
+        "components": [change.name for change in profile.components],
+        "axes": {axis: value.name for axis, value in axes_of(profile).items()},
+    }
+
+
+def _dot(profiles: Mapping[str, Profile]) -> str:
+    lines = ["digraph profiles {", "  rankdir=LR;"]
+    lines += [f'  "profile {name}" [label="{name}", shape=ellipse];' for name in profiles]
+    parts = sorted({part for profile in profiles.values() for part in _parts(profile)})
+    lines += [f'  "{part}" [shape=box];' for part in parts]
+    lines += [f'  "profile {n}" -> "{part}";' for n, profile in profiles.items() for part in _parts(profile)]
+    return "\n".join([*lines, "}", ""])

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reading component.yaml files, and the folder that ships with the tool."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+
+from microros_gen.diagnostics import UserError
+from microros_gen.model.component import Catalogue, Middleware, SourceFile
+from microros_gen.model.xrce import MICRO_ROS_COMPONENTS
+from microros_gen.plan.runtime import RuntimePlan
+from microros_gen.sources.components import components_folder, load_catalogue
+
+GOOD = """\
+component: x
+summary: An example
+layer: middleware
+status: ready
+needs: []
+xrce: [read, write]
+sends: [READ_DATA]
+receives: [DATA]
+objects: [datareader]
+headers: [rcl/x.h]
+sources: [rcl_x.c, {file: rcl_y.c, when: {on_full: error, mtu: 512}}]
+"""
+
+
+def write(folder: Path, name: str, text: str) -> None:
+    (folder / name).mkdir()
+    (folder / name / "component.yaml").write_text(text, encoding="utf-8")
+
+
+def test_a_component_is_read(tmp_path: Path) -> None:
+    write(tmp_path, "x", GOOD)
+    (tmp_path / "not_a_component").mkdir()
+    catalogue = load_catalogue(tmp_path)
+    component = catalogue["x"]
+    assert list(catalogue) == ["x"]
+    assert (component.summary, component.layer, component.ready) == ("An example", "middleware", True)
+    assert component.xrce == ("read", "write")
+    assert (component.sends, component.receives, component.objects) == (
+        ("READ_DATA",),
+        ("DATA",),
+        ("datareader",),
+    )
+    assert (component.headers, component.sources) == (
+        ("rcl/x.h",),
+        (SourceFile("rcl_x.c"), SourceFile("rcl_y.c", (("on_full", "error"), ("mtu", 512)))),
+    )
+
+
+ERRORS = {
+    "unknown key": (
+        "needs:",
+        "need:",
+        "x/component.yaml:5:1: error: there is no key 'need' here. Did you mean",
+    ),
+    "missing key": ("summary: An example\n", "", "x/component.yaml:1:1: error: the key 'summary' is missing"),
+    "layer": (
+        "middleware",
+        "midleware",
+        "x/component.yaml:3:8: error: 'layer' must be one of micro-ROS, middle",
+    ),
+    "status": ("ready\n", "done\n", "x/component.yaml:4:9: error: 'status' must be one of ready, planned"),
+    "list": ("[rcl/x.h]", "rcl/x.h", "x/component.yaml:10:10: error: 'headers' must be a list"),
+    "sources": (
+        "sources: [rcl_x.c, {",
+        "sources: {rcl_x.c: 1, a: {",
+        "x/component.yaml:11:10: error: 'sources' must",
+    ),
+    "source": (
+        "[rcl_x.c",
+        "[[rcl_x.c]",
+        "x/component.yaml:11:11: error: 'sources' must list files. Write `x.c`",
+    ),
+    "source key": ("when:", "if:", "x/component.yaml:11:20: error: 'sources' must list files"),
+    "source value": ("mtu: 512", "mtu: 0.5", "x/component.yaml:11:20: error: 'sources' must list files"),
+    "xrce": (
+        "[read, w",
+        "[reed, w",
+        "x/component.yaml:6:8: error: 'xrce' does not know 'reed'. Did you mean 'read'",
+    ),
+    "submessage": ("[DATA]", "[DATUM]", "x/component.yaml:8:12: error: 'receives' does not know 'DATUM'"),
+    "object": ("[datareader]", "[reader]", "x/component.yaml:9:11: error: 'objects' does not know 'reader'"),
+    "number": ("needs: []", "needs: [3]", "x/component.yaml:5:9: error: 'needs' must list names"),
+    "text": ("An example", "[a]", "x/component.yaml:2:10: error: 'summary' must be a text"),
+    "need": (
+        "needs: []",
+        "needs: [y]",
+        "microros-gen: error: the component 'x' needs 'y', which there is not",
+    ),
+    "folder": ("component: x", "component: y", "microros-gen: error: 'x/component.yaml' describes 'y'"),
+    "empty": (GOOD, "", "microros-gen: error: the component file 'x/component.yaml' is empty"),
+    "not a mapping": (
+        GOOD,
+        "- a\n",
+        "x/component.yaml:1:1: error: a component file must be a mapping of keys",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", ERRORS)
+def test_a_faulty_component_is_refused(case: str, tmp_path: Path) -> None:
+    before, after, told = ERRORS[case]
+    assert before in GOOD
+    text = GOOD.replace(before, after, 1)
+    write(tmp_path, "x", text.replace("}}]", "}}}") if case == "sources" else text)
+    with pytest.raises(UserError) as caught:
+        load_catalogue(tmp_path)
+    lines = [d.headline() for d in caught.value.diagnostics]
+    assert any(line.startswith(told) for line in lines), lines
+
+
+def test_every_axis_value_has_its_component(real_catalogue: Catalogue, middleware: Middleware) -> None:
+    for values in middleware.axes.values():
+        for value in values.values():
+            assert value.component is None or value.component in real_catalogue
+
+
+def test_the_eleven_components_are_there(real_catalogue: Catalogue) -> None:
+    assert set(MICRO_ROS_COMPONENTS) <= set(real_catalogue)
+
+
+def test_files_of_components_are_there(real_catalogue: Catalogue) -> None:
+    attributes = {field.name for field in fields(RuntimePlan)}
+    for component in real_catalogue.values():
+        folder = components_folder() / component.name
+        if component.ready:
+            assert component.sources or component.headers, component.name
+        else:
+            assert not component.sources, component.name
+        for source in component.sources:
+            assert (folder / "src" / source.path).is_file(), f"{component.name}: {source.path}"
+            assert {key for key, _ in source.when} <= attributes, f"{component.name}: {source.path}"
+
+
+def test_no_two_components_have_the_same_public_header(real_catalogue: Catalogue) -> None:
+    headers = [header for component in real_catalogue.values() for header in component.headers]
+    assert sorted(headers) == sorted(set(headers))
+
+
+def test_needs_have_no_cycle(real_catalogue: Catalogue) -> None:
+    done: set[str] = set()
+
+    def visit(name: str, path: tuple[str, ...]) -> None:
+        assert name not in path, f"{' → '.join((*path, name))}"
+        if name not in done:
+            for need in real_catalogue[name].needs:
+                visit(need, (*path, name))
+            done.add(name)
+
+    for name in real_catalogue:
+        visit(name, ())
