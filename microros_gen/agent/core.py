@@ -62,16 +62,8 @@ class Agent:
         """Take one message. Acknowledgements wait for `flush`."""
         try:
             self._receive(data, address, transport)
-        except MalformedError as error:
-            self._refuse(error, address, transport)
-        except Exception as error:  # a fault of this program must not end the service of other clients
-            self._log.count(
-                "internal_" + type(error).__name__,
-                "internal error: {error} at {place}; please report it with the message {data}",
-                error=repr(error),
-                place=_place(error),
-                data=data[:256].hex(),
-            )
+        except Exception as error:
+            self._refuse(error, data, address, transport)
 
     def flush(self) -> None:
         """Send the acknowledgements of what was received since the last call."""
@@ -118,16 +110,16 @@ class Agent:
             self._lobby.wake(client)
         stream = data[1]
         ready = client.ready
-        try:
-            for message in client.session.incoming(stream, data[2] | data[3] << 8, data):
-                ready.append((message, start, stream, False))
-            if stream >= STREAM_RELIABLE:
-                client.unacknowledged.add(stream)
-                self._to_acknowledge.add(client)
-            while ready:
+        for message in client.session.incoming(stream, data[2] | data[3] << 8, data):
+            ready.append((message, start, stream, False))
+        if stream >= STREAM_RELIABLE:
+            client.unacknowledged.add(stream)
+            self._to_acknowledge.add(client)
+        while ready:
+            try:
                 self._process(client, *ready.popleft())
-        finally:
-            ready.clear()
+            except Exception as error:
+                self._refuse(error, data, address, transport)
 
     def _process(self, client: Client, data: bytes, start: int, stream: int, whole: bool) -> None:
         client.stream = stream
@@ -137,7 +129,7 @@ class Agent:
                 if not self._operate(client, identifier, flags, data, at, end, whole):
                     return
                 continue
-            writer = publish.get(data[at + 2] << 8 | data[at + 3]) if end - at > DATA_PREFIX else None
+            writer = publish.get(data[at + 2] << 8 | data[at + 3]) if end - at >= DATA_PREFIX else None
             if writer is None or flags & DATA_FORMAT_MASK:
                 self._refuse_sample(client, data, at, end, flags)
                 continue
@@ -151,21 +143,23 @@ class Agent:
         self, client: Client, identifier: int, flags: int, data: bytes, at: int, end: int, whole: bool
     ) -> bool:
         """Carry out a submessage that is no sample; False when it took the client away."""
-        if identifier == SubmessageId.DELETE and end - at == 4 and data[at + 3] & 0x0F == ObjectKind.CLIENT:
+        if identifier == SubmessageId.DELETE and end - at >= 4 and data[at + 3] & 0x0F == ObjectKind.CLIENT:
             self._lobby.leave(client, data, at)
             self._to_acknowledge.discard(client)
             client.ready.clear()
             return False
         if identifier == SubmessageId.FRAGMENT and whole:
             raise MalformedError("nested_fragment")
+        if identifier == SubmessageId.INFO:
+            return True  # a sign of life; what it says is not needed
         if identifier == SubmessageId.HEARTBEAT:
             self._to_acknowledge.add(client)
         self._operations.run(client, decode(identifier, flags, data, at, end), self._clock())
         return True
 
     def _refuse_sample(self, client: Client, data: bytes, at: int, end: int, flags: int) -> None:
-        if end - at <= DATA_PREFIX:
-            raise MalformedError("empty_sample", f"{end - at} bytes")
+        if end - at < DATA_PREFIX:
+            raise MalformedError("truncated", f"WRITE_DATA of {end - at} bytes")
         if flags & DATA_FORMAT_MASK:
             raise MalformedError("data_format", f"format {flags & DATA_FORMAT_MASK:#04x} is not served")
         self._log.count(
@@ -175,12 +169,22 @@ class Agent:
             object=data[at + 2 : at + 4].hex(),
         )
 
-    def _refuse(self, error: MalformedError, address: Hashable, transport: Transport) -> None:
+    def _refuse(self, error: Exception, data: bytes, address: Hashable, transport: Transport) -> None:
+        if isinstance(error, MalformedError):
+            self._log.count(
+                error.kind,
+                "malformed message from {peer} ignored: {detail}",
+                peer=transport.name_of(address),
+                detail=error.detail or error.kind,
+            )
+            return
+        # A fault of this program: it must not end the service of other clients.
         self._log.count(
-            error.kind,
-            "malformed message from {peer} ignored: {detail}",
-            peer=transport.name_of(address),
-            detail=error.detail or error.kind,
+            f"internal_{type(error).__name__}",
+            "internal error: {error} at {place}; please report it with the message {data}",
+            error=repr(error),
+            place=_place(error),
+            data=data[:256].hex(),
         )
 
 

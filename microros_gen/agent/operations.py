@@ -61,7 +61,6 @@ class Operations:
             Reset: self._reset,
             Fragment: self._fragment,
             Timestamp: self._timestamp,
-            Info: self._sign_of_life,
         }
         self._handlers: Mapping[type, Handler] = MappingProxyType(handlers)
 
@@ -152,9 +151,6 @@ class Operations:
         assert isinstance(submessage, Timestamp)
         moment = divmod(time.time_ns(), 1_000_000_000)
         client.send(client.session.unnumbered(TimestampReply(moment, moment, submessage.transmit)))
-
-    def _sign_of_life(self, client: Client, submessage: Submessage, now: float) -> None:
-        """Nothing to do: that the client was heard is noted already."""
 
     def _answer(self, client: Client, request: int, object_id: int, status: Status, now: float) -> None:
         stream = STREAM_RELIABLE if is_reliable(client.stream) else STREAM_BEST_EFFORT

@@ -98,7 +98,7 @@ class Session:
         return [self.unnumbered(heartbeat) for heartbeat in due if heartbeat]
 
     def probe(self) -> bytes:
-        """Return a message that makes a client answer: HEARTBEAT where it has reliable streams, else GET_INFO."""
+        """Return a message that makes a client answer: HEARTBEAT on a reliable stream, else GET_INFO."""
         if self._reliable_in or self._reliable_out:
             return self.unnumbered(self._output(STREAM_RELIABLE).probe())
         return self.unnumbered(GetInfo(0, OBJECT_CLIENT, INFO_ACTIVITY))

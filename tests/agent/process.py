@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""An agent in a process of its own, for tests."""
+
+from __future__ import annotations
+
+import os
+import queue
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+READY = "agent ready: udp4 "
+
+
+class AgentProcess:
+    """A running agent: its port, and what it logs."""
+
+    def __init__(self, process: subprocess.Popen[str]) -> None:
+        self.process = process
+        self.port = 0
+        self.log: list[str] = []
+        self._lines: queue.Queue[str | None] = queue.Queue()
+        for stream in (process.stdout, process.stderr):
+            threading.Thread(target=self._read, args=(stream,), daemon=True).start()
+
+    def _read(self, stream) -> None:  # type: ignore[no-untyped-def]
+        for line in stream:
+            self._lines.put(line.rstrip("\n"))
+        self._lines.put(None)
+
+    def wait_for(self, part: str, timeout_s: float = 15.0) -> str:
+        """Return the next line of the log that contains `part`."""
+        end = time.monotonic() + timeout_s
+        while True:
+            try:
+                line = self._lines.get(timeout=max(0.0, end - time.monotonic()))
+            except queue.Empty:
+                raise AssertionError(f"no '{part}' in the agent's log:\n" + "\n".join(self.log)) from None
+            if line is None:
+                continue
+            self.log.append(line)
+            if part in line:
+                return line
+
+    def stop(self, number: int = signal.SIGTERM) -> int:
+        """Send a signal; return the exit status."""
+        self.process.send_signal(number)
+        return self.process.wait(timeout=15)
+
+
+def environment(domain: int) -> dict[str, str]:
+    """Return an environment that keeps ROS to itself: own domain, this machine only."""
+    return {
+        **os.environ,
+        "ROS_DOMAIN_ID": str(domain),
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        "PYTHONUNBUFFERED": "1",
+    }
+
+
+@contextmanager
+def running_agent(domain: int, *options: str, command: Sequence[str] = ()) -> Iterator[AgentProcess]:
+    """Start `microros-gen agent udp4 --port 0 OPTIONS`, wait until it is ready, end it afterwards."""
+    start = list(command) or [sys.executable, "-m", "microros_gen"]
+    process = subprocess.Popen(
+        [*start, "agent", "udp4", "--port", "0", *options],
+        env=environment(domain),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    agent = AgentProcess(process)
+    try:
+        agent.port = int(agent.wait_for(READY).rpartition(":")[2].rstrip('"}'))
+        yield agent
+    finally:
+        if process.poll() is None:
+            process.terminate()
+        try:
+            process.wait(timeout=10)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
