@@ -120,7 +120,9 @@ class BindPart:
     bind: str
 
 
-BindStep = Union[SetNumber, InitMessages, BindText, BindTexts, BindNumbers, BindMessages, BindPart]  # noqa: UP007
+BindStep = Union[  # noqa: UP007
+    SetNumber, InitMessages, BindText, BindTexts, BindNumbers, BindMessages, BindPart
+]
 
 
 @dataclass(frozen=True)
