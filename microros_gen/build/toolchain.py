@@ -77,3 +77,13 @@ def _first_of(names: Sequence[str], what: str, target: Target, path: str | None)
             )
         ]
     )
+
+
+def sibling(program: str, name: str, wanted: str) -> str | None:
+    """Return the program `wanted` of the same tool chain: `arm-none-eabi-ar` → `arm-none-eabi-size`."""
+    path = Path(program)
+    stem = path.name.removesuffix(".exe")
+    if not stem.endswith(name):
+        return shutil.which(wanted)
+    prefix = stem.removesuffix(name).removesuffix("gcc-").removesuffix("llvm-")
+    return shutil.which(prefix + wanted, path=str(path.parent)) or shutil.which(prefix + wanted)

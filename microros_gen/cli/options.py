@@ -15,7 +15,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 @dataclass(frozen=True)
 class SelectionOptions:
-    """What the user selected on the command line; empty means: the application file or the default decides."""
+    """What the command line selects; empty means: the application file or the default decides."""
 
     config: Path | None
     profiles: tuple[str, ...]
@@ -55,9 +55,11 @@ def selection_options(function: F) -> F:
                 multiple=True,
                 type=click.Path(path_type=Path),
                 metavar="DIR",
-                help="Folder of packages, or a package; searched before the ament index, pip and the shipped set.",
+                help="Folder of packages, or a package; searched before ament, pip and the shipped set.",
             ),
-            click.option("--target", metavar="NAME", help="Target, see `microros-gen targets`. Default: host."),
+            click.option(
+                "--target", metavar="NAME", help="Target, see `microros-gen targets`. Default: host."
+            ),
             click.option(
                 "--agent", metavar="HOST:PORT", help="Where the agent listens. Default: 127.0.0.1:8888."
             ),

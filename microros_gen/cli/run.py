@@ -42,7 +42,11 @@ def _image_of(out: Path) -> tuple[Path, int]:
         name, transport = manifest["image"], manifest["transport"]
     except (OSError, ValueError, KeyError) as error:
         raise UserError(
-            [Diagnostic(f"{out} is no output folder of microros-gen", hint="Give the folder that `build` wrote")]
+            [
+                Diagnostic(
+                    f"{out} is no output folder of microros-gen", hint="Give the folder that `build` wrote"
+                )
+            ]
         ) from error
     image = out / "bin" / name
     if not image.is_file():

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes what was rendered (atomically, only what changed, the manifest last); compares with a golden copy."""
+"""Writes what was rendered: atomically, only what changed, the manifest last. Compares golden copies."""

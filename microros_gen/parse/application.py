@@ -118,9 +118,11 @@ def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
 def _agent(node: YamlNode | None, diagnostics: Diagnostics) -> tuple[str, int] | None:
     """Return host and port; a host name, an IPv6 address and a missing or wrong port are errors."""
     text = text_of(node)
-    if text is None:
-        return None
-    span = span_of(node)
+    return None if text is None else parse_agent_address(text, span_of(node), diagnostics)
+
+
+def parse_agent_address(text: str, span: Span | None, diagnostics: Diagnostics) -> tuple[str, int] | None:
+    """Return host and port of `192.168.1.10:8888`; None and an error in `diagnostics` where it is not one."""
     host, separator, port = text.rpartition(":")
     if text.count(":") > 1:
         diagnostics.error(f"the agent '{text}' has an IPv6 address", span, "Write its IPv4 address and port")

@@ -31,7 +31,7 @@ class Filling:
 
 
 def plan_filling(message: Message, messages: Mapping[TypeName, Message], text: str) -> Filling:
-    """Fill every plain member of `message` that has no default of its own; arrays and sequences stay as they are."""
+    """Fill every plain member of `message` without a default of its own; arrays and sequences stay."""
     members = tuple(_plain_members(message, messages, ""))
     stamps = tuple(path for path, field in members if field.type == NamedType(_TIME))
     numbers = [(path, f.type) for path, f in members if isinstance(f.type, Primitive)]
@@ -39,7 +39,9 @@ def plan_filling(message: Message, messages: Mapping[TypeName, Message], text: s
     texts = tuple(
         MemberValue(path, text)
         for path, f in members
-        if isinstance(f.type, StringType) and not f.type.wide and (f.type.bound is None or f.type.bound >= len(text))
+        if isinstance(f.type, StringType)
+        and not f.type.wide
+        and (f.type.bound is None or f.type.bound >= len(text))
     )
     return Filling(stamps, values, texts)
 

@@ -11,7 +11,12 @@ from microros_gen.model.types import TypeName
 
 
 def expand_topic(topic: str, node: str, namespace: str) -> str:
-    """Return the fully qualified name: `imu/data` → `/ns/imu/data`, `~/x` → `/ns/node/x`, `/x` stays."""
+    """Return the fully qualified name: `imu/data` → `/ns/imu/data`, `~/x` → `/ns/node/x`, `/x` stays.
+
+    `{node}`, `{ns}` and `{namespace}` are replaced, as rcl does.
+    """
+    for key, value in (("{node}", node), ("{ns}", namespace), ("{namespace}", namespace)):
+        topic = topic.replace(key, value)
     if topic.startswith("/"):
         return topic
     base = namespace.rstrip("/")

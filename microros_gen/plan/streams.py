@@ -64,7 +64,7 @@ class CreateNames:
 
 
 def create_size(names: CreateNames) -> int:
-    """Return the size of the largest CREATE datagram with binary representation (OMG DDS-XRCE 1.0, 8.3.5.2)."""
+    """Return the size of the largest CREATE datagram with binary representation (OMG DDS-XRCE 1.0, 8.3.5)."""
     fixed = 12  # request id, object id, kind, format, padding, length
     participant = 8 + names.participant + 1
     topic = _align4(4 + names.topic + 1 + 2) + 4 + names.type + 1
@@ -74,7 +74,10 @@ def create_size(names: CreateNames) -> int:
 
 
 def plan_streams(
-    application: Application, written: Iterable[Written], creates: CreateNames | None, diagnostics: Diagnostics
+    application: Application,
+    written: Iterable[Written],
+    creates: CreateNames | None,
+    diagnostics: Diagnostics,
 ) -> StreamPlan:
     """Size the streams; a message that cannot fit its stream is an error with the number that would do.
 

@@ -16,7 +16,7 @@ TARGETS = PACKAGE / "targets"
 
 @dataclass(frozen=True)
 class ComponentFile:
-    """One file of a component: where it goes, and its bytes; a template's `template` names it for the renderer."""
+    """One file of a component: where it goes, its bytes, and the template's name where it is one."""
 
     path: str
     content: bytes

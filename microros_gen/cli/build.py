@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`microros-gen build`: generates and compiles."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+import click
+
+from microros_gen.build.compile import compile_tree
+from microros_gen.build.measure import check_budget, measure_library
+from microros_gen.build.toolchain import find_toolchain
+from microros_gen.cli.generate import generate
+from microros_gen.cli.options import SelectionOptions, output_option, selection_options
+from microros_gen.cli.pipeline import Planned
+from microros_gen.cli.summary import built_summary, generated_summary
+
+
+@click.command()
+@selection_options
+@output_option
+def command(output: Path | None, **options: Any) -> None:
+    """Generate a selection, compile it to OUT/lib/libmicroros.a and link the profile's example to OUT/bin.
+
+    Only what changed is compiled again. CC, AR and CFLAGS are taken from the environment for the host.
+
+    \b
+    microros-gen build --profile pure_sender
+    microros-gen build -c microros.yaml -o build/robot
+    """
+    planned, out, report = generate(SelectionOptions(**options), output)
+    click.echo(generated_summary(planned, out, report), nl=False)
+    _compile(planned, out)
+
+
+def _compile(planned: Planned, out: Path) -> None:
+    project = planned.project
+    tools = find_toolchain(project.target, os.environ)
+    sources = (out / "sources.txt").read_text(encoding="utf-8").split("\n")[:-1]
+    image = f"{project.name}{project.target.image_suffix}"
+    built = compile_tree(out, sources, f"examples/{project.name}/main.c", image, tools)
+    usage = measure_library(out, tools)
+    click.echo(built_summary(out, built, usage), nl=False)
+    if usage is not None:
+        check_budget(usage, project.application.memory)

@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: Apache-2.0
+"""From the options of a command to the bytes of every file: calls the steps in their order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import click
+
+from microros_gen.cli.options import SelectionOptions
+from microros_gen.diagnostics import Diagnostics, Source, Span
+from microros_gen.model.application import Application, Named
+from microros_gen.model.component import Catalogue
+from microros_gen.model.selection import Selection
+from microros_gen.model.target import Target
+from microros_gen.model.types import TypeName
+from microros_gen.parse.application import parse_agent_address, parse_application
+from microros_gen.plan.capacity import Capacities, Defaults, Root, plan_capacities
+from microros_gen.plan.project import Project, plan_project, publisher_declarations, type_name
+from microros_gen.plan.streams import DEFAULT_MTU, WRITE_DATA_OVERHEAD
+from microros_gen.plan.types import plan_types
+from microros_gen.resolve.interfaces import InterfaceSet, resolve_interfaces
+from microros_gen.resolve.profiles import resolve_profiles
+from microros_gen.resolve.selection import check_ready, resolve_selection
+from microros_gen.sources.application import read_application
+from microros_gen.sources.components import load_catalogue
+from microros_gen.sources.interfaces import InterfaceFinder
+from microros_gen.sources.profiles import load_middleware, load_profiles
+from microros_gen.sources.runtime import ComponentFile, read_headers, read_sources
+from microros_gen.sources.targets import read_target
+
+DEFAULT_INTERFACE = "std_msgs/msg/Int32"
+
+
+@dataclass(frozen=True)
+class Request:
+    """What the user asked for, read but not yet resolved."""
+
+    application: Application
+    from_file: bool
+    near: Path
+    target: Target
+    inputs: Mapping[str, bytes]
+
+
+@dataclass(frozen=True)
+class Resolved:
+    """A request with its selection."""
+
+    request: Request
+    catalogue: Catalogue
+    selection: Selection
+
+
+@dataclass(frozen=True)
+class Planned:
+    """A resolved request with its plan and with what `capacities` had to assume."""
+
+    resolved: Resolved
+    interfaces: InterfaceSet
+    capacities: Capacities
+    project: Project
+
+
+def read_request(options: SelectionOptions, diagnostics: Diagnostics) -> Request:
+    """Read the application file where there is one and let the options win over it."""
+    source = read_application(options.config, Path.cwd(), diagnostics)
+    application = parse_application(source, diagnostics) if source else Application()
+    diagnostics.check()
+    assert application is not None
+    application = _with_options(application, options, diagnostics)
+    near = options.config.parent if options.config else Path()
+    target = read_target(application.target.name, near, application.target.span, diagnostics)
+    if not application.nodes and not application.interfaces:
+        application = replace(application, interfaces=(Named(DEFAULT_INTERFACE),))
+    diagnostics.check()
+    assert target is not None
+    inputs = {"microros.yaml": source.text.encode()} if source else {}
+    return Request(application, source is not None, near, target, inputs)
+
+
+def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
+    """Resolve profiles and components."""
+    catalogue = load_catalogue()
+    profiles = load_profiles(request.application.profiles, request.near, diagnostics)
+    resolved = resolve_profiles(profiles, diagnostics)
+    diagnostics.check()
+    selection = resolve_selection(
+        request.application, resolved, catalogue, load_middleware(), diagnostics, request.target.port
+    )
+    diagnostics.check()
+    return Resolved(request, catalogue, selection)
+
+
+def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Diagnostics) -> Planned:
+    """Find the interfaces and plan sizes, names and entities. Raises UserError with all that is wrong."""
+    application, selection = resolved.request.application, resolved.selection
+    check_ready(selection, diagnostics)
+    finder = InterfaceFinder.from_environment(options.interface_paths)
+    finder.check_paths(diagnostics)
+    interfaces = resolve_interfaces(_requested(application), finder, diagnostics)
+    diagnostics.check()
+    capacities = _capacities(resolved.request, interfaces, diagnostics)
+    diagnostics.check()
+    types = plan_types(interfaces.messages, capacities, interfaces.type_hash, diagnostics)
+    diagnostics.check()
+    project = plan_project(
+        application, selection, resolved.request.target, types, interfaces.roots, diagnostics
+    )
+    diagnostics.check()
+    return Planned(resolved, interfaces, capacities, project)
+
+
+def render_request(planned: Planned) -> dict[str, bytes]:
+    """Return every file of the output folder, the manifest among them."""
+    from microros_gen.output.manifest import manifest
+    from microros_gen.output.tree import MANIFEST
+    from microros_gen.render.environment import make_environment
+    from microros_gen.render.project import render_project
+
+    chosen = {c.component.name for c in planned.project.selection.components}
+    unselected = [c for c in planned.resolved.catalogue.values() if c.name not in chosen]
+    files = render_project(planned.project, _component_files(planned.project), unselected, make_environment())
+    inputs = dict(planned.resolved.request.inputs)
+    inputs |= {str(entry.name): entry.source.text.encode() for entry in planned.interfaces}
+    files[MANIFEST] = manifest(planned.project, inputs, files)
+    return files
+
+
+def print_warnings(diagnostics: Iterable[object]) -> None:
+    """Print what was found and is no error, on stderr."""
+    for diagnostic in diagnostics:
+        click.echo(diagnostic.render(), err=True)  # type: ignore[attr-defined]
+
+
+def _with_options(
+    application: Application, options: SelectionOptions, diagnostics: Diagnostics
+) -> Application:
+    if options.profiles:
+        application = replace(application, profiles=_named(options.profiles, "--profile"))
+    if options.interfaces:
+        added = _named(options.interfaces, "--interface")
+        application = replace(application, interfaces=application.interfaces + added)
+    if options.target:
+        (named,) = _named((options.target,), "--target")
+        target = replace(application.target, name=named.name, span=named.span)
+        application = replace(application, target=target)
+    if options.agent:
+        (named,) = _named((options.agent,), "--agent")
+        address = parse_agent_address(named.name, named.span, diagnostics)
+        if address:
+            transport = replace(application.transport, host=address[0], port=address[1])
+            application = replace(application, transport=transport)
+    return application
+
+
+def _named(values: Iterable[str], option: str) -> tuple[Named, ...]:
+    """Give each value a place on the command line, as diagnostics print it."""
+    found = []
+    for value in values:
+        text = f"{option} {value}"
+        span = Span(Source("<command line>", text), 1, len(option) + 2, len(text) + 1)
+        found.append(Named(value, span))
+    return tuple(found)
+
+
+def _requested(application: Application) -> tuple[Named, ...]:
+    declared = tuple(
+        Named(endpoint.type, endpoint.type_span or endpoint.span)
+        for node in application.nodes
+        for endpoint in node.endpoints
+    )
+    return declared + application.interfaces
+
+
+def _capacities(request: Request, interfaces: InterfaceSet, diagnostics: Diagnostics) -> Capacities:
+    application = request.application
+    room = (application.transport.mtu or DEFAULT_MTU[application.transport.type]) - WRITE_DATA_OVERHEAD
+    declared = [
+        Root(type_name(endpoint.type), endpoint.limits, endpoint.type_span or endpoint.span, room)
+        for _, _, endpoint in publisher_declarations(application)
+    ]
+    known = {root.type for root in declared}
+    roots = declared + [_root(name, application, room) for name in interfaces.roots if name not in known]
+    defaults = Defaults(None, None) if request.from_file else Defaults()
+    return plan_capacities(interfaces.messages, roots, application.limits, defaults, diagnostics)
+
+
+def _root(name: TypeName, application: Application, room: int) -> Root:
+    spans = {i.name: i.span for i in application.interfaces}
+    span = spans.get(str(name)) or spans.get(f"{name.package}/{name.name}") or spans.get(name.package)
+    return Root(name, (), span, room)
+
+
+def _component_files(project: Project) -> tuple[ComponentFile, ...]:
+    files: list[ComponentFile] = []
+    for chosen in project.selection.components:
+        component = chosen.component
+        names = tuple(
+            source.path
+            for source in component.sources
+            if all(getattr(project.runtime, key) == value for key, value in source.when)
+        )
+        files += read_headers(component.name)
+        files += read_sources(component.name, names)
+    return tuple(files)

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`microros-gen resolve`: what a selection brings, and why."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from typing import Any
+
+import click
+
+from microros_gen.cli.options import SelectionOptions, selection_options
+from microros_gen.cli.pipeline import Planned, plan_request, print_warnings, read_request, resolve_request
+from microros_gen.cli.resolve_format import format_selection, format_table, selection_data
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.plan.streams import StreamPlan
+
+
+@click.command()
+@selection_options
+@click.option(
+    "--format", "kind", type=click.Choice(("table", "json", "dot")), default="table", show_default=True
+)
+def command(kind: str, **options: Any) -> None:
+    """Print components, XRCE profiles, pools and sizes of a selection, each with its reason.
+
+    Works for every profile; sizes are only there when all of its components are.
+    """
+    diagnostics = Diagnostics()
+    selection = SelectionOptions(**options)
+    resolved = resolve_request(read_request(selection, diagnostics), diagnostics)
+    chosen = resolved.selection
+    ready = all(c.component.ready for c in chosen.components)
+    planned = plan_request(resolved, selection, diagnostics) if ready else None
+    print_warnings(diagnostics)
+    if kind == "json":
+        data = selection_data(chosen) | (_plan_data(planned) if planned else {})
+        click.echo(json.dumps(data, indent=2, sort_keys=True, ensure_ascii=False))
+        return
+    click.echo(format_selection(chosen, kind), nl=False)
+    if planned and kind == "table":
+        click.echo()
+        click.echo(format_table(("POOL", "SIZE", "WHY"), pool_rows(planned)), nl=False)
+        click.echo()
+        click.echo(format_table(("TYPE", "LARGEST", "TYPE HASH"), _type_rows(planned)), nl=False)
+
+
+def pool_rows(planned: Planned) -> list[tuple[str, str, str]]:
+    """Return each pool with its size and what it follows from."""
+    runtime, streams = planned.project.runtime, planned.project.streams
+    source = "declared in nodes:" if runtime.declared else "pools: or one for each interface"
+    rows = [
+        ("nodes", str(runtime.nodes_max), source),
+        ("publishers", str(runtime.publishers_max), source),
+        *_stream_rows(streams),
+        (
+            "error text",
+            f"{runtime.error_text_size} bytes",
+            "errors: text" if runtime.error_text_size else "errors: code",
+        ),
+        ("arena", f"{runtime.arena_size} bytes", "memory.arena"),
+    ]
+    if not runtime.declared:
+        rows.insert(2, ("names", f"{runtime.name_size} bytes each", "pools.name_size"))
+    return rows
+
+
+def _stream_rows(streams: StreamPlan) -> list[tuple[str, str, str]]:
+    return [
+        (
+            "reliable output",
+            f"{streams.reliable_slots} x {streams.reliable_slot_size} bytes",
+            "pools.history times the largest reliable message",
+        ),
+        (
+            "best-effort output",
+            f"{streams.best_effort_size} bytes",
+            "the largest CREATE or best-effort message",
+        ),
+        ("input", f"{streams.input_size} bytes", "the largest message of the agent"),
+    ]
+
+
+def _type_rows(planned: Planned) -> list[tuple[str, str, str]]:
+    return [
+        (str(t.name), f"{t.max_encoded_size} bytes" if t.root else "part", t.type_hash)
+        for t in planned.project.types
+    ]
+
+
+def _plan_data(planned: Planned) -> dict[str, Any]:
+    return {
+        "streams": dataclasses.asdict(planned.project.streams),
+        "pools": {name: {"size": size, "reason": why} for name, size, why in pool_rows(planned)},
+        "types": {
+            str(t.name): {"hash": t.type_hash, "max_encoded_size": t.max_encoded_size, "root": t.root}
+            for t in planned.project.types
+        },
+    }

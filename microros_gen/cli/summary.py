@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What `generate` and `build` print about their result."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from microros_gen.build.compile import BuildReport
+from microros_gen.build.measure import Usage
+from microros_gen.cli.pipeline import Planned
+from microros_gen.output.tree import WriteReport
+
+
+def generated_summary(planned: Planned, out: Path, report: WriteReport) -> str:
+    """Return a few lines: profile, entities, streams, assumed limits, files."""
+    project = planned.project
+    runtime = project.runtime
+    lines = [
+        ("profile", f"{project.name} for {project.target.name}: {_components(planned)}"),
+        ("agent", f"{project.selection.transport} {runtime.agent_host}:{runtime.agent_port}"),
+        *(("publishes", line) for line in _entities(planned)),
+        (
+            "streams",
+            f"reliable {runtime.reliable_slots} x {runtime.reliable_slot_size} bytes,"
+            f" best effort {runtime.best_effort_size}, input {runtime.input_size}",
+        ),
+    ]
+    if planned.capacities.defaulted:
+        lines.append(("limits", _defaults(planned)))
+    lines.append(
+        (
+            "files",
+            f"{len(report.written)} written, {len(report.unchanged)} unchanged,"
+            f" {len(report.removed)} removed in {out}",
+        )
+    )
+    return _table(lines)
+
+
+def built_summary(out: Path, report: BuildReport, usage: Usage | None) -> str:
+    """Return the lines that a compilation adds."""
+    sizes = f": {usage.flash} bytes of code and constants, {usage.ram} of RAM" if usage else ""
+    return _table(
+        [
+            ("compiled", f"{report.compiled} objects, {report.kept} were up to date"),
+            ("library", f"{out / report.library}{sizes}"),
+            *([("image", f"{out / report.image}")] if report.image else []),
+        ]
+    )
+
+
+def _components(planned: Planned) -> str:
+    chosen = planned.project.selection.components
+    own = [c.component.name for c in chosen if c.component.layer == "micro-ROS"]
+    below = [c.component.name for c in chosen if c.component.layer != "micro-ROS"]
+    return f"{', '.join(own)} on {', '.join(below)}"
+
+
+def _entities(planned: Planned) -> list[str]:
+    runtime = planned.project.runtime
+    if runtime.declared:
+        return [
+            f"{p.topic} ({p.type}, {'reliable' if p.reliable else 'best effort'})" for p in runtime.publishers
+        ]
+    if not planned.project.selection.has("publish"):
+        return []
+    shown = [str(root) for root in planned.project.roots[:6]]
+    more = len(planned.project.roots) - len(shown)
+    return [
+        f"up to {runtime.publishers_max} of {', '.join(shown)}{f' and {more} more types' if more else ''}"
+    ]
+
+
+def _defaults(planned: Planned) -> str:
+    kinds = {c.kind: c.value for c in planned.capacities.defaulted}
+    values = ", ".join(f"{kind} {value}" for kind, value in sorted(kinds.items(), reverse=True))
+    count = len(planned.capacities.defaulted)
+    return f"{values} by default for {count} field(s); set `limits:` in microros.yaml"
+
+
+def _table(lines: list[tuple[str, str]]) -> str:
+    return "".join(f"{name:<10} {text}\n" for name, text in lines)

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""OUT/manifest.json: what was selected, from what, and what came out. No path, time or host goes into it."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from microros_gen import __version__
+from microros_gen.plan.project import Project
+
+
+def manifest(project: Project, inputs: Mapping[str, bytes], outputs: Mapping[str, bytes]) -> bytes:
+    """Return the manifest as JSON: keys sorted, UTF-8, one line end at its end.
+
+    `inputs` are named by what they are (`microros.yaml`, `sensor_msgs/msg/Imu`), not by where they lie.
+    """
+    data = {
+        "generator": {"name": "microros-gen", "version": __version__},
+        "image": f"{project.name}{project.target.image_suffix}",
+        "target": project.target.name,
+        "transport": {
+            "type": project.application.transport.type,
+            "agent": f"{project.runtime.agent_host}:{project.runtime.agent_port}",
+            "mtu": project.runtime.mtu,
+        },
+        "plan": project.runtime.plan_id,
+        "selection": _selection(project),
+        "entities": _entities(project),
+        "pools": _pools(project),
+        "types": {
+            str(plan.name): {"hash": plan.type_hash, "max_encoded_size": plan.max_encoded_size}
+            for plan in project.types
+        },
+        "inputs": {name: _sha256(content) for name, content in inputs.items()},
+        "outputs": {name: _sha256(content) for name, content in outputs.items()},
+    }
+    return (json.dumps(data, indent=2, sort_keys=True, ensure_ascii=False) + "\n").encode()
+
+
+def _selection(project: Project) -> dict[str, Any]:
+    selection = project.selection
+    return {
+        "profiles": list(selection.profiles),
+        "components": [c.component.name for c in selection.components],
+        "entities": selection.entities,
+        "transport": selection.transport,
+        "liveliness": selection.liveliness,
+        "xrce_profiles": [c.name for c in selection.xrce_profiles],
+        "sends": [c.name for c in selection.sends],
+        "receives": [c.name for c in selection.receives],
+        "objects": [c.name for c in selection.objects],
+    }
+
+
+def _entities(project: Project) -> dict[str, Any]:
+    return {
+        "nodes": [
+            {"name": n.name, "namespace": n.namespace, "domain_id": n.domain_id}
+            for n in project.runtime.nodes
+        ],
+        "publishers": [
+            {"node": p.node, "topic": p.topic, "type": str(p.type), "reliable": p.reliable}
+            for p in project.runtime.publishers
+        ],
+    }
+
+
+def _pools(project: Project) -> dict[str, int]:
+    runtime = project.runtime
+    return {
+        "nodes": runtime.nodes_max,
+        "publishers": runtime.publishers_max,
+        "name_size": runtime.name_size,
+        "reliable_slots": runtime.reliable_slots,
+        "reliable_slot_size": runtime.reliable_slot_size,
+        "best_effort_size": runtime.best_effort_size,
+        "input_size": runtime.input_size,
+        "arena": runtime.arena_size,
+        "error_text": runtime.error_text_size,
+    }
+
+
+def _sha256(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()

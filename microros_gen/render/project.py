@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Renders a project: every file of the output folder but the manifest, as bytes by relative path."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from jinja2 import Environment
+
+from microros_gen.model.component import Component
+from microros_gen.plan.project import Project
+from microros_gen.render.example import example_view
+from microros_gen.render.types import render_types
+from microros_gen.sources.runtime import ComponentFile
+
+
+@dataclass(frozen=True)
+class _Row:
+    name: str
+    reasons: str
+
+
+@dataclass(frozen=True)
+class _Bytes:
+    name: str
+    bytes: int
+
+
+@dataclass(frozen=True)
+class _ProjectView:
+    title: str
+    image: str
+    example: str
+    sources: tuple[str, ...]
+    components: tuple[_Row, ...]
+    entities: tuple[str, ...]
+    memory: tuple[_Bytes, ...]
+
+
+@dataclass(frozen=True)
+class _UnselectedView:
+    message: str
+
+
+def render_project(
+    project: Project,
+    files: Iterable[ComponentFile],
+    unselected: Iterable[Component],
+    environment: Environment,
+) -> dict[str, bytes]:
+    """Return the bytes of every file by its path below the output folder.
+
+    `files` are those of the selected components; `unselected` are the others, whose public headers become one
+    `#error` each.
+    """
+    rendered = _component_files(project, files, environment)
+    rendered |= render_types(project.types, environment)
+    for path, content in _unselected_headers(unselected, environment):
+        rendered.setdefault(path, content)
+    example = f"examples/{project.name}/main.c"
+    template = environment.get_template("example/main.c.j2")
+    rendered[example] = template.render(view=example_view(project)).encode()
+    view = _project_view(project, example, rendered)
+    for name in ("CMakeLists.txt", "sources.txt", "README.md"):
+        rendered[name] = environment.get_template(f"project/{name}.j2").render(view=view).encode()
+    return rendered
+
+
+def library_sources(files: Iterable[str]) -> tuple[str, ...]:
+    """Return the C files of the library among `files`, sorted."""
+    return tuple(sorted(f for f in files if f.startswith("src/") and f.endswith(".c")))
+
+
+def _component_files(
+    project: Project, files: Iterable[ComponentFile], environment: Environment
+) -> dict[str, bytes]:
+    context = {
+        "plan": project.runtime,
+        "selection": project.selection,
+        "headers": tuple(sorted(h for c in project.selection.components for h in c.component.headers)),
+    }
+    return {
+        file.path: environment.get_template(file.template).render(context).encode()
+        if file.template
+        else file.content
+        for file in files
+    }
+
+
+def _unselected_headers(
+    components: Iterable[Component], environment: Environment
+) -> Iterable[tuple[str, bytes]]:
+    template = environment.get_template("project/unselected.h.j2")
+    for component in components:
+        message = (
+            f"The component '{component.name}' is not selected: add `components: [+{component.name}]`"
+            " to microros.yaml and generate again"
+        )
+        content = template.render(view=_UnselectedView(message)).encode()
+        yield from ((f"include/{header}", content) for header in component.headers)
+
+
+def _project_view(project: Project, example: str, rendered: Mapping[str, bytes]) -> _ProjectView:
+    runtime = project.runtime
+    declared = [f"node `{n.name}` in `{n.namespace}`" for n in runtime.nodes]
+    declared += [
+        f"publisher `{p.topic}` of {p.type}, {'reliable' if p.reliable else 'best effort'}"
+        for p in runtime.publishers
+    ]
+    pools = [
+        f"up to {runtime.nodes_max} node(s), named by the application",
+        f"up to {runtime.publishers_max} publisher(s) of {', '.join(str(r) for r in project.roots)}",
+    ]
+    return _ProjectView(
+        title=project.name,
+        image=project.name,
+        example=example,
+        sources=library_sources(rendered),
+        components=tuple(_Row(c.component.name, ", ".join(c.reasons)) for c in project.selection.components),
+        entities=tuple(declared or pools),
+        memory=(
+            _Bytes("reliable output", runtime.reliable_slots * runtime.reliable_slot_size),
+            _Bytes("best-effort output", runtime.best_effort_size),
+            _Bytes("input", runtime.input_size),
+        ),
+    )
