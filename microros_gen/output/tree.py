@@ -58,10 +58,9 @@ def check_owned(out: Path) -> None:
 
 def owned_paths(folder: Path) -> frozenset[str]:
     """Return the files of a folder that this tool wrote, from its manifest and journal."""
-    owned = set(_listed(folder / MANIFEST, "outputs")) | set(_listed(folder / JOURNAL, "files"))
-    if (folder / MANIFEST).is_file():
-        owned.add(MANIFEST)
-    return frozenset(owned)
+    manifest, journal = _ours(folder / MANIFEST), _ours(folder / JOURNAL)
+    owned = set(_names(manifest.get("outputs"))) | set(_names(journal.get("files")))
+    return frozenset(owned | {MANIFEST} if manifest else owned)
 
 
 def _owned_files(out: Path) -> frozenset[str]:
@@ -83,18 +82,19 @@ def _owned_files(out: Path) -> frozenset[str]:
     return owned
 
 
-def _listed(path: Path, key: str) -> Iterator[str]:
+def _ours(path: Path) -> dict[str, object]:
+    """Return the JSON mapping of a file that this tool wrote, else an empty one."""
     try:
         data = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError):
-        return
-    if not isinstance(data, dict) or not isinstance(data.get("generator"), dict):
-        return
-    if data["generator"].get("name") != "microros-gen":
-        return
-    for name in data.get(key, ()):
-        if isinstance(name, str) and _is_inside(name):
-            yield name
+        return {}
+    generator = data.get("generator") if isinstance(data, dict) else None
+    return data if isinstance(generator, dict) and generator.get("name") == "microros-gen" else {}
+
+
+def _names(listed: object) -> Iterator[str]:
+    if isinstance(listed, (dict, list)):
+        yield from (name for name in listed if isinstance(name, str) and _is_inside(name))
 
 
 def _is_inside(name: str) -> bool:

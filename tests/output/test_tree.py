@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Writing the output folder: atomic, only what changed, only what is ours, right again after any interruption."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+
+from microros_gen.diagnostics import UserError
+from microros_gen.output import tree
+from microros_gen.output.tree import JOURNAL, MANIFEST, write_tree
+
+
+def tree_of(**files: str) -> dict[str, bytes]:
+    content = {name.replace("__", "/").replace("_c", ".c"): text.encode() for name, text in files.items()}
+    manifest = {"generator": {"name": "microros-gen"}, "outputs": {name: "" for name in content}}
+    return content | {MANIFEST: json.dumps(manifest).encode()}
+
+
+def held(folder: Path) -> dict[str, bytes]:
+    return {p.relative_to(folder).as_posix(): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+def test_writes_every_file_and_no_other(tmp_path: Path) -> None:
+    files = tree_of(src__a_c="a", src__b_c="b")
+    report = write_tree(tmp_path / "out", files)
+    assert held(tmp_path / "out") == files
+    assert set(report.written) == set(files)
+
+
+def test_an_unchanged_file_keeps_its_time(tmp_path: Path) -> None:
+    write_tree(tmp_path, tree_of(src__a_c="a", src__b_c="b"))
+    os.utime(tmp_path / "src/a.c", (1, 1))
+    report = write_tree(tmp_path, tree_of(src__a_c="a", src__b_c="changed"))
+    assert (tmp_path / "src/a.c").stat().st_mtime == 1
+    assert report.written == ("src/b.c",)
+
+
+def test_files_no_longer_selected_are_removed_with_their_folders(tmp_path: Path) -> None:
+    write_tree(tmp_path, tree_of(src__x__a_c="a", src__b_c="b"))
+    report = write_tree(tmp_path, tree_of(src__b_c="b"))
+    assert report.removed == ("src/x/a.c",)
+    assert not (tmp_path / "src/x").exists()
+
+
+def test_a_folder_that_holds_something_else_is_refused_and_left_alone(tmp_path: Path) -> None:
+    (tmp_path / "thesis.tex").write_text("mine")
+    with pytest.raises(UserError, match=r"thesis\.tex.*Choose an empty or a new folder with -o"):
+        write_tree(tmp_path, tree_of(src__a_c="a"))
+    assert held(tmp_path) == {"thesis.tex": b"mine"}
+
+
+def test_a_manifest_of_another_tool_is_no_licence_to_overwrite(tmp_path: Path) -> None:
+    (tmp_path / MANIFEST).write_text('{"name": "a web extension", "outputs": {"x": 1}}')
+    with pytest.raises(UserError):
+        write_tree(tmp_path, tree_of(src__a_c="a"))
+
+
+def test_a_manifest_cannot_make_us_delete_outside(tmp_path: Path) -> None:
+    victim = tmp_path / "victim.txt"
+    victim.write_text("keep")
+    out = tmp_path / "out"
+    out.mkdir()
+    manifest = {"generator": {"name": "microros-gen"}, "outputs": {"../victim.txt": "", str(victim): ""}}
+    (out / MANIFEST).write_text(json.dumps(manifest))
+    (out / JOURNAL).write_text(json.dumps({"generator": {"name": "microros-gen"}, "files": []}))
+    write_tree(out, tree_of(src__a_c="a"))
+    assert victim.read_text() == "keep"
+
+
+def test_a_file_in_place_of_the_folder_is_told(tmp_path: Path) -> None:
+    (tmp_path / "out").write_text("")
+    with pytest.raises(UserError, match="is not a folder"):
+        write_tree(tmp_path / "out", tree_of(src__a_c="a"))
+
+
+@pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root may write everywhere")
+def test_an_unwritable_folder_is_told(tmp_path: Path) -> None:
+    (tmp_path / "out").mkdir(mode=0o555)
+    with pytest.raises(UserError, match="cannot write the output folder"):
+        write_tree(tmp_path / "out", tree_of(src__a_c="a"))
+
+
+def test_a_path_below_a_file_is_told(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(UserError, match="cannot write the output folder"):
+        write_tree(tmp_path / "file" / "out", tree_of(src__a_c="a"))
+
+
+class Interrupted(BaseException):
+    pass
+
+
+@pytest.mark.parametrize("after", range(6))
+def test_an_interrupted_run_leaves_old_or_new_files_and_the_next_run_mends_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, after: int
+) -> None:
+    old = tree_of(src__a_c="old a", src__b_c="old b", src__gone_c="gone")
+    new = tree_of(src__a_c="new a", src__b_c="new b", src__new_c="new")
+    write_tree(tmp_path, old)
+    calls = 0
+    real = tree._replace
+
+    def replace(path: Path, content: bytes) -> None:
+        nonlocal calls
+        if calls == after:
+            (path.parent / f".half{tree.TEMPORARY_SUFFIX}").write_bytes(b"half")
+            raise Interrupted
+        calls += 1
+        real(path, content)
+
+    monkeypatch.setattr(tree, "_replace", replace)
+    if after < 5:
+        with pytest.raises(Interrupted):
+            write_tree(tmp_path, new)
+    for name, content in held(tmp_path).items():
+        if not name.endswith(tree.TEMPORARY_SUFFIX) and name != JOURNAL:
+            assert content in (old.get(name), new.get(name)), name
+    monkeypatch.undo()
+    third = tree_of(src__b_c="third b")
+    write_tree(tmp_path, third)
+    assert held(tmp_path) == third
+
+
+def test_a_first_run_that_was_interrupted_can_be_taken_up(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = tmp_path / "out"
+    files = tree_of(src__a_c="a", src__b_c="b")
+    real = tree._replace
+
+    def replace(path: Path, content: bytes) -> None:
+        if path.name == "b.c":
+            raise Interrupted
+        real(path, content)
+
+    monkeypatch.setattr(tree, "_replace", replace)
+    with pytest.raises(Interrupted):
+        write_tree(out, files)
+    monkeypatch.undo()
+    write_tree(out, files)
+    assert held(out) == files
