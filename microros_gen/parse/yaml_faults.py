@@ -54,7 +54,11 @@ _FAULTS: tuple[tuple[str, str, str | None], ...] = (
     ),
     (r"found character '[@`%]'", "a text cannot begin with this character", "Put it into quotes"),
     (r"found character", "a character that cannot stand here", "Put the text into quotes"),
-    (r"did not find expected|expected the node content", "a value is missing here", None),
+    (
+        r"did not find expected|expected the node content",
+        "a value is missing here",
+        "Write it, or close what is open",
+    ),
 )
 
 

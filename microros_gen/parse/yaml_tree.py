@@ -38,6 +38,9 @@ _INTEGER = re.compile(r"[-+]?[0-9]+|0o[0-7]+|0x[0-9a-fA-F]+")
 _FLOAT = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?")
 _LEADING_ZERO = re.compile(r"[-+]?0[0-9]+")
 _PROPERTIES = re.compile(r"(?:[&!]\S*\s+)*[&!]\S*")
+_TRAILING_TAB = re.compile(r"[ \t]*\t[ \t]*$", re.MULTILINE)
+# libyaml and the loader in Python disagree about tabs, tags, a `?` inside flow collections and `|#`.
+_LOADERS_DIFFER = re.compile(r"[\t!?]|[|>][0-9+-]*#")
 _NULLS = ("", "~", "null", "Null", "NULL")
 _TRUES = ("true", "True", "TRUE")
 _FALSES = ("false", "False", "FALSE")
@@ -118,8 +121,8 @@ def to_data(node: YamlNode) -> Data:
 
 
 def _compose(source: Source, diagnostics: Diagnostics, c_loader: bool) -> yaml.Node | None:
-    text = source.text
-    if c_loader and hasattr(yaml, "CBaseLoader"):
+    text = _TRAILING_TAB.sub(lambda match: " " * len(match.group()), source.text)
+    if c_loader and hasattr(yaml, "CBaseLoader") and not _LOADERS_DIFFER.search(text):
         try:
             return yaml.compose(text, Loader=yaml.CBaseLoader)
         except (yaml.YAMLError, ValueError, RecursionError):
@@ -142,9 +145,9 @@ class _Builder:
 
     def measure(self, root: yaml.Node) -> bool:
         """Return whether the tree is finite and of a sane size, aliases written out; else say why not."""
-        return self._measure(root, [], root) and self._sizes[id(root)] <= LARGEST_TREE
+        return self._measure(root, [])
 
-    def _measure(self, node: yaml.Node, path: list[int], root: yaml.Node) -> bool:
+    def _measure(self, node: yaml.Node, path: list[int]) -> bool:
         if id(node) in self._sizes:
             return True
         if id(node) in path:
@@ -155,15 +158,13 @@ class _Builder:
             return False
         path.append(id(node))
         children = _children(node)
-        if not all(self._measure(child, path, root) for child in children):
+        if not all(self._measure(child, path) for child in children):
             return False
         path.pop()
         self._sizes[id(node)] = size = 1 + sum(self._sizes[id(child)] for child in children)
         if size > LARGEST_TREE:
-            hint = "Use fewer aliases of aliases" if node is not root or size > LARGEST_TREE else None
-            self._error(
-                node, f"holds {size} values with its aliases written out; {LARGEST_TREE} are taken", hint
-            )
+            message = f"holds {size} values with its aliases written out; {LARGEST_TREE} are taken"
+            self._error(node, message, "Use fewer aliases of aliases")
             return False
         return True
 
@@ -210,11 +211,13 @@ class _Builder:
         return ScalarNode(_plain_value(text), text, True, span)
 
     def _check_tag(self, node: yaml.Node) -> None:
-        text = self._source.text
         start = node.start_mark.index
-        match = _PROPERTIES.match(text, start) if text[start : start + 1] in ("!", "&") else None
-        if match and any(word.startswith("!") for word in match.group().split()):
-            self._error(node, f"tags ({match.group().split()[0]}) are not taken here", "Remove it")
+        if isinstance(node, yaml.MappingNode) and node.value and node.value[0][0].start_mark.index == start:
+            return  # a block mapping begins with its first key, whose tag it is
+        match = _PROPERTIES.match(self._source.text, start)
+        tag = next((w for w in match.group().split() if w.startswith("!")), None) if match else None
+        if tag is not None:
+            self._error(node, f"tags ({tag}) are not taken here", "Remove it")
 
     def _span(self, node: yaml.Node) -> Span:
         start, end = node.start_mark, node.end_mark

@@ -1,0 +1,639 @@
+# SPDX-License-Identifier: Apache-2.0
+"""For each key of the application file: a value that is taken, what it becomes, and one that is refused."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from microros_gen.model.application import Application, LimitRule, ParameterDecl, TaskDecl, TimerDecl
+
+
+@dataclass(frozen=True)
+class KeyCase:
+    """`good` parses to an application whose `read` gives `value`; `bad` is refused at `place` with `told`."""
+
+    good: str
+    read: Callable[[Application], Any]
+    value: Any
+    bad: str
+    place: str
+    told: str
+
+
+def _node(app: Application) -> Any:
+    return app.nodes[0]
+
+
+def _endpoint(app: Application) -> Any:
+    return app.nodes[0].endpoints[0]
+
+
+def _names(items: Any) -> list[str]:
+    return [item.name for item in items]
+
+
+def _rules(rules: tuple[LimitRule, ...]) -> list[tuple[Any, ...]]:
+    return [(r.path, r.string, r.sequence, r.single) for r in rules]
+
+
+def _in_node(text: str) -> str:
+    return f"nodes:\n  - name: n\n    {text}\n"
+
+
+def _timer(t: TimerDecl) -> tuple[Any, ...]:
+    return t.name, t.period_us
+
+
+def _parameter(p: ParameterDecl) -> tuple[Any, ...]:
+    return p.name, p.type, p.default
+
+
+def _task(t: TaskDecl) -> tuple[Any, ...]:
+    return t.name, t.period_us
+
+
+def _endpoint_cases(
+    key: str, kind: str, name_key: str, type_name: str, wrong_type: str
+) -> dict[str, KeyCase]:
+    def one(rest: str) -> str:
+        return _in_node(f"{key}: [{{{rest}}}]")
+
+    start = 8 + len(key)  # column behind `    key: [{`
+    path = f"nodes[].{key}[]"
+    entry = f"{name_key}: a/b, type: {type_name}"
+    cases = {
+        f"nodes[].{key}": KeyCase(
+            one(entry),
+            lambda a: [(e.kind, e.topic, e.type) for e in _node(a).endpoints],
+            [(kind, "a/b", type_name)],
+            _in_node(f"{key}: 3"),
+            f"3:{start - 1}",
+            f"'nodes[0].{key}' must be a list; it is 3. Write it as a list: [3]",
+        ),
+        f"{path}.{name_key}": KeyCase(
+            one(entry),
+            lambda a: _endpoint(a).topic,
+            "a/b",
+            one(f"{name_key}: 3, type: {type_name}"),
+            f"3:{start + 3 + len(name_key)}",
+            f"'nodes[0].{key}[0].{name_key}' must be a",
+        ),
+        f"{path}.type": KeyCase(
+            one(entry),
+            lambda a: _endpoint(a).type,
+            type_name,
+            one(f"{name_key}: a, type: {wrong_type}"),
+            f"3:{start + 12 + len(name_key)}",
+            f"'nodes[0].{key}[0].type' must be a",
+        ),
+        f"{path}.limits": KeyCase(
+            one(f"{entry}, limits: {{string: 5, sequence: 6, data: 7}}"),
+            lambda a: _rules(_endpoint(a).limits),
+            [(("*",), 5, 6, False), ((type_name, "data"), 7, 7, True)],
+            one(f"{name_key}: a, type: {type_name}, limits: 7"),
+            f"3:{start + 22 + len(name_key) + len(type_name)}",
+            f"'nodes[0].{key}[0].limits' must be a mapping such as {{string: 32, sequence: 8}}",
+        ),
+    }
+    if name_key == "topic":
+        for qos, value, wrong in (
+            ("reliability", "best_effort", "best"),
+            ("durability", "transient_local", "transient"),
+            ("history", "keep_all", "all"),
+            ("depth", 3, "0"),
+        ):
+            cases[f"{path}.qos.{qos}"] = KeyCase(
+                one(f"{entry}, qos: {{{qos}: {value}}}"),
+                lambda a, q=qos: getattr(_endpoint(a).qos, q),
+                value,
+                one(f"topic: a, type: {type_name}, qos: {{{qos}: {wrong}}}"),
+                f"3:{start + 27 + len(type_name) + len(qos)}",
+                f"'nodes[0].{key}[0].qos.{qos}' must be ",
+            )
+        cases[f"{path}.qos"] = KeyCase(
+            one(f"{entry}, qos: {{depth: 2}}"),
+            lambda a: _endpoint(a).qos.depth,
+            2,
+            one(f"topic: a, type: {type_name}, qos: sensor_data"),
+            f"3:{start + 24 + len(type_name)}",
+            f"'nodes[0].{key}[0].qos' must be a mapping of keys and values; it is the text 'sensor_data'",
+        )
+    return cases
+
+
+_TOP = {
+    "version": KeyCase(
+        "version: 1", lambda a: a.distro, "jazzy", "version: 2", "1:10", "'version' must be 1; it is 2"
+    ),
+    "distro": KeyCase(
+        "distro: jazzy", lambda a: a.distro, "jazzy", "distro: humble", "1:9", "'distro' must be jazzy"
+    ),
+    "profiles": KeyCase(
+        "profiles: [pure_sender, own.yaml]",
+        lambda a: _names(a.profiles),
+        ["pure_sender", "own.yaml"],
+        "profiles: [3]",
+        "1:12",
+        "'profiles[0]' must be a text; it is 3. Put it into quotes: \"3\"",
+    ),
+    "components": KeyCase(
+        "components: [+timers, -ping, clock]",
+        lambda a: [(c.name, c.add) for c in a.components],
+        [("timers", True), ("ping", False), ("clock", True)],
+        "components: [+Timers]",
+        "1:14",
+        "'components[0]' must be a component to add or drop such as +timers or -ping; it is the "
+        "text '+Timers'",
+    ),
+    "entities": KeyCase(
+        "entities: xml",
+        lambda a: a.entities.name,
+        "xml",
+        "entities: XML",
+        "1:11",
+        "'entities' must be preconfigured,",
+    ),
+    "liveliness": KeyCase(
+        "liveliness: none",
+        lambda a: a.liveliness.name,
+        "none",
+        "liveliness: null",
+        "1:13",
+        "'liveliness' must be ping, acknack or none; it is empty",
+    ),
+    "logging": KeyCase(
+        "logging: rosout",
+        lambda a: a.logging.name,
+        "rosout",
+        "logging: ros",
+        "1:10",
+        "'logging' must be console,",
+    ),
+    "clock": KeyCase(
+        "clock: ros", lambda a: a.clock.name, "ros", "clock: sim", "1:8", "'clock' must be steady or ros"
+    ),
+    "transport": KeyCase(
+        "transport: {type: tcp}",
+        lambda a: a.transport.type,
+        "tcp",
+        "transport: udp",
+        "1:12",
+        "'transport' must be a mapping of keys and values; it is the text 'udp'",
+    ),
+    "transport.type": KeyCase(
+        "transport: {type: serial}",
+        lambda a: a.transport.type,
+        "serial",
+        "transport: {type: upd}",
+        "1:19",
+        "'transport.type' must be udp, tcp, serial or custom; it is the text 'upd'. Did you mean 'udp'?",
+    ),
+    "transport.agent": KeyCase(
+        'transport: {agent: "192.168.1.10:9999"}',
+        lambda a: (a.transport.host, a.transport.port),
+        ("192.168.1.10", 9999),
+        "transport: {agent: 3}",
+        "1:20",
+        "'transport.agent' must be an IPv4 address and a port in quotes",
+    ),
+    "transport.mtu": KeyCase(
+        "transport: {mtu: 0x200}",
+        lambda a: (a.transport.mtu, a.transport.mtu_span.column),
+        (512, 18),
+        "transport: {mtu: 63}",
+        "1:18",
+        "'transport.mtu' must be a whole number between 64 and 65535; it is 63",
+    ),
+    "session": KeyCase(
+        "session: {key: device}",
+        lambda a: a.session_key,
+        "device",
+        "session: 3",
+        "1:10",
+        "'session' must be a mapping of keys and values; it is 3",
+    ),
+    "session.key": KeyCase(
+        "session: {key: 0xAABBCCDD}",
+        lambda a: a.session_key,
+        0xAABBCCDD,
+        "session: {key: 0x1AABBCCDD}",
+        "1:16",
+        "'session.key' must be a number between 1 and 0xFFFFFFFF, or device; it is 0x1AABBCCDD",
+    ),
+    "target": KeyCase(
+        "target: cortex-m4",
+        lambda a: (a.target.name, a.target.rtos),
+        ("cortex-m4", None),
+        "target: [m4]",
+        "1:9",
+        "'target' must be the name of a target, or a mapping with `name` and `rtos`; it is a list",
+    ),
+    "target.name": KeyCase(
+        "target: {name: own.yaml}",
+        lambda a: a.target.name,
+        "own.yaml",
+        "target: {name: 4}",
+        "1:16",
+        "'target.name' must be a text; it is 4",
+    ),
+    "target.rtos": KeyCase(
+        "target: {name: m4, rtos: freertos}",
+        lambda a: a.target.rtos,
+        "freertos",
+        "target: {name: m4, rtos: no rtos at all, port: 3}",
+        "1:42",
+        "'target' has no key 'port'",
+    ),
+    "interfaces": KeyCase(
+        "interfaces: [std_msgs, std_msgs/msg/Int32, std_msgs/Bool]",
+        lambda a: _names(a.interfaces),
+        ["std_msgs", "std_msgs/msg/Int32", "std_msgs/Bool"],
+        "interfaces: [std_msgs/msgs/Int32]",
+        "1:14",
+        "'interfaces[0]' must be a package or a type such as std_msgs or std_msgs/msg/Int32; it is the text",
+    ),
+    "pools": KeyCase(
+        "pools: {}",
+        lambda a: dict(a.pools),
+        {},
+        "pools: 4",
+        "1:8",
+        "'pools' must be a mapping of keys and values",
+    ),
+    **{
+        f"pools.{name}": KeyCase(
+            f"pools: {{{name}: 9}}",
+            lambda a, n=name: a.pools[n],
+            9,
+            f"pools: {{{name}: {wrong}}}",
+            f"1:{11 + len(name)}",
+            f"'pools.{name}' must be a whole number between ",
+        )
+        for name, wrong in {
+            "nodes": 251,
+            "publishers": -1,
+            "subscriptions": 1.5,
+            "services": "many",
+            "clients": "",
+            "timers": "[]",
+            "executors": "true",
+            "parameters": "'4'",
+            "history": 17,
+            "name_size": 7,
+        }.items()
+    },
+    "limits": KeyCase(
+        'limits:\n  "*": {string: 32, sequence: 8}\n  a/msg/B: {c: 6, d: {sequence: 6, e: '
+        "{string: 2}}, string: 3}\n",
+        lambda a: _rules(a.limits),
+        [
+            (("*",), 32, 8, False),
+            (("a/msg/B",), 3, None, False),
+            (("a/msg/B", "c"), 6, 6, True),
+            (("a/msg/B", "d"), None, 6, False),
+            (("a/msg/B", "d", "e"), 2, None, False),
+        ],
+        "limits: {std_msgs/String: {string: 1}}",
+        "1:10",
+        "the keys of 'limits' must be \"*\" or types such as sensor_msgs/msg/Imu; 'std_msgs/String' is not. "
+        "Write std_msgs/msg/String",
+    ),
+    "memory": KeyCase(
+        "memory: {}",
+        lambda a: a.memory.arena,
+        0,
+        "memory: 8 KiB",
+        "1:9",
+        "'memory' must be a mapping of keys",
+    ),
+    "memory.arena": KeyCase(
+        "memory: {arena: 512}",
+        lambda a: a.memory.arena,
+        512,
+        "memory: {arena: -1}",
+        "1:17",
+        "'memory.arena' must be a size in bytes such as 8192, 8 KiB or 2 kB (units B, kB, KiB, "
+        "MB, MiB); it is -1",
+    ),
+    "memory.ram_budget": KeyCase(
+        "memory: {ram_budget: 8 KiB}",
+        lambda a: a.memory.ram_budget,
+        8192,
+        "memory: {ram_budget: 8 KB}",
+        "1:22",
+        "'memory.ram_budget' must be a size in bytes",
+    ),
+    "memory.flash_budget": KeyCase(
+        "memory: {flash_budget: 2 kB}",
+        lambda a: a.memory.flash_budget,
+        2000,
+        "memory: {flash_budget: 1.5 kB}",
+        "1:24",
+        "'memory.flash_budget' must be a size in bytes",
+    ),
+    "memory.stack": KeyCase(
+        "memory: {stack: 1MiB}",
+        lambda a: a.memory.stack,
+        1048576,
+        "memory: {stack: 2.5}",
+        "1:17",
+        "'memory.stack' must be a size in bytes",
+    ),
+    "on_full": KeyCase(
+        "on_full: block 20 ms",
+        lambda a: (a.on_full, a.on_full_block_ms),
+        ("block", 20),
+        "on_full: block",
+        "1:10",
+        "'on_full' must be error, drop_oldest, or block with its longest time (block 20 ms); it "
+        "is the text 'block'",
+    ),
+    "errors": KeyCase(
+        "errors: code",
+        lambda a: a.error_text,
+        False,
+        "errors: texts",
+        "1:9",
+        "'errors' must be text or code; it is",
+    ),
+    "nodes": KeyCase(
+        "nodes: [{name: a}, {name: b}]",
+        lambda a: _names(a.nodes),
+        ["a", "b"],
+        "nodes: {name: a}",
+        "1:8",
+        "'nodes' must be a list; it is a mapping. Begin each item with '- ', or write [ … ]",
+    ),
+    "tasks": KeyCase(
+        "tasks: [{name: t, rate: 100 Hz}]",
+        lambda a: [_task(t) for t in a.tasks],
+        [("t", 10000)],
+        "tasks: t",
+        "1:8",
+        "'tasks' must be a list; it is the text 't'. Write it as a list: [t]",
+    ),
+}
+
+_NODES = {
+    "nodes[].name": KeyCase(
+        "nodes: [{name: Imu_1}]",
+        lambda a: (_node(a).name, _node(a).name_span.column),
+        ("Imu_1", 16),
+        "nodes: [{name: [a]}]",
+        "1:16",
+        "'nodes[0].name' must be a node name of letters, digits and _ that does not begin with a "
+        "digit; it is a list",
+    ),
+    "nodes[].namespace": KeyCase(
+        "nodes: [{name: a, namespace: robot/arm}]",
+        lambda a: _node(a).namespace,
+        "/robot/arm",
+        "nodes: [{name: a, namespace: 3}]",
+        "1:30",
+        "'nodes[0].namespace' must be a namespace such as /robot; it is 3",
+    ),
+    "nodes[].domain_id": KeyCase(
+        "nodes: [{name: a, domain_id: 232}]",
+        lambda a: _node(a).domain_id,
+        232,
+        "nodes: [{name: a, domain_id: 233}]",
+        "1:30",
+        "'nodes[0].domain_id' must be a whole number between 0 and 232; it is 233",
+    ),
+    "nodes[].timers": KeyCase(
+        _in_node("timers: [{name: t, period: 1.5 ms}]"),
+        lambda a: [_timer(t) for t in _node(a).timers],
+        [("t", 1500)],
+        _in_node("timers: {name: t}"),
+        "3:13",
+        "'nodes[0].timers' must be a list; it is a mapping",
+    ),
+    "nodes[].timers[].name": KeyCase(
+        _in_node("timers: [{name: t_1, period: 1 s}]"),
+        lambda a: _node(a).timers[0].name,
+        "t_1",
+        _in_node("timers: [{name: T, period: 1 s}]"),
+        "3:21",
+        "'nodes[0].timers[0].name' must be a name of lower-case letters, digits and _ that "
+        "begins with a letter",
+    ),
+    "nodes[].timers[].period": KeyCase(
+        _in_node("timers: [{name: t, period: 50us}]"),
+        lambda a: _node(a).timers[0].period_us,
+        50,
+        _in_node("timers: [{name: t, period: 10}]"),
+        "3:32",
+        "'nodes[0].timers[0].period' must be a time with its unit such as 20 ms (units us, ms, s); it is 10",
+    ),
+    "nodes[].parameters": KeyCase(
+        _in_node("parameters: [{name: gain, type: double, default: 2}]"),
+        lambda a: [_parameter(p) for p in _node(a).parameters],
+        [("gain", "double", 2)],
+        _in_node("parameters: gain"),
+        "3:17",
+        "'nodes[0].parameters' must be a list; it is the text 'gain'",
+    ),
+    "nodes[].parameters[].name": KeyCase(
+        _in_node("parameters: [{name: motor.gain, type: bool}]"),
+        lambda a: _node(a).parameters[0].name,
+        "motor.gain",
+        _in_node("parameters: [{name: motor gain, type: bool}]"),
+        "3:25",
+        "'nodes[0].parameters[0].name' must be a parameter name such as gain or motor.gain; it is the text",
+    ),
+    "nodes[].parameters[].type": KeyCase(
+        _in_node("parameters: [{name: a, type: string}]"),
+        lambda a: _node(a).parameters[0].type,
+        "string",
+        _in_node("parameters: [{name: a, type: float}]"),
+        "3:34",
+        "'nodes[0].parameters[0].type' must be bool, integer, double or string; it is the text 'float'",
+    ),
+    "nodes[].parameters[].default": KeyCase(
+        _in_node("parameters: [{name: a, type: bool, default: true}]"),
+        lambda a: _node(a).parameters[0].default,
+        True,
+        _in_node("parameters: [{name: a, type: bool, default: []}]"),
+        "3:49",
+        "'nodes[0].parameters[0].default' must be true or false, a number or a text; it is a list",
+    ),
+    "nodes[].parameters[].description": KeyCase(
+        _in_node("parameters: [{name: a, type: bool, description: Whether}]"),
+        lambda a: _node(a).parameters[0].description,
+        "Whether",
+        _in_node("parameters: [{name: a, type: bool, description: 3}]"),
+        "3:53",
+        "'nodes[0].parameters[0].description' must be a text; it is 3",
+    ),
+    "nodes[].parameters[].read_only": KeyCase(
+        _in_node("parameters: [{name: a, type: bool, read_only: true}]"),
+        lambda a: _node(a).parameters[0].read_only,
+        True,
+        _in_node("parameters: [{name: a, type: bool, read_only: yes}]"),
+        "3:51",
+        "'nodes[0].parameters[0].read_only' must be true or false; it is the text 'yes'. "
+        "'yes' is a text in YAML 1.2; write true",
+    ),
+    "nodes[].parameters[].range": KeyCase(
+        _in_node("parameters: [{name: a, type: integer, range: {min: 1, max: 5, step: 2}}]"),
+        lambda a: (
+            _node(a).parameters[0].minimum,
+            _node(a).parameters[0].maximum,
+            _node(a).parameters[0].step,
+        ),
+        (1, 5, 2),
+        _in_node("parameters: [{name: a, type: integer, range: {min: 1}}]"),
+        "3:50",
+        "'nodes[0].parameters[0].range' lacks the key 'max'. Add `max: …`",
+    ),
+    "nodes[].parameters[].range.min": KeyCase(
+        _in_node("parameters: [{name: a, type: double, range: {min: -1.5, max: 5}}]"),
+        lambda a: _node(a).parameters[0].minimum,
+        -1.5,
+        _in_node("parameters: [{name: a, type: double, range: {min: low, max: 5}}]"),
+        "3:55",
+        "'nodes[0].parameters[0].range.min' must be a number; it is the text 'low'",
+    ),
+    "nodes[].parameters[].range.max": KeyCase(
+        _in_node("parameters: [{name: a, type: double, range: {min: 1, max: 1e3}}]"),
+        lambda a: _node(a).parameters[0].maximum,
+        1000.0,
+        _in_node("parameters: [{name: a, type: double, range: {min: 1, max: 10:30}}]"),
+        "3:63",
+        "'nodes[0].parameters[0].range.max' must be a number; it is the text '10:30'. '10:30' is "
+        "a text in YAML "
+        "1.2; write the number in decimal, or in hex with 0x",
+    ),
+    "nodes[].parameters[].range.step": KeyCase(
+        _in_node("parameters: [{name: a, type: integer, range: {min: 1, max: 5, step: 2}}]"),
+        lambda a: _node(a).parameters[0].step,
+        2,
+        _in_node("parameters: [{name: a, type: integer, range: {min: 1, max: 5, step: -2}}]"),
+        "3:73",
+        "'nodes[0].parameters[0].range.step' must be a number of at least 0; it is -2",
+    ),
+    "nodes[].parameters[].size": KeyCase(
+        _in_node("parameters: [{name: a, type: string, size: 16}]"),
+        lambda a: _node(a).parameters[0].size,
+        16,
+        _in_node("parameters: [{name: a, type: string, size: long}]"),
+        "3:48",
+        "'nodes[0].parameters[0].size' must be a size in bytes",
+    ),
+    "nodes[].executors": KeyCase(
+        _in_node("executors: [{name: e}]"),
+        lambda a: [(e.name, e.handles, e.timeout_us) for e in _node(a).executors],
+        [("e", (), None)],
+        _in_node("executors: e"),
+        "3:16",
+        "'nodes[0].executors' must be a list; it is the text 'e'",
+    ),
+    "nodes[].executors[].name": KeyCase(
+        _in_node("executors: [{name: fast}]"),
+        lambda a: _node(a).executors[0].name,
+        "fast",
+        _in_node("executors: [{name: 1}]"),
+        "3:24",
+        "'nodes[0].executors[0].name' must be a name of lower-case letters",
+    ),
+    "nodes[].executors[].handles": KeyCase(
+        _in_node("executors: [{name: e, handles: [t]}]\n    timers: [{name: t, period: 1 s}]"),
+        lambda a: _names(_node(a).executors[0].handles),
+        ["t"],
+        _in_node("executors: [{name: e, handles: [t, t]}]\n    timers: [{name: t, period: 1 s}]"),
+        "3:40",
+        "'nodes[0].executors[0].handles' has 't' twice; first in line 3. Remove one of them",
+    ),
+    "nodes[].executors[].timeout": KeyCase(
+        _in_node("executors: [{name: e, timeout: 2 s}]"),
+        lambda a: _node(a).executors[0].timeout_us,
+        2_000_000,
+        _in_node("executors: [{name: e, timeout: 2 min}]"),
+        "3:36",
+        "'nodes[0].executors[0].timeout' must be a time with its unit",
+    ),
+}
+
+_TASKS = {
+    "tasks[].name": KeyCase(
+        "tasks: [{name: control, period: 1 ms}]",
+        lambda a: a.tasks[0].name,
+        "control",
+        "tasks: [{name: control loop, period: 1 ms}]",
+        "1:16",
+        "'tasks[0].name' must be a name of lower-case letters",
+    ),
+    "tasks[].period": KeyCase(
+        "tasks: [{name: a, period: 1 ms}]",
+        lambda a: a.tasks[0].period_us,
+        1000,
+        "tasks: [{name: a, period: 1}]",
+        "1:27",
+        "'tasks[0].period' must be a time with its unit",
+    ),
+    "tasks[].rate": KeyCase(
+        "tasks: [{name: a, rate: 50}]",
+        lambda a: a.tasks[0].period_us,
+        20000,
+        "tasks: [{name: a, rate: 50 kHz}]",
+        "1:25",
+        "'tasks[0].rate' must be a rate such as 100 Hz; it is the text '50 kHz'",
+    ),
+    "tasks[].deadline": KeyCase(
+        "tasks: [{name: a, period: 1 s, deadline: 5 ms}]",
+        lambda a: a.tasks[0].deadline_us,
+        5000,
+        "tasks: [{name: a, period: 1 s, deadline: soon}]",
+        "1:42",
+        "'tasks[0].deadline' must be a time with its unit",
+    ),
+    "tasks[].wcet": KeyCase(
+        "tasks: [{name: a, period: 1 s, wcet: 200 us}]",
+        lambda a: a.tasks[0].wcet_us,
+        200,
+        "tasks: [{name: a, period: 1 s, wcet: 200}]",
+        "1:38",
+        "'tasks[0].wcet' must be a time with its unit",
+    ),
+    "tasks[].criticality": KeyCase(
+        "tasks: [{name: a, period: 1 s, criticality: high}]",
+        lambda a: a.tasks[0].criticality,
+        "high",
+        "tasks: [{name: a, period: 1 s, criticality: higher}]",
+        "1:45",
+        "'tasks[0].criticality' must be low, normal or high; it is the text 'higher'. Did you mean 'high'?",
+    ),
+    "tasks[].executor": KeyCase(
+        "nodes: [{name: n, executors: [{name: e}]}]\ntasks: [{name: a, period: 1 s, executor: e}]",
+        lambda a: a.tasks[0].executor,
+        "e",
+        "tasks: [{name: a, period: 1 s, executor: 3}]",
+        "1:42",
+        "'tasks[0].executor' must be a name",
+    ),
+}
+
+RESERVED = {
+    "modes": (
+        "modes: {}",
+        "1:1",
+        "the key 'modes' is reserved for system modes, which this version does not have",
+    ),
+    "systems": (
+        "systems: []",
+        "1:1",
+        "the key 'systems' is reserved for systems of several devices, which this",
+    ),
+}
+
+CASES: dict[str, KeyCase] = {
+    **_TOP,
+    **_NODES,
+    **_TASKS,
+    **_endpoint_cases("publishers", "publisher", "topic", "std_msgs/msg/String", "std_msgs/String"),
+    **_endpoint_cases("subscriptions", "subscription", "topic", "std_msgs/msg/String", "std_msgs/srv/String"),
+    **_endpoint_cases("services", "service", "name", "std_srvs/srv/SetBool", "std_srvs/SetBool"),
+    **_endpoint_cases("clients", "client", "name", "std_srvs/srv/SetBool", "std_srvs/msg/SetBool"),
+}

@@ -1,0 +1,408 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the application file can get wrong beyond its schema: one tiny input a rule, with the exact place."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.model.application import Application
+from microros_gen.parse.application import parse_application
+
+NODE = "nodes:\n  - name: n\n"
+PUBLISHER = "{topic: %s, type: std_msgs/msg/Bool}"
+
+
+def parse(text: str) -> tuple[Application | None, list[str]]:
+    found = Diagnostics()
+    application = parse_application(Source("f", text), found)
+    return application, [d.headline() for d in found]
+
+
+def topic(name: str) -> str:
+    return f"{NODE}    publishers: [{PUBLISHER % name}]\n"
+
+
+# The topic stands in column 26 of line 3.
+ERRORS: dict[str, tuple[str, str]] = {
+    "unknown key": (
+        "profles: [a]\n",
+        "f:1:1: error: the file has no key 'profles'. Did you mean 'profiles'?",
+    ),
+    "unknown key, nothing near": (
+        "xyzzy: 1\n",
+        "f:1:1: error: the file has no key 'xyzzy'. Known are version,",
+    ),
+    "unknown nested key": (
+        "transport: {mtuu: 512}\n",
+        "f:1:13: error: 'transport' has no key 'mtuu'. Did you mean 'mtu'?",
+    ),
+    "missing key": (
+        f"{NODE}    timers: [{{name: t}}]\n",
+        "f:3:14: error: 'nodes[0].timers[0]' lacks the key 'period'. Add `period: …`",
+    ),
+    "empty file": ("# only a comment\n", "f:1:1: error: the file says nothing. Write `key: value` lines"),
+    "not a mapping": (
+        "- a\n- b\n",
+        "f:1:1: error: the file must be a mapping of keys and values; it is a list",
+    ),
+    "a profile twice": (
+        "profiles: [a,\n  a]\n",
+        "f:2:3: error: 'profiles' has 'a' twice; first in line 1. Remove one of them",
+    ),
+    "quoted number": (
+        "transport: {mtu: '512'}\n",
+        "f:1:18: error: 'transport.mtu' must be a whole number between 64 and 65535; it is the text '512'. "
+        "Remove the quotes",
+    ),
+    "old thousands": ("transport: {mtu: 1_472}\n", "f:1:18: error: 'transport.mtu' must be a whole number"),
+    "octal": (
+        "transport: {mtu: 0512}\n",
+        "f:1:18: error: '0512' is octal to some readers of YAML and decimal to others. "
+        "Write 512 (decimal), 0o512 (octal) or '0512' (text)",
+    ),
+    "topic: double slash": (
+        topic("imu//data"),
+        "f:3:30: error: the topic name 'imu//data' has two slashes in a row. Remove one of them",
+    ),
+    "topic: ends with a slash": (
+        topic("imu/"),
+        "f:3:29: error: the topic name 'imu/' ends with a slash. Remove it",
+    ),
+    "topic: digit": (
+        topic("imu/9axis"),
+        "f:3:30: error: the topic name 'imu/9axis' has a part that begins with a digit. Begin it "
+        "with a letter",
+    ),
+    "topic: character": (
+        topic("imu-data"),
+        "f:3:29: error: the topic name 'imu-data' has the character '-'. "
+        "Letters a to z, digits, _ and / ~ { } are allowed",
+    ),
+    "topic: quoted": (topic('"imu data"'), "f:3:30: error: the topic name 'imu data' has the character ' '."),
+    "topic: empty": (topic("''"), "f:3:26: error: the topic name '' is empty. Write a name such as imu/data"),
+    "topic: tilde inside": (
+        topic("imu/~"),
+        "f:3:30: error: the topic name 'imu/~' has '~' behind its first character. "
+        "'~' stands for the node, at the beginning only",
+    ),
+    "topic: tilde without slash": (
+        topic("~imu"),
+        "f:3:27: error: the topic name '~imu' needs a slash behind '~'. Write ~/imu",
+    ),
+    "topic: substitution": (
+        topic("'{host}/imu'"),
+        "f:3:27: error: the topic name '{host}/imu' has the substitution '{host}', which ROS 2 "
+        "does not know. "
+        "There are {node}, {ns} and {namespace}",
+    ),
+    "topic: open brace": (
+        topic("'a{node'"),
+        "f:3:28: error: the topic name 'a{node' has a brace without its other half. Write {node} or {ns}",
+    ),
+    "topic: too long": (
+        topic("a" * 247),
+        f"f:3:26: error: the topic name '/{'a' * 59}…' is 248 characters long as '/{'a' * 39}…'; "
+        f"247 are allowed. "
+        "Shorten it by 1",
+    ),
+    "topic: wrong when expanded": (
+        "nodes: [{name: n, publishers: [{topic: 'a{ns}/{ns}', type: std_msgs/msg/Bool}]}]\n",
+        "f:1:40: error: the topic name '/a///' has two slashes in a row. Remove one of them",
+    ),
+    "service": (
+        f"{NODE}    services: [{{name: a b, type: std_srvs/srv/SetBool}}]\n",
+        "f:3:24: error: the service name 'a b' has the character ' '.",
+    ),
+    "node: digit": (
+        "nodes: [{name: 9n}]\n",
+        "f:1:16: error: the node name '9n' has a part that begins with a digit. Begin it with a letter",
+    ),
+    "node: slash": (
+        "nodes: [{name: a/b}]\n",
+        "f:1:17: error: the node name 'a/b' has the character '/'. Letters a to z, digits, _ are allowed",
+    ),
+    "node: empty": (
+        "nodes: [{name: ''}]\n",
+        "f:1:16: error: the node name '' is empty. Write a name such as imu",
+    ),
+    "node: too long": (
+        f"nodes: [{{name: {'a' * 256}}}]\n",
+        f"f:1:271: error: the node name '{'a' * 256}' is 256 characters long; 255 are allowed. Shorten it",
+    ),
+    "namespace: double slash": (
+        "nodes: [{name: a, namespace: /b//c}]\n",
+        "f:1:33: error: the namespace '/b//c' has two slashes in a row. Remove one of them",
+    ),
+    "namespace: too long": (
+        f"nodes: [{{name: a, namespace: /{'b' * 245}}}]\n",
+        f"f:1:30: error: the namespace '/{'b' * 245}' is 246 characters long as '/{'b' * 39}…'; "
+        f"245 are allowed. "
+        "Shorten it by 1",
+    ),
+    "two nodes of one name": (
+        "nodes:\n  - {name: a, namespace: b}\n  - {name: a, namespace: /b}\n",
+        "f:3:12: error: there are two nodes '/b/a'; the first is in line 2. "
+        "Give each a name or a namespace of its own",
+    ),
+    "two timers of one name": (
+        f"{NODE}    timers:\n    - {{name: t, period: 1 s}}\n    - {{name: t, period: 2 s}}\n",
+        "f:5:7: error: there are two timers 't'; the first is in line 4. Give each a name of its own",
+    ),
+    "a timer of no time": (
+        f"{NODE}    timers: [{{name: t, period: 0 ms}}]\n",
+        "f:3:32: error: 'period' must be at least 1 us; it is 0 ms. Write a longer time",
+    ),
+    "default of another type": (
+        f"{NODE}    parameters: [{{name: p, type: bool, default: 1}}]\n",
+        "f:3:49: error: the default of the parameter 'p' is no bool. Write true or false",
+    ),
+    "integer default with a part": (
+        f"{NODE}    parameters: [{{name: p, type: integer, default: 1.5}}]\n",
+        "f:3:52: error: the default of the parameter 'p' is no integer. Change it, or the type",
+    ),
+    "boolean default of a number": (
+        f"{NODE}    parameters: [{{name: p, type: double, default: true}}]\n",
+        "f:3:51: error: the default of the parameter 'p' is no double. Change it, or the type",
+    ),
+    "default outside the range": (
+        f"{NODE}    parameters: [{{name: p, type: integer, default: 9, range: {{min: 1, max: 5}}}}]\n",
+        "f:3:52: error: the default of the parameter 'p' is not in its range. It goes from 1 to 5",
+    ),
+    "default longer than its size": (
+        f"{NODE}    parameters: [{{name: p, type: string, default: grün, size: 4}}]\n",
+        "f:3:51: error: the default of the parameter 'p' is longer than its size. Set size: 5",
+    ),
+    "range of a text": (
+        f"{NODE}    parameters: [{{name: p, type: string, range: {{min: 1, max: 5}}}}]\n",
+        "f:3:49: error: the parameter 'p' is a string, which has no range. Remove `range`",
+    ),
+    "empty range": (
+        f"{NODE}    parameters: [{{name: p, type: integer, range: {{min: 5, max: 1}}}}]\n",
+        "f:3:50: error: the range of the parameter 'p' is empty: min is above max. Exchange them",
+    ),
+    "unknown handle": (
+        f"{NODE}    timers: [{{name: tick, period: 1 s}}]\n    executors: [{{name: e, handles: [tik]}}]\n",
+        "f:4:37: error: the node has no timer, topic or service 'tik'. Did you mean 'tick'?",
+    ),
+    "host name": (
+        'transport: {agent: "robot.local:8888"}\n',
+        "f:1:20: error: the agent's address 'robot.local' is a host name. "
+        "A device has no DNS to resolve it: write the IPv4 address",
+    ),
+    "no port": (
+        'transport: {agent: "10.0.0.1"}\n',
+        "f:1:20: error: the agent '10.0.0.1' lacks its port. Write \"",
+    ),
+    "port 0": (
+        'transport: {agent: "10.0.0.1:0"}\n',
+        "f:1:20: error: the agent's port must be a whole number between 1 and 65535; it is '0'.",
+    ),
+    "port too large": (
+        'transport: {agent: "10.0.0.1:65536"}\n',
+        "f:1:20: error: the agent's port must be a whole",
+    ),
+    "port no number": (
+        'transport: {agent: "10.0.0.1:xrce"}\n',
+        "f:1:20: error: the agent's port must be a whole",
+    ),
+    "address of five": (
+        'transport: {agent: "1.2.3.4.5:8888"}\n',
+        "f:1:20: error: the agent's address '1.2.3.4.5'",
+    ),
+    "address above 255": (
+        'transport: {agent: "10.0.0.256:8888"}\n',
+        "f:1:20: error: the agent's address '10.0.0",
+    ),
+    "address with leading zeros": (
+        'transport: {agent: "10.0.0.01:8888"}\n',
+        "f:1:20: error: the agent's address ",
+    ),
+    "IPv6": (
+        'transport: {agent: "[::1]:8888"}\n',
+        "f:1:20: error: the agent '[::1]:8888' has an IPv6 address. Write its IPv4 address and port",
+    ),
+    "agent of a serial line": (
+        'transport: {type: serial, agent: "10.0.0.1:8888"}\n',
+        "f:1:34: error: transport: serial has no agent address. Remove `agent`, or take type: udp or tcp",
+    ),
+    "mtu above a datagram": (
+        "transport: {mtu: 65508}\n",
+        "f:1:18: error: 'transport.mtu' is 65508; a UDP datagram holds 65507. Set mtu: 65507 or less",
+    ),
+    "block for no time": (
+        "on_full: block 0 ms\n",
+        "f:1:10: error: 'on_full: block 0 ms' must block between 1 ms and 60 s. `on_full: error` "
+        "does not block",
+    ),
+    "block for too long": (
+        "on_full: block 61 s\n",
+        "f:1:10: error: 'on_full: block 61 s' must block between 1 ms",
+    ),
+    "task without a rate": (
+        "tasks: [{name: t}]\n",
+        "f:1:9: error: the task 't' has neither a period nor a rate. Give one: `period: 10 ms` "
+        "or `rate: 100 Hz`",
+    ),
+    "task with both": (
+        "tasks: [{name: t, period: 1 s, rate: 1}]\n",
+        "f:1:9: error: the task 't' has both a period and a rate.",
+    ),
+    "rate too high": (
+        "tasks: [{name: t, rate: 2000000}]\n",
+        "f:1:25: error: 'rate' must be between 0.000001 Hz and 1000000 Hz. Write a rate such as 100 Hz",
+    ),
+    "deadline behind the period": (
+        "tasks: [{name: t, period: 1 ms, deadline: 2 ms}]\n",
+        "f:1:9: error: the deadline of the task 't' is longer than its period. Set deadline: 1000 us or less",
+    ),
+    "run time above the deadline": (
+        "tasks: [{name: t, period: 1 ms, wcet: 2 ms}]\n",
+        "f:1:9: error: the task 't' runs for 2000 us and must be done after 1000 us.",
+    ),
+    "two tasks of one name": (
+        "tasks: [{name: t, rate: 1},\n  {name: t, rate: 1}]\n",
+        "f:2:3: error: there are two tasks 't'; the first is in line 1. Give each a name of its own",
+    ),
+    "task of no executor": (
+        "tasks: [{name: t, rate: 1, executor: e}]\n",
+        "f:1:38: error: the task 't' spins the executor 'e', which no node has. "
+        "Declare it below `executors` of a node",
+    ),
+    "limit of a field": (
+        "limits: {a/msg/B: {c: {string: 0}}}\n",
+        "f:1:32: error: 'limits[\"a/msg/B\"].c.string' must be a whole number between 1 and "
+        "16777216, or a mapping",
+    ),
+    "limit of nothing": (
+        "limits: {a/msg/B: {}}\n",
+        "f:1:19: error: 'limits[\"a/msg/B\"]' must be a mapping such",
+    ),
+    "field path with a dot": (
+        "limits: {a/msg/B: {c.d: 3}}\n",
+        "f:1:20: error: the keys of 'limits[\"a/msg/B\"]' must be names of fields; 'c.d' is not",
+    ),
+    "not YAML": ("nodes: [\n", "f:2:1: error: not valid YAML: "),
+}
+
+
+@pytest.mark.parametrize("case", ERRORS)
+def test_a_fault_is_told_at_its_place(case: str) -> None:
+    text, expected = ERRORS[case]
+    application, lines = parse(text)
+    assert application is None
+    assert any(line.startswith(expected) for line in lines), lines
+
+
+def test_every_fault_has_a_hint() -> None:
+    silent = [line for text, _ in ERRORS.values() for line in parse(text)[1] if ". " not in line]
+    hintless = [line for line in silent if "must be" not in line]
+    assert hintless == [], "a diagnostic that says neither what is accepted nor what to do"
+
+
+def test_all_faults_come_in_one_run_and_in_the_order_of_the_text() -> None:
+    text = (
+        "profles: []\nentities: binry\ntransport: {agent: 'a:99999'}\n"
+        "nodes:\n  - name: 1\n  - name: b-c\n    publishers: [{topic: //a}]\non_full: wait\n"
+    )
+    _, lines = parse(text)
+    places = [tuple(int(n) for n in line.split(":")[1:3]) for line in lines]
+    assert places == sorted(places)
+    assert [place[0] for place in places] == [1, 2, 3, 3, 5, 6, 7, 7, 8]
+
+
+def test_the_demo_application_parses() -> None:
+    path = Path(__file__).resolve().parents[2] / "examples" / "demo" / "microros.yaml"
+    application, lines = parse(path.read_text(encoding="utf-8"))
+    assert lines == []
+    assert application is not None
+    imu = application.nodes[0].endpoints[0]
+    assert (imu.kind, imu.topic, imu.type, imu.qos.reliability) == (
+        "publisher",
+        "imu/data",
+        "sensor_msgs/msg/Imu",
+        "best_effort",
+    )
+    assert application.memory.ram_budget == 8192
+    assert (application.limits[0].path, application.limits[0].string) == (
+        ("sensor_msgs/msg/Imu", "header", "frame_id"),
+        16,
+    )
+
+
+def test_the_application_file_of_the_design_parses() -> None:
+    text = """\
+version: 1
+distro: jazzy
+profiles: [pure_sender]
+components: [+timers]
+entities: binary
+liveliness: ping
+transport: {type: udp, agent: "192.168.1.10:8888", mtu: 512}
+session: {key: device}
+target: {name: cortex-m4, rtos: freertos}
+nodes:
+  - name: imu
+    publishers: [{topic: imu/data, type: sensor_msgs/msg/Imu, qos: {reliability: best_effort, depth: 1}}]
+limits:
+  "*": {string: 32, sequence: 8}
+  sensor_msgs/msg/JointState: {name: {sequence: 6, string: 16}, position: 6}
+memory: {arena: 0, ram_budget: 8 KiB, flash_budget: 32 KiB, stack: 2 KiB}
+on_full: error
+errors: text
+"""
+    application, lines = parse(text)
+    assert lines == []
+    assert application is not None
+    assert [r.path for r in application.limits] == [
+        ("*",),
+        ("sensor_msgs/msg/JointState", "name"),
+        ("sensor_msgs/msg/JointState", "position"),
+    ]
+
+
+def test_what_is_not_said_is_the_default() -> None:
+    application, lines = parse("profiles: [pure_sender]\n")
+    assert lines == []
+    assert application is not None
+    default = Application()
+    for name in ("distro", "transport", "session_key", "target", "nodes", "limits", "memory", "on_full"):
+        assert getattr(application, name) == getattr(default, name)
+    assert (application.entities, application.liveliness, application.error_text) == (None, None, True)
+
+
+def test_substitutions_are_replaced() -> None:
+    application, lines = parse(
+        "nodes: [{name: n, namespace: /s, publishers: [{topic: '{node}/{ns}x', type: a/msg/B}]}]\n"
+    )
+    assert [line.split(": error: ")[1] for line in lines] == [
+        "the topic name '/s/n//sx' has two slashes in a row. Remove one of them"
+    ]
+    application, lines = parse(
+        "nodes: [{name: n, namespace: /s, publishers: [{topic: '{ns}/{node}/x', type: a/msg/B}]}]\n"
+    )
+    assert lines == []
+    assert application is not None
+    assert application.nodes[0].endpoints[0].topic == "/s/n/x"
+
+
+def test_a_field_called_string_takes_a_mapping() -> None:
+    application, _ = parse("limits: {a/msg/B: {string: {sequence: 3}, sequence: 4}}\n")
+    assert application is not None
+    assert [(r.path, r.string, r.sequence) for r in application.limits] == [
+        (("a/msg/B",), None, 4),
+        (("a/msg/B", "string"), None, 3),
+    ]
+
+
+def test_aliases_share_what_they_name() -> None:
+    text = (
+        "nodes:\n  - name: a\n    publishers:\n      - {topic: x, type: a/msg/B, qos: &q {depth: 3}}\n"
+        "      - {topic: y, type: a/msg/B, qos: *q}\n"
+    )
+    application, lines = parse(text)
+    assert lines == []
+    assert application is not None
+    assert [e.qos.depth for e in application.nodes[0].endpoints] == [3, 3]

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The JSON Schemas: valid, described throughout, and of one mind with the parser."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from jsonschema import Draft202012Validator
+from key_cases import CASES, RESERVED
+
+from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.parse.application import parse_application
+from microros_gen.parse.profile import AXES
+from microros_gen.parse.schema import APPLICATION_SCHEMA, PROFILE_SCHEMA, load_schema
+from microros_gen.parse.yaml_tree import parse_yaml, to_data
+
+APPLICATION = load_schema(APPLICATION_SCHEMA)
+PROFILE = load_schema(PROFILE_SCHEMA)
+
+
+def said(text: str) -> list[str]:
+    found = Diagnostics()
+    parse_application(Source("f", text), found)
+    return [d.headline() for d in found]
+
+
+def resolved(schema: dict[str, Any]) -> dict[str, Any]:
+    reference = schema.get("$ref")
+    return APPLICATION["$defs"][reference.removeprefix("#/$defs/")] if reference else schema
+
+
+def key_paths(schema: dict[str, Any], path: str = "") -> Iterator[str]:
+    """Yield the path of every key, with [] for the items of a list; limits are a language of their own."""
+    for key, value in schema.get("properties", {}).items():
+        here = f"{path}.{key}".lstrip(".")
+        yield here
+        if key != "limits":
+            value = resolved(value)
+            yield from key_paths(value, here)
+            yield from key_paths(resolved(value.get("items", {})), f"{here}[]")
+
+
+def test_every_key_of_the_schema_has_its_cases() -> None:
+    assert sorted(key_paths(APPLICATION)) == sorted([*CASES, *RESERVED])
+
+
+@pytest.mark.parametrize("path", CASES)
+def test_a_good_value_is_taken_and_read(path: str) -> None:
+    case = CASES[path]
+    found = Diagnostics()
+    application = parse_application(Source("f", case.good), found)
+    assert [d.headline() for d in found] == []
+    assert application is not None
+    assert case.read(application) == case.value
+
+
+@pytest.mark.parametrize("path", CASES)
+def test_a_bad_value_is_refused_at_its_place(path: str) -> None:
+    case = CASES[path]
+    assert any(line.startswith(f"f:{case.place}: error: {case.told}") for line in said(case.bad)), said(
+        case.bad
+    )
+
+
+@pytest.mark.parametrize("key", RESERVED)
+def test_a_reserved_key_says_so(key: str) -> None:
+    text, place, told = RESERVED[key]
+    assert said(text)[0].startswith(f"f:{place}: error: {told}")
+    assert not any(key in line for line in said("zzz: 1\n")), "a reserved key is no suggestion"
+
+
+@pytest.mark.parametrize("path", CASES)
+def test_the_schema_alone_agrees(path: str) -> None:
+    """What the parser takes, an editor takes; what the schema refuses, the parser refuses."""
+    validator = Draft202012Validator(APPLICATION)
+    for text, good in ((CASES[path].good, True), (CASES[path].bad, False)):
+        tree = parse_yaml(Source("f", text), Diagnostics())
+        assert tree is not None
+        errors = list(validator.iter_errors(to_data(tree)))
+        assert (not errors) is good
+        assert not (errors and not said(text))
+
+
+@pytest.mark.parametrize("schema", [APPLICATION, PROFILE], ids=["application", "profile"])
+def test_the_schema_is_valid_and_described(schema: dict[str, Any]) -> None:
+    Draft202012Validator.check_schema(schema)
+    assert schema["$schema"] == "https://json-schema.org/draft/2020-12/schema"
+    assert schema["additionalProperties"] is False
+
+    def walk(part: Any, path: str) -> None:
+        if isinstance(part, dict):
+            for key, value in part.get("properties", {}).items():
+                assert value.get("description") or "$ref" in value, f"{path}.{key} has no description"
+            if part.get("type") == "object":
+                assert part.get("additionalProperties") is False, f"{path} takes unknown keys"
+            for key, value in part.items():
+                walk(value, f"{path}.{key}")
+        elif isinstance(part, list):
+            for value in part:
+                walk(value, path)
+
+    walk(schema, "")
+
+
+def test_both_schemas_have_the_axes_of_the_parser() -> None:
+    for schema in (APPLICATION, PROFILE):
+        for axis, values in AXES.items():
+            part = schema["properties"][axis]
+            part = part["properties"]["type"] if axis == "transport" and "properties" in part else part
+            assert tuple(part["enum"]) == values
+
+
+def test_the_schema_files_are_tidy() -> None:
+    for name in (APPLICATION_SCHEMA, PROFILE_SCHEMA):
+        text = json.dumps(load_schema(name))
+        assert "SPDX-License-Identifier: Apache-2.0" in text
