@@ -8,6 +8,7 @@ import struct
 import time
 from collections import deque
 from types import TracebackType
+from typing import Any, Protocol
 
 from microros_gen.agent.wire.cdr import Writer
 from microros_gen.agent.wire.constants import OBJECT_AGENT, OBJECT_CLIENT, Format, ObjectKind
@@ -31,6 +32,13 @@ WINDOW = 16
 
 class NoAnswerError(AssertionError):
     """The agent did not answer in time."""
+
+
+class Subscriber(Protocol):
+    """What `wait_until_subscribed` needs of an observer."""
+
+    def ask(self, **command: Any) -> Any:
+        """Carry out a command."""
 
 
 class XrceClient:
@@ -167,6 +175,17 @@ class XrceClient:
     def drain(self) -> None:
         """Wait until everything on the reliable stream is acknowledged."""
         self._wait_for(lambda: not self._unacknowledged, "the last acknowledgement")
+
+    def wait_until_subscribed(self, writer: int, body: bytes, observer: Subscriber, topic: str) -> None:
+        """Send `body` until the observer's subscription gets it: discovery takes a moment."""
+        end = time.monotonic() + 15
+        while not any(name == topic for name, _ in observer.ask(do="samples")):
+            assert time.monotonic() < end, f"the subscription on {topic} gets nothing"
+            self.write(writer, body)
+            self.drain()
+            time.sleep(0.05)
+        time.sleep(0.1)
+        observer.ask(do="samples")
 
     # Input
 
