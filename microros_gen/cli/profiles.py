@@ -12,7 +12,7 @@ import click
 from microros_gen.cli.resolve_format import FORMATS, format_selection, format_table
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.model.application import Application, Named
-from microros_gen.model.component import Catalogue, Profile
+from microros_gen.model.component import Catalogue, Middleware, Profile, ProfileSet
 from microros_gen.model.selection import Selection
 from microros_gen.resolve.profiles import axes_of, resolve_profiles
 from microros_gen.resolve.selection import resolve_selection
@@ -36,10 +36,17 @@ def select_profile(name: str, near: Path, catalogue: Catalogue) -> Selection:
     """Return what profile `name` selects for the host; raises UserError where it is faulty or unknown."""
     diagnostics = Diagnostics()
     loaded = load_profiles([Named(name)], near, diagnostics)
+    diagnostics.check()
+    return _select(loaded, catalogue, load_middleware(), diagnostics)
+
+
+def _select(
+    loaded: ProfileSet, catalogue: Catalogue, middleware: Middleware, diagnostics: Diagnostics
+) -> Selection:
     resolved = resolve_profiles(loaded, diagnostics)
     diagnostics.check()
     application = Application(profiles=loaded.requested)
-    selection = resolve_selection(application, resolved, catalogue, load_middleware(), diagnostics)
+    selection = resolve_selection(application, resolved, catalogue, middleware, diagnostics)
     diagnostics.check()
     for diagnostic in diagnostics:
         click.echo(diagnostic.render(), err=True)
@@ -48,7 +55,11 @@ def select_profile(name: str, near: Path, catalogue: Catalogue) -> Selection:
 
 def list_profiles(profiles: Mapping[str, Profile], catalogue: Catalogue, kind: str) -> str:
     """Return the list of `profiles` in format `kind`; a profile is ready when all that it selects is."""
-    ready = {name: _is_ready(name, catalogue) for name in profiles}
+    middleware = load_middleware()
+    ready = {}
+    for name in profiles:
+        selection = _select(ProfileSet((Named(name),), profiles), catalogue, middleware, Diagnostics())
+        ready[name] = all(chosen.component.ready for chosen in selection.components)
     if kind == "json":
         data = [_data(profile, ready[profile.name]) for profile in profiles.values()]
         return json.dumps(data, indent=2, sort_keys=True, ensure_ascii=False) + "\n"
@@ -59,10 +70,6 @@ def list_profiles(profiles: Mapping[str, Profile], catalogue: Catalogue, kind: s
         for p in profiles.values()
     ]
     return format_table(("PROFILE", "STATUS", "COMPONENTS", "WHAT FOR"), rows)
-
-
-def _is_ready(name: str, catalogue: Catalogue) -> bool:
-    return all(c.component.ready for c in select_profile(name, Path(), catalogue).components)
 
 
 def _parts(profile: Profile) -> list[str]:

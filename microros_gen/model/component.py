@@ -77,6 +77,8 @@ class ProfileSet:
 class ResolvedProfile:
     """A profile with everything that it extends folded in; what stands nearer to it wins.
 
+    `requested` is where the user asks for it; None: on the command line.
+
     `adds` and `drops` hold each component once, with the place that decided it. `axes` maps an axis
     (`entities`, `transport`, `liveliness`, `logging`, `clock`) to the value chosen and its place.
     """
@@ -88,6 +90,17 @@ class ResolvedProfile:
     axes: Mapping[str, Named] = field(default_factory=dict)
     builtin: bool = False
     span: Span | None = None
+    requested: Span | None = None
+
+    def place(self, span: Span | None) -> Span | None:
+        """Return where the user can change what stands at `span`: there, or where this profile is asked for.
+
+        Built-in profiles are no files of the user's.
+        """
+        if self.builtin:
+            return self.requested
+        own = self.span is not None and span is not None and span.source.name == self.span.source.name
+        return span if own else self.span
 
 
 @dataclass(frozen=True)

@@ -72,21 +72,19 @@ def _own(axis: str, own: Named | None) -> AxisChoice | None:
 def _of_profiles(
     axis: str, profiles: tuple[ResolvedProfile, ...], diagnostics: Diagnostics
 ) -> AxisChoice | None:
-    chosen: AxisChoice | None = None
-    for profile in profiles:
-        value = profile.axes.get(axis)
-        if value is None:
-            continue
-        if chosen is None:
-            chosen = AxisChoice(axis, value.name, f"profile {profile.name}", value.span)
-        elif chosen.value != value.name:
+    said = [(profile, profile.axes[axis]) for profile in profiles if axis in profile.axes]
+    if not said:
+        return None
+    first, chosen = said[0]
+    for profile, value in said[1:]:
+        if value.name != chosen.name:
             diagnostics.error(
-                f"the profile '{profile.name}' has {axis}: {value.name}, and the {chosen.reason} has "
-                f"{axis}: {chosen.value}{at(chosen.span)}",
-                value.span,
+                f"the profile '{profile.name}' has {axis}: {value.name}, and the profile '{first.name}' has "
+                f"{axis}: {chosen.name}{at(chosen.span)}",
+                profile.place(value.span),
                 f"Decide in the application with `{_key(axis, value.name)}`",
             )
-    return chosen
+    return AxisChoice(axis, chosen.name, f"profile {first.name}", first.place(chosen.span))
 
 
 def _key(axis: str, value: str) -> str:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import MappingProxyType
 
 from microros_gen.diagnostics import Diagnostics, Span
@@ -18,7 +19,11 @@ def resolve_profiles(profiles: ProfileSet, diagnostics: Diagnostics) -> tuple[Re
     a component where the profile itself decides nothing.
     """
     folder = _Folder(profiles, diagnostics)
-    found = {r.name: r for name in profiles.requested if (r := folder.fold(name.name, name.span)) is not None}
+    found: dict[str, ResolvedProfile] = {}
+    for name in profiles.requested:
+        resolved = folder.fold(name.name, name.span)
+        if resolved is not None:
+            found.setdefault(resolved.name, replace(resolved, requested=name.span))
     order = {name: index for index, name in enumerate(BUILTIN_PROFILES)}
     return tuple(sorted(found.values(), key=lambda p: (order.get(p.name, len(order)), p.name)))
 

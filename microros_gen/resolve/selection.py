@@ -139,7 +139,7 @@ def _pick_from_profiles(
     for profile in profiles:
         for add in profile.adds:
             if add.name not in own or own[add.name].add:
-                picker.pick(add.name, f"profile {profile.name}", add.span)
+                picker.pick(add.name, f"profile {profile.name}", profile.place(add.span))
     _check_profile_drops(picker, profiles, own)
     for change in own.values():
         if change.add:

@@ -89,7 +89,7 @@ def test_profiles_that_disagree_about_an_axis(tmp_path: Path, resolve: Resolve) 
     place = f"{tmp_path.as_posix()}"
     said = resolve("b", "a", folder=tmp_path).said
     assert said == (
-        f"{place}/b.yaml:3:13: error: the profile 'b' has liveliness: none, and the profile a has "
+        f"{place}/b.yaml:3:13: error: the profile 'b' has liveliness: none, and the profile 'a' has "
         f"liveliness: ping ({place}/a.yaml:3). Decide in the application with `liveliness: none`",
     )
     decided = resolve("b", "a", folder=tmp_path, text="liveliness: none\n")

@@ -176,7 +176,7 @@ ERRORS = {
     "dropped and needed": (
         "profiles: [pure_sender]\ncomponents: [-node]\n",
         "microros.yaml:2:14: error: '-node' drops a component that publish needs (selected by "
-        "profile pure_sender (profiles/pure_sender.yaml:4)). Drop publish too, or remove '-node'",
+        "profile pure_sender (microros.yaml:1)). Drop publish too, or remove '-node'",
     ),
     "dropped and chosen by an axis": (
         "profiles: [pure_sender]\ncomponents: [-ping]\n",
@@ -216,7 +216,7 @@ ERRORS = {
         "profiles: [ad_hoc_discoverable_sender]\ntransport: {type: serial}\n",
         "microros.yaml:2:19: error: transport: serial (microros.yaml:2) contradicts the component "
         "'discovery' "
-        "(profile ad_hoc_discoverable_sender (profiles/ad_hoc_discoverable_sender.yaml:4)): agents "
+        "(profile ad_hoc_discoverable_sender (microros.yaml:1)): agents "
         "are searched "
         "for by UDP multicast. Write `transport: {type: udp}`, or drop it: `components: [-discovery]`",
     ),
@@ -259,9 +259,16 @@ def test_a_pure_sender_is_ready(resolve: Resolve) -> None:
 
 def test_what_is_planned_is_named_with_who_asked(resolve: Resolve) -> None:
     assert ready_errors(resolve("pure_reader"))[0] == (
-        "profiles/pure_reader.yaml:4:20: error: profile pure_reader needs the components subscribe, "
+        "microros-gen: error: profile pure_reader needs the components subscribe, "
         "executor, cdr_decode, which this version of microros-gen does not have yet. `microros-gen profiles` "
         "shows what is ready, `microros-gen resolve` why each is needed"
+    )
+    assert ready_errors(resolve(text="profiles: [pure_reader]\n"))[0].startswith(
+        "microros.yaml:1:12: error: "
+    )
+    static = ready_errors(resolve(text="profiles: [static_configured_sender]\n"))
+    assert static[0].startswith(
+        "microros.yaml:1:12: error: entities: reference (profile static_configured_sender)"
     )
     errors = ready_errors(resolve(text="profiles: [pure_sender]\nentities: xml\ncomponents: [+clock]\n"))
     assert [e.split(", which")[0] for e in errors] == [
