@@ -41,6 +41,7 @@ LARGEST_UDP_PAYLOAD = 65_507
 """Bytes that fit one UDP datagram over IPv4 (RFC 768, RFC 791)."""
 
 _BLOCK = re.compile(r"block ([0-9]+) ?(ms|s)")
+_POOLS_BESIDE_NODES = ("history",)
 _WITHOUT_ADDRESS = ("serial", "custom")
 
 
@@ -63,6 +64,8 @@ def _application(tree: MappingNode, diagnostics: Diagnostics) -> Application:
     default = Application()
     nodes = parse_nodes(child(tree, "nodes"), diagnostics)
     pools = {e.key: n for e in entries(child(tree, "pools")) if (n := int_of(e.value)) is not None}
+    if nodes:
+        _check_pools(child(tree, "pools"), diagnostics)
     on_full, block_ms = _on_full(child(tree, "on_full"), diagnostics)
     return Application(
         distro=text_of(child(tree, "distro")) or default.distro,
@@ -86,6 +89,13 @@ def _application(tree: MappingNode, diagnostics: Diagnostics) -> Application:
         tasks=_tasks(child(tree, "tasks"), nodes, diagnostics),
         spans=MappingProxyType(_spans(tree)),
     )
+
+
+def _check_pools(node: YamlNode | None, diagnostics: Diagnostics) -> None:
+    for entry in entries(node):
+        if entry.key not in _POOLS_BESIDE_NODES:
+            message = f"'pools.{entry.key}' has no effect: with `nodes` there is what they declare"
+            diagnostics.warning(message, entry.key_span, "Remove it")
 
 
 def _names(node: YamlNode | None) -> tuple[Named, ...]:

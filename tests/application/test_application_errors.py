@@ -373,6 +373,14 @@ def test_what_is_not_said_is_the_default() -> None:
     assert (application.entities, application.liveliness, application.error_text) == (None, None, True)
 
 
+def test_pools_beside_nodes_are_a_warning() -> None:
+    application, lines = parse("nodes: [{name: n}]\npools: {publishers: 3, history: 2}\n")
+    assert application is not None
+    assert lines == [
+        "f:2:9: warning: 'pools.publishers' has no effect: with `nodes` there is what they declare. Remove it"
+    ]
+
+
 def test_substitutions_are_replaced() -> None:
     application, lines = parse(
         "nodes: [{name: n, namespace: /s, publishers: [{topic: '{node}/{ns}x', type: a/msg/B}]}]\n"

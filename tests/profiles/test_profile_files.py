@@ -220,6 +220,18 @@ def test_profiles_are_found_in_the_repository() -> None:
     assert (profiles_folder() / "middleware.yaml").is_file()
 
 
+def test_profiles_are_found_in_a_wheel(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A wheel has them below the package, see force-include in pyproject.toml."""
+    installed = tmp_path / "microros_gen" / "profiles"
+    installed.mkdir(parents=True)
+    (tmp_path / "profiles").mkdir()
+    module = tmp_path / "microros_gen" / "sources" / "profiles.py"
+    monkeypatch.setattr("microros_gen.sources.profiles.__file__", str(module))
+    assert profiles_folder() == installed.resolve()
+    installed.rmdir()
+    assert profiles_folder() == (tmp_path / "profiles").resolve()
+
+
 def test_built_in_profiles_fit_the_schema() -> None:
     for path in sorted(profiles_folder().glob("*.yaml")):
         if path.name != "middleware.yaml":
