@@ -52,6 +52,11 @@ class AgentProcess:
         return self.process.wait(timeout=15)
 
 
+def own_domain() -> int:
+    """Return a ROS domain that other test processes hardly use; larger ones meet Linux's ephemeral ports."""
+    return 1 + os.getpid() % 100
+
+
 def environment(domain: int) -> dict[str, str]:
     """Return an environment that keeps ROS to itself: own domain, this machine only."""
     return {

@@ -13,9 +13,9 @@ import pytest
 
 from agent import captured
 from agent.client import XrceClient
-from agent.process import environment, running_agent
+from agent.process import environment, own_domain, running_agent
 
-DOMAIN = 109
+DOMAIN = own_domain()
 
 
 def run(*arguments: str, code: str = "", path: Path | None = None) -> subprocess.CompletedProcess[str]:

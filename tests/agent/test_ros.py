@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from contextlib import ExitStack
 
@@ -12,7 +11,7 @@ import pytest
 from agent import captured
 from agent.client import BEST_EFFORT, RELIABLE, XrceClient, imu_body, int32_body
 from agent.observer import Observer, observing
-from agent.process import AgentProcess, running_agent
+from agent.process import AgentProcess, own_domain, running_agent
 from microros_gen.agent.wire.constants import Format
 
 pytestmark = pytest.mark.ros
@@ -22,9 +21,7 @@ INT32 = "std_msgs/msg/Int32"
 
 @pytest.fixture(scope="module")
 def domain() -> int:
-    """A ROS domain that no other worker uses."""
-    worker = os.environ.get("PYTEST_XDIST_WORKER", "gw0")
-    return 110 + int(worker.removeprefix("gw")) % 40
+    return own_domain()
 
 
 @pytest.fixture(scope="module")
