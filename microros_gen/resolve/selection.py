@@ -303,7 +303,7 @@ def _selection(
 
 
 def _matters(picker: _Picker, choice: AxisChoice) -> bool:
-    """Return whether to show an axis; one about a component that is not selected counts when it was chosen."""
+    """Return whether to show an axis: one about a component counts when that is selected or it was chosen."""
     about_component = choice.axis in MICRO_ROS_COMPONENTS
     return not about_component or choice.span is not None or choice.axis in picker.causes
 

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the application file is looked for."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.sources.application import read_application
+
+
+def test_the_file_of_the_folder_is_taken_where_there_is_one(tmp_path: Path) -> None:
+    said = Diagnostics()
+    assert read_application(None, tmp_path, said) is None
+    (tmp_path / "microros.yaml").write_text("version: 1\n")
+    source = read_application(None, tmp_path, said)
+    assert source is not None
+    assert (source.name, source.text) == ("microros.yaml", "version: 1\n")
+    assert list(said) == []
+
+
+def test_a_named_file_is_named_as_the_user_wrote_it(tmp_path: Path) -> None:
+    path = tmp_path / "own.yaml"
+    path.write_text("version: 1\n")
+    source = read_application(path, tmp_path / "elsewhere", Diagnostics())
+    assert source is not None
+    assert source.name == str(path)
+
+
+def test_what_cannot_be_read_is_told(tmp_path: Path) -> None:
+    (tmp_path / "bad.yaml").write_bytes(b"a: \xff\n")
+    for name, reason in (("none.yaml", "No such file"), ("bad.yaml", "it is not UTF-8 text")):
+        said = Diagnostics()
+        assert read_application(tmp_path / name, tmp_path, said) is None
+        (line,) = [d.headline() for d in said]
+        assert line.startswith("microros-gen: error: cannot read the application file")
+        assert reason in line
