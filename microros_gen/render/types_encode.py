@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
-from microros_gen.model.types import Primitive, TypeName
+from microros_gen.model.types import TypeName
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_limits import LimitMember, limit_value
 from microros_gen.plan.types_names import c_name, guard, include_path, type_files
@@ -15,7 +14,6 @@ from microros_gen.plan.types_size import TypeLimits
 from microros_gen.plan.types_steps import (
     Align,
     Leaf,
-    Limit,
     Messages,
     Numbers,
     Part,
@@ -26,9 +24,7 @@ from microros_gen.plan.types_steps import (
     Texts,
     Zeros,
 )
-
-StepView = Mapping[str, object]
-"""`kind` and what the macro of that kind in steps.j2 prints."""
+from microros_gen.render.types_step_views import StepView, StepViews, position
 
 
 @dataclass(frozen=True)
@@ -183,7 +179,11 @@ class _Builder:
         prologue = (unused,) if unused else ()
         return [
             FunctionView(
-                f"uint32_t {self._name}__encode_at(\n  {at.encode_parameters})", prologue, True, views, end
+                f"uint32_t {self._name}__encode_at(\n  {at.encode_parameters})",
+                prologue,
+                True,
+                views,
+                end,
             ),
             FunctionView(
                 f"uint32_t {self._name}__end_at(\n  {at.end_parameters})", prologue, False, views, end
@@ -245,182 +245,7 @@ class _Builder:
         return plan.wire is not None and bool(plan.wire.limit_members)
 
     def _views(self, steps: tuple[Step, ...]) -> tuple[StepView, ...]:
-        return tuple(_VIEWS[type(step)](self, step) for step in steps)
-
-    def zeros(self, step: Zeros) -> StepView:
-        """View of constant padding."""
-        return {"kind": "zeros", "at": _at(step.place), "count": step.count}
-
-    def align(self, step: Align) -> StepView:
-        """View of padding that depends on the position."""
-        return {"kind": "align", "at": _at(step.place), "to": step.to}
-
-    def leaf(self, step: Leaf) -> StepView:
-        """View of a number or an array of numbers."""
-        return {"kind": "leaf", "put": _put(step)}
-
-    def run(self, step: Run) -> StepView:
-        """View of a run."""
-        return {
-            "kind": "run",
-            "type": self._name,
-            "first": step.leaves[0].member,
-            "last": step.leaves[-1].member,
-            "bytes": step.size,
-            "at": _at(step.place),
-            "puts": [_put(leaf) for leaf in step.leaves],
-        }
-
-    def text(self, step: Text) -> StepView:
-        """View of a string."""
-        size = f"message->{step.member}.size"
-        wide = "w" if step.wide else ""
-        return {
-            "kind": "text",
-            "check": _check(step.member, step.limit),
-            "put": f"cdr_put_{wide}string",
-            "at": _at(step.place),
-            "data": f"message->{step.member}.data",
-            "size": size,
-            "end": f"cdr_{wide}string_end({_at(step.place)}, {size})",
-        }
-
-    def numbers(self, step: Numbers) -> StepView:
-        """View of a sequence of numbers."""
-        size = f"message->{step.member}.size"
-        suffix = "bool" if step.primitive is Primitive.BOOL else str(step.primitive.size)
-        width = step.primitive.size
-        return {
-            "kind": "numbers",
-            "check": _check(step.member, step.limit),
-            "put": f"cdr_put_sequence_{suffix}",
-            "at": _at(step.place),
-            "data": f"message->{step.member}.data",
-            "size": size,
-            "end": f"cdr_sequence_end_{max(width, 4)}({_at(step.place)}, {size}, {width}U)",
-        }
-
-    def texts(self, step: Texts) -> StepView:
-        """View of an array or a sequence of strings."""
-        member = f"message->{step.member}"
-        wide = "w" if step.wide else ""
-        limit = _limit(step.limit)
-        return {
-            "kind": "texts",
-            "check": _check(step.member, step.sequence) if step.sequence else "",
-            "at": _at(step.place),
-            "start": _at(Place(step.place.variable, step.place.offset + (4 if step.sequence else 0))),
-            "count": f"{step.count}U" if step.count is not None else f"{member}.size",
-            "data": member if step.count is not None else f"{member}.data",
-            "type": f"rosidl_runtime_c__{'U16String' if step.wide else 'String'}",
-            "text_check": f'text->data, text->size, {limit}, "{step.member}[]"',
-            "put": f"cdr_put_{wide}string",
-            "text_end": f"cdr_{wide}string_end",
-        }
-
-    def messages(self, step: Messages) -> StepView:
-        """View of an array or a sequence of messages."""
-        member = f"message->{step.member}"
-        data = member if step.count is not None else f"{member}.data"
-        count = f"{step.count}U" if step.count is not None else f"{member}.size"
-        at = _at(step.place)
-        moves = step.count is None or not step.packed
-        element = c_name(step.type)
-        width = max(step.alignment, 4)
-        passed = self._passed(step.type, step.member, step.table, step.limits, step.fixed)
-        packed = packed_end = ""
-        if step.packed and step.count is not None:
-            packed = f"cdr_copy(&body[{at}], {data}, {step.count * step.packed}U)"
-        elif step.packed:
-            packed = f"position = cdr_put_packed_{width}(body, {at}, {data}, {count}, {step.packed}U)"
-            packed_end = f"cdr_sequence_end_{width}({at}, {count}, {step.packed}U)"
-        if moves:
-            encode = f"position = {element}__encode_at(&{data}[i], body, position{passed})"
-        else:
-            encode = (
-                f"(void){element}__encode_at(&{data}[i], body, {at} + ((uint32_t)i * {step.packed}U){passed})"
-            )
-        end = (
-            f"{element}__end_at(position)"
-            if step.fixed
-            else f"{element}__end_at(&{data}[i], position{passed})"
-        )
-        return {
-            "kind": "messages",
-            "check": _check(step.member, step.sequence) if step.sequence else "",
-            "at": at,
-            "start": _at(Place(step.place.variable, step.place.offset + (4 if step.sequence else 0))),
-            "count": count,
-            "type": element,
-            "packed": step.packed,
-            "put_packed": packed,
-            "end_packed": packed_end,
-            "moves": moves,
-            "encode": encode,
-            "end": end,
-            "may_refuse": not step.fixed,
-        }
-
-    def part(self, step: Part) -> StepView:
-        """View of a nested message with an encoder of its own."""
-        passed = self._passed(step.type, step.member, step.table, step.limits, False)
-        name = c_name(step.type)
-        at = _at(step.place)
-        return {
-            "kind": "part",
-            "encode": f"{name}__encode_at(&message->{step.member}, body, {at}{passed})",
-            "end": f"{name}__end_at(&message->{step.member}, {at}{passed})",
-        }
-
-    def _passed(
-        self, name: TypeName, member: str, table: str | None, limits: TypeLimits | None, fixed: bool
-    ) -> str:
-        """Return the last arguments of a call: the limits where the callee takes them, and the fault."""
-        if fixed:
-            return ""
-        if table is not None:
-            return f", &limits->{table}, fault"
-        if limits is not None:
-            suffix = f"{member.replace('.', '__')}__limits"
-            constant = self._constant_table(name, limits, f"Limits of {member}.", suffix)
-            return f", &{constant}, fault"
-        return ", fault"
-
-
-_VIEWS: Mapping[type, Callable[[_Builder, Any], StepView]] = {
-    Zeros: _Builder.zeros,
-    Align: _Builder.align,
-    Leaf: _Builder.leaf,
-    Run: _Builder.run,
-    Text: _Builder.text,
-    Texts: _Builder.texts,
-    Numbers: _Builder.numbers,
-    Messages: _Builder.messages,
-    Part: _Builder.part,
-}
-
-
-def _at(place: Place) -> str:
-    if not place.variable:
-        return f"{place.offset}U"
-    return f"position + {place.offset}U" if place.offset else "position"
-
-
-def _put(leaf: Leaf) -> str:
-    target = f"&body[{_at(leaf.place)}], "
-    suffix = "bool" if leaf.primitive is Primitive.BOOL else str(leaf.primitive.size)
-    if leaf.count is not None:
-        return f"cdr_put_array_{suffix}({target}message->{leaf.member}, {leaf.count}U)"
-    address = "" if leaf.primitive is Primitive.BOOL else "&"
-    return f"cdr_put_{suffix}({target}{address}message->{leaf.member})"
-
-
-def _limit(limit: Limit) -> str:
-    return f"limits->{limit.table}" if limit.value is None else f"{limit.value}U"
-
-
-def _check(member: str, limit: Limit) -> str:
-    return f'message->{member}.data, message->{member}.size, {_limit(limit)}, "{member}"'
+        return StepViews(self._name, self._constant_table).of(steps)
 
 
 def _end_of(steps: tuple[Step, ...], place: Place) -> str:
@@ -434,7 +259,7 @@ def _end_of(steps: tuple[Step, ...], place: Place) -> str:
             place = Place(step.place.variable, step.place.offset + step.count * step.packed)
         else:
             place = Place(True, 0)
-    return _at(place)
+    return position(place)
 
 
 def _moves(steps: tuple[Step, ...]) -> bool:

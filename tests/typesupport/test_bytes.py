@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Encoded bytes against Fast CDR through rclpy, for every message type of the wheels."""
+
+from __future__ import annotations
+
+import ctypes
+
+import pytest
+from ts_build import Generated
+from ts_padding import padding
+from ts_values import CStructs, Randomizer, to_ros
+
+from microros_gen.plan.types import TypePlan
+
+pytestmark = pytest.mark.ros
+
+rclpy_serialization = pytest.importorskip("rclpy.serialization")
+
+SAMPLES = ("empty", "full", "full", *("random",) * 8)
+
+
+class Fault(ctypes.Structure):
+    _fields_ = (("field", ctypes.c_char_p), ("found", ctypes.c_uint32), ("fits", ctypes.c_uint32))
+
+
+class MessageType(ctypes.Structure):
+    _fields_ = (
+        ("dds_type_name", ctypes.c_char_p),
+        ("max_encoded_size", ctypes.c_uint32),
+        (
+            "encode",
+            ctypes.CFUNCTYPE(ctypes.c_uint32, ctypes.c_void_p, ctypes.c_void_p, ctypes.POINTER(Fault)),
+        ),
+        ("encoded_size", ctypes.CFUNCTYPE(ctypes.c_uint32, ctypes.c_void_p, ctypes.POINTER(Fault))),
+        ("decode", ctypes.c_void_p),
+    )
+
+
+class Handle(ctypes.Structure):
+    _fields_ = (("identifier", ctypes.c_char_p), ("data", ctypes.POINTER(MessageType)))
+
+
+def with_python(everything: Generated) -> list[TypePlan]:
+    """All types but those of test_interface_files, which has no code (test_msgs has the same ones)."""
+    return [plan for plan in everything.plans if plan.name.package != "test_interface_files"]
+
+
+def message_type(library: ctypes.CDLL, c_name: str) -> MessageType:
+    get = library[f"rosidl_typesupport_c__get_message_type_support_handle__{c_name}"]
+    get.restype = ctypes.POINTER(Handle)
+    handle = get().contents
+    assert handle.identifier == b"rosidl_typesupport_microros_c"
+    return handle.data.contents
+
+
+class Encoder:
+    """Calls the generated functions of one type; the buffer is larger than what may be written, to see it."""
+
+    def __init__(self, library: ctypes.CDLL, c_name: str) -> None:
+        self.type = message_type(library, c_name)
+
+    def encode(self, value: ctypes.Structure) -> bytes:
+        fault = Fault()
+        size = self.type.encoded_size(ctypes.addressof(value), fault)
+        assert size, (fault.field, fault.found, fault.fits)
+        assert size <= self.type.max_encoded_size
+        body = ctypes.create_string_buffer(b"\xa5" * (size + 16), size + 16)
+        assert self.type.encode(ctypes.addressof(value), ctypes.addressof(body), fault) == size
+        assert body.raw[size:] == b"\xa5" * 16, "wrote behind the body"
+        return body.raw[:size]
+
+    def refusal(self, value: ctypes.Structure) -> tuple[str, int, int]:
+        """Return the fault of a message that both functions must refuse."""
+        fault, other = Fault(), Fault()
+        body = ctypes.create_string_buffer(self.type.max_encoded_size)
+        assert self.type.encode(ctypes.addressof(value), ctypes.addressof(body), fault) == 0
+        assert self.type.encoded_size(ctypes.addressof(value), other) == 0
+        told = (fault.field.decode(), fault.found, fault.fits)
+        assert told == (other.field.decode(), other.found, other.fits)
+        return told
+
+
+def test_every_type_encodes_as_ros_does(everything: Generated, library: ctypes.CDLL) -> None:
+    """Same bytes as rclpy's serialize_message, padding (zero here) and its surplus at the end aside."""
+    structs = CStructs(everything.messages)
+    compared = 0
+    for seed, plan in enumerate(with_python(everything)):
+        source = Randomizer(everything.messages, seed)
+        encoder = Encoder(library, plan.c_name)
+        assert encoder.type.max_encoded_size == plan.max_encoded_size
+        for mode in SAMPLES:
+            tree = source.tree(plan.name, plan.limits, mode)
+            body = encoder.encode(structs.fill(plan.name, tree))
+            length, gaps = padding(everything.messages, plan.name, tree)
+            message = to_ros(everything.messages, plan.name, tree)
+            expected = bytearray(rclpy_serialization.serialize_message(message)[4:][:length])
+            for gap in gaps:
+                expected[gap] = 0
+            assert body == expected, (plan.name, mode)
+            compared += 1
+            if mode == "full":
+                assert len(body) == plan.max_encoded_size, plan.name
+            if mode == "empty":
+                assert len(body) == plan.min_encoded_size, plan.name
+    assert compared >= 10 * 150
+
+
+def test_ros_reads_what_is_encoded(everything: Generated, library: ctypes.CDLL) -> None:
+    """Fast CDR decodes the bytes to the same message: nothing is missing at the end either."""
+    structs = CStructs(everything.messages)
+    for seed, plan in enumerate(with_python(everything)):
+        source = Randomizer(everything.messages, 1000 + seed)
+        tree = source.tree(plan.name, plan.limits, "random")
+        body = Encoder(library, plan.c_name).encode(structs.fill(plan.name, tree))
+        message = to_ros(everything.messages, plan.name, tree)
+        read = rclpy_serialization.deserialize_message(b"\0\1\0\0" + body, type(message))
+        assert read == message, plan.name
+
+
+def test_every_limit_is_checked(everything: Generated, library: ctypes.CDLL) -> None:
+    """One more than a limit, or NULL data with a size, is refused for each string and sequence of each type."""
+    structs = CStructs(everything.messages)
+    checked = 0
+    for seed, plan in enumerate(everything.plans):
+        encoder = Encoder(library, plan.c_name)
+        tree = Randomizer(everything.messages, seed).tree(plan.name, plan.limits, "full")
+        value = structs.fill(plan.name, tree)
+        seen = set()
+        for path, member, _ in structs.strings(plan.name, value):
+            if path in seen:
+                continue
+            seen.add(path)
+            full, data = member.size, member.data
+            member.size = full + 1
+            field, found, fits = encoder.refusal(value)
+            assert path.endswith(field), (plan.name, path, field)
+            assert (found, fits) == (full + 1, full), (plan.name, path)
+            member.size, member.data = max(full, 1), None
+            assert path.endswith(encoder.refusal(value)[0])
+            member.size, member.data = full, data
+            encoder.encode(value)
+            checked += 2
+    assert checked > 1000
+
+
+def test_null_data_without_elements_is_empty(everything: Generated, library: ctypes.CDLL) -> None:
+    structs = CStructs(everything.messages)
+    plan = everything.plan("sensor_msgs/msg/JointState")
+    zeros = structs.structure(plan.name)()
+    body = Encoder(library, plan.c_name).encode(zeros)
+    assert body == bytes(8) + b"\1\0\0\0" + bytes(20)
+
+
+def test_huge_sizes_are_shown_saturated(everything: Generated, library: ctypes.CDLL) -> None:
+    structs = CStructs(everything.messages)
+    plan = everything.plan("std_msgs/msg/String")
+    value = structs.fill(plan.name, {"data": "x"})
+    value.data.size = 2**40
+    assert Encoder(library, plan.c_name).refusal(value) == ("data", 2**32 - 1, 13)
+
+
+def test_a_bool_is_written_as_0_or_1(everything: Generated, library: ctypes.CDLL) -> None:
+    plan = everything.plan("std_msgs/msg/Bool")
+    value = (ctypes.c_uint8 * 1)(1)
+    assert Encoder(library, plan.c_name).encode(value) == b"\1"

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Generates type support into a folder and compiles it."""
+
+from __future__ import annotations
+
+import ctypes
+import subprocess
+import sys
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.model.application import LimitRule, Named
+from microros_gen.model.types import Message, TypeName
+from microros_gen.plan.capacity import Capacities, Defaults, Root, plan_capacities
+from microros_gen.plan.layout import DataModel
+from microros_gen.plan.types import TypePlan, plan_types
+from microros_gen.render.environment import shared_environment
+from microros_gen.render.types import render_types
+from microros_gen.resolve.interfaces import InterfaceSet, resolve_interfaces
+from microros_gen.sources.interfaces import InterfaceFinder
+
+COMPONENTS = Path(__file__).resolve().parents[2] / "microros_gen" / "components"
+COMPONENT_HEADERS = ("cdr", "rosidl_runtime", "memory")
+TEST_RULES = (LimitRule(("*",), string=13, sequence=5),)
+"""Small enough to fill, large enough for every default value in test_msgs."""
+
+WARNINGS = (
+    "-std=c99 -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wundef -Wstrict-prototypes "
+    "-Wmissing-prototypes -Werror"
+).split()
+
+
+@dataclass(frozen=True)
+class Generated:
+    """What was planned and written."""
+
+    folder: Path
+    messages: Mapping[TypeName, Message]
+    capacities: Capacities
+    plans: tuple[TypePlan, ...]
+    files: Mapping[str, bytes]
+
+    def plan(self, name: str) -> TypePlan:
+        """Return the plan of `pkg/msg/Type`."""
+        return next(plan for plan in self.plans if str(plan.name) == name)
+
+    @property
+    def includes(self) -> list[str]:
+        """Compiler options for the generated headers and those of the components."""
+        folders = [self.folder / "include", *(COMPONENTS / c / "include" for c in COMPONENT_HEADERS)]
+        return [f"-I{folder}" for folder in folders]
+
+    def sources(self, *endings: str) -> list[Path]:
+        """Return the C files that end so."""
+        return [self.folder / path for path in self.files if path.endswith(endings)]
+
+
+def interfaces(requests: Iterable[str], paths: Sequence[Path] = ()) -> InterfaceSet:
+    """Return the closure of packages and types."""
+    diagnostics = Diagnostics()
+    finder = InterfaceFinder.from_environment(paths)
+    found = resolve_interfaces(tuple(Named(r) for r in requests), finder, diagnostics)
+    diagnostics.check()
+    return found
+
+
+def generate(
+    requests: Iterable[str],
+    rules: Sequence[LimitRule],
+    folder: Path,
+    model: DataModel | None = None,
+    paths: Sequence[Path] = (),
+) -> Generated:
+    """Plan, render and write the types of `requests`."""
+    found = interfaces(requests, paths)
+    diagnostics = Diagnostics()
+    capacities = plan_capacities(
+        found.messages, [Root(name) for name in found.roots], rules, Defaults(), diagnostics
+    )
+    diagnostics.check()
+    plans = plan_types(found.messages, capacities, found.type_hash, diagnostics, data_model=model)
+    diagnostics.check()
+    files = render_types(plans, shared_environment())
+    for path, content in files.items():
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_bytes(content)
+    return Generated(folder, found.messages, capacities, plans, files)
+
+
+def run(command: Sequence[str | Path], cwd: Path | None = None) -> str:
+    """Run a command that must succeed and print nothing on stderr; return its output."""
+    result = subprocess.run(
+        [str(part) for part in command], cwd=cwd, text=True, capture_output=True, check=False
+    )
+    assert result.returncode == 0, result.stdout + result.stderr
+    assert result.stderr == "", result.stderr
+    return result.stdout
+
+
+def unity(generated: Generated, name: str, *endings: str, extra: str = "") -> Path:
+    """Write one C file that holds all sources with these endings: compiled at once, it takes seconds."""
+    path = generated.folder / name
+    path.write_text("".join(f'#include "{s}"\n' for s in generated.sources(*endings)) + extra)
+    return path
+
+
+def compile_shared(generated: Generated) -> ctypes.CDLL:
+    """Compile everything to a shared library on top of ROS 2's rosidl_runtime_c and rcutils, and load it."""
+    source = unity(generated, "all.c", ".c")
+    output = generated.folder / "libeverything.so"
+    libraries = Path(sys.prefix) / "lib"
+    command = ["gcc", "-O1", *WARNINGS, "-fPIC", "-shared", *generated.includes, source, "-o", output]
+    run([*command, f"-L{libraries}", f"-Wl,-rpath,{libraries}", "-lrosidl_runtime_c", "-lrcutils"])
+    return ctypes.CDLL(str(output))
