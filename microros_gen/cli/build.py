@@ -12,10 +12,10 @@ import click
 from microros_gen.build.compile import compile_tree
 from microros_gen.build.measure import check_budget, measure_library
 from microros_gen.build.toolchain import find_toolchain
-from microros_gen.cli.generate import generate
+from microros_gen.cli.generate import files_line, generate
 from microros_gen.cli.options import SelectionOptions, output_option, selection_options
 from microros_gen.cli.pipeline import Planned
-from microros_gen.cli.summary import built_summary, generated_summary
+from microros_gen.cli.summary import built_summary, plan_summary
 
 
 @click.command()
@@ -31,7 +31,7 @@ def command(output: Path | None, **options: Any) -> None:
     microros-gen build -c microros.yaml -o build/robot
     """
     planned, out, report = generate(SelectionOptions(**options), output)
-    click.echo(generated_summary(planned, out, report), nl=False)
+    click.echo(plan_summary(planned) + files_line(out, report), nl=False)
     _compile(planned, out)
 
 

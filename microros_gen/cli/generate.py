@@ -3,17 +3,18 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from microros_gen.cli.options import SelectionOptions, output_option, selection_options
-from microros_gen.cli.pipeline import Planned, plan_request, print_warnings, read_request, render_request
-from microros_gen.cli.pipeline import resolve_request as resolve_step
-from microros_gen.cli.summary import generated_summary
-from microros_gen.diagnostics import Diagnostics
-from microros_gen.output.tree import WriteReport, check_owned, write_tree
+from microros_gen.output.runs import Run, find_run, record_run
+
+if TYPE_CHECKING:
+    from microros_gen.cli.pipeline import Planned
+    from microros_gen.output.tree import WriteReport
 
 
 @click.command()
@@ -27,17 +28,43 @@ def command(output: Path | None, **options: Any) -> None:
     \b
     microros-gen generate --profile pure_sender --interface sensor_msgs/msg/Imu
     """
+    call = {"command": "generate", "output": output, **options}
+    last = find_run(call, os.environ)
+    if last is not None:
+        click.echo(last.summary + _files_line(last.out, 0, last.files, 0), nl=False)
+        return
+    from microros_gen.cli.pipeline import read_paths
+    from microros_gen.cli.summary import plan_summary
+
     planned, out, report = generate(SelectionOptions(**options), output)
-    click.echo(generated_summary(planned, out, report), nl=False)
+    summary = plan_summary(planned)
+    files = report.written + report.unchanged
+    run = Run(out, summary, len(files))
+    record_run(call, os.environ, run, read_paths(planned), (out / name for name in files))
+    click.echo(summary + files_line(out, report), nl=False)
 
 
 def generate(options: SelectionOptions, output: Path | None) -> tuple[Planned, Path, WriteReport]:
     """Plan, render and write; return the plan, the folder and what was done to it."""
+    from microros_gen.cli.pipeline import plan_request, print_warnings, read_request, render_request
+    from microros_gen.cli.pipeline import resolve_request as resolve
+    from microros_gen.diagnostics import Diagnostics
+    from microros_gen.output.tree import check_owned, write_tree
+
     diagnostics = Diagnostics()
-    resolved = resolve_step(read_request(options, diagnostics), diagnostics)
+    resolved = resolve(read_request(options, diagnostics), diagnostics)
     out = output or Path("build") / "+".join(resolved.selection.profiles)
     check_owned(out)
     planned = plan_request(resolved, options, diagnostics)
     report = write_tree(out, render_request(planned))
     print_warnings(diagnostics)
     return planned, out, report
+
+
+def files_line(out: Path, report: WriteReport) -> str:
+    """Return the line that says what was done to the files of `out`."""
+    return _files_line(out, len(report.written), len(report.unchanged), len(report.removed))
+
+
+def _files_line(out: Path, written: int, unchanged: int, removed: int) -> str:
+    return f"{'files':<10} {written} written, {unchanged} unchanged, {removed} removed in {out}\n"

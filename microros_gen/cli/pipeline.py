@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -24,7 +24,7 @@ from microros_gen.plan.types import plan_types
 from microros_gen.resolve.interfaces import InterfaceSet, resolve_interfaces
 from microros_gen.resolve.profiles import resolve_profiles
 from microros_gen.resolve.selection import check_ready, resolve_selection
-from microros_gen.sources.application import read_application
+from microros_gen.sources.application import APPLICATION_FILE, read_application
 from microros_gen.sources.components import load_catalogue
 from microros_gen.sources.interfaces import InterfaceFinder
 from microros_gen.sources.profiles import load_middleware, load_profiles
@@ -40,6 +40,7 @@ class Request:
 
     application: Application
     from_file: bool
+    config: Path | None
     near: Path
     target: Target
     inputs: Mapping[str, bytes]
@@ -60,6 +61,7 @@ class Planned:
 
     resolved: Resolved
     interfaces: InterfaceSet
+    searched: tuple[Path, ...]
     capacities: Capacities
     project: Project
 
@@ -78,7 +80,7 @@ def read_request(options: SelectionOptions, diagnostics: Diagnostics) -> Request
     diagnostics.check()
     assert target is not None
     inputs = {"microros.yaml": source.text.encode()} if source else {}
-    return Request(application, source is not None, near, target, inputs)
+    return Request(application, source is not None, options.config, near, target, inputs)
 
 
 def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
@@ -110,7 +112,7 @@ def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Dia
         application, selection, resolved.request.target, types, interfaces.roots, diagnostics
     )
     diagnostics.check()
-    return Planned(resolved, interfaces, capacities, project)
+    return Planned(resolved, interfaces, finder.folders(), capacities, project)
 
 
 def render_request(planned: Planned) -> dict[str, bytes]:
@@ -127,6 +129,22 @@ def render_request(planned: Planned) -> dict[str, bytes]:
     inputs |= {str(entry.name): entry.source.text.encode() for entry in planned.interfaces}
     files[MANIFEST] = manifest(planned.project, inputs, files)
     return files
+
+
+def read_paths(planned: Planned) -> Iterator[Path]:
+    """Yield every file that the plan was made from, and every folder that was searched for it."""
+    request = planned.resolved.request
+    near = request.near
+    yield from (near, near / APPLICATION_FILE)
+    if request.config:
+        yield request.config
+    yield from (near / name.name for name in request.application.profiles)
+    yield from (near / f"{name.name}.yaml" for name in request.application.profiles)
+    yield near / request.application.target.name
+    yield from planned.searched
+    for entry in planned.interfaces:
+        folder = entry.place.folder
+        yield from (folder, folder / entry.name.kind, folder / entry.name.kind / f"{entry.name.name}.msg")
 
 
 def print_warnings(diagnostics: Iterable[object]) -> None:

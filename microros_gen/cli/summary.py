@@ -8,11 +8,10 @@ from pathlib import Path
 from microros_gen.build.compile import BuildReport
 from microros_gen.build.measure import Usage
 from microros_gen.cli.pipeline import Planned
-from microros_gen.output.tree import WriteReport
 
 
-def generated_summary(planned: Planned, out: Path, report: WriteReport) -> str:
-    """Return a few lines: profile, entities, streams, assumed limits, files."""
+def plan_summary(planned: Planned) -> str:
+    """Return a few lines: profile, agent, entities, streams, assumed limits."""
     project = planned.project
     runtime = project.runtime
     lines = [
@@ -27,13 +26,6 @@ def generated_summary(planned: Planned, out: Path, report: WriteReport) -> str:
     ]
     if planned.capacities.defaulted:
         lines.append(("limits", _defaults(planned)))
-    lines.append(
-        (
-            "files",
-            f"{len(report.written)} written, {len(report.unchanged)} unchanged,"
-            f" {len(report.removed)} removed in {out}",
-        )
-    )
     return _table(lines)
 
 

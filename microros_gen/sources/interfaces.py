@@ -137,6 +137,10 @@ class InterfaceFinder:
             places.append("the definitions that ship with microros-gen")
         return ", ".join(places) if places else "nowhere: no place was given"
 
+    def folders(self) -> tuple[Path, ...]:
+        """Return the folders that the search looks into, in its order."""
+        return tuple(folder for folder, _ in self._roots())
+
     def _roots(self) -> Iterator[tuple[Path, Origin]]:
         yield from ((path, Origin.PATH) for path in self.paths)
         yield from ((prefix / "share", Origin.AMENT) for prefix in self.ament)

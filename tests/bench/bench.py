@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`make bench`: times of generate and build, instructions of publish and encode, each with its method.
+
+Times depend on the machine; so each stands beside a peer that ran in the same minutes. Instruction counts come
+from callgrind and repeat exactly with one compiler.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+IDL = ROOT / "microros_gen" / "idl"
+COMMON_INTERFACES = (
+    "actionlib_msgs",
+    "builtin_interfaces",
+    "diagnostic_msgs",
+    "geometry_msgs",
+    "nav_msgs",
+    "sensor_msgs",
+    "shape_msgs",
+    "std_msgs",
+    "stereo_msgs",
+    "trajectory_msgs",
+    "visualization_msgs",
+)
+
+
+def main() -> int:
+    """Run the selected parts and print one table each."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("parts", nargs="*", default=["generate", "build", "instructions"])
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        work = Path(folder)
+        if "generate" in options.parts:
+            bench_generate(work)
+        if "build" in options.parts:
+            bench_build(work)
+        if "instructions" in options.parts:
+            bench_instructions(work)
+    return 0
+
+
+def timed(command: list[str], environment: dict[str, str], repeat: int, fresh: Path | None = None) -> float:
+    """Return the median seconds of `command`; `fresh` is removed before each run."""
+    times = []
+    for _ in range(repeat):
+        if fresh is not None:
+            shutil.rmtree(fresh, ignore_errors=True)
+        start = time.perf_counter()
+        result = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+        times.append(time.perf_counter() - start)
+        if result.returncode != 0:
+            sys.exit(f"{' '.join(command)} failed:\n{result.stdout}{result.stderr}")
+    return statistics.median(times)
+
+
+def tool(*arguments: str) -> list[str]:
+    """Return the command of the tool in this environment."""
+    return [sys.executable, "-m", "microros_gen", *arguments]
+
+
+def row(what: str, seconds: float, target: str, peer: float | None = None) -> None:
+    """Print a line of a table of times."""
+    ratio = f"{seconds / peer:8.3f}" if peer else f"{'':8}"
+    print(f"{what:<58} {seconds:8.2f} s  {ratio}  {target}")
+
+
+def bench_generate(work: Path) -> None:
+    """`generate` of all common_interfaces packages."""
+    out, cache = work / "all", work / "cache"
+    config = work / "all.yaml"
+    packages = ", ".join(COMMON_INTERFACES)
+    config.write_text(
+        f"version: 1\nprofiles: [pure_sender]\ninterfaces: [{packages}]\npools: {{publishers: 4}}\n"
+        "transport: {type: udp, mtu: 60000}\nlimits: {'*': {string: 8, sequence: 2}}\n"
+    )
+    environment = {**os.environ, "XDG_CACHE_HOME": str(cache)}
+    command = tool("generate", "-c", str(config), "--interface-path", str(IDL), "-o", str(out))
+    count = sum(len(list((IDL / p / "msg").glob("*.msg"))) for p in COMMON_INTERFACES)
+    print(f"generate: {len(COMMON_INTERFACES)} packages of common_interfaces, {count} .msg files")
+    print("  wall time of the whole process, interpreter start included; median of 5")
+    start = timed([sys.executable, "-c", "pass"], environment, 5)
+    peer = peer_rosidl(work)
+    heading = "ratio to peer" if peer else ""
+    print(f"{'':58} {'':10}  {heading:8}  target")
+    row("the interpreter alone", start, "")
+    if peer:
+        row(f"peer: rosidl_adapter of ROS 2 Jazzy, .msg to .idl, {peer[1]} files", peer[0], "", peer[0])
+    row("from nothing", timed(command, environment, 5, out), "1 s", peer[0] if peer else None)
+    row("unchanged", timed(command, environment, 5), "0.2 s", peer[0] if peer else None)
+    print()
+
+
+def peer_rosidl(work: Path) -> tuple[float, int] | None:
+    """Time the first step alone of ROS 2's generator on the same packages, where it is installed."""
+    share = Path(sys.prefix) / "share"
+    if not (share / "std_msgs" / "msg").is_dir():
+        return None
+    script = (
+        "import pathlib, sys\n"
+        "from rosidl_adapter.parser import parse_message_string\n"
+        "files = [pathlib.Path(f) for f in sys.argv[1:]]\n"
+        "for f in files:\n"
+        "    parse_message_string(f.parent.parent.name, f.stem, f.read_text(encoding='utf-8'))\n"
+    )
+    files = [str(f) for p in COMMON_INTERFACES for f in sorted((share / p / "msg").glob("*.msg"))]
+    probe = subprocess.run([sys.executable, "-c", "import rosidl_adapter.parser"], capture_output=True, check=False)
+    if probe.returncode != 0:
+        return None
+    return timed([sys.executable, "-c", script, *files], dict(os.environ), 3), len(files)
+
+
+def bench_build(work: Path) -> None:
+    """`build` of pure_sender for the host."""
+    out = work / "pure_sender"
+    environment = {**os.environ, "XDG_CACHE_HOME": str(work / "cache")}
+    command = tool("build", "--profile", "pure_sender", "-o", str(out))
+    print("build: pure_sender with std_msgs/msg/Int32 for the host")
+    print("  wall time of the whole process with the host's C compiler; median of 3")
+    row("from nothing", timed(command, environment, 3, out), "3 s")
+    row("unchanged", timed(command, environment, 3), "")
+    print()
+
+
+def bench_instructions(work: Path) -> None:
+    """Instructions of publish and encode on this host."""
+    del work
+
+
+if __name__ == "__main__":
+    sys.exit(main())
