@@ -12,8 +12,10 @@ from jsonschema import Draft202012Validator
 from key_cases import CASES, RESERVED
 
 from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.model.application import Named
+from microros_gen.model.component import Profile
 from microros_gen.parse.application import parse_application
-from microros_gen.parse.profile import AXES
+from microros_gen.parse.profile import AXES, parse_profile
 from microros_gen.parse.schema import APPLICATION_SCHEMA, PROFILE_SCHEMA, load_schema
 from microros_gen.parse.yaml_tree import parse_yaml, to_data
 
@@ -117,3 +119,82 @@ def test_the_schema_files_are_tidy() -> None:
     for name in (APPLICATION_SCHEMA, PROFILE_SCHEMA):
         text = json.dumps(load_schema(name))
         assert "SPDX-License-Identifier: Apache-2.0" in text
+
+
+PROFILE_CASES: dict[str, tuple[str, Any, str, str]] = {
+    "profile": (
+        "",
+        "p",
+        "profile: Quiet",
+        "1:10: error: 'profile' must be a name of lower-case letters, digits",
+    ),
+    "summary": ("summary: A text", "A text", "summary: 3", "2:10: error: 'summary' must be a text; it is 3"),
+    "extends": (
+        "extends: [a]",
+        ["a"],
+        "extends: a",
+        "2:10: error: 'extends' must be a list; it is the text 'a'",
+    ),
+    "components": (
+        "components: [+a, -b, c]",
+        [("a", True), ("b", False), ("c", True)],
+        "components: [3]",
+        "2:14: ",
+    ),
+    "entities": (
+        "entities: xml",
+        "xml",
+        "entities: [xml]",
+        "2:11: error: 'entities' must be preconfigured, refer",
+    ),
+    "transport": (
+        "transport: tcp",
+        "tcp",
+        "transport: {type: tcp}",
+        "2:12: error: 'transport' must be udp, tcp,",
+    ),
+    "liveliness": (
+        "liveliness: none",
+        "none",
+        "liveliness: off",
+        "2:13: error: 'liveliness' must be ping, ack",
+    ),
+    "logging": (
+        "logging: rosout",
+        "rosout",
+        "logging: true",
+        "2:10: error: 'logging' must be console, callback",
+    ),
+    "clock": (
+        "clock: ros",
+        "ros",
+        "clock: rso",
+        "2:8: error: 'clock' must be steady or ros; it is the text 'rso'.",
+    ),
+}
+
+
+def profile_value(profile: Profile, key: str) -> Any:
+    value = getattr(profile, "name" if key == "profile" else key)
+    if key == "extends":
+        return [named.name for named in value]
+    if key == "components":
+        return [(change.name, change.add) for change in value]
+    return value.name if isinstance(value, Named) else value
+
+
+def test_every_key_of_the_profile_schema_has_its_cases() -> None:
+    assert sorted(PROFILE["properties"]) == sorted(PROFILE_CASES)
+
+
+@pytest.mark.parametrize("key", PROFILE_CASES)
+def test_keys_of_a_profile(key: str) -> None:
+    good, value, bad, told = PROFILE_CASES[key]
+    found = Diagnostics()
+    profile = parse_profile(Source("f", f"profile: p\n{good}\n"), found)
+    assert [d.headline() for d in found] == []
+    assert profile is not None
+    assert profile_value(profile, key) == value
+    text = bad if bad.startswith("profile") else f"profile: p\n{bad}"
+    assert parse_profile(Source("f", text), found) is None
+    assert next(d.headline() for d in found).startswith(f"f:{told}")
