@@ -11,7 +11,9 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from ts_build import TEST_RULES, Generated, compile_shared, generate
+from ts_build import TEST_RULES, Generated, compile_shared, differing_rules, generate, interfaces
+
+from microros_gen.plan.layout import LP64
 
 ROS_PACKAGES = Path(sys.prefix) / "share"
 
@@ -19,16 +21,42 @@ ROS_PACKAGES = Path(sys.prefix) / "share"
 @pytest.fixture(scope="session")
 def packages() -> list[str]:
     """Every package of the environment that has messages."""
-    return sorted({path.parent.parent.name for path in ROS_PACKAGES.glob("*/msg/*.msg")})
+    found = sorted({path.parent.parent.name for path in ROS_PACKAGES.glob("*/msg/*.msg")})
+    if "test_msgs" not in found:
+        pytest.skip("the ROS wheels are not installed")
+    return found
 
 
 @pytest.fixture(scope="session")
 def everything(packages: list[str], tmp_path_factory: pytest.TempPathFactory) -> Generated:
-    """All messages under small limits, written to a folder."""
-    return generate(packages, TEST_RULES, tmp_path_factory.mktemp("everything"))
+    """All messages under one small limit: every capacity is a constant."""
+    return generate(packages, TEST_RULES, tmp_path_factory.mktemp("same"), LP64)
 
 
 @pytest.fixture(scope="session")
-def library(everything: Generated) -> ctypes.CDLL:
+def differing(packages: list[str], tmp_path_factory: pytest.TempPathFactory) -> Generated:
+    """All messages, with other limits for each use of a nested type: tables of limits."""
+    rules = differing_rules(interfaces(packages))
+    return generate(packages, rules, tmp_path_factory.mktemp("differing"), LP64)
+
+
+@pytest.fixture(scope="session", params=["same", "differing"])
+def limits_case(request: pytest.FixtureRequest) -> Generated:
+    """Both ways to have limits."""
+    name = "everything" if request.param == "same" else "differing"
+    generated: Generated = request.getfixturevalue(name)
+    return generated
+
+
+@pytest.fixture(scope="session")
+def libraries() -> dict[Path, ctypes.CDLL]:
+    """Shared libraries that are compiled already, by folder."""
+    return {}
+
+
+@pytest.fixture
+def library(limits_case: Generated, libraries: dict[Path, ctypes.CDLL]) -> ctypes.CDLL:
     """All generated C as one shared library, with ROS 2's own string functions and allocator."""
-    return compile_shared(everything)
+    if limits_case.folder not in libraries:
+        libraries[limits_case.folder] = compile_shared(limits_case)
+    return libraries[limits_case.folder]

@@ -40,9 +40,9 @@ class Handle(ctypes.Structure):
     _fields_ = (("identifier", ctypes.c_char_p), ("data", ctypes.POINTER(MessageType)))
 
 
-def with_python(everything: Generated) -> list[TypePlan]:
+def with_python(generated: Generated) -> list[TypePlan]:
     """All types but those of test_interface_files, which has no code (test_msgs has the same ones)."""
-    return [plan for plan in everything.plans if plan.name.package != "test_interface_files"]
+    return [plan for plan in generated.plans if plan.name.package != "test_interface_files"]
 
 
 def message_type(library: ctypes.CDLL, c_name: str) -> MessageType:
@@ -80,19 +80,19 @@ class Encoder:
         return told
 
 
-def test_every_type_encodes_as_ros_does(everything: Generated, library: ctypes.CDLL) -> None:
+def test_every_type_encodes_as_ros_does(limits_case: Generated, library: ctypes.CDLL) -> None:
     """Same bytes as rclpy's serialize_message, padding (zero here) and its surplus at the end aside."""
-    structs = CStructs(everything.messages)
+    structs = CStructs(limits_case.messages)
     compared = 0
-    for seed, plan in enumerate(with_python(everything)):
-        source = Randomizer(everything.messages, seed)
+    for seed, plan in enumerate(with_python(limits_case)):
+        source = Randomizer(limits_case.messages, seed)
         encoder = Encoder(library, plan.c_name)
         assert encoder.type.max_encoded_size == plan.max_encoded_size
         for mode in SAMPLES:
             tree = source.tree(plan.name, plan.limits, mode)
             body = encoder.encode(structs.fill(plan.name, tree))
-            length, gaps = padding(everything.messages, plan.name, tree)
-            message = to_ros(everything.messages, plan.name, tree)
+            length, gaps = padding(limits_case.messages, plan.name, tree)
+            message = to_ros(limits_case.messages, plan.name, tree)
             expected = bytearray(rclpy_serialization.serialize_message(message)[4:][:length])
             for gap in gaps:
                 expected[gap] = 0
@@ -105,25 +105,25 @@ def test_every_type_encodes_as_ros_does(everything: Generated, library: ctypes.C
     assert compared >= 10 * 150
 
 
-def test_ros_reads_what_is_encoded(everything: Generated, library: ctypes.CDLL) -> None:
+def test_ros_reads_what_is_encoded(limits_case: Generated, library: ctypes.CDLL) -> None:
     """Fast CDR decodes the bytes to the same message: nothing is missing at the end either."""
-    structs = CStructs(everything.messages)
-    for seed, plan in enumerate(with_python(everything)):
-        source = Randomizer(everything.messages, 1000 + seed)
+    structs = CStructs(limits_case.messages)
+    for seed, plan in enumerate(with_python(limits_case)):
+        source = Randomizer(limits_case.messages, 1000 + seed)
         tree = source.tree(plan.name, plan.limits, "random")
         body = Encoder(library, plan.c_name).encode(structs.fill(plan.name, tree))
-        message = to_ros(everything.messages, plan.name, tree)
+        message = to_ros(limits_case.messages, plan.name, tree)
         read = rclpy_serialization.deserialize_message(b"\0\1\0\0" + body, type(message))
         assert read == message, plan.name
 
 
-def test_every_limit_is_checked(everything: Generated, library: ctypes.CDLL) -> None:
-    """One more than a limit, or NULL data with a size, is refused for each string and sequence of each type."""
-    structs = CStructs(everything.messages)
+def test_every_limit_is_checked(limits_case: Generated, library: ctypes.CDLL) -> None:
+    """One more than a limit, and NULL data with a size, are refused: each member of each type."""
+    structs = CStructs(limits_case.messages)
     checked = 0
-    for seed, plan in enumerate(everything.plans):
+    for seed, plan in enumerate(limits_case.plans):
         encoder = Encoder(library, plan.c_name)
-        tree = Randomizer(everything.messages, seed).tree(plan.name, plan.limits, "full")
+        tree = Randomizer(limits_case.messages, seed).tree(plan.name, plan.limits, "full")
         value = structs.fill(plan.name, tree)
         seen = set()
         for path, member, _ in structs.strings(plan.name, value):
@@ -143,23 +143,24 @@ def test_every_limit_is_checked(everything: Generated, library: ctypes.CDLL) -> 
     assert checked > 1000
 
 
-def test_null_data_without_elements_is_empty(everything: Generated, library: ctypes.CDLL) -> None:
-    structs = CStructs(everything.messages)
-    plan = everything.plan("sensor_msgs/msg/JointState")
+def test_null_data_without_elements_is_empty(limits_case: Generated, library: ctypes.CDLL) -> None:
+    structs = CStructs(limits_case.messages)
+    plan = limits_case.plan("sensor_msgs/msg/JointState")
     zeros = structs.structure(plan.name)()
     body = Encoder(library, plan.c_name).encode(zeros)
     assert body == bytes(8) + b"\1\0\0\0" + bytes(20)
 
 
-def test_huge_sizes_are_shown_saturated(everything: Generated, library: ctypes.CDLL) -> None:
-    structs = CStructs(everything.messages)
-    plan = everything.plan("std_msgs/msg/String")
+def test_huge_sizes_are_shown_saturated(limits_case: Generated, library: ctypes.CDLL) -> None:
+    structs = CStructs(limits_case.messages)
+    plan = limits_case.plan("std_msgs/msg/String")
     value = structs.fill(plan.name, {"data": "x"})
+    value_limit = plan.limits.fields[0].string
     value.data.size = 2**40
-    assert Encoder(library, plan.c_name).refusal(value) == ("data", 2**32 - 1, 13)
+    assert Encoder(library, plan.c_name).refusal(value) == ("data", 2**32 - 1, value_limit)
 
 
-def test_a_bool_is_written_as_0_or_1(everything: Generated, library: ctypes.CDLL) -> None:
-    plan = everything.plan("std_msgs/msg/Bool")
+def test_a_bool_is_written_as_0_or_1(limits_case: Generated, library: ctypes.CDLL) -> None:
+    plan = limits_case.plan("std_msgs/msg/Bool")
     value = (ctypes.c_uint8 * 1)(1)
     assert Encoder(library, plan.c_name).encode(value) == b"\1"

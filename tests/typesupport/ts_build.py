@@ -5,17 +5,25 @@ from __future__ import annotations
 
 import ctypes
 import subprocess
-import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.model.application import LimitRule, Named
-from microros_gen.model.types import Message, TypeName
+from microros_gen.model.types import (
+    FieldType,
+    Message,
+    NamedType,
+    SequenceType,
+    StringType,
+    TypeName,
+    element_of,
+)
 from microros_gen.plan.capacity import Capacities, Defaults, Root, plan_capacities
 from microros_gen.plan.layout import DataModel
 from microros_gen.plan.types import TypePlan, plan_types
+from microros_gen.plan.types_size import is_fixed_field
 from microros_gen.render.environment import shared_environment
 from microros_gen.render.types import render_types
 from microros_gen.resolve.interfaces import InterfaceSet, resolve_interfaces
@@ -26,10 +34,10 @@ COMPONENT_HEADERS = ("cdr", "rosidl_runtime", "memory")
 TEST_RULES = (LimitRule(("*",), string=13, sequence=5),)
 """Small enough to fill, large enough for every default value in test_msgs."""
 
-WARNINGS = (
-    "-std=c99 -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wundef -Wstrict-prototypes "
-    "-Wmissing-prototypes -Werror"
-).split()
+WARNINGS = [
+    *("-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow"),
+    *("-Wundef", "-Wstrict-prototypes", "-Wmissing-prototypes", "-Werror"),
+]
 
 
 @dataclass(frozen=True)
@@ -89,6 +97,32 @@ def generate(
     return Generated(folder, found.messages, capacities, plans, files)
 
 
+def differing_rules(found: InterfaceSet) -> tuple[LimitRule, ...]:
+    """Return limits that differ from root to root and from member to member."""
+    rules = []
+    for index, root in enumerate(found.roots):
+        for number, field in enumerate(found.messages[root].fields):
+            if not is_fixed_field(field, found.messages):
+                path = (str(root), field.name)
+                element = element_of(field.type)
+                nested = isinstance(element, NamedType)
+                texts = 12 + (index + number) % 5 if nested or isinstance(element, StringType) else None
+                is_sequence = isinstance(field.type, SequenceType)
+                count = 3 + (index + 2 * number) % 3 if nested or is_sequence else None
+                rules.append(
+                    LimitRule(path, _capped(texts, _bound(element)), _capped(count, _bound(field.type)))
+                )
+    return (LimitRule(("*",), 14, 4), *rules)
+
+
+def _bound(kind: FieldType) -> int | None:
+    return kind.bound if isinstance(kind, (SequenceType, StringType)) else None
+
+
+def _capped(number: int | None, bound: int | None) -> int | None:
+    return number if number is None or bound is None else min(number, bound)
+
+
 def run(command: Sequence[str | Path], cwd: Path | None = None) -> str:
     """Run a command that must succeed and print nothing on stderr; return its output."""
     result = subprocess.run(
@@ -106,11 +140,23 @@ def unity(generated: Generated, name: str, *endings: str, extra: str = "") -> Pa
     return path
 
 
+ALLOCATOR = """
+#include "rcutils/allocator.h"
+static rcutils_allocator_t test_allocator;
+void test_set_allocator(const rcutils_allocator_t * allocator);
+void test_set_allocator(const rcutils_allocator_t * allocator) { test_allocator = *allocator; }
+rcutils_allocator_t rcutils_get_default_allocator(void) { return test_allocator; }
+"""
+
+
 def compile_shared(generated: Generated) -> ctypes.CDLL:
-    """Compile everything to a shared library on top of ROS 2's rosidl_runtime_c and rcutils, and load it."""
-    source = unity(generated, "all.c", ".c")
+    """Compile everything to a shared library with this project's string functions, and load it.
+
+    Its default allocator is what `test_set_allocator` was given; none at first.
+    """
+    source = unity(generated, "all.c", ".c", extra=ALLOCATOR)
     output = generated.folder / "libeverything.so"
-    libraries = Path(sys.prefix) / "lib"
-    command = ["gcc", "-O1", *WARNINGS, "-fPIC", "-shared", *generated.includes, source, "-o", output]
-    run([*command, f"-L{libraries}", f"-Wl,-rpath,{libraries}", "-lrosidl_runtime_c", "-lrcutils"])
+    runtime = sorted((COMPONENTS / "rosidl_runtime" / "src").glob("*.c"))
+    command = ["gcc", "-O1", *WARNINGS, "-fPIC", "-shared", "-Wl,-Bsymbolic", "-Wl,-z,defs"]
+    run([*command, *generated.includes, source, *runtime, "-o", output])
     return ctypes.CDLL(str(output))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which bytes of a CDR body are padding: a walk over the contents, written from the standard (OMG CDR, 9.3)."""
+"""Which bytes of a CDR body are padding: a walk over the contents, from the standard (OMG CDR, 9.3)."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Random contents of messages as plain trees, and the same contents as a ROS 2 message or as a C struct (ctypes)."""
+"""Random contents of messages as plain trees, as ROS 2 messages and as C structs (ctypes)."""
 
 from __future__ import annotations
 
@@ -155,7 +155,7 @@ class CStructs:
         return self._known[name]
 
     def fill(self, name: TypeName, tree: Tree) -> Any:
-        """Return a struct with these contents; capacities equal sizes."""
+        """Return a struct with these contents; strings end with NUL, capacities equal sizes."""
         value = self.structure(name)()
         self._fill(name, value, tree)
         return value
@@ -234,7 +234,7 @@ class CStructs:
 
     def _buffer(self, data: Any, size: int) -> CString:
         self._alive.append(data)
-        address = ctypes.addressof(data) if size else None
+        address = ctypes.addressof(data) if ctypes.sizeof(data) else None
         return CString(address, size, size)
 
     def _read(self, element: ElementType, value: Any) -> Any:

@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: Apache-2.0
+"""init, fini, copy, are_equal, create and sequences: default values as in rclpy, every block of memory."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Iterator
+
+import pytest
+from ts_build import Generated
+from ts_values import CString, CStructs, Randomizer, from_ros, ros_class
+
+from microros_gen.plan.types import TypePlan
+
+pytestmark = pytest.mark.ros
+pytest.importorskip("rclpy")
+
+ALLOCATE = ctypes.CFUNCTYPE(ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p)
+DEALLOCATE = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)
+REALLOCATE = ctypes.CFUNCTYPE(ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p)
+ZERO_ALLOCATE = ctypes.CFUNCTYPE(ctypes.c_void_p, ctypes.c_size_t, ctypes.c_size_t, ctypes.c_void_p)
+
+
+class Allocator(ctypes.Structure):
+    _fields_ = (
+        ("allocate", ALLOCATE),
+        ("deallocate", DEALLOCATE),
+        ("reallocate", REALLOCATE),
+        ("zero_allocate", ZERO_ALLOCATE),
+        ("state", ctypes.c_void_p),
+    )
+
+
+class Memory:
+    """Counts blocks of the C library's allocator, and fails when `left` allocations are used up."""
+
+    def __init__(self) -> None:
+        self.live: set[int] = set()
+        self.left = 1 << 30
+        libc = ctypes.CDLL(None)
+        for function in (libc.malloc, libc.calloc, libc.realloc):
+            function.restype = ctypes.c_void_p
+        self._libc = libc
+        self.allocator = Allocator(
+            ALLOCATE(lambda size, _: self._new(libc.malloc(ctypes.c_size_t(size)))),
+            DEALLOCATE(lambda block, _: self._free(block)),
+            REALLOCATE(lambda block, size, _: self._grow(block, size)),
+            ZERO_ALLOCATE(
+                lambda n, size, _: self._new(libc.calloc(ctypes.c_size_t(n), ctypes.c_size_t(size)))
+            ),
+            None,
+        )
+
+    def _new(self, block: int) -> int | None:
+        if self.left == 0:
+            self._libc.free(ctypes.c_void_p(block))
+            return None
+        self.left -= 1
+        self.live.add(block)
+        return block
+
+    def _free(self, block: int | None) -> None:
+        if block:
+            self.live.remove(block)
+            self._libc.free(ctypes.c_void_p(block))
+
+    def _grow(self, block: int | None, size: int) -> int | None:
+        if self.left == 0:
+            return None
+        self.left -= 1
+        self.live.discard(block or 0)
+        grown = self._libc.realloc(ctypes.c_void_p(block), ctypes.c_size_t(size))
+        self.live.add(grown)
+        return int(grown)
+
+
+@pytest.fixture
+def memory(library: ctypes.CDLL) -> Iterator[Memory]:
+    """A default allocator that counts and fails on demand."""
+    own = Memory()
+    library.test_set_allocator(ctypes.byref(own.allocator))
+    yield own
+    library.test_set_allocator(ctypes.byref(Allocator()))
+
+
+class Functions:
+    """The functions of one type."""
+
+    def __init__(self, library: ctypes.CDLL, plan: TypePlan) -> None:
+        self._library = library
+        self._name = plan.c_name
+
+    def __call__(self, function: str, *arguments: object, result: object = ctypes.c_bool) -> object:
+        symbol = self._library[f"{self._name}__{function}"]
+        symbol.restype = result
+        return symbol(*(ctypes.byref(a) if isinstance(a, ctypes.Structure) else a for a in arguments))
+
+
+def test_init_sets_the_default_values(limits_case: Generated, library: ctypes.CDLL, memory: Memory) -> None:
+    structs = CStructs(limits_case.messages)
+    for plan in limits_case.plans:
+        call = Functions(library, plan)
+        value = structs.structure(plan.name)()
+        ctypes.memset(ctypes.byref(value), 0xA5, ctypes.sizeof(value))
+        assert call("init", value)
+        if plan.name.package != "test_interface_files":
+            expected = from_ros(limits_case.messages, plan.name, ros_class(plan.name)())
+            assert structs.read(plan.name, value) == expected, plan.name
+        call("fini", value, result=None)
+        assert not memory.live, plan.name
+
+
+def test_copy_is_deep_and_equal(limits_case: Generated, library: ctypes.CDLL, memory: Memory) -> None:
+    structs = CStructs(limits_case.messages)
+    for seed, plan in enumerate(limits_case.plans):
+        call = Functions(library, plan)
+        tree = Randomizer(limits_case.messages, seed).tree(plan.name, plan.limits, "random")
+        source = structs.fill(plan.name, tree)
+        copy = structs.structure(plan.name)()
+        assert call("init", copy)
+        assert call("copy", source, copy)
+        assert structs.read(plan.name, copy) == tree, plan.name
+        assert call("are_equal", source, copy)
+        for _, member, is_string in structs.strings(plan.name, copy):
+            own = {s.data for _, s, _ in structs.strings(plan.name, source) if s.size}
+            assert member.size == 0 or member.data not in own
+            assert not is_string or member.data
+        call("fini", copy, result=None)
+        assert not memory.live, plan.name
+
+
+def test_any_other_content_is_not_equal(limits_case: Generated, library: ctypes.CDLL) -> None:
+    structs = CStructs(limits_case.messages)
+    for seed, plan in enumerate(limits_case.plans):
+        source = Randomizer(limits_case.messages, seed)
+        one, other = (source.tree(plan.name, plan.limits, "random") for _ in range(2))
+        values = (structs.fill(plan.name, tree) for tree in (one, other))
+        equal = Functions(library, plan)("are_equal", *values)
+        assert equal == (one == other), plan.name
+
+
+def test_each_failing_allocation_leaves_nothing(
+    limits_case: Generated, library: ctypes.CDLL, memory: Memory
+) -> None:
+    """Fail the first, second, … allocation of create and of Sequence__init: no block is left."""
+    for name in ("test_msgs/msg/MultiNested", "test_msgs/msg/WStrings", "sensor_msgs/msg/JointState"):
+        plan = limits_case.plan(name)
+        call = Functions(library, plan)
+        for allowed in range(400):
+            memory.left = allowed
+            message = call("create", result=ctypes.c_void_p)
+            if message:
+                call("destroy", ctypes.c_void_p(message), result=None)  # type: ignore[arg-type]
+            assert not memory.live, (name, allowed)
+            if message:
+                break
+        assert 0 < allowed < 399, name
+        sequence = CString()
+        for allowed in range(1200):
+            memory.left = allowed
+            done = call("Sequence__init", sequence, ctypes.c_size_t(3))
+            if done:
+                call("Sequence__fini", sequence, result=None)
+            assert not memory.live, (name, allowed)
+            if done:
+                break
+        assert 0 < allowed < 1199, name
+
+
+def test_sequences_grow_and_compare(limits_case: Generated, library: ctypes.CDLL, memory: Memory) -> None:
+    structs = CStructs(limits_case.messages)
+    for plan in limits_case.plans:
+        call = Functions(library, plan)
+        source, copy = CString(), CString()
+        assert call("Sequence__init", source, ctypes.c_size_t(3))
+        assert call("Sequence__init", copy, ctypes.c_size_t(1))
+        assert not call("Sequence__are_equal", source, copy)
+        assert call("Sequence__copy", source, copy)
+        assert (copy.size, copy.capacity) == (3, 3)
+        assert call("Sequence__are_equal", source, copy)
+        items = (structs.structure(plan.name) * 3).from_address(copy.data)
+        first = structs.read(plan.name, items[0])
+        assert all(structs.read(plan.name, item) == first for item in items)
+        call("Sequence__fini", source, result=None)
+        call("Sequence__fini", copy, result=None)
+        assert (copy.data, copy.size, copy.capacity) == (None, 0, 0)
+        made = call("Sequence__create", ctypes.c_size_t(2), result=ctypes.c_void_p)
+        assert made
+        call("Sequence__destroy", ctypes.c_void_p(made), result=None)  # type: ignore[arg-type]
+        assert not memory.live, plan.name
+
+
+def test_null_is_refused_or_ignored(limits_case: Generated, library: ctypes.CDLL) -> None:
+    plan = limits_case.plan("sensor_msgs/msg/JointState")
+    call = Functions(library, plan)
+    value = CStructs(limits_case.messages).structure(plan.name)()
+    for function, *arguments in (
+        ("init", None),
+        ("are_equal", None, value),
+        ("are_equal", value, None),
+        ("copy", None, value),
+        ("copy", value, None),
+        ("Sequence__init", None, 1),
+        ("Sequence__copy", None, None),
+        ("Sequence__are_equal", None, None),
+    ):
+        assert call(str(function), *arguments) is False
+    for function in ("fini", "destroy", "Sequence__fini", "Sequence__destroy"):
+        call(function, None, result=None)
+
+
+def test_no_allocator_of_libc_is_referenced(limits_case: Generated) -> None:
+    for path in limits_case.files:
+        text = limits_case.files[path].decode()
+        assert not any(f"{name}(" in text for name in ("malloc", "calloc", "realloc", "free")), path
+        assert "stdlib.h" not in text, path

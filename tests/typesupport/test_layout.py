@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Structs, constants and bounds against the C headers in the wheels, and against the planned layout."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+from ts_build import Generated, run
+
+from microros_gen.model.types import (
+    Primitive,
+    SequenceType,
+    StringType,
+    element_of,
+)
+from microros_gen.plan.layout import LP64, StructLayouts
+from microros_gen.plan.types import TypePlan
+from microros_gen.plan.types_size import members
+
+pytestmark = pytest.mark.ros
+
+PREFIX = Path(sys.prefix)
+
+
+def facts_program(generated: Generated, plans: list[TypePlan]) -> Path:
+    """Write a program that prints what the headers say of each type, be they ours or ROS 2's."""
+    lines = ["#include <stddef.h>", "#include <stdio.h>"]
+    lines += [f'#include "{p.files.struct.removeprefix("include/")}"' for p in plans]
+    lines += ["int main(void) {"]
+    for plan in plans:
+        name = plan.c_name
+        lines.append(f'  printf("{name} %zu %zu\\n", sizeof({name}), sizeof({name}__Sequence));')
+        for field in members(plan.message):
+            place = f"offsetof({name}, {field.name})"
+            size = f"sizeof((({name} *)0)->{field.name})"
+            lines.append(f'  printf("{name}.{field.name} %zu %zu\\n", {place}, {size});')
+            lines += bound_lines(plan, field)
+        lines += [constant_line(name, c.name, c.type) for c in plan.message.constants]
+    path = generated.folder / "facts.c"
+    path.write_text("\n".join([*lines, "  return 0;", "}", ""]))
+    return path
+
+
+def bound_lines(plan: TypePlan, field: object) -> list[str]:
+    kind = field.type  # type: ignore[attr-defined]
+    symbols = []
+    if isinstance(kind, SequenceType) and kind.bound is not None:
+        symbols.append("MAX_SIZE")
+    element = element_of(kind)
+    if isinstance(element, StringType) and element.bound is not None:
+        symbols.append("MAX_STRING_SIZE")
+    names = [f"{plan.c_name}__{field.name}__{symbol}" for symbol in symbols]  # type: ignore[attr-defined]
+    return [f'  printf("{name} %d\\n", (int){name});' for name in names]
+
+
+def constant_line(name: str, constant: str, kind: Primitive | StringType) -> str:
+    symbol = f"{name}__{constant}"
+    if isinstance(kind, StringType):
+        return f'  printf("{symbol} %s\\n", {symbol});'
+    if kind in (Primitive.FLOAT32, Primitive.FLOAT64):
+        return f'  printf("{symbol} %.17g\\n", (double){symbol});'
+    return f'  printf("{symbol} %lld\\n", (long long){symbol});'
+
+
+def facts(source: Path, includes: list[str]) -> list[str]:
+    output = source.with_suffix("")
+    run(["gcc", "-std=c99", "-w", *includes, source, "-o", output])
+    return run([output]).splitlines()
+
+
+def test_structs_and_constants_are_those_of_rosidl(everything: Generated) -> None:
+    plans = [p for p in everything.plans if (PREFIX / "include" / p.name.package).is_dir()]
+    assert len(plans) > 150
+    source = facts_program(everything, plans)
+    own = facts(source, everything.includes)
+    theirs = facts(source, [f"-I{folder}" for folder in sorted((PREFIX / "include").iterdir())])
+    assert own == theirs
+    assert len(own) > 1000
+
+
+def test_planned_layout_is_the_compilers(everything: Generated) -> None:
+    layouts = StructLayouts(everything.messages, LP64)
+    expected = []
+    for plan in everything.plans:
+        expected.append((plan.c_name, str(layouts.extent(plan.name).size)))
+        offsets = layouts.offsets(plan.name).items()
+        expected += [(f"{plan.c_name}.{member}", str(offset)) for member, offset in offsets]
+    source = facts_program(everything, list(everything.plans))
+    found = {tuple(line.split(" ")[:2]) for line in facts(source, everything.includes)}
+    assert set(expected) <= found
+
+
+def test_unsuitable_targets_are_refused_by_the_compiler(everything: Generated) -> None:
+    """Generated for 64 bit, compiled for 32: the sizes in the plan are asserted."""
+    if shutil.which("clang") is None:
+        pytest.skip("clang is not installed")
+    import subprocess
+
+    source = next(iter(everything.sources("std_msgs/string__type_support.c")))
+    command = ["clang", "-m32", "-std=c99", "-fsyntax-only", *everything.includes, str(source)]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert result.returncode != 0
+    assert "std_msgs__msg__String__assert_size" in result.stderr
