@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from microros_gen.model.types import TypeName
+from microros_gen.plan.names import dds_type
 
 
 @dataclass(frozen=True)
@@ -18,6 +19,11 @@ class NodePlan:
     participant_name: str
     domain_id: int
 
+    @property
+    def full_namespace(self) -> str:
+        """The namespace as ROS 2 reports it: `/`, `/a/b`."""
+        return "/" + self.namespace.strip("/")
+
 
 @dataclass(frozen=True)
 class PublisherPlan:
@@ -29,6 +35,11 @@ class PublisherPlan:
     dds_topic: str
     type: TypeName
     reliable: bool
+
+    @property
+    def dds_type(self) -> str:
+        """The type's name on the wire: `std_msgs::msg::dds_::Int32_`."""
+        return dds_type(self.type)
 
 
 @dataclass(frozen=True)
@@ -67,3 +78,20 @@ class RuntimePlan:
     heartbeat_period_ms: int = 100
     liveliness_period_ms: int = 1000
     liveliness_attempts: int = 3
+    retry_first_ms: int = 100
+    retry_most_ms: int = 1000
+
+    @property
+    def error_mode(self) -> str:
+        """`text` or `code`: which file speaks for errors."""
+        return "text" if self.error_text_size else "code"
+
+    @property
+    def names_mode(self) -> str:
+        """`declared` or `pool`: where names of nodes and publishers come from."""
+        return "declared" if self.declared else "pool"
+
+    @property
+    def memory_mode(self) -> str:
+        """`arena` or `none`: what is behind the default allocator."""
+        return "arena" if self.arena_size else "none"

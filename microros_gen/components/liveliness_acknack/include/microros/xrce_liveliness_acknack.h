@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A session is lost when reliable data stays unacknowledged: nothing is sent for it. */
+#ifndef MICROROS_XRCE_LIVELINESS_ACKNACK_H
+#define MICROROS_XRCE_LIVELINESS_ACKNACK_H
+
+#include <stdint.h>
+
+#include "microros/xrce_session.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct xrce_liveliness_acknack_t {
+  uint32_t since_ms; /* when the agent acknowledged last, or had nothing to acknowledge */
+  uint16_t first;    /* the oldest unacknowledged message then */
+} xrce_liveliness_acknack_t;
+
+void xrce_liveliness_acknack_reset(xrce_liveliness_acknack_t * liveliness, uint32_t now);
+
+/* Loses the session after MICROROS_LIVELINESS_PERIOD_MS times MICROROS_LIVELINESS_ATTEMPTS. */
+void xrce_liveliness_acknack_step(xrce_client_t * client, uint32_t now);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_XRCE_LIVELINESS_ACKNACK_H */

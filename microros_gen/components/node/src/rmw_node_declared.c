@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* `nodes:` is in the application file: only what it declares can be opened, and the names are constants. */
+#include "microros/rmw_node.h"
+
+#include "microros/error.h"
+#include "microros/plan.h"
+#include "microros/rmw_names.h"
+#include "microros/xrce_client.h"
+
+#include <string.h>
+
+uint16_t rmw_node_take(xrce_client_t * client, const char * name, const char * namespace_)
+{
+  const rmw_name_t wanted = rmw_name_of_namespace(namespace_);
+  microros_error_t error = MICROROS_ERROR_NODE_UNDECLARED;
+
+  for (uint16_t i = 0; i < MICROROS_NODES_MAX; ++i) {
+    const microros_declared_node_t * declared = &microros_declared_nodes[i];
+    xrce_participant_t * participant = &client->participants[i];
+
+    if (strcmp(declared->name, name) != 0 || !rmw_name_equals(&wanted, declared->namespace_)) {
+      continue;
+    }
+    if (!participant->state.wanted) {
+      participant->name = declared->name;
+      participant->namespace_ = declared->namespace_;
+      participant->domain_id = declared->domain_id;
+      return i;
+    }
+    error = MICROROS_ERROR_NODE_OPEN;
+  }
+  microros_error_set(error, name, namespace_, 0, 0);
+  return RMW_NO_PLACE;
+}
