@@ -20,6 +20,8 @@ from microros_gen.resolve.declared import STREAM_RELIABLE, declared_components, 
 from microros_gen.resolve.profiles import at, signed, unique_changes
 
 HOST_PORT = "port_posix"
+# Objects that a CREATE makes; the client itself comes with CREATE_CLIENT.
+_CREATED = frozenset(OBJECT_KINDS) - {"agent", "client"}
 _LAYERS = ("micro-ROS", "middleware", "port")
 
 
@@ -286,7 +288,7 @@ def _selection(
     parts = [c.component for c in components]
     xrce = [(n, p.name) for p in parts for n in (*p.xrce, *middleware.components.get(p.name, ()))]
     xrce += [(n, axes[v.axis].text) for v in values for n in v.xrce]
-    objects = [(o, p.name) for p in parts for o in p.objects] if creates else []
+    objects = [(o, p.name) for p in parts for o in p.objects if creates or o not in _CREATED]
     return Selection(
         profiles=tuple(p.name for p in profiles),
         components=components,
