@@ -3,20 +3,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.model.types import Message, TypeName
 from microros_gen.plan.capacity import Capacities
-from microros_gen.plan.layout import DataModel, StructLayouts
+from microros_gen.plan.layout import I386, ILP32, LP64, DataModel, StructLayouts
 from microros_gen.plan.types_names import TypeFiles, c_name, dds_name, type_files
 from microros_gen.plan.types_size import TypeLimits, WireSizes, is_fixed
 from microros_gen.plan.types_storage import StorageUnit, plan_storage, storage_extents
 from microros_gen.plan.types_wire import WirePlan, plan_wire
 
-LARGEST_BODY = 0xFFFFFFF0
-"""Positions in a body are uint32_t in C, and rounding one up must not wrap."""
+LARGEST_BODY = 0x7FFFFFF0
+"""Sizes are enumerators in C, which are int; rounding a position up must not wrap either."""
+
+DATA_MODELS = (LP64, ILP32, I386)
+"""The data models that the generated code asserts its sizes for; for any other it does not compile."""
 
 
 @dataclass(frozen=True)
@@ -24,9 +27,9 @@ class TypePlan:
     """One message type.
 
     `root`: declared by the application, so it has a type support handle; the others are parts of roots.
-    `received`: it needs a decoder. Sizes are bytes of the CDR body under the limits (0 for a part
-    that is never a root and whose limits differ from use to use); `struct_size` and `storage_size` are of the
-    target's data model, None when that is not known.
+    `received`: it needs a decoder. Encoded sizes are bytes of the CDR body under the limits (0 for a part
+    that is never a root and whose limits differ from use to use). `struct_sizes` and `storage_sizes` are
+    bytes for each of DATA_MODELS; `storage_sizes` is empty for a type without storage.
     """
 
     name: TypeName
@@ -43,8 +46,16 @@ class TypePlan:
     limits: TypeLimits | None
     wire: WirePlan | None
     storage: tuple[StorageUnit, ...]
-    struct_size: int | None
-    storage_size: int | None
+    struct_sizes: tuple[int, ...]
+    storage_sizes: tuple[int, ...]
+
+    def struct_size(self, model: DataModel) -> int:
+        """Return the size of the struct for one of DATA_MODELS, bytes."""
+        return self.struct_sizes[DATA_MODELS.index(model)]
+
+    def storage_size(self, model: DataModel) -> int:
+        """Return the size of the static storage for one of DATA_MODELS, bytes; 0 where it needs none."""
+        return self.storage_sizes[DATA_MODELS.index(model)] if self.storage_sizes else 0
 
     @property
     def headers(self) -> tuple[str, ...]:
@@ -69,28 +80,17 @@ def plan_types(
     type_hash: Callable[[TypeName], str],
     diagnostics: Diagnostics,
     received: Collection[TypeName] = (),
-    data_model: DataModel | None = None,
 ) -> tuple[TypePlan, ...]:
-    """Plan every type of `messages` (closed, in dependency order; the roots are those of `capacities`).
-
-    With a `data_model` the sizes of structs and storage are known here, and asserted in the C code.
-    """
+    """Plan every type of `messages` (closed, in dependency order; the roots are those of `capacities`)."""
     wires = plan_wire(messages, capacities.limits)
     storages = plan_storage(messages, capacities.limits, wires.home_limits, diagnostics)
     sizes = WireSizes(messages)
-    layouts = StructLayouts(messages, data_model) if data_model else None
-    extents = storage_extents(storages, layouts) if layouts else {}
+    layouts = [StructLayouts(messages, model) for model in DATA_MODELS]
+    extents = [storage_extents(storages, layout) for layout in layouts]
     plans = []
     for name, message in messages.items():
+        fixed = is_fixed(message, messages)
         limits = wires.home_limits.get(name)
-        sized = name in wires.home_limits or is_fixed(message, messages)
-        largest = sizes.largest(name, limits) if sized else 0
-        if largest > LARGEST_BODY:
-            diagnostics.error(
-                f"{name} takes up to {largest} bytes under its limits",
-                message.span,
-                f"Lower its limits: a message has at most {LARGEST_BODY} bytes",
-            )
         units = storages.get(name, ())
         plans.append(
             TypePlan(
@@ -102,14 +102,25 @@ def plan_types(
                 type_hash=type_hash(name),
                 root=name in capacities.limits,
                 received=name in received,
-                fixed_size=is_fixed(message, messages),
-                max_encoded_size=largest,
+                fixed_size=fixed,
+                max_encoded_size=sizes.largest(name, limits) if fixed or limits else 0,
                 min_encoded_size=sizes.smallest(name),
                 limits=limits,
                 wire=wires.plans.get(name),
                 storage=units,
-                struct_size=layouts.extent(name).size if layouts else None,
-                storage_size=extents[units[-1].name].size if units and layouts else None,
+                struct_sizes=tuple(layout.extent(name).size for layout in layouts),
+                storage_sizes=tuple(known[units[-1].name].size for known in extents) if units else (),
             )
         )
+    _check_sizes(plans, diagnostics)
     return tuple(plans)
+
+
+def _check_sizes(plans: Iterable[TypePlan], diagnostics: Diagnostics) -> None:
+    for plan in plans:
+        if plan.max_encoded_size > LARGEST_BODY:
+            diagnostics.error(
+                f"{plan.name} takes up to {plan.max_encoded_size} bytes under its limits",
+                plan.message.span,
+                f"Lower its limits: a message has at most {LARGEST_BODY} bytes",
+            )

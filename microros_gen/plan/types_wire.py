@@ -231,7 +231,7 @@ class _Emitter:
             sequence = Limit(entry.sequence if entry else None, here or "")
             text = Limit(
                 entry.string if entry else None,
-                f"{here}__string" if isinstance(field.type, SequenceType) else (here or ""),
+                f"{here}__string" if here and isinstance(field.type, SequenceType) else (here or ""),
             )
             self._field(field, path, here, (sequence, text), entry.nested if entry else None, at)
 

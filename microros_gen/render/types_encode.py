@@ -24,7 +24,7 @@ from microros_gen.plan.types_steps import (
     Texts,
     Zeros,
 )
-from microros_gen.render.types_step_views import StepView, StepViews, position
+from microros_gen.render.types_step_views import StepView, StepViews, cdr_size, position
 
 
 @dataclass(frozen=True)
@@ -156,10 +156,8 @@ class _Builder:
         return tuple(sorted(found))
 
     def size_assertion(self) -> str:
-        """Return the condition that shows that the plan's sizes are the compiler's."""
-        if self._plan.struct_size is not None:
-            return f"sizeof({self._name}) == {self._plan.struct_size}U"
-        return f"sizeof({self._name}) >= 1U"
+        """Return the condition that shows that the plan's size of the struct is the compiler's."""
+        return f"sizeof({self._name}) == {cdr_size(self._plan.struct_sizes)}"
 
     def functions(self) -> tuple[FunctionView, ...]:
         """Return the functions of the source, callees first."""
@@ -175,26 +173,21 @@ class _Builder:
         at = self.at_view()
         views = self._views(steps)
         end = _end_of(steps, Place(True, 0))
-        unused = "(void)position" if _ignores_position(steps) else None
-        prologue = (unused,) if unused else ()
         return [
             FunctionView(
                 f"uint32_t {self._name}__encode_at(\n  {at.encode_parameters})",
-                prologue,
+                (),
                 True,
                 views,
                 end,
             ),
-            FunctionView(
-                f"uint32_t {self._name}__end_at(\n  {at.end_parameters})", prologue, False, views, end
-            ),
+            FunctionView(f"uint32_t {self._name}__end_at(\n  {at.end_parameters})", (), False, views, end),
         ]
 
     def _root_functions(self, steps: tuple[Step, ...] | None) -> list[FunctionView]:
-        encode = (
-            f"static uint32_t {self._name}__encode(const void * untyped, uint8_t * body, cdr_fault_t * fault)"
-        )
-        size = f"static uint32_t {self._name}__encoded_size(const void * untyped, cdr_fault_t * fault)"
+        head = f"static uint32_t {self._name}"
+        encode = f"{head}__encode(\n  const void * untyped, uint8_t * body, cdr_fault_t * fault)"
+        size = f"{head}__encoded_size(\n  const void * untyped, cdr_fault_t * fault)"
         message = f"const {self._name} * const message = (const {self._name} *)untyped"
         if steps is None:
             limits = f"&{self._root_table()}, " if self._takes_limits(self._plan) else ""
@@ -268,10 +261,6 @@ def _moves(steps: tuple[Step, ...]) -> bool:
         or (isinstance(s, Messages) and not (s.packed and s.count is not None))
         for s in steps
     )
-
-
-def _ignores_position(steps: tuple[Step, ...]) -> bool:
-    return not steps
 
 
 def _table_declaration(member: LimitMember) -> str:

@@ -224,3 +224,10 @@ def _limit(limit: Limit) -> str:
 
 def _check(member: str, limit: Limit) -> str:
     return f'message->{member}.data, message->{member}.size, {_limit(limit)}, "{member}"'
+
+
+def cdr_size(sizes: tuple[int, ...]) -> str:
+    """Return the C expression of a size that depends on the data model."""
+    if len(set(sizes)) == 1:
+        return f"{sizes[0]}U"
+    return "CDR_SIZE(" + ", ".join(f"{size}U" for size in sizes) + ")"

@@ -22,6 +22,7 @@ from microros_gen.plan.types_storage import (
     StorageUnit,
     text_length,
 )
+from microros_gen.render.types_step_views import cdr_size
 from microros_gen.render.types_struct import WideDefault, wide_name
 from microros_gen.render.types_text import number, string, wide_units
 
@@ -62,7 +63,7 @@ class StorageView:
     header_includes: tuple[str, ...]
     includes: tuple[str, ...]
     system_includes: tuple[str, ...]
-    assertions: tuple[str, ...]
+    size_assertion: str
     units: tuple[UnitView, ...]
 
 
@@ -72,29 +73,22 @@ def storage_view(plan: TypePlan, plans: Mapping[TypeName, TypePlan]) -> StorageV
     steps = [step for unit in plan.storage for step in unit.steps]
     uses = sorted({name for unit in plan.storage for name in unit.uses})
     shared = {include_path(type_files(name).storage) for name in uses if plans[name].storage}
-    init = any(isinstance(s, InitMessages) or (isinstance(s, BindMessages) and s.init) for s in steps)
     structs = {include_path(type_files(name).struct) for name in uses if not plans[name].storage}
     functions = {
         include_path(type_files(s.type).functions)
         for s in steps
         if isinstance(s, InitMessages) or (isinstance(s, BindMessages) and s.init)
     }
-    assertions: tuple[str, ...] = ()
-    if plan.storage_size is not None:
-        assertions = (
-            f"CDR_STATIC_ASSERT(\n  {plan.c_name}__assert_storage_size, "
-            f"sizeof({plan.c_name}__Storage) == {plan.storage_size}U)",
-        )
-    source = functions | ({"microros/cdr.h"} if assertions else set()) if init or assertions else set()
+    assertion = f"sizeof({plan.c_name}__Storage) == {cdr_size(plan.storage_sizes)}"
     return StorageView(
         guard=guard(plan.files.storage),
         ros_name=str(plan.name),
         name=plan.c_name,
         storage_header=include_path(plan.files.storage),
         header_includes=tuple(sorted({include_path(plan.files.struct), *shared, *structs})),
-        includes=tuple(sorted(source)),
+        includes=tuple(sorted({*functions, "microros/cdr.h"})),
         system_includes=("string.h",),
-        assertions=assertions,
+        size_assertion=assertion,
         units=units,
     )
 

@@ -13,8 +13,6 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 from ts_build import TEST_RULES, Generated, compile_shared, differing_rules, generate, interfaces
 
-from microros_gen.plan.layout import LP64
-
 ROS_PACKAGES = Path(sys.prefix) / "share"
 
 
@@ -30,14 +28,14 @@ def packages() -> list[str]:
 @pytest.fixture(scope="session")
 def everything(packages: list[str], tmp_path_factory: pytest.TempPathFactory) -> Generated:
     """All messages under one small limit: every capacity is a constant."""
-    return generate(packages, TEST_RULES, tmp_path_factory.mktemp("same"), LP64)
+    return generate(packages, TEST_RULES, tmp_path_factory.mktemp("same"))
 
 
 @pytest.fixture(scope="session")
 def differing(packages: list[str], tmp_path_factory: pytest.TempPathFactory) -> Generated:
     """All messages, with other limits for each use of a nested type: tables of limits."""
     rules = differing_rules(interfaces(packages))
-    return generate(packages, rules, tmp_path_factory.mktemp("differing"), LP64)
+    return generate(packages, rules, tmp_path_factory.mktemp("differing"))
 
 
 @pytest.fixture(scope="session", params=["same", "differing"])

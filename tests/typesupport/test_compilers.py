@@ -9,10 +9,8 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from ts_build import TEST_RULES, WARNINGS, Generated, differing_rules, generate, interfaces, run, unity
+from ts_build import WARNINGS, Generated, run, unity
 from ts_selfcheck import write_selfcheck
-
-from microros_gen.plan.layout import I386, ILP32
 
 pytestmark = pytest.mark.ros
 
@@ -66,25 +64,20 @@ def test_clang_with_sanitizers_writes_the_same(limits_case: Generated, baseline:
     assert result.stdout == baseline
 
 
-def test_32_bit_writes_the_same(
-    packages: list[str], limits_case: Generated, everything: Generated, baseline: str, tmp_path: Path
-) -> None:
-    rules = TEST_RULES if limits_case is everything else differing_rules(interfaces(packages))
-    generated = generate(packages, rules, tmp_path, I386)
+def test_32_bit_writes_the_same(limits_case: Generated, baseline: str, tmp_path: Path) -> None:
     probe = tmp_path / "probe.c"
     probe.write_text("#include <stdio.h>\nint main(void) { return 0; }\n")
     found = subprocess.run(["gcc", "-m32", probe, "-o", tmp_path / "probe"], capture_output=True, check=False)
     if found.returncode != 0:
         pytest.skip("no 32-bit C library (gcc-multilib)")
-    assert run([build(generated, "m32", ["gcc", "-m32", "-O0"])]) == baseline
+    assert run([build(limits_case, "m32", ["gcc", "-m32", "-O0"])]) == baseline
 
 
-def test_cortex_m_compiles(packages: list[str], tmp_path: Path) -> None:
+def test_cortex_m_compiles(limits_case: Generated) -> None:
     """Sizes of structs and storage under the Arm EABI are those of the plan (asserted in the code)."""
     needs("arm-none-eabi-gcc")
-    generated = generate(packages, TEST_RULES, tmp_path, ILP32)
-    source = unity(generated, "arm.c", *COMPILED)
-    command = ["arm-none-eabi-gcc", "-mcpu=cortex-m4", "-mthumb", *WARNINGS, *generated.includes]
+    source = unity(limits_case, "arm.c", *COMPILED)
+    command = ["arm-none-eabi-gcc", "-mcpu=cortex-m4", "-mthumb", *WARNINGS, *limits_case.includes]
     run([*command, "-fsyntax-only", source])
 
 

@@ -17,6 +17,7 @@ from microros_gen.model.types import (
     TypeName,
     element_of,
 )
+from microros_gen.plan.layout import LP64
 from microros_gen.plan.types_size import TypeLimits
 
 pytestmark = pytest.mark.ros
@@ -30,22 +31,21 @@ def test_bound_messages_have_defaults_and_capacities(limits_case: Generated, lib
         if not plan.storage:
             assert plan.fixed_size, plan.name
             continue
-        assert plan.storage_size
-        storage = ctypes.create_string_buffer(b"\xa5" * plan.storage_size + b"\x5a" * 8)
+        size = plan.storage_size(LP64)
+        assert size
+        storage = ctypes.create_string_buffer(b"\xa5" * size + b"\x5a" * 8)
         value = structs.structure(plan.name)()
         ctypes.memset(ctypes.byref(value), 0xA5, ctypes.sizeof(value))
         bind = library[f"{plan.c_name}__bind"]
         bind.restype = None
         bind(ctypes.byref(value), storage)
-        assert storage.raw[plan.storage_size : plan.storage_size + 8] == b"\x5a" * 8
+        assert storage.raw[size : size + 8] == b"\x5a" * 8
         if plan.name.package != "test_interface_files":
             expected = from_ros(limits_case.messages, plan.name, ros_class(plan.name)())
             assert structs.read(plan.name, value) == expected, plan.name
         assert plan.limits
         start = ctypes.addressof(storage)
-        check_capacities(
-            limits_case, structs, plan.name, plan.limits, value, range(start, start + plan.storage_size)
-        )
+        check_capacities(limits_case, structs, plan.name, plan.limits, value, range(start, start + size))
         bound += 1
     assert bound > 100
 

@@ -21,7 +21,6 @@ from microros_gen.model.types import (
     element_of,
 )
 from microros_gen.plan.capacity import Capacities, Defaults, Root, plan_capacities
-from microros_gen.plan.layout import DataModel
 from microros_gen.plan.types import TypePlan, plan_types
 from microros_gen.plan.types_size import is_fixed_field
 from microros_gen.render.environment import shared_environment
@@ -78,7 +77,6 @@ def generate(
     requests: Iterable[str],
     rules: Sequence[LimitRule],
     folder: Path,
-    model: DataModel | None = None,
     paths: Sequence[Path] = (),
 ) -> Generated:
     """Plan, render and write the types of `requests`."""
@@ -88,7 +86,7 @@ def generate(
         found.messages, [Root(name) for name in found.roots], rules, Defaults(), diagnostics
     )
     diagnostics.check()
-    plans = plan_types(found.messages, capacities, found.type_hash, diagnostics, data_model=model)
+    plans = plan_types(found.messages, capacities, found.type_hash, diagnostics)
     diagnostics.check()
     files = render_types(plans, shared_environment())
     for path, content in files.items():

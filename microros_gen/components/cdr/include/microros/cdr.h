@@ -47,6 +47,21 @@ CDR_STATIC_ASSERT(cdr_assert_float_is_binary32, sizeof(float) == 4U);
 CDR_STATIC_ASSERT(cdr_assert_double_is_binary64, sizeof(double) == 8U);
 CDR_STATIC_ASSERT(cdr_assert_character_has_16_bits, sizeof(uint_least16_t) == 2U);
 
+/** Shows how the target aligns an 8-byte number; never an object. */
+struct cdr_alignment_probe
+{
+  char before;
+  int64_t number;
+};
+
+/**
+ * The one of three sizes that the plan has for the target's data model: 64-bit pointers (LP64); 32-bit pointers
+ * with 8-byte numbers aligned to 8 (ILP32: Arm, RISC-V, Xtensa) or to 4 (32-bit x86). A constant expression.
+ */
+#define CDR_SIZE(lp64, ilp32, i386) \
+  ((sizeof(void *) == 8U) ? (lp64) : \
+   ((offsetof(struct cdr_alignment_probe, number) == 8U) ? (ilp32) : (i386)))
+
 /**
  * Whether the members of `type` from `first` to `last`, which take `bytes` on the wire without padding, lie in
  * memory exactly as on the wire. C keeps members in order and none is smaller than on the wire, so they do when
