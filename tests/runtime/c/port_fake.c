@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A port whose time and network are in the hands of the test: it speaks lines over standard input and output. */
+#include "port_fake.h"
+
+#include "microros/port.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { QUEUE = 64, DATAGRAM = 2048, LINE = 2 * DATAGRAM + 64 };
+
+typedef struct datagram_t {
+  size_t size;
+  uint8_t bytes[DATAGRAM];
+} datagram_t;
+
+static datagram_t queue[QUEUE];
+static size_t queue_first;
+static size_t queue_count;
+static uint32_t fake_now_ms = 0xffffff00u; /* soon begins again at 0: every test passes the wrap */
+static bool send_fails;
+static bool open_fails;
+
+static void take_datagram(const char * hex)
+{
+  datagram_t * datagram = &queue[(queue_first + queue_count) % QUEUE];
+  unsigned value;
+
+  if (queue_count == QUEUE) {
+    abort();
+  }
+  for (datagram->size = 0; sscanf(&hex[2u * datagram->size], "%2x", &value) == 1; ++datagram->size) {
+    datagram->bytes[datagram->size] = (uint8_t)value;
+  }
+  ++queue_count;
+}
+
+bool fake_take_line(const char * line)
+{
+  if (strncmp(line, "rx ", 3) == 0) {
+    take_datagram(&line[3]);
+  } else if (strncmp(line, "time ", 5) == 0) {
+    fake_now_ms += (uint32_t)strtoul(&line[5], NULL, 10);
+  } else if (strncmp(line, "send_fails ", 11) == 0) {
+    send_fails = line[11] == '1';
+  } else if (strncmp(line, "open_fails ", 11) == 0) {
+    open_fails = line[11] == '1';
+  } else {
+    return false;
+  }
+  return true;
+}
+
+char * fake_read_line(void)
+{
+  static char line[LINE];
+
+  if (fgets(line, sizeof(line), stdin) == NULL) {
+    exit(3);
+  }
+  line[strcspn(line, "\n")] = '\0';
+  return line;
+}
+
+uint32_t port_time_ms(void)
+{
+  return fake_now_ms;
+}
+
+int64_t port_time_epoch_ns(void)
+{
+  return 0;
+}
+
+/* The test acts while the library sleeps, until it says "go". */
+void port_sleep_ms(uint32_t duration_ms)
+{
+  const char * line;
+
+  fake_now_ms += duration_ms;
+  printf("sleep %u\n", (unsigned)duration_ms);
+  (void)fflush(stdout);
+  for (line = fake_read_line(); strcmp(line, "go") != 0; line = fake_read_line()) {
+    if (!fake_take_line(line)) {
+      exit(4);
+    }
+  }
+}
+
+uint32_t port_unique_id(void)
+{
+  return 0xfeedbeefu;
+}
+
+bool port_udp_open(port_udp_t * udp, const char * host, uint16_t port)
+{
+  udp->handle = 7;
+  printf("open %s %u\n", host, (unsigned)port);
+  return !open_fails;
+}
+
+void port_udp_close(port_udp_t * udp)
+{
+  udp->handle = -1;
+  queue_count = 0;
+  printf("close\n");
+}
+
+bool port_udp_send(port_udp_t * udp, const uint8_t * data, size_t size)
+{
+  (void)udp;
+  if (send_fails) {
+    return false;
+  }
+  printf("tx ");
+  for (size_t i = 0; i < size; ++i) {
+    printf("%02x", data[i]);
+  }
+  printf("\n");
+  return true;
+}
+
+int32_t port_udp_receive(port_udp_t * udp, uint8_t * buffer, size_t capacity)
+{
+  const datagram_t * datagram = &queue[queue_first];
+
+  (void)udp;
+  if (queue_count == 0u) {
+    return 0;
+  }
+  queue_first = (queue_first + 1u) % QUEUE;
+  --queue_count;
+  if (datagram->size > capacity) {
+    return -1;
+  }
+  memcpy(buffer, datagram->bytes, datagram->size);
+  return (int32_t)datagram->size;
+}

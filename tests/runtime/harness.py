@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Renders the C runtime for a hand-made plan, compiles it with a fixture, and counts what is in it."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from microros_gen.build.toolchain import LIBRARY_FLAGS, WARNINGS
+from microros_gen.model.selection import ChosenComponent, Selection
+from microros_gen.model.types import TypeName
+from microros_gen.plan.runtime import NodePlan, PublisherPlan, RuntimePlan
+from microros_gen.render.environment import make_environment
+from microros_gen.sources.components import components_folder, load_catalogue
+
+FIXTURES = Path(__file__).parent / "c"
+INT32 = TypeName("std_msgs", "msg", "Int32")
+STRING = TypeName("std_msgs", "msg", "String")
+CORE = ("support", "session", "memory", "rosidl_runtime", "node", "publish", "cdr", "transport_udp", "port_posix")
+SANITIZE = ("-g", "-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+
+POOL = RuntimePlan(
+    plan_id="0123456789abcdef",
+    error_text_size=160,
+    agent_host="127.0.0.1",
+    agent_port=8888,
+    mtu=128,
+    input_size=64,
+    client_key=0xA1B2C3D4,
+    session_id=0x81,
+    best_effort_size=128,
+    reliable_slots=4,
+    reliable_slot_size=64,
+    declared=False,
+    nodes_max=2,
+    publishers_max=3,
+    name_size=32,
+    nodes=(),
+    publishers=(),
+    arena_size=0,
+    on_full="error",
+    on_full_block_ms=0,
+    connect_timeout_ms=400,
+    create_timeout_ms=400,
+    close_timeout_ms=200,
+    liveliness_period_ms=100,
+    retry_first_ms=40,
+    retry_most_ms=160,
+)
+
+DECLARED = replace(
+    POOL,
+    declared=True,
+    nodes_max=1,
+    publishers_max=2,
+    name_size=0,
+    nodes=(NodePlan(0, "imu", "/arm", "/arm/imu", 77),),
+    publishers=(
+        PublisherPlan(0, 0, "/arm/chatter", "rt/arm/chatter", INT32, True),
+        PublisherPlan(1, 0, "/arm/imu/fast", "rt/arm/imu/fast", INT32, False),
+    ),
+)
+
+
+def components(plan: RuntimePlan, liveliness: str = "ping", entities: str = "binary") -> tuple[str, ...]:
+    """Return the components that the resolver selects for `plan`."""
+    names = [*CORE, f"entities_{entities}"]
+    names += ["stream_best_effort"] if plan.best_effort_size else []
+    names += ["stream_reliable"] if plan.reliable_slots else []
+    names += {"ping": ["ping"], "acknack": ["liveliness_acknack"], "none": []}[liveliness]
+    return tuple(sorted(names))
+
+
+@dataclass(frozen=True)
+class Tree:
+    """A rendered runtime: its folder, its include folder and its C files."""
+
+    folder: Path
+    sources: tuple[Path, ...]
+
+    @property
+    def include(self) -> Path:
+        return self.folder / "include"
+
+
+def render(out: Path, plan: RuntimePlan, names: Sequence[str]) -> Tree:
+    """Write include/ and src/ of the components `names` below `out`."""
+    catalogue = load_catalogue()
+    chosen = tuple(ChosenComponent(catalogue[name], ("test",)) for name in names)
+    selection = Selection(("test",), chosen, "binary", "udp", "ping", (), (), (), (), ())
+    headers = [header for c in chosen for header in c.component.headers]
+    environment = make_environment()
+    sources = []
+    for component in (c.component for c in chosen):
+        root = components_folder() / component.name
+        files = [(p, p.relative_to(root)) for p in sorted((root / "include").rglob("*")) if p.is_file()]
+        for source in component.sources:
+            if all(getattr(plan, key) == value for key, value in source.when):
+                files.append((root / "src" / source.path, Path("src", component.name, source.path)))
+        for path, place in files:
+            target = out / str(place).removesuffix(".j2")
+            target.parent.mkdir(parents=True, exist_ok=True)
+            if path.suffix == ".j2":
+                template = environment.get_template(path.relative_to(components_folder()).as_posix())
+                target.write_text(template.render(plan=plan, selection=selection, headers=headers))
+            else:
+                shutil.copyfile(path, target)
+            if target.suffix == ".c":
+                sources.append(target)
+    return Tree(out, tuple(sources))
+
+
+def compilers() -> tuple[str, ...]:
+    return tuple(name for name in ("gcc", "clang") if shutil.which(name))
+
+
+def compile_objects(tree: Tree, sources: Iterable[Path], compiler: str, flags: Sequence[str]) -> tuple[Path, ...]:
+    """Compile each source with the project's warnings as errors; raises with the compiler's words."""
+    folder = tree.folder / "-".join(["objects", compiler, *(f.strip("-").replace(",", "_") for f in flags)])
+    folder.mkdir(exist_ok=True)
+    objects = []
+    running = []
+    for source in sources:
+        target = folder / f"{source.parent.name}_{source.stem}.o"
+        command = [compiler, *WARNINGS, *LIBRARY_FLAGS, *flags, f"-I{tree.include}", f"-I{FIXTURES}", "-c"]
+        running.append(([*command, str(source), "-o", str(target)], source))
+        objects.append(target)
+
+    def compile_one(job: tuple[list[str], Path]) -> str:
+        done = subprocess.run(job[0], capture_output=True, text=True, check=False)
+        return f"{compiler} {job[1]}:\n{done.stderr}" if done.returncode != 0 else ""
+
+    with ThreadPoolExecutor(2) as pool:
+        failed = [words for words in pool.map(compile_one, running) if words]
+    assert not failed, "\n".join(failed)
+    return tuple(objects)
+
+
+def link(objects: Sequence[Path], compiler: str, flags: Sequence[str], program: Path) -> Path:
+    command = [compiler, *flags, "-Wl,--gc-sections", *map(str, objects), "-o", str(program)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise AssertionError(done.stderr)
+    return program
+
+
+def build(
+    tree: Tree, fixtures: Sequence[str], program: str, compiler: str = "gcc", flags: Sequence[str] = SANITIZE
+) -> Path:
+    """Compile the tree and the named C files of c/, and link them to a program."""
+    sources = [*tree.sources, *(FIXTURES / name for name in fixtures)]
+    objects = compile_objects(tree, sources, compiler, flags)
+    return link(objects, compiler, flags, tree.folder / f"{program}-{compiler}")

@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The reliable stream under loss, when it is full, and what `on_full` says then."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+
+import pytest
+
+from runtime.conftest import Bench
+from runtime.harness import POOL
+
+DROP_OLDEST = replace(POOL, on_full="drop_oldest")
+BLOCK = replace(POOL, on_full="block", on_full_block_ms=30)
+ACKNACK = 0x0A
+HEARTBEAT = 0x0B
+WRITE_DATA = 0x07
+
+
+def test_full_stream_names_what_to_raise(bench: Bench) -> None:
+    client = bench.connected()
+    client.agent.silent = True
+    for value in range(POOL.reliable_slots):
+        client.ok(f"publish 0 {value}")
+    result = client.call("publish 0 9")
+    assert (result.code, result.slept) == (1, 0)
+    expected = "publisher /chatter: stream full, 4 unacknowledged: raise pools: {history: 5} in microros.yaml"
+    assert result.error == expected
+    assert client.statistics()["dropped"] == 1
+    client.agent.silent = False
+    client.ok("flush 1000")
+    assert client.agent.values() == [0, 1, 2, 3]
+
+
+def test_heartbeats_only_while_something_is_unacknowledged(bench: Bench) -> None:
+    client = bench.connected()
+    client.agent.drop = lambda datagram: datagram[4] == WRITE_DATA
+    client.ok("publish 0 1")
+    client.ok("publish 0 2")
+    client.spin(50, 1)
+    assert not any(d[4] == HEARTBEAT for d in client.sent)
+    client.spin(50, 1)
+    assert bytes.fromhex("81000000 0b010500 0000 0100 80") in client.sent
+    client.agent.drop = lambda datagram: False
+    client.ok("flush 300")
+    client.sent.clear()
+    client.spin(10, 50)
+    assert not any(d[4] == HEARTBEAT for d in client.sent)
+    assert client.agent.values() == [1, 2]
+
+
+def test_only_what_is_missing_is_sent_again(bench: Bench) -> None:
+    client = bench.connected()
+    lost = [True, False, True, False]
+    client.agent.drop = lambda datagram: datagram[4] == WRITE_DATA and bool(lost) and lost.pop(0)
+    for value in range(3):
+        client.ok(f"publish 0 {value}")
+    client.spin(60, 10)
+    assert client.agent.values() == [0, 1, 2]
+    assert client.statistics()["resent"] == 2
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_every_message_arrives_once_and_in_order_under_loss(bench: Bench, seed: int) -> None:
+    chance = random.Random(seed)
+    client = bench.connected()
+    client.agent.drop = lambda datagram: datagram[4] in (WRITE_DATA, HEARTBEAT) and chance.random() < 0.3
+    client.agent.drop_answer = lambda answer: answer[4] == ACKNACK and chance.random() < 0.3
+    accepted = []
+    for value in range(200):
+        client.wait(10)
+        if client.call(f"publish 0 {value}").code == 0:
+            accepted.append(value)
+    client.ok("flush 5000")
+    assert client.agent.values() == accepted
+    assert len(accepted) > 60
+
+
+def test_drop_oldest_keeps_the_newest(bench: Bench) -> None:
+    client = bench.connected(DROP_OLDEST)
+    client.agent.silent = True
+    for value in range(10):
+        client.ok(f"publish 0 {value}")
+    assert client.statistics()["dropped"] == 6
+    client.agent.silent = False
+    client.ok("flush 1000")
+    assert client.agent.values() == [6, 7, 8, 9]
+
+
+def test_drop_oldest_holds_the_newest_over_a_lost_session(bench: Bench) -> None:
+    client = bench.connected(DROP_OLDEST)
+    client.agent.restart()
+    client.agent.silent = True
+    client.spin(POOL.liveliness_attempts + 3, POOL.liveliness_period_ms)
+    for value in range(7):
+        client.ok(f"publish 0 {value}")
+    client.agent.silent = False
+    client.spin(20, 50)
+    assert client.agent.values() == [3, 4, 5, 6]
+    assert client.statistics()["dropped"] == 3
+
+
+def test_drop_oldest_gives_best_effort_up_without_a_session(bench: Bench) -> None:
+    client = bench.connected(DROP_OLDEST, qos="best_effort")
+    client.agent.silent = True
+    client.spin(POOL.liveliness_attempts + 3, POOL.liveliness_period_ms)
+    client.ok("publish 0 1")
+    assert client.statistics()["dropped"] == 1
+
+
+def test_drop_oldest_under_loss_stays_in_order_and_ends_with_the_last(bench: Bench) -> None:
+    chance = random.Random(5)
+    client = bench.connected(DROP_OLDEST)
+    client.agent.drop = lambda datagram: chance.random() < 0.5
+    for value in range(300):
+        client.wait(5)
+        client.ok(f"publish 0 {value}")
+    client.agent.drop = lambda datagram: False
+    client.ok("flush 3000")
+    values = client.agent.values()
+    assert values == sorted(set(values))
+    assert values[-1] == 299
+    assert len(values) + client.statistics()["dropped"] >= 300
+
+
+def test_block_waits_for_room_and_no_longer(bench: Bench) -> None:
+    client = bench.connected(BLOCK)
+    client.agent.silent = True
+    for value in range(4):
+        assert client.ok(f"publish 0 {value}").slept == 0
+    result = client.call("publish 0 4")
+    assert result.code == 1
+    assert BLOCK.on_full_block_ms <= result.slept <= BLOCK.on_full_block_ms + 1
+
+    def answer_late() -> None:
+        client.agent.silent = False
+        client.queued += client.agent.receive(client.sent[0])
+
+    client.on_sleep = answer_late
+    assert client.ok("publish 0 5").slept == 1
+
+
+def test_a_transport_that_takes_nothing(bench: Bench) -> None:
+    client = bench.connected(qos="best_effort")
+    client.ok("publisher 1 0 Int32 sure reliable")
+    client.tell("send_fails 1")
+    result = client.call("publish 0 1")
+    assert (result.code, result.error) == (1, "publisher /chatter: the transport takes nothing")
+    client.ok("publish 1 2")
+    client.tell("send_fails 0")
+    client.ok("flush 500")
+    assert client.agent.values(1) == [2]
+    assert client.statistics()["dropped"] == 1
+
+
+def test_all_acked_waits_for_the_agent(bench: Bench) -> None:
+    client = bench.connected()
+    client.agent.silent = True
+    client.ok("publish 0 1")
+    result = client.call("acked 0 25")
+    assert (result.code, result.slept) == (2, 25)
+    client.agent.silent = False
+    assert client.call("acked 0 -1").code == 0
+
+
+def test_held_messages_go_out_when_one_entity_stays_refused(bench: Bench) -> None:
+    client = bench.connected()
+    client.agent.silent = True
+    client.ok("publish 0 1")
+    client.agent.restart()
+    client.spin(POOL.liveliness_attempts + 3, POOL.liveliness_period_ms)
+    client.agent.silent = False
+    client.agent.refuse = {"datawriter": 0x80}
+    client.spin(100, 10)
+    assert client.statistics()["refused"] > 1, "it goes on trying"
+    client.agent.refuse = {}
+    client.spin(20, 50)
+    client.ok("publish 0 2")
+    assert client.agent.values()[-1] == 2

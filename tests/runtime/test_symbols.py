@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is in the library and what is not: compilers, headers, symbols, sizes."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from microros_gen.plan.runtime import RuntimePlan
+from runtime.harness import (
+    DECLARED,
+    FIXTURES,
+    POOL,
+    Tree,
+    compile_objects,
+    compilers,
+    components,
+    link,
+    render,
+)
+
+BEST_EFFORT_ONLY = replace(
+    DECLARED, reliable_slots=0, reliable_slot_size=0, error_text_size=0, arena_size=512, on_full="drop_oldest"
+)
+BLOCKING = replace(POOL, on_full="block", on_full_block_ms=5, client_key=None)
+VARIANTS = {
+    "pool-ping": (POOL, "ping"),
+    "declared-acknack": (DECLARED, "acknack"),
+    "best-effort-none": (BEST_EFFORT_ONLY, "none"),
+    "block-none": (BLOCKING, "none"),
+}
+FORBIDDEN = re.compile(r"\b(malloc|calloc|realloc|free|\w*printf|puts|fputs|fwrite|strtol|strdup|abort|exit|__assert\w*)$")
+
+
+@pytest.mark.parametrize(("plan", "liveliness"), VARIANTS.values(), ids=VARIANTS.keys())
+@pytest.mark.parametrize(
+    ("compiler", "flags"),
+    [("gcc", ("-O2",)), ("gcc", ("-m32", "-Os")), ("clang", ("-Os",)), ("clang", ("-m32", "-O1"))],
+    ids=lambda value: value if isinstance(value, str) else "".join(value),
+)
+def test_compiles_without_a_warning(
+    plan: RuntimePlan, liveliness: str, compiler: str, flags: tuple[str, ...], tmp_path: Path
+) -> None:
+    if compiler not in compilers():
+        pytest.skip(f"no {compiler}")
+    tree = render(tmp_path, plan, components(plan, liveliness))
+    compile_objects(tree, tree.sources, compiler, flags)
+
+
+@pytest.fixture(scope="module")
+def tree(tmp_path_factory: pytest.TempPathFactory) -> Tree:
+    return render(tmp_path_factory.mktemp("pool"), POOL, components(POOL))
+
+
+def _headers(tree: Tree) -> list[str]:
+    return sorted(str(p.relative_to(tree.include)) for p in tree.include.rglob("*.h"))
+
+
+def test_every_header_stands_alone(tree: Tree) -> None:
+    """In C99 and in C++, twice in a row, and all of them in the reverse order."""
+    headers = _headers(tree)
+    flags = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only", f"-I{tree.include}"]
+    source = tree.folder / "headers.c"
+    for start in range(0, len(headers), 8):
+        for header in headers[start : start + 8]:
+            source.write_text(f"#include <{header}>\n#include <{header}>\nint headers_unused;\n")
+            subprocess.run(["gcc", "-std=c99", *flags, str(source)], check=True)
+    source.write_text("".join(f"#include <{header}>\n" for header in reversed(headers)))
+    subprocess.run(["gcc", "-std=c99", *flags, str(source)], check=True)
+    subprocess.run(["g++", "-std=c++11", "-x", "c++", *flags, str(source)], check=True)
+
+
+def test_cpp_links_against_the_c_library(tree: Tree) -> None:
+    objects = compile_objects(tree, tree.sources, "gcc", ("-Os",))
+    source = tree.folder / "main.cpp"
+    calls = (
+        "rclc_support_init(&support, 0, NULL, &allocator) + rclc_node_init_default(&node, \"n\", \"\", &support) +"
+        " rcl_publish(&publisher, &support, NULL)"
+    )
+    source.write_text(
+        "#include <rclc/rclc.h>\n#include <rcl/rcl.h>\n#include <rmw_microros/rmw_microros.h>\n"
+        "static rclc_support_t support; static rcl_node_t node; static rcl_publisher_t publisher;\n"
+        "int main() { rcl_allocator_t allocator = rcl_get_default_allocator(); return (int)(" + calls + "); }\n"
+    )
+    command = ["g++", "-Wall", "-Wextra", "-Werror", f"-I{tree.include}", str(source), *map(str, objects)]
+    subprocess.run([*command, "-o", str(tree.folder / "cpp")], check=True)
+
+
+def _undefined(objects: tuple[Path, ...]) -> set[str]:
+    out = subprocess.run(["nm", "-u", *map(str, objects)], capture_output=True, text=True, check=True).stdout
+    return {line.split()[-1] for line in out.splitlines() if " U " in line}
+
+
+def _defined(objects: tuple[Path, ...]) -> set[str]:
+    out = subprocess.run(
+        ["nm", "--defined-only", "-g", *map(str, objects)], capture_output=True, text=True, check=True
+    ).stdout
+    return {line.split()[-1] for line in out.splitlines() if len(line.split()) == 3}
+
+
+@pytest.mark.parametrize(("plan", "liveliness"), VARIANTS.values(), ids=VARIANTS.keys())
+def test_no_symbol_that_is_not_selected(plan: RuntimePlan, liveliness: str, tmp_path: Path) -> None:
+    tree = render(tmp_path, plan, components(plan, liveliness))
+    objects = compile_objects(tree, tree.sources, "gcc", ("-Os",))
+    library = tuple(o for o in objects if not o.name.startswith("port_posix"))
+    names, needed = _defined(objects), _undefined(library)
+    assert not [name for name in needed if FORBIDDEN.search(name)]
+    outside = {name for name in needed - names if not name.startswith(("_GLOBAL_OFFSET", "__stack_chk"))}
+    assert outside <= {"memcpy", "memset", "memcmp", "memmove", "strlen", "strcmp", "strncmp"}
+    assert any("ping" in name for name in names) == (liveliness == "ping")
+    assert any("acknack" in name for name in names) == (liveliness == "acknack" or plan.reliable_slots > 0)
+    assert any("stream_reliable" in name for name in names) == (plan.reliable_slots > 0)
+    prefixes = ("rcl", "rclc", "rmw", "rcutils", "rosidl", "xrce", "port", "microros")
+    assert all(name.startswith(prefixes) for name in names), "no name of ours can meet an application's"
+
+
+def test_objects_of_another_plan_do_not_link(tree: Tree, tmp_path: Path) -> None:
+    other = render(tmp_path, replace(POOL, plan_id="fedcba9876543210"), components(POOL))
+    application = tmp_path / "application.c"
+    application.write_text(
+        "#include <rclc/rclc.h>\nint main(void) { rclc_support_t support; rcl_allocator_t a ="
+        " rcl_get_default_allocator(); return (int)rclc_support_init(&support, 0, NULL, &a); }\n"
+    )
+    library = compile_objects(tree, tree.sources, "gcc", ("-Os",))
+    with pytest.raises(AssertionError, match="rclc_support_init__plan_fedcba9876543210"):
+        link([*library, *compile_objects(other, [application], "gcc", ("-Os",))], "gcc", (), tmp_path / "program")
+    link([*library, *compile_objects(tree, [application], "gcc", ("-Os",))], "gcc", (), tmp_path / "program")
+
+
+ARM = ("-mcpu=cortex-m4", "-mthumb", "-Os")
+
+
+@pytest.mark.skipif(not shutil.which("arm-none-eabi-gcc"), reason="no cross compiler")
+@pytest.mark.parametrize(("error_text_size", "most"), [(160, 7600), (0, 5600)])
+def test_size_on_a_cortex_m4(error_text_size: int, most: int, tmp_path: Path) -> None:
+    """Of the library in a pure sender, without port and C library; 9,000 bytes are for the whole image."""
+    plan = replace(DECLARED, error_text_size=error_text_size, best_effort_size=92, reliable_slot_size=16)
+    names = [name for name in components(plan) if name != "port_posix"]
+    tree = render(tmp_path, plan, names)
+    sources = [*tree.sources, FIXTURES / "types.c", FIXTURES / "sender.c"]
+    objects = compile_objects(tree, sources, "arm-none-eabi-gcc", ARM)
+    program = link(objects, "arm-none-eabi-gcc", (*ARM, "-nostartfiles", "-Wl,-e,main", "--specs=nano.specs"), tmp_path / "a")
+    out = subprocess.run(["arm-none-eabi-size", str(program)], capture_output=True, text=True, check=True).stdout
+    text, data, bss = (int(word) for word in out.splitlines()[1].split()[:3])
+    assert text <= most
+    assert data + bss <= 1100

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Unit tests written in C, compiled with sanitizers."""
+
+from __future__ import annotations
+
+import subprocess
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from microros_gen.plan.runtime import RuntimePlan
+from runtime.harness import POOL, SANITIZE, build, components, render
+
+ARENA = replace(POOL, arena_size=1024)
+
+
+@pytest.mark.parametrize(
+    ("unit", "plan", "flags"),
+    [
+        ("unit_stream.c", POOL, SANITIZE),
+        ("unit_memory.c", replace(POOL, arena_size=512), SANITIZE),
+        ("unit_strings.c", ARENA, SANITIZE),
+        ("unit_strings.c", POOL, ("-O2",)),
+        ("unit_memory.c", replace(POOL, arena_size=512), ("-m32", "-Os")),
+    ],
+    ids=["stream", "memory", "strings", "strings-no-arena", "memory-m32"],
+)
+def test_unit(unit: str, plan: RuntimePlan, flags: tuple[str, ...], tmp_path: Path) -> None:
+    names = [name for name in components(plan) if name != "port_posix"]
+    tree = render(tmp_path, plan, names)
+    program = build(tree, ["port_fake.c", unit], "unit", flags=flags)
+    done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 0, done.stderr
