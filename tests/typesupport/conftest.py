@@ -53,6 +53,14 @@ def libraries() -> dict[Path, ctypes.CDLL]:
 
 
 @pytest.fixture
+def functions_library(everything: Generated, libraries: dict[Path, ctypes.CDLL]) -> ctypes.CDLL:
+    """The library of `everything`: message functions do not depend on limits."""
+    if everything.folder not in libraries:
+        libraries[everything.folder] = compile_shared(everything)
+    return libraries[everything.folder]
+
+
+@pytest.fixture
 def library(limits_case: Generated, libraries: dict[Path, ctypes.CDLL]) -> ctypes.CDLL:
     """All generated C as one shared library, with ROS 2's own string functions and allocator."""
     if limits_case.folder not in libraries:

@@ -75,12 +75,12 @@ class Memory:
 
 
 @pytest.fixture
-def memory(library: ctypes.CDLL) -> Iterator[Memory]:
+def memory(functions_library: ctypes.CDLL) -> Iterator[Memory]:
     """A default allocator that counts and fails on demand."""
     own = Memory()
-    library.test_set_allocator(ctypes.byref(own.allocator))
+    functions_library.test_set_allocator(ctypes.byref(own.allocator))
     yield own
-    library.test_set_allocator(ctypes.byref(Allocator()))
+    functions_library.test_set_allocator(ctypes.byref(Allocator()))
 
 
 class Functions:
@@ -96,25 +96,29 @@ class Functions:
         return symbol(*(ctypes.byref(a) if isinstance(a, ctypes.Structure) else a for a in arguments))
 
 
-def test_init_sets_the_default_values(limits_case: Generated, library: ctypes.CDLL, memory: Memory) -> None:
-    structs = CStructs(limits_case.messages)
-    for plan in limits_case.plans:
-        call = Functions(library, plan)
+def test_init_sets_the_default_values(
+    everything: Generated, functions_library: ctypes.CDLL, memory: Memory
+) -> None:
+    structs = CStructs(everything.messages)
+    for plan in everything.plans:
+        call = Functions(functions_library, plan)
         value = structs.structure(plan.name)()
         ctypes.memset(ctypes.byref(value), 0xA5, ctypes.sizeof(value))
         assert call("init", value)
         if plan.name.package != "test_interface_files":
-            expected = from_ros(limits_case.messages, plan.name, ros_class(plan.name)())
+            expected = from_ros(everything.messages, plan.name, ros_class(plan.name)())
             assert structs.read(plan.name, value) == expected, plan.name
         call("fini", value, result=None)
         assert not memory.live, plan.name
 
 
-def test_copy_is_deep_and_equal(limits_case: Generated, library: ctypes.CDLL, memory: Memory) -> None:
-    structs = CStructs(limits_case.messages)
-    for seed, plan in enumerate(limits_case.plans):
-        call = Functions(library, plan)
-        tree = Randomizer(limits_case.messages, seed).tree(plan.name, plan.limits, "random")
+def test_copy_is_deep_and_equal(
+    everything: Generated, functions_library: ctypes.CDLL, memory: Memory
+) -> None:
+    structs = CStructs(everything.messages)
+    for seed, plan in enumerate(everything.plans):
+        call = Functions(functions_library, plan)
+        tree = Randomizer(everything.messages, seed).tree(plan.name, plan.limits, "random")
         source = structs.fill(plan.name, tree)
         copy = structs.structure(plan.name)()
         assert call("init", copy)
@@ -129,23 +133,23 @@ def test_copy_is_deep_and_equal(limits_case: Generated, library: ctypes.CDLL, me
         assert not memory.live, plan.name
 
 
-def test_any_other_content_is_not_equal(limits_case: Generated, library: ctypes.CDLL) -> None:
-    structs = CStructs(limits_case.messages)
-    for seed, plan in enumerate(limits_case.plans):
-        source = Randomizer(limits_case.messages, seed)
+def test_any_other_content_is_not_equal(everything: Generated, functions_library: ctypes.CDLL) -> None:
+    structs = CStructs(everything.messages)
+    for seed, plan in enumerate(everything.plans):
+        source = Randomizer(everything.messages, seed)
         one, other = (source.tree(plan.name, plan.limits, "random") for _ in range(2))
         values = (structs.fill(plan.name, tree) for tree in (one, other))
-        equal = Functions(library, plan)("are_equal", *values)
+        equal = Functions(functions_library, plan)("are_equal", *values)
         assert equal == (one == other), plan.name
 
 
 def test_each_failing_allocation_leaves_nothing(
-    limits_case: Generated, library: ctypes.CDLL, memory: Memory
+    everything: Generated, functions_library: ctypes.CDLL, memory: Memory
 ) -> None:
     """Fail the first, second, … allocation of create and of Sequence__init: no block is left."""
     for name in ("test_msgs/msg/MultiNested", "test_msgs/msg/WStrings", "sensor_msgs/msg/JointState"):
-        plan = limits_case.plan(name)
-        call = Functions(library, plan)
+        plan = everything.plan(name)
+        call = Functions(functions_library, plan)
         for allowed in range(400):
             memory.left = allowed
             message = call("create", result=ctypes.c_void_p)
@@ -167,10 +171,12 @@ def test_each_failing_allocation_leaves_nothing(
         assert 0 < allowed < 1199, name
 
 
-def test_sequences_grow_and_compare(limits_case: Generated, library: ctypes.CDLL, memory: Memory) -> None:
-    structs = CStructs(limits_case.messages)
-    for plan in limits_case.plans:
-        call = Functions(library, plan)
+def test_sequences_grow_and_compare(
+    everything: Generated, functions_library: ctypes.CDLL, memory: Memory
+) -> None:
+    structs = CStructs(everything.messages)
+    for plan in everything.plans:
+        call = Functions(functions_library, plan)
         source, copy = CString(), CString()
         assert call("Sequence__init", source, ctypes.c_size_t(3))
         assert call("Sequence__init", copy, ctypes.c_size_t(1))
@@ -190,10 +196,10 @@ def test_sequences_grow_and_compare(limits_case: Generated, library: ctypes.CDLL
         assert not memory.live, plan.name
 
 
-def test_null_is_refused_or_ignored(limits_case: Generated, library: ctypes.CDLL) -> None:
-    plan = limits_case.plan("sensor_msgs/msg/JointState")
-    call = Functions(library, plan)
-    value = CStructs(limits_case.messages).structure(plan.name)()
+def test_null_is_refused_or_ignored(everything: Generated, functions_library: ctypes.CDLL) -> None:
+    plan = everything.plan("sensor_msgs/msg/JointState")
+    call = Functions(functions_library, plan)
+    value = CStructs(everything.messages).structure(plan.name)()
     for function, *arguments in (
         ("init", None),
         ("are_equal", None, value),
@@ -209,8 +215,8 @@ def test_null_is_refused_or_ignored(limits_case: Generated, library: ctypes.CDLL
         call(function, None, result=None)
 
 
-def test_no_allocator_of_libc_is_referenced(limits_case: Generated) -> None:
-    for path in limits_case.files:
-        text = limits_case.files[path].decode()
+def test_no_allocator_of_libc_is_referenced(everything: Generated) -> None:
+    for path in everything.files:
+        text = everything.files[path].decode()
         assert not any(f"{name}(" in text for name in ("malloc", "calloc", "realloc", "free")), path
         assert "stdlib.h" not in text, path
