@@ -153,7 +153,7 @@ class StepViews:
             target = "(void)"
             at = f"{position(step.place)} + ((uint32_t)i * {step.packed}U)"
         return {
-            "encode": f"{target}{name}__encode_at({element}, body, {at}{passed})",
+            "encode": f"{target}{name}__encode_at(\n      {element}, body, {at}{passed})",
             "end": f"{name}__end_at({'' if step.fixed else element + ', '}position{passed})",
         }
 
@@ -164,8 +164,8 @@ class StepViews:
         at = position(step.place)
         return {
             "kind": "part",
-            "encode": f"{name}__encode_at(&message->{step.member}, body, {at}{passed})",
-            "end": f"{name}__end_at(&message->{step.member}, {at}{passed})",
+            "encode": f"{name}__encode_at(\n    &message->{step.member}, body, {at}{passed})",
+            "end": f"{name}__end_at(\n    &message->{step.member}, {at}{passed})",
         }
 
     def _passed(
