@@ -220,7 +220,7 @@ def test_a_domain_of_the_application_wins(bench: Bench) -> None:
         ("init_options 0 h 65536 1", "address h or port 65536 is not valid (host: up to 31 bytes)"),
         ("init_options 0 h 8x 1", "address h or port 8x is not valid (host: up to 31 bytes)"),
         ("init_options 0 " + "h" * 32 + " 1 1", "address " + "h" * 32 + " or port 1 is not valid (host: up to 31 bytes)"),
-        ("init_options 0 h 1 0", "client_key or rmw_options is NULL or not initialized"),
+        ("init_options 0 h 1 0", "client_key or rmw_options: NULL or not initialized"),
     ],
 )
 def test_bad_options(bench: Bench, call: str, error: str) -> None:

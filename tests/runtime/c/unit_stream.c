@@ -15,8 +15,8 @@ static void begin_at(uint16_t first)
   memset(&session, 0, sizeof(session));
   session.state = XRCE_READY;
   session.transport_open = true;
-  xrce_stream_reliable_reset(&stream);
-  xrce_stream_reliable_step(&stream, &session, true, 0); /* lets go: nothing is held */
+  memset(&stream, 0, sizeof(stream));
+
   stream.first = first;
 }
 

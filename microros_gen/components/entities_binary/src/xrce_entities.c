@@ -6,112 +6,69 @@
 #include "microros/xrce_entities_binary.h"
 #include "microros/xrce_wire.h"
 
-enum { PLACES = MICROROS_NODES_MAX + MICROROS_PUBLISHERS_MAX, NO_PLACE = 0xffff, STATUS_SIZE = 6 };
+enum { NO_PLACE = 0xffff, STATUS_SIZE = 6 };
 
-/* What has to be done at a place. */
-typedef enum job_t { JOB_NONE, JOB_CREATE, JOB_DELETE } job_t;
-
-static const uint8_t writer_kinds[] = {XRCE_KIND_TOPIC, XRCE_KIND_PUBLISHER, XRCE_KIND_DATAWRITER};
-
-const xrce_writer_t * xrce_entities_writer(const xrce_client_t * client, uint16_t place)
+static bool entities_is_participant(uint16_t place)
 {
-  return &client->writers[place - MICROROS_NODES_MAX];
+  return place < MICROROS_NODES_MAX;
 }
 
-static xrce_object_state_t * entities_state(xrce_client_t * client, uint16_t place)
+/* Returns how many objects the place should have at the agent. */
+static uint8_t entities_goal(const xrce_client_t * client, uint16_t place)
 {
-  return place < MICROROS_NODES_MAX ? &client->participants[place].state
-                                    : &client->writers[place - MICROROS_NODES_MAX].state;
-}
-
-/* Returns how many objects a complete place has at the agent. */
-static uint8_t entities_full_level(uint16_t place)
-{
-  return place < MICROROS_NODES_MAX ? (uint8_t)XRCE_PARTICIPANT_COMPLETE : (uint8_t)XRCE_WRITER_COMPLETE;
-}
-
-/* Returns the kind of a place's object; `level` counts from 0. */
-static uint8_t entities_kind(uint16_t place, uint8_t level)
-{
-  return place < MICROROS_NODES_MAX ? (uint8_t)XRCE_KIND_PARTICIPANT : writer_kinds[level];
-}
-
-static uint16_t entities_object(uint16_t place, uint8_t kind)
-{
-  return xrce_object_id(place < MICROROS_NODES_MAX ? place : (uint16_t)(place - MICROROS_NODES_MAX), kind);
-}
-
-static bool entities_has_writers(const xrce_client_t * client, uint16_t participant)
-{
-  for (uint16_t i = 0; i < MICROROS_PUBLISHERS_MAX; ++i) {
-    if (client->writers[i].participant == participant && client->writers[i].state.level != 0u) {
-      return true;
-    }
-  }
-  return false;
-}
-
-static job_t entities_job(xrce_client_t * client, uint16_t place)
-{
-  const xrce_object_state_t * state = entities_state(client, place);
-  const bool is_participant = place < MICROROS_NODES_MAX;
+  const xrce_object_state_t * state = &client->states[place];
 
   if (!state->wanted || state->stale) {
-    if (state->level == 0u || (is_participant && entities_has_writers(client, place))) {
-      return JOB_NONE;
-    }
-    return JOB_DELETE;
+    return 0;
   }
-  if (state->level == entities_full_level(place)) {
-    return JOB_NONE;
-  }
-  if (!is_participant) {
-    const xrce_object_state_t * parent = &client->participants[xrce_entities_writer(client, place)->participant].state;
-
-    if (parent->level == 0u || parent->stale) {
-      return JOB_NONE;
-    }
-  }
-  return JOB_CREATE;
+  return entities_is_participant(place) ? (uint8_t)XRCE_PARTICIPANT_COMPLETE : (uint8_t)XRCE_WRITER_COMPLETE;
 }
 
-void xrce_entities_reset(xrce_client_t * client)
+/* Whether a place can move on: a writer needs its participant, a participant outlives its writers. */
+static bool entities_is_free(const xrce_client_t * client, uint16_t place, uint8_t goal)
 {
-  xrce_entities_t * entities = &client->entities;
+  if (!entities_is_participant(place)) {
+    const xrce_object_state_t * parent = &client->states[xrce_entities_writer(client, place)->participant];
 
-  for (uint16_t place = 0; place < PLACES; ++place) {
-    xrce_object_state_t * state = entities_state(client, place);
-
-    state->wanted = false;
-    state->stale = false;
-    state->level = 0;
+    return goal == 0u || (parent->level != 0u && !parent->stale);
   }
-  entities->cursor = 0;
-  entities->outstanding = false;
-  entities->pending = false;
-  entities->refused_place = NO_PLACE;
+  if (goal == 0u) {
+    for (uint16_t i = 0; i < MICROROS_PUBLISHERS_MAX; ++i) {
+      if (client->writers[i].participant == place && client->states[MICROROS_NODES_MAX + i].level != 0u) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+static void entities_next_place(xrce_entities_t * entities)
+{
+  const uint16_t next = (uint16_t)(entities->cursor + 1u);
+
+  entities->cursor = next < XRCE_PLACES ? next : 0u;
 }
 
 /* Lets the next step look for work at once. */
-static void entities_wake(xrce_client_t * client, uint32_t now)
+static void entities_wake(xrce_entities_t * entities, uint32_t now)
 {
-  client->entities.pending = true;
-  if (!client->entities.outstanding) {
-    client->entities.due_ms = now;
+  entities->pending = true;
+  if (!entities->outstanding) {
+    entities->due_ms = now;
   }
 }
 
 void xrce_entities_renew(xrce_client_t * client, uint32_t now)
 {
-  for (uint16_t place = 0; place < PLACES; ++place) {
-    xrce_object_state_t * state = entities_state(client, place);
+  for (uint16_t place = 0; place < XRCE_PLACES; ++place) {
+    xrce_object_state_t * state = &client->states[place];
 
     if (state->wanted && !state->stale) {
       state->level = 0;
     }
   }
   client->entities.outstanding = false;
-  entities_wake(client, now);
+  entities_wake(&client->entities, now);
 }
 
 bool xrce_entities_settled(const xrce_client_t * client)
@@ -126,26 +83,22 @@ static void entities_refuse(xrce_client_t * client, uint8_t status, uint32_t now
   ++client->session.statistics.refused;
   entities->refused_place = entities->cursor;
   entities->refused_status = status;
-  entities->refused_level = entities_state(client, entities->cursor)->level;
   entities->outstanding = false;
   entities->due_ms = now + MICROROS_RETRY_FIRST_MS;
-  entities->cursor = (uint16_t)(entities->cursor + 1u < PLACES ? entities->cursor + 1u : 0u); /* others first */
+  entities_next_place(entities); /* others first */
 }
 
 static void entities_send(xrce_client_t * client, uint32_t now)
 {
   xrce_entities_t * entities = &client->entities;
-  const uint16_t place = entities->cursor;
-  const uint8_t level = entities_state(client, place)->level;
-  const uint8_t kind = entities_kind(place, entities->deleting ? (uint8_t)(level - 1u) : level);
-  const uint32_t doubled = 2u * (uint32_t)entities->retry_ms;
+  const uint8_t level = client->states[entities->cursor].level;
 
   entities->due_ms = now + entities->retry_ms;
-  entities->retry_ms = (uint16_t)(doubled < MICROROS_RETRY_MOST_MS ? doubled : MICROROS_RETRY_MOST_MS);
+  entities->retry_ms = xrce_session_longer_pause(entities->retry_ms);
   if (entities->deleting) {
-    xrce_entities_send_delete(client, entities_object(place, kind));
-  } else if (!xrce_entities_send_create(client, place, entities_object(place, kind), kind)) {
-    entities_refuse(client, XRCE_STATUS_RESOURCES, now);
+    xrce_entities_send_delete(client, entities->cursor, (uint8_t)(level - 1u));
+  } else {
+    xrce_entities_send_create(client, entities->cursor, level);
   }
 }
 
@@ -154,18 +107,19 @@ static bool entities_begin(xrce_client_t * client, uint32_t now)
 {
   xrce_entities_t * entities = &client->entities;
 
-  for (uint16_t i = 0; i < PLACES; ++i) {
-    const job_t job = entities_job(client, entities->cursor);
+  for (uint16_t i = 0; i < XRCE_PLACES; ++i) {
+    const uint8_t level = client->states[entities->cursor].level;
+    const uint8_t goal = entities_goal(client, entities->cursor);
 
-    if (job != JOB_NONE) {
-      entities->deleting = job == JOB_DELETE;
+    if (level != goal && entities_is_free(client, entities->cursor, goal)) {
+      entities->deleting = level > goal;
       entities->outstanding = true;
       entities->request = xrce_session_next_request(&client->session);
       entities->retry_ms = MICROROS_RETRY_FIRST_MS;
       entities_send(client, now);
       return true;
     }
-    entities->cursor = (uint16_t)(entities->cursor + 1u < PLACES ? entities->cursor + 1u : 0u);
+    entities_next_place(entities);
   }
   return false;
 }
@@ -184,23 +138,10 @@ void xrce_entities_step(xrce_client_t * client, uint32_t now)
   }
 }
 
-/* The agent has done what was asked. A deletion is done whatever it says: an unknown object is what we wanted. */
-static void entities_advance(xrce_client_t * client, uint32_t now)
-{
-  xrce_entities_t * entities = &client->entities;
-  xrce_object_state_t * state = entities_state(client, entities->cursor);
-
-  state->level = (uint8_t)(entities->deleting ? state->level - 1u : state->level + 1u);
-  if (state->level == 0u) {
-    state->stale = false;
-  }
-  entities->outstanding = false;
-  entities->due_ms = now;
-}
-
 void xrce_entities_on_status(xrce_client_t * client, const uint8_t * payload, size_t size, uint32_t now)
 {
   xrce_entities_t * entities = &client->entities;
+  xrce_object_state_t * state = &client->states[entities->cursor];
 
   if (size < STATUS_SIZE) {
     ++client->session.statistics.malformed;
@@ -209,44 +150,47 @@ void xrce_entities_on_status(xrce_client_t * client, const uint8_t * payload, si
   if (!entities->outstanding || xrce_get_be16(&payload[0]) != entities->request) {
     return; /* the answer to a repetition, or to a request of another part */
   }
-  if (entities->deleting || payload[4] <= XRCE_STATUS_OK_MATCHED) {
-    entities_advance(client, now);
+  if (entities->deleting) {
+    --state->level; /* whatever the agent says: an unknown object is what we wanted */
+    state->stale = state->stale && state->level != 0u;
+  } else if (payload[4] <= XRCE_STATUS_OK_MATCHED) {
+    ++state->level;
   } else {
     entities_refuse(client, payload[4], now);
+    return;
   }
+  entities->outstanding = false;
+  entities->due_ms = now;
 }
 
-void xrce_entities_add(xrce_client_t * client, xrce_object_state_t * state)
+void xrce_entities_add(xrce_client_t * client, uint16_t place)
 {
+  xrce_object_state_t * state = &client->states[place];
+
   state->stale = state->level != 0u;
   state->wanted = true;
-  entities_wake(client, port_time_ms());
+  entities_wake(&client->entities, client->session.now_ms);
 }
 
-void xrce_entities_remove(xrce_client_t * client, xrce_object_state_t * state)
+void xrce_entities_remove(xrce_client_t * client, uint16_t place)
 {
-  state->wanted = false;
-  entities_wake(client, port_time_ms());
-}
-
-void xrce_entities_remove_participant(xrce_client_t * client, uint16_t index)
-{
+  client->states[place].wanted = false;
   for (uint16_t i = 0; i < MICROROS_PUBLISHERS_MAX; ++i) {
-    if (client->writers[i].participant == index) {
-      client->writers[i].state.wanted = false;
+    if (client->writers[i].participant == place) {
+      client->states[MICROROS_NODES_MAX + i].wanted = false;
     }
   }
-  xrce_entities_remove(client, &client->participants[index].state);
+  entities_wake(&client->entities, client->session.now_ms);
 }
 
-static bool entities_is_done(xrce_client_t * client, uint16_t place)
+static bool entities_is_done(const xrce_client_t * client, uint16_t place)
 {
-  const xrce_object_state_t * state = entities_state(client, place);
+  const xrce_object_state_t * state = &client->states[place];
 
-  return state->wanted ? !state->stale && state->level == entities_full_level(place) : state->level == 0u;
+  return !state->stale && state->level == entities_goal(client, place);
 }
 
-static xrce_outcome_t entities_await(xrce_client_t * client, uint16_t place, uint32_t timeout_ms)
+xrce_outcome_t xrce_entities_await(xrce_client_t * client, uint16_t place, uint32_t timeout_ms)
 {
   const uint32_t start = port_time_ms();
 
@@ -264,14 +208,4 @@ static xrce_outcome_t entities_await(xrce_client_t * client, uint16_t place, uin
     }
     port_sleep_ms(1);
   }
-}
-
-xrce_outcome_t xrce_entities_await_participant(xrce_client_t * client, uint16_t index, uint32_t timeout_ms)
-{
-  return entities_await(client, index, timeout_ms);
-}
-
-xrce_outcome_t xrce_entities_await_writer(xrce_client_t * client, uint16_t index, uint32_t timeout_ms)
-{
-  return entities_await(client, (uint16_t)(MICROROS_NODES_MAX + index), timeout_ms);
 }

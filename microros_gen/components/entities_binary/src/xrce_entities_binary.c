@@ -1,193 +1,171 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* CREATE with binary representation (OMG DDS-XRCE 1.0, 7.7.3), as messages of the best-effort stream. */
+/*
+ * CREATE with binary representation (OMG DDS-XRCE 1.0, 7.7.3), as messages of the best-effort stream. Names are
+ * those that the plan sized the stream for; a type that it does not know is refused before (xrce_entities_fits).
+ */
 #include "microros/xrce_entities_binary.h"
 
+#include "microros/text.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_wire.h"
 
 #include <string.h>
 
+/* Submessage header, request id, object id; then kind, format, padding and the blob's length. */
+enum { REQUEST_AT = 4, OBJECT_AT = 6, KIND_AT = 8, LENGTH_AT = 12, BLOB_AT = 16, DELETE_SIZE = 8 };
+
 enum { FORMAT_BINARY = 0x03 };
 
-/* Writes within a room; `overflow` stays set once something did not fit. */
-typedef struct room_t {
-  uint8_t * bytes;
-  size_t used;
-  size_t capacity;
-  bool overflow;
-} room_t;
+static const uint8_t writer_kinds[] = {XRCE_KIND_TOPIC, XRCE_KIND_PUBLISHER, XRCE_KIND_DATAWRITER};
 
-static void room_put(room_t * room, const void * data, size_t size)
+const xrce_writer_t * xrce_entities_writer(const xrce_client_t * client, uint16_t place)
 {
-  if (size > room->capacity - room->used) {
-    room->overflow = true;
-    return;
+  return &client->writers[place - MICROROS_NODES_MAX];
+}
+
+bool xrce_entities_fits(const xrce_writer_t * writer)
+{
+  const size_t topic = 4u + sizeof("rt") + microros_text_size(writer->topic) + 2u; /* and two flags */
+  const size_t type = 4u + microros_text_size(writer->type->dds_type_name) + 1u;
+
+  return BLOB_AT + ((topic + 3u) & ~(size_t)3u) + type + 2u <= MICROROS_BEST_EFFORT_SIZE - XRCE_MESSAGE_HEADER;
+}
+
+static uint8_t * put_text(uint8_t * at, const char * text)
+{
+  while (*text != '\0') {
+    *at++ = (uint8_t)*text++;
   }
-  memcpy(&room->bytes[room->used], data, size);
-  room->used += size;
+  return at;
 }
 
-static void room_put_byte(room_t * room, uint8_t value)
+/* A string of up to three pieces: its length, the pieces, one NUL. Below 64 KiB, since a message is. */
+static uint8_t * put_string(uint8_t * at, const char * first, const char * second, const char * third)
 {
-  room_put(room, &value, 1);
+  uint8_t * end = put_text(put_text(put_text(&at[4], first), second), third);
+
+  *end++ = 0;
+  xrce_put_le16(&at[0], (uint16_t)(end - &at[4]));
+  xrce_put_le16(&at[2], 0);
+  return end;
 }
 
-/* Pads from `origin` on. */
-static void room_align(room_t * room, size_t origin, size_t alignment)
+static uint8_t * put_id(uint8_t * at, uint16_t id)
 {
-  while (((room->used - origin) & (alignment - 1u)) != 0u && !room->overflow) {
-    room_put_byte(room, 0);
+  xrce_put_be16(at, id);
+  return &at[2];
+}
+
+/* The name is that of a QoS profile; there is no domain reference. Behind the blob the domain, at an even place. */
+static uint8_t * put_participant(uint8_t * blob, const xrce_participant_t * participant)
+{
+  const bool is_root = participant->namespace_[1] == '\0';
+  uint8_t * end;
+
+  memset(blob, 0, 4);
+  blob[1] = 1;
+  end = put_string(&blob[4], is_root ? "" : participant->namespace_, is_root ? "" : "/", participant->name);
+  xrce_put_le16(&blob[LENGTH_AT - BLOB_AT], (uint16_t)(end - blob));
+  if (((end - blob) & 1) != 0) {
+    *end++ = 0;
   }
+  xrce_put_le16(end, participant->domain_id);
+  return &end[2];
 }
 
-static void room_put_u16(room_t * room, uint16_t value)
+/* No type reference, but a type name, padded to four from the blob's begin. */
+static uint8_t * put_topic(uint8_t * blob, const xrce_writer_t * writer)
 {
-  uint8_t bytes[2];
+  uint8_t * end = put_string(blob, "rt", "", writer->topic);
 
-  xrce_put_le16(bytes, value);
-  room_put(room, bytes, sizeof(bytes));
-}
-
-static void room_put_id(room_t * room, uint16_t id)
-{
-  uint8_t bytes[2];
-
-  xrce_put_be16(bytes, id);
-  room_put(room, bytes, sizeof(bytes));
-}
-
-/* A string of two pieces with one NUL; lengths below 64 KiB, since a message is. */
-static void room_put_string(room_t * room, const char * first, const char * second)
-{
-  const size_t first_size = strlen(first);
-  const size_t second_size = strlen(second) + 1u;
-
-  room_put_u16(room, (uint16_t)(first_size + second_size));
-  room_put_u16(room, 0);
-  room_put(room, first, first_size);
-  room_put(room, second, second_size);
-}
-
-static void put_participant(room_t * room, const xrce_participant_t * participant)
-{
-  const size_t name_size = strlen(participant->name) + 1u;
-  const size_t namespace_size = participant->namespace_[1] == '\0' ? 0u : strlen(participant->namespace_) + 1u;
-
-  room_put_byte(room, 0); /* no domain reference */
-  room_put_byte(room, 1); /* a QoS profile reference: the participant's name */
-  room_put_u16(room, 0);
-  room_put_u16(room, (uint16_t)(namespace_size + name_size));
-  room_put_u16(room, 0);
-  if (namespace_size != 0u) {
-    room_put(room, participant->namespace_, namespace_size - 1u);
-    room_put_byte(room, '/');
+  *end++ = 0;
+  *end++ = 1;
+  while (((end - blob) & 3) != 0) {
+    *end++ = 0;
   }
-  room_put(room, participant->name, name_size);
+  return put_string(end, "", "", writer->type->dds_type_name);
 }
 
-static void put_topic(room_t * room, const xrce_writer_t * writer)
+/* QoS: flags, depth where there is one; neither deadline, lifespan, user data nor ownership strength. */
+static uint8_t * put_data_writer(uint8_t * blob, const xrce_writer_t * writer)
 {
-  const size_t origin = room->used;
-
-  room_put_string(room, "rt", writer->topic);
-  room_put_byte(room, 0); /* no type reference */
-  room_put_byte(room, 1); /* a type name */
-  room_align(room, origin, 4);
-  room_put_string(room, "", writer->type->dds_type_name);
-}
-
-static void put_data_writer(room_t * room, const xrce_writer_t * writer)
-{
-  room_put_id(room, xrce_object_id(writer->index, XRCE_KIND_TOPIC));
-  room_put_byte(room, 1); /* QoS */
-  room_put_byte(room, 0);
-  room_put_u16(room, writer->qos);
-  if (writer->depth != 0u) {
-    room_put_byte(room, 1);
-    room_put_byte(room, 0);
-    room_put_u16(room, writer->depth);
-  } else {
-    room_put_byte(room, 0);
+  memset(blob, 0, 14);
+  xrce_put_be16(&blob[0], xrce_object_id(writer->index, XRCE_KIND_TOPIC));
+  blob[2] = 1;
+  blob[4] = writer->qos;
+  if (writer->depth == 0u) {
+    return &blob[11];
   }
-  room_put_u16(room, 0); /* no deadline, no lifespan */
-  room_put_u16(room, 0); /* no user data, no ownership strength */
+  blob[6] = 1;
+  xrce_put_le16(&blob[8], writer->depth);
+  return &blob[14];
 }
 
-/* The blob of one object, and the id of its parent behind it. */
-static void put_object(room_t * room, const xrce_client_t * client, uint16_t place, uint8_t kind)
+/* Behind the blob of a writer's object the id of its parent. */
+static uint8_t * put_writer(uint8_t * blob, const xrce_writer_t * writer, uint8_t kind)
 {
-  const xrce_writer_t * writer;
+  uint16_t parent = xrce_object_id(writer->participant, XRCE_KIND_PARTICIPANT);
+  uint8_t * end;
 
-  if (kind == XRCE_KIND_PARTICIPANT) {
-    put_participant(room, &client->participants[place]);
-    return;
-  }
-  writer = xrce_entities_writer(client, place);
   if (kind == XRCE_KIND_TOPIC) {
-    put_topic(room, writer);
+    end = put_topic(blob, writer);
   } else if (kind == XRCE_KIND_PUBLISHER) {
-    room_put_u16(room, 0); /* neither name nor QoS */
+    end = put_id(blob, 0); /* neither name nor QoS */
   } else {
-    put_data_writer(room, writer);
+    end = put_data_writer(blob, writer);
+    parent = xrce_object_id(writer->index, XRCE_KIND_PUBLISHER);
   }
+  xrce_put_le16(&blob[LENGTH_AT - BLOB_AT], (uint16_t)(end - blob));
+  return put_id(end, parent);
 }
 
-static void put_parent(room_t * room, const xrce_client_t * client, uint16_t place, uint8_t kind)
+/* Sends `size` bytes under the outstanding request. A loss is what the repetition is for. */
+static void send_request(xrce_client_t * client, uint8_t id, uint8_t flags, uint16_t object, size_t size)
 {
-  const xrce_writer_t * writer;
+  uint8_t * bytes = xrce_stream_best_effort_reserve(&client->best_effort);
 
+  xrce_put_submessage(bytes, id, flags, (uint16_t)(size - XRCE_SUBMESSAGE_HEADER));
+  xrce_put_be16(&bytes[REQUEST_AT], client->entities.request);
+  xrce_put_be16(&bytes[OBJECT_AT], object);
+  (void)xrce_stream_best_effort_commit(&client->best_effort, &client->session, size);
+}
+
+/* Returns the kind of a place's object number `level`, and its id. */
+static uint8_t object_of(uint16_t place, uint8_t level, uint16_t * object)
+{
+  uint8_t kind = XRCE_KIND_PARTICIPANT;
+
+  if (place >= MICROROS_NODES_MAX) {
+    kind = writer_kinds[level];
+    place = (uint16_t)(place - MICROROS_NODES_MAX);
+  }
+  *object = xrce_object_id(place, kind);
+  return kind;
+}
+
+void xrce_entities_send_create(xrce_client_t * client, uint16_t place, uint8_t level)
+{
+  enum { CREATE_FLAGS = XRCE_FLAG_LITTLE_ENDIAN | XRCE_FLAG_REUSE | XRCE_FLAG_REPLACE };
+  uint8_t * bytes = xrce_stream_best_effort_reserve(&client->best_effort);
+  uint16_t object;
+  uint8_t * end;
+  const uint8_t kind = object_of(place, level, &object);
+
+  memset(&bytes[KIND_AT], 0, BLOB_AT - KIND_AT);
+  bytes[KIND_AT] = kind;
+  bytes[KIND_AT + 1] = FORMAT_BINARY;
   if (kind == XRCE_KIND_PARTICIPANT) {
-    room_align(room, 0, 2);
-    room_put_u16(room, client->participants[place].domain_id);
-    return;
+    end = put_participant(&bytes[BLOB_AT], &client->participants[place]);
+  } else {
+    end = put_writer(&bytes[BLOB_AT], xrce_entities_writer(client, place), kind);
   }
-  writer = xrce_entities_writer(client, place);
-  room_put_id(
-    room, kind == XRCE_KIND_DATAWRITER ? xrce_object_id(writer->index, XRCE_KIND_PUBLISHER)
-                                       : xrce_object_id(writer->participant, XRCE_KIND_PARTICIPANT));
+  send_request(client, XRCE_CREATE, CREATE_FLAGS, object, (size_t)(end - bytes));
 }
 
-static bool send_request(xrce_client_t * client, room_t * room, uint8_t id, uint8_t flags)
+void xrce_entities_send_delete(xrce_client_t * client, uint16_t place, uint8_t level)
 {
-  xrce_put_submessage(
-    room->bytes, id, flags | XRCE_FLAG_LITTLE_ENDIAN, (uint16_t)(room->used - XRCE_SUBMESSAGE_HEADER));
-  return !room->overflow && xrce_stream_best_effort_commit(&client->best_effort, &client->session, room->used);
-}
+  uint16_t object;
 
-/* Begins a request: leaves place for the submessage header, then names request and object. */
-static room_t begin_request(xrce_client_t * client, uint16_t object)
-{
-  room_t room = {NULL, XRCE_SUBMESSAGE_HEADER, MICROROS_BEST_EFFORT_SIZE - XRCE_MESSAGE_HEADER, false};
-
-  room.bytes = xrce_stream_best_effort_reserve(&client->best_effort);
-  room_put_id(&room, client->entities.request);
-  room_put_id(&room, object);
-  return room;
-}
-
-bool xrce_entities_send_create(xrce_client_t * client, uint16_t place, uint16_t object, uint8_t kind)
-{
-  room_t room = begin_request(client, object);
-  size_t blob;
-
-  room_put_byte(&room, kind);
-  room_put_byte(&room, FORMAT_BINARY);
-  room_put_u16(&room, 0);
-  room_put_u16(&room, 0); /* length, when it is known */
-  room_put_u16(&room, 0);
-  blob = room.used;
-  put_object(&room, client, place, kind);
-  if (!room.overflow) {
-    xrce_put_le16(&room.bytes[blob - 4u], (uint16_t)(room.used - blob));
-  }
-  put_parent(&room, client, place, kind);
-  (void)send_request(client, &room, XRCE_CREATE, XRCE_FLAG_REUSE | XRCE_FLAG_REPLACE);
-  return !room.overflow;
-}
-
-void xrce_entities_send_delete(xrce_client_t * client, uint16_t object)
-{
-  room_t room = begin_request(client, object);
-
-  (void)send_request(client, &room, XRCE_DELETE, 0);
+  (void)object_of(place, level, &object);
+  send_request(client, XRCE_DELETE, XRCE_FLAG_LITTLE_ENDIAN, object, DELETE_SIZE);
 }

@@ -9,7 +9,7 @@
 void * microros_arena_allocate(size_t size, void * state)
 {
   (void)state;
-  microros_error_set(MICROROS_ERROR_ARENA, NULL, NULL, (uint32_t)size, (uint32_t)size + 32u);
+  microros_error_set(microros_error_arena, NULL, NULL, (uint32_t)size, (uint32_t)size + 32u);
   return NULL;
 }
 

@@ -3,6 +3,7 @@
 
 #include "microros/error.h"
 #include "microros/rcl_names.h"
+#include "microros/rcl_node_open.h"
 #include "microros/rmw_node.h"
 #include "microros/xrce_client.h"
 
@@ -20,34 +21,26 @@ static rcl_ret_t node_check_names(const char * name, const char * namespace_)
   const char * fault = rcl_names_check_node(name);
 
   if (fault != NULL) {
-    microros_error_set(MICROROS_ERROR_NAME, name, fault, 0, 0);
+    microros_error_set(microros_error_name, name, fault, 0, 0);
     return RCL_RET_NODE_INVALID_NAME;
   }
   fault = rcl_names_check_namespace(namespace_);
   if (fault != NULL) {
-    microros_error_set(MICROROS_ERROR_NAME, namespace_, fault, 0, 0);
+    microros_error_set(microros_error_name, namespace_, fault, 0, 0);
     return RCL_RET_NODE_INVALID_NAMESPACE;
   }
   return RCL_RET_OK;
 }
 
-rcl_ret_t rcl_node_init(
-  rcl_node_t * node, const char * name, const char * namespace_, rcl_context_t * context,
-  const rcl_node_options_t * options)
+rcl_ret_t rcl_node_open(rcl_node_t * node, const char * name, const char * namespace_, rcl_context_t * context)
 {
   rcl_ret_t result;
 
-  if (node == NULL || name == NULL || namespace_ == NULL || context == NULL || options == NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "node, name, namespace_, context or options", NULL, 0, 0);
-    return RCL_RET_INVALID_ARGUMENT;
-  }
-  if (node->impl != NULL) {
-    microros_error_set(MICROROS_ERROR_NODE_OPEN, name, NULL, 0, 0);
-    return RCL_RET_ALREADY_INIT;
+  if (node == NULL || name == NULL || namespace_ == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "node or its name");
   }
   if (!rcl_context_is_valid(context)) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "context", NULL, 0, 0);
-    return RCL_RET_NOT_INIT;
+    return microros_error_refuse(RCL_RET_NOT_INIT, "context");
   }
   result = node_check_names(name, namespace_);
   if (result == RCL_RET_OK) {
@@ -59,11 +52,23 @@ rcl_ret_t rcl_node_init(
   return result;
 }
 
+rcl_ret_t rcl_node_init(
+  rcl_node_t * node, const char * name, const char * namespace_, rcl_context_t * context,
+  const rcl_node_options_t * options)
+{
+  if (context == NULL || options == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "context or options");
+  }
+  if (node != NULL && node->impl != NULL) {
+    return microros_error_named(RCL_RET_ALREADY_INIT, microros_error_node_open, name);
+  }
+  return rcl_node_open(node, name, namespace_, context);
+}
+
 rcl_ret_t rcl_node_fini(rcl_node_t * node)
 {
   if (node == NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "node", NULL, 0, 0);
-    return RCL_RET_NODE_INVALID;
+    return microros_error_refuse(RCL_RET_NODE_INVALID, "node");
   }
   if (rcl_node_is_valid(node)) {
     rmw_node_close(node->impl);
@@ -103,12 +108,10 @@ rcl_ret_t rcl_node_get_domain_id(const rcl_node_t * node, size_t * domain_id)
   const xrce_participant_t * participant;
 
   if (!rcl_node_is_valid(node)) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "node", NULL, 0, 0);
-    return RCL_RET_NODE_INVALID;
+    return microros_error_refuse(RCL_RET_NODE_INVALID, "node");
   }
   if (domain_id == NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "domain_id", NULL, 0, 0);
-    return RCL_RET_INVALID_ARGUMENT;
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "domain_id");
   }
   participant = node->impl->data;
   *domain_id = participant->domain_id;

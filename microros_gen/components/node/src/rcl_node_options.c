@@ -18,8 +18,7 @@ rcl_node_options_t rcl_node_get_default_options(void)
 rcl_ret_t rcl_node_options_copy(const rcl_node_options_t * options, rcl_node_options_t * options_out)
 {
   if (options == NULL || options_out == NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "options", NULL, 0, 0);
-    return RCL_RET_INVALID_ARGUMENT;
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "options");
   }
   *options_out = *options;
   return RCL_RET_OK;
@@ -28,8 +27,7 @@ rcl_ret_t rcl_node_options_copy(const rcl_node_options_t * options, rcl_node_opt
 rcl_ret_t rcl_node_options_fini(rcl_node_options_t * options)
 {
   if (options == NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "options", NULL, 0, 0);
-    return RCL_RET_INVALID_ARGUMENT;
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "options");
   }
   return RCL_RET_OK;
 }

@@ -2,25 +2,29 @@
 #include "rclc/node.h"
 
 #include "microros/error.h"
+#include "microros/rcl_node_open.h"
 
 #include <stddef.h>
+
+/* As rclc does, whatever *node held: it may be uninitialized memory. */
+rcl_ret_t rclc_node_init_default(
+  rcl_node_t * node, const char * name, const char * namespace_, rclc_support_t * support)
+{
+  if (node != NULL) {
+    *node = rcl_get_zero_initialized_node();
+  }
+  if (support == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "support");
+  }
+  return rcl_node_open(node, name, namespace_, &support->context);
+}
 
 rcl_ret_t rclc_node_init_with_options(
   rcl_node_t * node, const char * name, const char * namespace_, rclc_support_t * support,
   rcl_node_options_t * node_ops)
 {
-  if (node == NULL || support == NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "node or support", NULL, 0, 0);
-    return RCL_RET_INVALID_ARGUMENT;
+  if (node_ops == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "node_ops");
   }
-  *node = rcl_get_zero_initialized_node(); /* as rclc does: the caller's may be uninitialized memory */
-  return rcl_node_init(node, name, namespace_, &support->context, node_ops);
-}
-
-rcl_ret_t rclc_node_init_default(
-  rcl_node_t * node, const char * name, const char * namespace_, rclc_support_t * support)
-{
-  rcl_node_options_t options = rcl_node_get_default_options();
-
-  return rclc_node_init_with_options(node, name, namespace_, support, &options);
+  return rclc_node_init_default(node, name, namespace_, support);
 }

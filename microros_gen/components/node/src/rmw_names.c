@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rmw_names.h"
 
-#include <string.h>
+#include "microros/text.h"
 
 enum { PIECES = 4 };
 
@@ -32,12 +32,11 @@ rmw_name_t rmw_name_of_topic(const char * topic, const char * node, const char *
 bool rmw_name_equals(const rmw_name_t * name, const char * text)
 {
   for (size_t i = 0; i < PIECES; ++i) {
-    const size_t size = strlen(name->piece[i]);
-
-    if (strncmp(text, name->piece[i], size) != 0) {
-      return false;
+    for (const char * at = name->piece[i]; *at != '\0'; ++at, ++text) {
+      if (*at != *text) {
+        return false;
+      }
     }
-    text += size;
   }
   return *text == '\0';
 }
@@ -47,7 +46,7 @@ size_t rmw_name_size(const rmw_name_t * name)
   size_t size = 0;
 
   for (size_t i = 0; i < PIECES; ++i) {
-    size += strlen(name->piece[i]);
+    size += microros_text_size(name->piece[i]);
   }
   return size;
 }
@@ -55,10 +54,9 @@ size_t rmw_name_size(const rmw_name_t * name)
 void rmw_name_copy(const rmw_name_t * name, char * buffer)
 {
   for (size_t i = 0; i < PIECES; ++i) {
-    const size_t size = strlen(name->piece[i]);
-
-    memcpy(buffer, name->piece[i], size);
-    buffer += size;
+    for (const char * at = name->piece[i]; *at != '\0'; ++at) {
+      *buffer++ = *at;
+    }
   }
   *buffer = '\0';
 }

@@ -7,34 +7,40 @@
 
 #include <stddef.h>
 
-rmw_ret_t rmw_report_outcome(xrce_client_t * client, xrce_outcome_t outcome, bool is_node, const char * name)
+/* Returns what the place was waiting for. */
+static const char * place_kind(const xrce_client_t * client, uint16_t place)
 {
   static const char * const objects[] = {"topic", "publisher", "datawriter"};
-  const xrce_entities_t * entities = &client->entities;
 
+  return place < MICROROS_NODES_MAX ? "node" : objects[client->states[place].level];
+}
+
+rmw_ret_t rmw_place_open(xrce_client_t * client, uint16_t place, const char * name)
+{
+  xrce_outcome_t outcome;
+
+  xrce_entities_add(client, place);
+  outcome = xrce_entities_await(client, place, client->create_timeout_ms);
   if (outcome == XRCE_DONE) {
     return RMW_RET_OK;
   }
-  if (outcome == XRCE_REFUSED) {
-    const char * kind = is_node ? "node" : objects[entities->refused_level];
-
-    microros_error_set(MICROROS_ERROR_ENTITY_REFUSED, name, kind, entities->refused_status, 0);
-    return RMW_RET_ERROR;
-  }
   microros_error_set(
-    MICROROS_ERROR_ENTITY_SILENT, name, is_node ? "node" : objects[1], 0, client->create_timeout_ms);
-  return RMW_RET_TIMEOUT;
+    outcome == XRCE_REFUSED ? microros_error_entity_refused : microros_error_entity_silent, name,
+    place_kind(client, place), client->entities.refused_status, client->create_timeout_ms);
+  xrce_entities_remove(client, place);
+  return outcome == XRCE_REFUSED ? RMW_RET_ERROR : RMW_RET_TIMEOUT;
+}
+
+void rmw_place_close(xrce_client_t * client, uint16_t place)
+{
+  xrce_entities_remove(client, place);
+  (void)xrce_entities_await(client, place, client->close_timeout_ms);
 }
 
 bool rmw_node_is_open(const rmw_node_t * node)
 {
-  const xrce_participant_t * participant;
-
-  if (node == NULL || node->implementation_identifier != rmw_implementation_identifier) {
-    return false;
-  }
-  participant = node->data;
-  return participant->state.wanted;
+  return node != NULL && node->data != NULL && node->context->impl != NULL &&
+         node->context->impl->states[rmw_node_index(node)].wanted;
 }
 
 uint16_t rmw_node_index(const rmw_node_t * node)
@@ -50,7 +56,7 @@ rmw_ret_t rmw_node_open(rmw_context_t * context, const char * name, const char *
   xrce_client_t * client = context->impl;
   const uint16_t index = rmw_node_take(client, name, namespace_);
   xrce_participant_t * participant;
-  xrce_outcome_t outcome;
+  rmw_ret_t result;
 
   if (index == RMW_NO_PLACE) {
     return RMW_RET_ERROR;
@@ -59,11 +65,9 @@ rmw_ret_t rmw_node_open(rmw_context_t * context, const char * name, const char *
   if (context->options.domain_id != RMW_DEFAULT_DOMAIN_ID) {
     participant->domain_id = (uint16_t)context->options.domain_id;
   }
-  xrce_entities_add(client, &participant->state);
-  outcome = xrce_entities_await_participant(client, index, client->create_timeout_ms);
-  if (outcome != XRCE_DONE) {
-    xrce_entities_remove(client, &participant->state);
-    return rmw_report_outcome(client, outcome, true, name);
+  result = rmw_place_open(client, index, name);
+  if (result != RMW_RET_OK) {
+    return result;
   }
   nodes[index].implementation_identifier = rmw_implementation_identifier;
   nodes[index].data = participant;
@@ -76,10 +80,5 @@ rmw_ret_t rmw_node_open(rmw_context_t * context, const char * name, const char *
 
 void rmw_node_close(rmw_node_t * node)
 {
-  xrce_client_t * client = node->context->impl;
-  const uint16_t index = rmw_node_index(node);
-
-  node->implementation_identifier = NULL;
-  xrce_entities_remove_participant(client, index);
-  (void)xrce_entities_await_participant(client, index, client->close_timeout_ms); /* later calls do what is left */
+  rmw_place_close(node->context->impl, rmw_node_index(node));
 }

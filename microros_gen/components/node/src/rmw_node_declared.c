@@ -5,29 +5,28 @@
 #include "microros/error.h"
 #include "microros/plan.h"
 #include "microros/rmw_names.h"
+#include "microros/text.h"
 #include "microros/xrce_client.h"
-
-#include <string.h>
 
 uint16_t rmw_node_take(xrce_client_t * client, const char * name, const char * namespace_)
 {
   const rmw_name_t wanted = rmw_name_of_namespace(namespace_);
-  microros_error_t error = MICROROS_ERROR_NODE_UNDECLARED;
+  const char * error = microros_error_node_undeclared;
 
   for (uint16_t i = 0; i < MICROROS_NODES_MAX; ++i) {
     const microros_declared_node_t * declared = &microros_declared_nodes[i];
     xrce_participant_t * participant = &client->participants[i];
 
-    if (strcmp(declared->name, name) != 0 || !rmw_name_equals(&wanted, declared->namespace_)) {
+    if (!microros_text_equals(declared->name, name) || !rmw_name_equals(&wanted, declared->namespace_)) {
       continue;
     }
-    if (!participant->state.wanted) {
+    if (!client->states[i].wanted) {
       participant->name = declared->name;
       participant->namespace_ = declared->namespace_;
       participant->domain_id = declared->domain_id;
       return i;
     }
-    error = MICROROS_ERROR_NODE_OPEN;
+    error = microros_error_node_open;
   }
   microros_error_set(error, name, namespace_, 0, 0);
   return RMW_NO_PLACE;

@@ -4,6 +4,7 @@
 
 #include "microros/error.h"
 #include "microros/rmw_names.h"
+#include "microros/text.h"
 #include "microros/xrce_client.h"
 
 #include <string.h>
@@ -18,7 +19,7 @@ static bool node_fits(const char * text, size_t size)
   if (size < MICROROS_NAME_SIZE) {
     return true;
   }
-  microros_error_set(MICROROS_ERROR_NAME_LONG, text, NULL, (uint32_t)size, (uint32_t)size + 1u);
+  microros_error_set(microros_error_name_long, text, NULL, (uint32_t)size, (uint32_t)size + 1u);
   return false;
 }
 
@@ -27,14 +28,14 @@ uint16_t rmw_node_take(xrce_client_t * client, const char * name, const char * n
   static node_names_t names[MICROROS_NODES_MAX];
   const rmw_name_t expanded = rmw_name_of_namespace(namespace_);
 
-  if (!node_fits(name, strlen(name)) || !node_fits(namespace_, rmw_name_size(&expanded))) {
+  if (!node_fits(name, microros_text_size(name)) || !node_fits(namespace_, rmw_name_size(&expanded))) {
     return RMW_NO_PLACE;
   }
   for (uint16_t i = 0; i < MICROROS_NODES_MAX; ++i) {
     xrce_participant_t * participant = &client->participants[i];
 
-    if (!participant->state.wanted) {
-      memcpy(names[i].name, name, strlen(name) + 1u);
+    if (!client->states[i].wanted) {
+      memcpy(names[i].name, name, microros_text_size(name) + 1u);
       rmw_name_copy(&expanded, names[i].namespace_);
       participant->name = names[i].name;
       participant->namespace_ = names[i].namespace_;
@@ -42,6 +43,6 @@ uint16_t rmw_node_take(xrce_client_t * client, const char * name, const char * n
       return i;
     }
   }
-  microros_error_set(MICROROS_ERROR_NODES_FULL, name, NULL, MICROROS_NODES_MAX, MICROROS_NODES_MAX + 1u);
+  microros_error_set(microros_error_nodes_full, name, NULL, MICROROS_NODES_MAX, MICROROS_NODES_MAX + 1u);
   return RMW_NO_PLACE;
 }

@@ -74,7 +74,7 @@ static rmw_ret_t ping_agent(const rmw_uxrce_transport_params_t * params, int tim
 
   if (!answered) {
     microros_error_set(
-      MICROROS_ERROR_AGENT_SILENT, rmw_client_host(params), NULL, rmw_client_port(params), timeout * attempts);
+      microros_error_agent_silent, rmw_client_host(params), NULL, rmw_client_port(params), timeout * attempts);
   }
   return answered ? RMW_RET_OK : RMW_RET_ERROR;
 }
@@ -99,8 +99,7 @@ rmw_ret_t rmw_uros_ping_agent_options(
   const int timeout_ms, const uint8_t attempts, rmw_init_options_t * rmw_options)
 {
   if (rmw_options == NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "rmw_options", NULL, 0, 0);
-    return RMW_RET_INVALID_ARGUMENT;
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "rmw_options");
   }
   return ping_agent(&rmw_options->transport_params, timeout_ms, attempts);
 }

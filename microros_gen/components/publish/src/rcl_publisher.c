@@ -3,6 +3,7 @@
 
 #include "microros/error.h"
 #include "microros/rcl_names.h"
+#include "microros/rcl_publisher_open.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_publisher.h"
 #include "rmw/rmw.h"
@@ -26,41 +27,46 @@ rcl_publisher_options_t rcl_publisher_get_default_options(void)
   return options;
 }
 
+rcl_ret_t rcl_publisher_open(
+  rcl_publisher_t * publisher, const rcl_node_t * node, const rosidl_message_type_support_t * type_support,
+  const char * topic_name, const rmw_qos_profile_t * qos)
+{
+  const char * fault;
+
+  if (publisher == NULL || type_support == NULL || topic_name == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "publisher, type or topic");
+  }
+  if (!rcl_node_is_valid(node)) {
+    return microros_error_refuse(RCL_RET_NODE_INVALID, "node");
+  }
+  fault = rcl_names_check_topic(topic_name);
+  if (fault != NULL) {
+    microros_error_set(microros_error_name, topic_name, fault, 0, 0);
+    return RCL_RET_TOPIC_NAME_INVALID;
+  }
+  return rmw_publisher_open(node->impl, type_support, topic_name, qos, &publisher->impl);
+}
+
 rcl_ret_t rcl_publisher_init(
   rcl_publisher_t * publisher, const rcl_node_t * node, const rosidl_message_type_support_t * type_support,
   const char * topic_name, const rcl_publisher_options_t * options)
 {
-  const char * fault;
-
-  if (publisher == NULL || type_support == NULL || topic_name == NULL || options == NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "publisher, type_support, topic_name or options", NULL, 0, 0);
-    return RCL_RET_INVALID_ARGUMENT;
+  if (options == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "options");
   }
-  if (publisher->impl != NULL) {
-    microros_error_set(MICROROS_ERROR_PUBLISHER_OPEN, topic_name, NULL, 0, 0);
-    return RCL_RET_ALREADY_INIT;
+  if (publisher != NULL && publisher->impl != NULL) {
+    return microros_error_named(RCL_RET_ALREADY_INIT, microros_error_publisher_open, topic_name);
   }
-  if (!rcl_node_is_valid(node)) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "node", NULL, 0, 0);
-    return RCL_RET_NODE_INVALID;
-  }
-  fault = rcl_names_check_topic(topic_name);
-  if (fault != NULL) {
-    microros_error_set(MICROROS_ERROR_NAME, topic_name, fault, 0, 0);
-    return RCL_RET_TOPIC_NAME_INVALID;
-  }
-  return rmw_publisher_open(node->impl, type_support, topic_name, &options->qos, &publisher->impl);
+  return rcl_publisher_open(publisher, node, type_support, topic_name, &options->qos);
 }
 
 rcl_ret_t rcl_publisher_fini(rcl_publisher_t * publisher, rcl_node_t * node)
 {
   if (publisher == NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "publisher", NULL, 0, 0);
-    return RCL_RET_PUBLISHER_INVALID;
+    return microros_error_refuse(RCL_RET_PUBLISHER_INVALID, "publisher");
   }
   if (!rcl_node_is_valid_except_context(node)) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "node", NULL, 0, 0);
-    return RCL_RET_NODE_INVALID;
+    return microros_error_refuse(RCL_RET_NODE_INVALID, "node");
   }
   if (rmw_publisher_is_open(publisher->impl)) {
     rmw_publisher_close(publisher->impl);
@@ -76,17 +82,20 @@ bool rcl_publisher_is_valid(const rcl_publisher_t * publisher)
 
 static rcl_ret_t publisher_refuse(void)
 {
-  microros_error_set(MICROROS_ERROR_ARGUMENT, "publisher", NULL, 0, 0);
-  return RCL_RET_PUBLISHER_INVALID;
+  return microros_error_refuse(RCL_RET_PUBLISHER_INVALID, "publisher");
 }
 
 rcl_ret_t rcl_publish(
   const rcl_publisher_t * publisher, const void * ros_message, rmw_publisher_allocation_t * allocation)
 {
+  (void)allocation;
   if (!rcl_publisher_is_valid(publisher)) {
     return publisher_refuse();
   }
-  return rmw_publish(publisher->impl, ros_message, allocation);
+  if (ros_message == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "message");
+  }
+  return rmw_publisher_write(publisher->impl, ros_message);
 }
 
 rcl_ret_t rcl_publish_serialized_message(

@@ -21,38 +21,40 @@ static rmw_ret_t publish_report(const xrce_writer_t * writer, xrce_write_t outco
       return RMW_RET_OK;
     case XRCE_WRITE_REFUSED:
       microros_error_set(
-        MICROROS_ERROR_FIELD, writer->type->dds_type_name, fault->field, fault->found, fault->fits);
+        microros_error_field, writer->type->dds_type_name, fault->field, fault->found, fault->fits);
       break;
     case XRCE_WRITE_FULL:
       waiting = xrce_route_unacknowledged(writer->client);
-      microros_error_set(MICROROS_ERROR_STREAM_FULL, writer->topic, NULL, waiting, waiting + 1u);
+      microros_error_set(microros_error_stream_full, writer->topic, NULL, waiting, waiting + 1u);
       break;
     case XRCE_WRITE_NO_SESSION:
-      microros_error_set(MICROROS_ERROR_NO_SESSION, writer->topic, NULL, 0, 0);
+      microros_error_set(microros_error_no_session, writer->topic, NULL, 0, 0);
       break;
     case XRCE_WRITE_NOT_SENT:
     default:
-      microros_error_set(MICROROS_ERROR_NOT_SENT, writer->topic, NULL, 0, 0);
+      microros_error_set(microros_error_not_sent, writer->topic, NULL, 0, 0);
       break;
   }
   return RMW_RET_ERROR;
 }
 
+rmw_ret_t rmw_publisher_write(const rmw_publisher_t * publisher, const void * ros_message)
+{
+  cdr_fault_t fault = {"", 0, 0};
+  xrce_writer_t * writer = publisher->data;
+  const xrce_write_t outcome = xrce_write_message(writer, ros_message, &fault);
+
+  return outcome == XRCE_WRITTEN ? RMW_RET_OK : publish_report(writer, outcome, &fault);
+}
+
 rmw_ret_t rmw_publish(
   const rmw_publisher_t * publisher, const void * ros_message, rmw_publisher_allocation_t * allocation)
 {
-  cdr_fault_t fault = {"", 0, 0};
-  xrce_writer_t * writer;
-  xrce_write_t outcome;
-
   (void)allocation;
   if (ros_message == NULL || !rmw_publisher_is_open(publisher)) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "publisher or ros_message", NULL, 0, 0);
-    return RMW_RET_INVALID_ARGUMENT;
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "publisher or message");
   }
-  writer = publisher->data;
-  outcome = xrce_write_message(writer, ros_message, &fault);
-  return outcome == XRCE_WRITTEN ? RMW_RET_OK : publish_report(writer, outcome, &fault);
+  return rmw_publisher_write(publisher, ros_message);
 }
 
 rmw_ret_t rmw_publish_serialized_message(
@@ -67,15 +69,14 @@ rmw_ret_t rmw_publish_serialized_message(
 
   (void)allocation;
   if (serialized_message == NULL || serialized_message->buffer == NULL || !rmw_publisher_is_open(publisher)) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "publisher or serialized_message", NULL, 0, 0);
-    return RMW_RET_INVALID_ARGUMENT;
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "publisher or serialized_message");
   }
   writer = publisher->data;
   bytes = serialized_message->buffer;
   size = serialized_message->buffer_length;
   capacity = ENCAPSULATION_SIZE + xrce_route_capacity((writer->qos & XRCE_QOS_RELIABLE) != 0u);
   if (size <= ENCAPSULATION_SIZE || size > capacity || bytes[0] != 0u || bytes[1] != CDR_LITTLE_ENDIAN) {
-    microros_error_set(MICROROS_ERROR_SERIALIZED, NULL, NULL, (uint32_t)size, (uint32_t)capacity);
+    microros_error_set(microros_error_serialized, NULL, NULL, (uint32_t)size, (uint32_t)capacity);
     return RMW_RET_ERROR;
   }
   return publish_report(

@@ -10,15 +10,20 @@
 
 #include <stddef.h>
 
-static bool publisher_fits(const microros_message_type_t * type, uint8_t flags)
+static uint16_t publisher_place(const xrce_writer_t * writer)
 {
-  const size_t capacity = xrce_route_capacity((flags & XRCE_QOS_RELIABLE) != 0u);
+  return (uint16_t)(MICROROS_NODES_MAX + writer->index);
+}
 
-  if (type->max_encoded_size <= capacity) {
+static bool publisher_fits(const xrce_writer_t * writer)
+{
+  const size_t capacity = xrce_route_capacity((writer->qos & XRCE_QOS_RELIABLE) != 0u);
+  const uint32_t size = writer->type->max_encoded_size;
+
+  if (size <= capacity) {
     return true;
   }
-  microros_error_set(
-    MICROROS_ERROR_STREAM_SMALL, type->dds_type_name, NULL, type->max_encoded_size, (uint32_t)capacity);
+  microros_error_set(microros_error_stream_small, writer->type->dds_type_name, NULL, size, (uint32_t)capacity);
   return false;
 }
 
@@ -37,60 +42,45 @@ rmw_ret_t rmw_publisher_open(
   const rmw_node_t * node, const rosidl_message_type_support_t * type_support, const char * topic,
   const rmw_qos_profile_t * qos, rmw_publisher_t ** publisher)
 {
-  xrce_client_t * client = node->context->impl;
-  const microros_message_type_t * type = type_support->data;
   const rmw_name_t name = rmw_name_of_topic(topic, node->name, node->namespace_);
-  uint8_t flags;
-  uint16_t depth;
-  uint16_t index;
+  xrce_writer_t wanted = {node->context->impl, type_support->data, NULL, 0, 0, rmw_node_index(node), 0};
+  const char * refused = rmw_qos_to_xrce(qos, &wanted.qos, &wanted.depth);
   xrce_writer_t * writer;
-  xrce_outcome_t outcome;
-  const char * refused = rmw_qos_to_xrce(qos, &flags, &depth);
+  rmw_ret_t result;
 
   if (refused != NULL) {
-    microros_error_set(MICROROS_ERROR_QOS, topic, refused, 0, 0);
+    microros_error_set(microros_error_qos, topic, refused, 0, 0);
     return RMW_RET_UNSUPPORTED;
   }
-  if (!publisher_fits(type, flags)) {
+  if (!publisher_fits(&wanted) || !rmw_publisher_take(&wanted, &name, topic)) {
     return RMW_RET_ERROR;
   }
-  index = rmw_publisher_take(client, rmw_node_index(node), &name, topic, type);
-  if (index == RMW_NO_PLACE) {
-    return RMW_RET_ERROR;
+  writer = &wanted.client->writers[wanted.index];
+  *writer = wanted;
+  if (!xrce_entities_fits(writer)) {
+    return microros_error_named(RMW_RET_ERROR, microros_error_name, writer->type->dds_type_name);
   }
-  writer = &client->writers[index];
-  writer->client = client;
-  writer->type = type;
-  writer->index = index;
-  writer->participant = rmw_node_index(node);
-  writer->qos = flags;
-  writer->depth = depth;
-  xrce_entities_add(client, &writer->state);
-  outcome = xrce_entities_await_writer(client, index, client->create_timeout_ms);
-  if (outcome != XRCE_DONE) {
-    xrce_entities_remove(client, &writer->state);
-    return rmw_report_outcome(client, outcome, false, writer->topic);
+  result = rmw_place_open(writer->client, publisher_place(writer), writer->topic);
+  if (result == RMW_RET_OK) {
+    *publisher = publisher_hand_out(writer);
   }
-  *publisher = publisher_hand_out(writer);
-  return RMW_RET_OK;
+  return result;
 }
 
 void rmw_publisher_close(rmw_publisher_t * publisher)
 {
-  xrce_writer_t * writer = publisher->data;
+  const xrce_writer_t * writer = publisher->data;
 
-  publisher->implementation_identifier = NULL;
-  xrce_entities_remove(writer->client, &writer->state);
-  (void)xrce_entities_await_writer(writer->client, writer->index, writer->client->close_timeout_ms);
+  rmw_place_close(writer->client, publisher_place(writer));
 }
 
 bool rmw_publisher_is_open(const rmw_publisher_t * publisher)
 {
   const xrce_writer_t * writer;
 
-  if (publisher == NULL || publisher->implementation_identifier != rmw_implementation_identifier) {
+  if (publisher == NULL || publisher->data == NULL) {
     return false;
   }
   writer = publisher->data;
-  return writer->state.wanted;
+  return writer->client->states[publisher_place(writer)].wanted;
 }

@@ -4,12 +4,10 @@
 
 #include <stddef.h>
 
-/* What RMW_DURATION_INFINITE has in seconds; "best available" has it too. */
-#define SECONDS_INFINITE 9223372036u
-
+/* Nothing is asked for, or an age: RMW_DURATION_INFINITE has more than 2^33 seconds. */
 static bool qos_is_unlimited(const struct rmw_time_s * time)
 {
-  return (time->sec == 0u && time->nsec == 0u) || time->sec >= SECONDS_INFINITE;
+  return (time->sec | time->nsec) == 0u || time->sec >> 33 != 0u;
 }
 
 static const char * qos_refuse(const rmw_qos_profile_t * qos)

@@ -11,7 +11,7 @@ static const uint8_t encapsulation[] = {0, 1, 0, 0};
 
 static rmw_ret_t serialize_refuse(const microros_message_type_t * type, const cdr_fault_t * fault)
 {
-  microros_error_set(MICROROS_ERROR_FIELD, type->dds_type_name, fault->field, fault->found, fault->fits);
+  microros_error_set(microros_error_field, type->dds_type_name, fault->field, fault->found, fault->fits);
   return RMW_RET_ERROR;
 }
 
@@ -24,8 +24,7 @@ rmw_ret_t rmw_serialize(
   size_t size;
 
   if (ros_message == NULL || type_support == NULL || serialized_message == NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "ros_message, type_support or serialized_message", NULL, 0, 0);
-    return RMW_RET_INVALID_ARGUMENT;
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "ros_message, type_support or serialized_message");
   }
   type = type_support->data;
   size = type->encoded_size(ros_message, &fault);
@@ -54,8 +53,7 @@ rmw_ret_t rmw_get_serialized_message_size(
 
   (void)message_bounds;
   if (type_support == NULL || size == NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "type_support or size", NULL, 0, 0);
-    return RMW_RET_INVALID_ARGUMENT;
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "type_support or size");
   }
   type = type_support->data;
   *size = sizeof(encapsulation) + type->max_encoded_size;

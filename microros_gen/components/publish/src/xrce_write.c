@@ -17,7 +17,8 @@ static bool write_is_reliable(const xrce_writer_t * writer)
 
 static bool write_has_session(const xrce_writer_t * writer)
 {
-  return writer->client->session.state == XRCE_READY && writer->state.level == XRCE_WRITER_COMPLETE;
+  return writer->client->session.state == XRCE_READY && 
+         writer->client->states[MICROROS_NODES_MAX + writer->index].level == XRCE_WRITER_COMPLETE;
 }
 
 uint8_t * xrce_write_reserve(const xrce_writer_t * writer)

@@ -19,7 +19,7 @@ void xrce_session_open(xrce_client_t * client, const char * host, uint16_t port,
 {
   xrce_session_t * session = &client->session;
 
-  memset(session, 0, sizeof(*session));
+  memset(client, 0, sizeof(*client));
   session->host = host;
   session->port = port;
   session->key = key;
@@ -27,7 +27,8 @@ void xrce_session_open(xrce_client_t * client, const char * host, uint16_t port,
   session->retry_ms = MICROROS_RETRY_FIRST_MS;
   session->due_ms = port_time_ms();
   session->state = XRCE_CONNECTING;
-  xrce_route_reset(client);
+  client->create_timeout_ms = MICROROS_CREATE_TIMEOUT_MS;
+  client->close_timeout_ms = MICROROS_CLOSE_TIMEOUT_MS;
 }
 
 uint16_t xrce_session_next_request(xrce_session_t * session)
@@ -81,13 +82,9 @@ static void session_send_delete_client(xrce_session_t * session)
   (void)xrce_session_send(session, message, sizeof(message));
 }
 
-/* The next attempt comes after a pause, twice as long each time. */
-static void session_schedule_retry(xrce_session_t * session, uint32_t now)
+uint16_t xrce_session_longer_pause(uint16_t pause_ms)
 {
-  const uint32_t doubled = 2u * (uint32_t)session->retry_ms;
-
-  session->due_ms = now + session->retry_ms;
-  session->retry_ms = (uint16_t)(doubled < MICROROS_RETRY_MOST_MS ? doubled : MICROROS_RETRY_MOST_MS);
+  return pause_ms < MICROROS_RETRY_MOST_MS / 2u ? (uint16_t)(2u * pause_ms) : (uint16_t)MICROROS_RETRY_MOST_MS;
 }
 
 void xrce_session_step(xrce_client_t * client, uint32_t now)
@@ -105,7 +102,8 @@ void xrce_session_step(xrce_client_t * client, uint32_t now)
     }
     session_send_create_client(session);
   }
-  session_schedule_retry(session, now);
+  session->due_ms = now + session->retry_ms;
+  session->retry_ms = xrce_session_longer_pause(session->retry_ms);
 }
 
 void xrce_session_lose(xrce_client_t * client, uint32_t now)
@@ -243,5 +241,5 @@ void xrce_session_close(xrce_client_t * client, uint32_t timeout_ms)
   }
   session->state = XRCE_CLOSED;
   session_close_transport(session);
-  xrce_route_reset(client); /* whoever still has an entity has it no more */
+  memset(client->states, 0, sizeof(client->states)); /* whoever still has an entity has it no more */
 }

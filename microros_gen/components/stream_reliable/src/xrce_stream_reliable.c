@@ -15,16 +15,6 @@ static uint8_t stream_slot(const xrce_stream_reliable_t * stream, uint8_t i)
   return slot < MICROROS_RELIABLE_SLOTS ? slot : (uint8_t)(slot - MICROROS_RELIABLE_SLOTS);
 }
 
-void xrce_stream_reliable_reset(xrce_stream_reliable_t * stream)
-{
-  stream->first = 0;
-  stream->head = 0;
-  stream->count = 0;
-  stream->held = true;
-  stream->held_until_ms = 0;
-  stream->heartbeat_ms = 0;
-}
-
 uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream)
 {
   if (stream->count == MICROROS_RELIABLE_SLOTS) {

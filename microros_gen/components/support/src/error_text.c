@@ -5,60 +5,62 @@
 
 #include <stdbool.h>
 #include <stddef.h>
-#include <string.h>
 
 /*
- * %s name, %d detail, %n found, %m fits; %t name is a DDS type, written as ROS does; %D the same of detail; %a found is a
- * status of the agent. The order is that of microros_error_t.
+ * %s name, %d detail, %n found, %m fits; %t name is a DDS type, written as ROS does, %D detail is one; %a found is a
+ * status of the agent; %y where to change that.
  */
-static const char * const texts[] = {
-  "",
-  "",
-  "%s is NULL or not initialized",
-  "a context is open already: there is one session",
-  "no transport to %s:%n",
-  "no agent answers at %s:%n within %m ms",
-  "the agent at %s:%m refuses the session: %a",
-  "address %s or port %d is not valid (host: up to %m bytes)",
-  "name '%s': %d",
-  "name '%s' takes %n bytes: set pools: {name_size: %m} in microros.yaml",
-  "node not declared: add to nodes: in microros.yaml: {name: %s, namespace: %d}",
-  "node %s is open already",
-  "all %n nodes are open: set pools: {nodes: %m} in microros.yaml",
-  "publisher not declared: add to its node's publishers: in microros.yaml: {topic: %s, type: %D}",
-  "publisher %s is open already",
-  "all %n publishers are open: set pools: {publishers: %m} in microros.yaml",
-  "%t takes %n bytes and its stream holds %m: declare the publisher with its qos in microros.yaml",
-  "publisher %s: XRCE carries no such QoS: %d",
-  "%d %s: no answer of the agent within %m ms",
-  "%d %s: the agent refuses it: %a",
-  "%t.%d: %n, limit %m: raise limits in microros.yaml",
-  "publisher %s: stream full, %n unacknowledged: raise pools: {history: %m} in microros.yaml",
-  "publisher %s: no session with the agent",
-  "publisher %s: the transport takes nothing",
-  "no memory for %n bytes: raise memory: {arena: %m} in microros.yaml",
-  "serialized message: not little endian CDR, or %n bytes above %m",
-  "domain %n is above %m"
-};
+const char microros_error_argument[] = "%s: NULL or not initialized";
+const char microros_error_context_in_use[] = "a context is open already: there is one session";
+const char microros_error_transport[] = "no transport to %s:%n";
+const char microros_error_agent_silent[] = "no agent answers at %s:%n within %m ms";
+const char microros_error_agent_refused[] = "the agent at %s:%m refuses the session: %a";
+const char microros_error_address[] = "address %s or port %d is not valid (host: up to %m bytes)";
+const char microros_error_name[] = "name '%s': %d";
+const char microros_error_name_long[] = "name '%s' takes %n bytes: set pools: {name_size: %m}%y";
+const char microros_error_node_undeclared[] = "node not declared: add to nodes:%y: {name: %s, namespace: %d}";
+const char microros_error_node_open[] = "node %s is open already";
+const char microros_error_nodes_full[] = "all %n nodes are open: set pools: {nodes: %m}%y";
+const char microros_error_publisher_undeclared[] =
+  "publisher not declared: add to its node's publishers:%y: {topic: %s, type: %D}";
+const char microros_error_publisher_open[] = "publisher %s is open already";
+const char microros_error_publishers_full[] = "all %n publishers are open: set pools: {publishers: %m}%y";
+const char microros_error_stream_small[] =
+  "%t takes %n bytes and its stream holds %m: declare the publisher with its qos%y";
+const char microros_error_qos[] = "publisher %s: XRCE carries no such QoS: %d";
+const char microros_error_entity_silent[] = "%d %s: no answer of the agent within %m ms";
+const char microros_error_entity_refused[] = "%d %s: the agent refuses it: %a";
+const char microros_error_field[] = "%t.%d: %n, limit %m: raise limits%y";
+const char microros_error_stream_full[] =
+  "publisher %s: stream full, %n unacknowledged: raise pools: {history: %m}%y";
+const char microros_error_no_session[] = "publisher %s: no session with the agent";
+const char microros_error_not_sent[] = "publisher %s: the transport takes nothing";
+const char microros_error_arena[] = "no memory for %n bytes: raise memory: {arena: %m}%y";
+const char microros_error_serialized[] = "serialized message: not little endian CDR, or %n bytes above %m";
+const char microros_error_domain[] = "domain %n is above %m";
+
+/* From status 0x80 on (OMG DDS-XRCE 1.0, 7.7.2). */
+static const char statuses[] =
+  "DDS_ERROR\0MISMATCH\0ALREADY_EXISTS\0DENIED\0UNKNOWN_REFERENCE\0INVALID_DATA\0INCOMPATIBLE\0RESOURCES";
+
+enum { STATUS_FIRST = 0x80, STATUS_LAST = 0x87 };
 
 typedef struct text_t {
   char * at;
-  size_t left; /* without the NUL */
+  char * end; /* where the NUL goes at the latest */
 } text_t;
 
-static void text_put(text_t * text, const char * words, size_t size)
+static void text_put(text_t * text, char c)
 {
-  const size_t fits = size < text->left ? size : text->left;
-
-  memcpy(text->at, words, fits);
-  text->at += fits;
-  text->left -= fits;
+  if (text->at != text->end) {
+    *text->at++ = c;
+  }
 }
 
 static void text_put_string(text_t * text, const char * words)
 {
-  if (words != NULL) {
-    text_put(text, words, strlen(words));
+  while (words != NULL && *words != '\0') {
+    text_put(text, *words++);
   }
 }
 
@@ -71,61 +73,66 @@ static void text_put_number(text_t * text, uint32_t number)
     digits[--first] = (char)('0' + (char)(number % 10u));
     number /= 10u;
   } while (number != 0u);
-  text_put(text, &digits[first], sizeof(digits) - first);
+  while (first < sizeof(digits)) {
+    text_put(text, digits[first++]);
+  }
 }
 
 /* "std_msgs::msg::dds_::Int32_" becomes "std_msgs/msg/Int32". */
 static void text_put_type(text_t * text, const char * dds_type)
 {
-  static const char dds_part[] = "dds_::";
+  uint32_t part = 0;
 
   for (const char * at = dds_type; *at != '\0'; ++at) {
-    if (strncmp(at, dds_part, sizeof(dds_part) - 1u) == 0) {
-      at += sizeof(dds_part) - 2u;
-    } else if (at[0] == ':' && at[1] == ':') {
-      text_put(text, "/", 1);
+    if (at[0] == ':') {
       ++at;
-    } else if (at[0] != '_' || at[1] != '\0') {
-      text_put(text, at, 1);
+      if (part != 2u) {
+        text_put(text, '/');
+      }
+      ++part;
+    } else if (part != 2u && (at[0] != '_' || at[1] != '\0')) {
+      text_put(text, *at);
     }
   }
 }
 
+/* Returns the string that `count` others stand before. */
+static const char * text_skip(const char * strings, uint32_t count)
+{
+  while (count != 0u) {
+    count -= *strings == '\0' ? 1u : 0u;
+    ++strings;
+  }
+  return strings;
+}
+
 static void text_put_status(text_t * text, uint32_t status)
 {
-  static const char * const names[] = {"DDS_ERROR",         "MISMATCH",     "ALREADY_EXISTS", "DENIED",
-                                       "UNKNOWN_REFERENCE", "INVALID_DATA", "INCOMPATIBLE",   "RESOURCES"};
-  const uint32_t index = status - 0x80u;
-
-  if (index < sizeof(names) / sizeof(names[0])) {
-    text_put_string(text, names[index]);
+  if (status >= STATUS_FIRST && status <= STATUS_LAST) {
+    text_put_string(text, text_skip(statuses, status - STATUS_FIRST));
   } else {
     text_put_number(text, status);
   }
 }
 
-static void error_finish(text_t * text, const char * file, size_t line_number)
+static text_t error_begin(const char * file, size_t line_number)
 {
-  *text->at = '\0';
-  microros_error_state()->file = file;
-  microros_error_state()->line_number = line_number;
-}
+  rcutils_error_state_t * state = microros_error_state();
+  const text_t text = {state->message, &state->message[sizeof(state->message) - 1u]};
 
-static text_t error_begin(void)
-{
-  const text_t text = {microros_error_state()->message, sizeof(microros_error_state()->message) - 1u};
-
+  state->file = file;
+  state->line_number = line_number;
   return text;
 }
 
 void microros_error_set(
-  microros_error_t error, const char * name, const char * detail, uint32_t found, uint32_t fits)
+  const char * error, const char * name, const char * detail, uint32_t found, uint32_t fits)
 {
-  text_t text = error_begin();
+  text_t text = error_begin(NULL, 0);
 
-  for (const char * at = texts[error]; *at != '\0'; ++at) {
+  for (const char * at = error; *at != '\0'; ++at) {
     if (*at != '%') {
-      text_put(&text, at, 1);
+      text_put(&text, *at);
       continue;
     }
     ++at;
@@ -148,18 +155,21 @@ void microros_error_set(
       case 'm':
         text_put_number(&text, fits);
         break;
-      default:
+      case 'a':
         text_put_status(&text, found);
+        break;
+      default:
+        text_put_string(&text, " in microros.yaml");
         break;
     }
   }
-  error_finish(&text, NULL, 0);
+  *text.at = '\0';
 }
 
 void rcutils_set_error_state(const char * error_string, const char * file, size_t line_number)
 {
-  text_t text = error_begin();
+  text_t text = error_begin(file, line_number);
 
   text_put_string(&text, error_string);
-  error_finish(&text, file, line_number);
+  *text.at = '\0';
 }

@@ -21,22 +21,14 @@ rcl_context_t rcl_get_zero_initialized_context(void)
 
 rcl_ret_t rcl_context_fini(rcl_context_t * context)
 {
-  rcl_ret_t result;
-
   if (context == NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "context", NULL, 0, 0);
-    return RCL_RET_INVALID_ARGUMENT;
-  }
-  if (context->impl == NULL) {
-    return RCL_RET_OK;
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "context");
   }
   if (rcl_context_is_valid(context)) {
-    microros_error_set(MICROROS_ERROR_CONTEXT_IN_USE, NULL, NULL, 0, 0);
-    return RCL_RET_ERROR;
+    return microros_error_named(RCL_RET_ERROR, microros_error_context_in_use, NULL);
   }
-  result = rmw_context_fini(context->impl);
   context->impl = NULL;
-  return result;
+  return RCL_RET_OK;
 }
 
 rcl_context_instance_id_t rcl_context_get_instance_id(const rcl_context_t * context)
@@ -47,8 +39,7 @@ rcl_context_instance_id_t rcl_context_get_instance_id(const rcl_context_t * cont
 rcl_ret_t rcl_context_get_domain_id(rcl_context_t * context, size_t * domain_id)
 {
   if (domain_id == NULL || !rcl_context_is_valid(context)) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "context or domain_id", NULL, 0, 0);
-    return RCL_RET_INVALID_ARGUMENT;
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "context or domain_id");
   }
   *domain_id = context->impl->actual_domain_id;
   return RCL_RET_OK;

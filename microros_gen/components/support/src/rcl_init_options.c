@@ -13,7 +13,7 @@ enum { DOMAIN_MOST = 232 };
 static bool options_are_valid(const rcl_init_options_t * init_options)
 {
   if (init_options == NULL || init_options->rmw.implementation_identifier == NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "init_options", NULL, 0, 0);
+    microros_error_set(microros_error_argument, "init_options", NULL, 0, 0);
     return false;
   }
   return true;
@@ -30,8 +30,7 @@ rcl_init_options_t rcl_get_zero_initialized_init_options(void)
 rcl_ret_t rcl_init_options_init(rcl_init_options_t * init_options, rcl_allocator_t allocator)
 {
   if (init_options != NULL && init_options->rmw.implementation_identifier != NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "init_options", NULL, 0, 0);
-    return RCL_RET_ALREADY_INIT;
+    return microros_error_refuse(RCL_RET_ALREADY_INIT, "init_options");
   }
   return rmw_init_options_init(init_options != NULL ? &init_options->rmw : NULL, allocator);
 }
@@ -67,7 +66,7 @@ rcl_ret_t rcl_init_options_set_domain_id(rcl_init_options_t * init_options, size
     return RCL_RET_INVALID_ARGUMENT;
   }
   if (domain_id != RCL_DEFAULT_DOMAIN_ID && domain_id > DOMAIN_MOST) {
-    microros_error_set(MICROROS_ERROR_DOMAIN, NULL, NULL, (uint32_t)domain_id, DOMAIN_MOST);
+    microros_error_set(microros_error_domain, NULL, NULL, (uint32_t)domain_id, DOMAIN_MOST);
     return RCL_RET_INVALID_ARGUMENT;
   }
   init_options->rmw.domain_id = domain_id;

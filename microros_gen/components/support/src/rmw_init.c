@@ -4,6 +4,7 @@
 #include "microros/error.h"
 #include "microros/port.h"
 #include "microros/rmw_client.h"
+#include "microros/rmw_open.h"
 #include "microros/xrce_client.h"
 #include "rmw/rmw.h"
 
@@ -32,37 +33,42 @@ static rmw_ret_t init_report(const xrce_client_t * client)
   const xrce_session_t * session = &client->session;
 
   if (session->refusal != 0u) {
-    microros_error_set(MICROROS_ERROR_AGENT_REFUSED, session->host, NULL, session->refusal, session->port);
+    microros_error_set(microros_error_agent_refused, session->host, NULL, session->refusal, session->port);
     return RMW_RET_ERROR;
   }
   if (!session->transport_open) {
-    microros_error_set(MICROROS_ERROR_TRANSPORT, session->host, NULL, session->port, 0);
+    microros_error_set(microros_error_transport, session->host, NULL, session->port, 0);
     return RMW_RET_ERROR;
   }
   microros_error_set(
-    MICROROS_ERROR_AGENT_SILENT, session->host, NULL, session->port, MICROROS_CONNECT_TIMEOUT_MS);
+    microros_error_agent_silent, session->host, NULL, session->port, MICROROS_CONNECT_TIMEOUT_MS);
   return RMW_RET_TIMEOUT;
 }
 
-rmw_ret_t rmw_init(const rmw_init_options_t * options, rmw_context_t * context)
+/* The options must live as long as the session, so the context keeps them. */
+static void init_keep_options(const rmw_init_options_t * options, rmw_context_t * context)
+{
+  if (options != NULL) {
+    context->options = *options;
+  } else {
+    memset(&context->options, 0, sizeof(context->options));
+    context->options.domain_id = RMW_DEFAULT_DOMAIN_ID;
+  }
+}
+
+rmw_ret_t rmw_open(const rmw_init_options_t * options, rmw_context_t * context)
 {
   xrce_client_t * client = rmw_client_instance();
+  const rmw_uxrce_transport_params_t * params = &context->options.transport_params;
   rmw_ret_t result;
 
-  if (options == NULL || context == NULL || options->implementation_identifier == NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "options", NULL, 0, 0);
-    return RMW_RET_INVALID_ARGUMENT;
-  }
   if (client->session.state != XRCE_CLOSED) {
-    microros_error_set(MICROROS_ERROR_CONTEXT_IN_USE, NULL, NULL, 0, 0);
-    return RMW_RET_ERROR;
+    return microros_error_named(RMW_RET_ERROR, microros_error_context_in_use, NULL);
   }
-  context->options = *options;
-  client->create_timeout_ms = MICROROS_CREATE_TIMEOUT_MS;
-  client->close_timeout_ms = MICROROS_CLOSE_TIMEOUT_MS;
+  init_keep_options(options, context);
   xrce_session_open(
-    client, rmw_client_host(&context->options.transport_params), rmw_client_port(&context->options.transport_params),
-    options->transport_params.client_key != 0u ? options->transport_params.client_key : MICROROS_CLIENT_KEY);
+    client, rmw_client_host(params), rmw_client_port(params),
+    params->client_key != 0u ? params->client_key : MICROROS_CLIENT_KEY);
   if (!xrce_session_await(client, MICROROS_CONNECT_TIMEOUT_MS)) {
     result = init_report(client);
     xrce_session_close(client, 0);
@@ -70,16 +76,23 @@ rmw_ret_t rmw_init(const rmw_init_options_t * options, rmw_context_t * context)
   }
   ++context->instance_id;
   context->implementation_identifier = rmw_implementation_identifier;
-  context->actual_domain_id = options->domain_id == RMW_DEFAULT_DOMAIN_ID ? 0u : options->domain_id;
+  context->actual_domain_id = context->options.domain_id == RMW_DEFAULT_DOMAIN_ID ? 0u : context->options.domain_id;
   context->impl = client;
   return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_init(const rmw_init_options_t * options, rmw_context_t * context)
+{
+  if (options == NULL || context == NULL || options->implementation_identifier == NULL) {
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "options or context");
+  }
+  return rmw_open(options, context);
 }
 
 rmw_ret_t rmw_shutdown(rmw_context_t * context)
 {
   if (context == NULL || context->impl == NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "context", NULL, 0, 0);
-    return RMW_RET_INVALID_ARGUMENT;
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "context");
   }
   xrce_session_close(context->impl, context->impl->close_timeout_ms);
   context->impl = NULL;
@@ -89,8 +102,7 @@ rmw_ret_t rmw_shutdown(rmw_context_t * context)
 rmw_ret_t rmw_context_fini(rmw_context_t * context)
 {
   if (context == NULL || context->impl != NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "context", NULL, 0, 0);
-    return RMW_RET_INVALID_ARGUMENT;
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "context");
   }
   context->implementation_identifier = NULL;
   return RMW_RET_OK;

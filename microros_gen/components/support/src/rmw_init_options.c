@@ -17,8 +17,7 @@ rmw_init_options_t rmw_get_zero_initialized_init_options(void)
 rmw_ret_t rmw_init_options_init(rmw_init_options_t * init_options, rcutils_allocator_t allocator)
 {
   if (init_options == NULL || init_options->implementation_identifier != NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "init_options", NULL, 0, 0);
-    return RMW_RET_INVALID_ARGUMENT;
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "init_options");
   }
   memset(init_options, 0, sizeof(*init_options));
   init_options->implementation_identifier = rmw_implementation_identifier;
@@ -30,8 +29,7 @@ rmw_ret_t rmw_init_options_init(rmw_init_options_t * init_options, rcutils_alloc
 rmw_ret_t rmw_init_options_copy(const rmw_init_options_t * src, rmw_init_options_t * dst)
 {
   if (src == NULL || dst == NULL || src->implementation_identifier == NULL || dst->implementation_identifier != NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "init_options", NULL, 0, 0);
-    return RMW_RET_INVALID_ARGUMENT;
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "init_options");
   }
   *dst = *src;
   return RMW_RET_OK;
@@ -40,8 +38,7 @@ rmw_ret_t rmw_init_options_copy(const rmw_init_options_t * src, rmw_init_options
 rmw_ret_t rmw_init_options_fini(rmw_init_options_t * init_options)
 {
   if (init_options == NULL || init_options->implementation_identifier == NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "init_options", NULL, 0, 0);
-    return RMW_RET_INVALID_ARGUMENT;
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "init_options");
   }
   init_options->implementation_identifier = NULL;
   return RMW_RET_OK;

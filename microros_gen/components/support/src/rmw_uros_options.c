@@ -23,11 +23,10 @@ static bool options_is_port(const char * text)
 rmw_ret_t rmw_uros_options_set_udp_address(const char * ip, const char * port, rmw_init_options_t * rmw_options)
 {
   if (ip == NULL || port == NULL || rmw_options == NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "ip, port or rmw_options", NULL, 0, 0);
-    return RMW_RET_INVALID_ARGUMENT;
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "ip, port or rmw_options");
   }
   if (ip[0] == '\0' || strlen(ip) >= RMW_UXRCE_MAX_HOST_SIZE || !options_is_port(port)) {
-    microros_error_set(MICROROS_ERROR_ADDRESS, ip, port, 0, RMW_UXRCE_MAX_HOST_SIZE - 1u);
+    microros_error_set(microros_error_address, ip, port, 0, RMW_UXRCE_MAX_HOST_SIZE - 1u);
     return RMW_RET_INVALID_ARGUMENT;
   }
   memcpy(rmw_options->transport_params.agent_address, ip, strlen(ip) + 1u);
@@ -38,8 +37,7 @@ rmw_ret_t rmw_uros_options_set_udp_address(const char * ip, const char * port, r
 rmw_ret_t rmw_uros_options_set_client_key(uint32_t client_key, rmw_init_options_t * rmw_options)
 {
   if (rmw_options == NULL || client_key == 0u) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "client_key or rmw_options", NULL, 0, 0);
-    return RMW_RET_INVALID_ARGUMENT;
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "client_key or rmw_options");
   }
   rmw_options->transport_params.client_key = client_key;
   return RMW_RET_OK;

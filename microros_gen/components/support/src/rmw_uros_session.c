@@ -11,7 +11,7 @@
 static bool session_is_open(const rmw_context_t * context)
 {
   if (context == NULL || context->impl == NULL) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "context", NULL, 0, 0);
+    microros_error_set(microros_error_argument, "context", NULL, 0, 0);
     return false;
   }
   return true;

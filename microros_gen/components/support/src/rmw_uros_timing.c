@@ -10,7 +10,7 @@
 static bool timing_is_valid(const rmw_context_t * context, int session_timeout)
 {
   if (context == NULL || context->impl == NULL || session_timeout < 0) {
-    microros_error_set(MICROROS_ERROR_ARGUMENT, "context or session_timeout", NULL, 0, 0);
+    microros_error_set(microros_error_argument, "context or session_timeout", NULL, 0, 0);
     return false;
   }
   return true;

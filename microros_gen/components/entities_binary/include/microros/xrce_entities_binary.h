@@ -12,13 +12,13 @@
 extern "C" {
 #endif
 
-/* Returns the writer of a place (see xrce_entities_t.cursor). */
+/* Returns the writer of a place. */
 const xrce_writer_t * xrce_entities_writer(const xrce_client_t * client, uint16_t place);
 
-/* Sends CREATE under client->entities.request. False: it does not fit the stream, which the plan rules out. */
-bool xrce_entities_send_create(xrce_client_t * client, uint16_t place, uint16_t object, uint8_t kind);
+/* Sends CREATE of the place's object number `level` under client->entities.request. */
+void xrce_entities_send_create(xrce_client_t * client, uint16_t place, uint8_t level);
 
-void xrce_entities_send_delete(xrce_client_t * client, uint16_t object);
+void xrce_entities_send_delete(xrce_client_t * client, uint16_t place, uint8_t level);
 
 #ifdef __cplusplus
 }

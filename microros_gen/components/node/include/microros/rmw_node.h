@@ -33,8 +33,11 @@ uint16_t rmw_node_index(const rmw_node_t * node);
  * pools each have their own. */
 uint16_t rmw_node_take(xrce_client_t * client, const char * name, const char * namespace_);
 
-/* Makes the outcome the last error: `kind` "node", or what the writer was waiting for. */
-rmw_ret_t rmw_report_outcome(xrce_client_t * client, xrce_outcome_t outcome, bool is_node, const char * name);
+/* Opens the place, which is filled in, and waits for the agent; else closes it again and sets the text. */
+rmw_ret_t rmw_place_open(xrce_client_t * client, uint16_t place, const char * name);
+
+/* Closes the place, and waits as long as the application wants; later calls do what is left then. */
+void rmw_place_close(xrce_client_t * client, uint16_t place);
 
 #ifdef __cplusplus
 }

@@ -28,10 +28,12 @@ void rmw_publisher_close(rmw_publisher_t * publisher);
 
 bool rmw_publisher_is_open(const rmw_publisher_t * publisher);
 
-/* Returns a free place with its topic filled in, or RMW_NO_PLACE with a text. `given` is the topic as the caller wrote it. */
-uint16_t rmw_publisher_take(
-  xrce_client_t * client, uint16_t node, const rmw_name_t * topic, const char * given,
-  const microros_message_type_t * type);
+/* rmw_publish for an open publisher and a message that is not NULL. */
+rmw_ret_t rmw_publisher_write(const rmw_publisher_t * publisher, const void * ros_message);
+
+/* Finds a free place for the writer and fills its topic and index in; false, with a text: there is none. `given` is the
+ * topic as the caller wrote it. */
+bool rmw_publisher_take(xrce_writer_t * writer, const rmw_name_t * topic, const char * given);
 
 /* Gives the flags and depth that XRCE carries for `qos`; returns NULL, or the name of a policy that it cannot carry. */
 const char * rmw_qos_to_xrce(const rmw_qos_profile_t * qos, uint8_t * flags, uint16_t * depth);

@@ -23,31 +23,30 @@ typedef struct xrce_entities_t {
   uint32_t due_ms;
   uint16_t retry_ms;
   uint16_t request;
-  uint16_t cursor;        /* place that the request is about: participants first, then writers */
+  uint16_t cursor;        /* the place that the request is about */
   uint16_t refused_place; /* the last place that was refused, and why */
   uint8_t refused_status;
-  uint8_t refused_level;
   bool outstanding;
   bool deleting;
   bool pending; /* something may have to be created or deleted */
 } xrce_entities_t;
 
-void xrce_entities_reset(xrce_client_t * client);
 void xrce_entities_renew(xrce_client_t * client, uint32_t now);
 void xrce_entities_step(xrce_client_t * client, uint32_t now);
 void xrce_entities_on_status(xrce_client_t * client, const uint8_t * payload, size_t size, uint32_t now);
 bool xrce_entities_settled(const xrce_client_t * client);
 
-/* The application opens a place: its fields are filled in, except for the state. */
-void xrce_entities_add(xrce_client_t * client, xrce_object_state_t * state);
+/* Whether the writer's topic and type can be sent: always, for types of the plan. */
+bool xrce_entities_fits(const xrce_writer_t * writer);
+
+/* The application opens a place: what it is to be is filled in. */
+void xrce_entities_add(xrce_client_t * client, uint16_t place);
 
 /* The application closes a place; with a participant go its writers. */
-void xrce_entities_remove(xrce_client_t * client, xrce_object_state_t * state);
-void xrce_entities_remove_participant(xrce_client_t * client, uint16_t index);
+void xrce_entities_remove(xrce_client_t * client, uint16_t place);
 
 /* Waits at most `timeout_ms` until the agent has what the application wants of this place, or has let it go. */
-xrce_outcome_t xrce_entities_await_participant(xrce_client_t * client, uint16_t index, uint32_t timeout_ms);
-xrce_outcome_t xrce_entities_await_writer(xrce_client_t * client, uint16_t index, uint32_t timeout_ms);
+xrce_outcome_t xrce_entities_await(xrce_client_t * client, uint16_t place, uint32_t timeout_ms);
 
 #ifdef __cplusplus
 }

@@ -11,22 +11,25 @@
 
 #include "microros/message_type.h"
 #include "microros/xrce_forward.h"
+#include "microros_config.h"
+
+/* Places: the nodes first, then the publishers. */
+enum { XRCE_PLACES = MICROROS_NODES_MAX + MICROROS_PUBLISHERS_MAX };
+
+enum { XRCE_PARTICIPANT_COMPLETE = 1, XRCE_WRITER_COMPLETE = 3 };
 
 /* `level` counts the objects that exist at the agent, in the order of their creation. */
 typedef struct xrce_object_state_t {
-  bool wanted;   /* the application has it open */
-  bool stale;    /* what is at the agent belongs to a former owner of this place: delete it first */
   uint8_t level;
+  bool wanted; /* the application has it open */
+  bool stale;  /* what is at the agent belongs to a former owner of this place: delete it first */
 } xrce_object_state_t;
-
-enum { XRCE_PARTICIPANT_COMPLETE = 1, XRCE_WRITER_COMPLETE = 3 };
 
 /* A node's participant. The strings live as long as the place is taken. */
 typedef struct xrce_participant_t {
   const char * name;
   const char * namespace_; /* "/" or "/a/b" */
   uint16_t domain_id;
-  xrce_object_state_t state;
 } xrce_participant_t;
 
 /* A publisher's topic, publisher and data writer. */
@@ -35,10 +38,9 @@ typedef struct xrce_writer_t {
   const microros_message_type_t * type;
   const char * topic; /* fully qualified, "/chatter" */
   uint16_t depth;
-  uint16_t index;       /* its place in the table */
+  uint16_t index;       /* among the writers */
   uint16_t participant; /* its node's place */
   uint8_t qos;          /* XRCE_QOS_ */
-  xrce_object_state_t state;
 } xrce_writer_t;
 
 #endif /* MICROROS_XRCE_OBJECTS_H */

@@ -24,9 +24,6 @@ void xrce_route_submessage(
 /* Lets every part do what is due. */
 void xrce_route_step(xrce_client_t * client, uint32_t now);
 
-/* Resets every part: a client that is new. */
-void xrce_route_reset(xrce_client_t * client);
-
 /* Starts every part again: the agent counts from 0 and may have nothing. */
 void xrce_route_connected(xrce_client_t * client, uint32_t now);
 

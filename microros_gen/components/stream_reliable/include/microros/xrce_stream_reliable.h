@@ -18,6 +18,7 @@
 extern "C" {
 #endif
 
+/* All zero is an empty stream. */
 typedef struct xrce_stream_reliable_t {
   uint32_t heartbeat_ms; /* when the next HEARTBEAT is due, while something is unacknowledged */
   uint16_t first;        /* sequence number of the oldest unacknowledged message */
@@ -28,8 +29,6 @@ typedef struct xrce_stream_reliable_t {
   uint16_t size[MICROROS_RELIABLE_SLOTS];
   uint8_t message[MICROROS_RELIABLE_SLOTS][MICROROS_RELIABLE_SLOT_SIZE];
 } xrce_stream_reliable_t;
-
-void xrce_stream_reliable_reset(xrce_stream_reliable_t * stream);
 
 /* Returns room for MICROROS_RELIABLE_SLOT_SIZE - XRCE_MESSAGE_HEADER bytes of submessages; NULL: every slot is taken. */
 uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Errors of the library. The place that fails names a code and the facts; the words are in one file (error_text.c),
- * which `errors: code` replaces by one without words (error_code.c: "E" and the number below).
+ * Errors of the library. The place that fails names an error and the facts; the words are in error_text.c, each an object
+ * of its own, so that what nobody names is not linked. With `errors: code` error_code.c stands for it: there each is "E"
+ * and the number below. E01 is an error that the application set (rcutils_set_error_state).
  */
 #ifndef MICROROS_ERROR_H
 #define MICROROS_ERROR_H
@@ -12,42 +13,42 @@
 extern "C" {
 #endif
 
-typedef enum microros_error_t {
-  MICROROS_ERROR_NONE = 0,
-  MICROROS_ERROR_APPLICATION = 1, /* set by rcutils_set_error_state */
-  MICROROS_ERROR_ARGUMENT = 2,
-  MICROROS_ERROR_CONTEXT_IN_USE = 3,
-  MICROROS_ERROR_TRANSPORT = 4,
-  MICROROS_ERROR_AGENT_SILENT = 5,
-  MICROROS_ERROR_AGENT_REFUSED = 6,
-  MICROROS_ERROR_ADDRESS = 7,
-  MICROROS_ERROR_NAME = 8,
-  MICROROS_ERROR_NAME_LONG = 9,
-  MICROROS_ERROR_NODE_UNDECLARED = 10,
-  MICROROS_ERROR_NODE_OPEN = 11,
-  MICROROS_ERROR_NODES_FULL = 12,
-  MICROROS_ERROR_PUBLISHER_UNDECLARED = 13,
-  MICROROS_ERROR_PUBLISHER_OPEN = 14,
-  MICROROS_ERROR_PUBLISHERS_FULL = 15,
-  MICROROS_ERROR_STREAM_SMALL = 16,
-  MICROROS_ERROR_QOS = 17,
-  MICROROS_ERROR_ENTITY_SILENT = 18,
-  MICROROS_ERROR_ENTITY_REFUSED = 19,
-  MICROROS_ERROR_FIELD = 20,
-  MICROROS_ERROR_STREAM_FULL = 21,
-  MICROROS_ERROR_NO_SESSION = 22,
-  MICROROS_ERROR_NOT_SENT = 23,
-  MICROROS_ERROR_ARENA = 24,
-  MICROROS_ERROR_SERIALIZED = 25,
-  MICROROS_ERROR_DOMAIN = 26
-} microros_error_t;
+extern const char microros_error_argument[]; /* 2 */
+extern const char microros_error_context_in_use[]; /* 3 */
+extern const char microros_error_transport[]; /* 4 */
+extern const char microros_error_agent_silent[]; /* 5 */
+extern const char microros_error_agent_refused[]; /* 6 */
+extern const char microros_error_address[]; /* 7 */
+extern const char microros_error_name[]; /* 8 */
+extern const char microros_error_name_long[]; /* 9 */
+extern const char microros_error_node_undeclared[]; /* 10 */
+extern const char microros_error_node_open[]; /* 11 */
+extern const char microros_error_nodes_full[]; /* 12 */
+extern const char microros_error_publisher_undeclared[]; /* 13 */
+extern const char microros_error_publisher_open[]; /* 14 */
+extern const char microros_error_publishers_full[]; /* 15 */
+extern const char microros_error_stream_small[]; /* 16 */
+extern const char microros_error_qos[]; /* 17 */
+extern const char microros_error_entity_silent[]; /* 18 */
+extern const char microros_error_entity_refused[]; /* 19 */
+extern const char microros_error_field[]; /* 20 */
+extern const char microros_error_stream_full[]; /* 21 */
+extern const char microros_error_no_session[]; /* 22 */
+extern const char microros_error_not_sent[]; /* 23 */
+extern const char microros_error_arena[]; /* 24 */
+extern const char microros_error_serialized[]; /* 25 */
+extern const char microros_error_domain[]; /* 26 */
 
 /*
- * Makes this the last error. What `name`, `detail`, `found` and `fits` mean is said beside each text in error_text.c;
- * the strings are only read during the call.
+ * Makes this the last error. What `name`, `detail`, `found` and `fits` mean is said beside the texts; the strings are
+ * only read during the call.
  */
 void microros_error_set(
-  microros_error_t error, const char * name, const char * detail, uint32_t found, uint32_t fits);
+  const char * error, const char * name, const char * detail, uint32_t found, uint32_t fits);
+
+/* The same for microros_error_argument, and for errors with a name and nothing else. Both return `result`. */
+int32_t microros_error_refuse(int32_t result, const char * argument);
+int32_t microros_error_named(int32_t result, const char * error, const char * name);
 
 #ifdef __cplusplus
 }
