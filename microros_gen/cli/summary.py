@@ -31,7 +31,11 @@ def plan_summary(planned: Planned) -> str:
 
 def built_summary(out: Path, report: BuildReport, usage: Usage | None) -> str:
     """Return the lines that a compilation adds."""
-    sizes = f": {usage.flash} bytes of code and constants, {usage.ram} of RAM" if usage else ""
+    sizes = (
+        f": {usage.flash} bytes of code and constants before unused parts are dropped, {usage.ram} of RAM"
+        if usage
+        else ""
+    )
     return _table(
         [
             ("compiled", f"{report.compiled} objects, {report.kept} were up to date"),

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 class Target:
     """A target. `compilers` are tried in order; `package` names the Debian package that brings the first.
 
-    `c_flags` apply to every file, `link_flags` to the image; `port` is a component of layer `port`.
+    `c_flags` apply to every file, `link_flags` to the image; `port` is a component of layer `port`. `hosted`:
+    an operating system with standard input and output is below.
     """
 
     name: str
@@ -23,3 +24,4 @@ class Target:
     link_flags: tuple[str, ...] = ()
     libraries: tuple[str, ...] = ()
     image_suffix: str = ""
+    hosted: bool = False

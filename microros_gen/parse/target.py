@@ -6,10 +6,11 @@ from __future__ import annotations
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.model.target import Target
 from microros_gen.parse.tree_read import check_keys, expect_mapping, read_names, read_text
+from microros_gen.parse.tree_values import bool_of
 from microros_gen.parse.yaml_tree import MappingNode, parse_yaml
 
 _REQUIRED = ("target", "summary", "port", "compilers", "archivers", "package")
-_OPTIONAL = ("c_flags", "link_flags", "libraries", "image_suffix")
+_OPTIONAL = ("c_flags", "link_flags", "libraries", "image_suffix", "hosted")
 
 
 def parse_target(source: Source, diagnostics: Diagnostics) -> Target | None:
@@ -29,6 +30,7 @@ def parse_target(source: Source, diagnostics: Diagnostics) -> Target | None:
         link_flags=_list(node, "link_flags", diagnostics),
         libraries=_list(node, "libraries", diagnostics),
         image_suffix=read_text(node, "image_suffix", diagnostics),
+        hosted=bool_of(node.get("hosted")) or False,
     )
 
 

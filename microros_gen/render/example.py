@@ -50,7 +50,8 @@ class ExampleView:
     includes: tuple[str, ...]
     nodes: tuple[NodeView, ...]
     publishers: tuple[PublisherView, ...]
-    uses_texts: bool
+    uses_time: bool
+    hosted: bool
 
 
 def example_view(project: Project) -> ExampleView:
@@ -71,7 +72,8 @@ def example_view(project: Project) -> ExampleView:
         includes=tuple(sorted(includes)),
         nodes=nodes,
         publishers=views,
-        uses_texts=any(view.texts for view in views),
+        uses_time=any(view.stamps for view in views),
+        hosted=project.target.hosted,
     )
 
 
