@@ -51,7 +51,16 @@ def free_port() -> int:
 def build(port: int) -> None:
     """Generate and compile the application for the host."""
     start = time.monotonic()
-    command = [sys.executable, "-m", "microros_gen", "build", "-c", str(FOLDER / "microros.yaml"), "-o", str(OUT)]
+    command = [
+        sys.executable,
+        "-m",
+        "microros_gen",
+        "build",
+        "-c",
+        str(FOLDER / "microros.yaml"),
+        "-o",
+        str(OUT),
+    ]
     command += ["--agent", f"127.0.0.1:{port}"]
     print(f"1. build: microros-gen build -c {(FOLDER / 'microros.yaml').relative_to(ROOT)}")
     if subprocess.run(command, check=False).returncode != 0:
@@ -75,7 +84,9 @@ def show(port: int) -> None:
         for line in listener.stdout:
             print(f"   {line}", end="")
         if listener.wait() != 0:
-            state = f"ended with status {image.returncode}" if image.poll() is not None else "was still running"
+            state = (
+                f"ended with status {image.returncode}" if image.poll() is not None else "was still running"
+            )
             raise PartFailedError(f"listener: it did not get its samples; the image {state}")
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
-from typing import Union
 
 from microros_gen.diagnostics import Span
 
@@ -99,7 +98,7 @@ class NamedType:
     name: TypeName
 
 
-ElementType = Union[Primitive, StringType, NamedType]
+ElementType = Primitive | StringType | NamedType
 
 
 @dataclass(frozen=True)
@@ -118,9 +117,9 @@ class SequenceType:
     bound: int | None = None
 
 
-FieldType = Union[ElementType, ArrayType, SequenceType]
-ScalarValue = Union[bool, int, float, str]
-Value = Union[ScalarValue, tuple[ScalarValue, ...]]
+FieldType = ElementType | ArrayType | SequenceType
+ScalarValue = bool | int | float | str
+Value = ScalarValue | tuple[ScalarValue, ...]
 
 
 @dataclass(frozen=True)

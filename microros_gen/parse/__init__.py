@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TODO"""
+"""Turns text into the model: .msg files, YAML with positions, JSON Schemas."""

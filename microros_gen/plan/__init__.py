@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TODO"""
+"""Decides everything before anything is written: capacities, sizes, ids, names, streams, pools."""

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TODO"""
+"""Turns the plan into the bytes of every file: templates print prepared views."""

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TODO"""
+"""Resolves names: interfaces to their closure; profiles, axes and components to a selection, with reasons."""

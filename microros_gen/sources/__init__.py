@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TODO"""
+"""Finds and reads what a run is made from: interfaces, profiles, components, targets, the application file."""

@@ -115,7 +115,9 @@ def peer_rosidl(work: Path) -> tuple[float, int] | None:
         "    parse_message_string(f.parent.parent.name, f.stem, f.read_text(encoding='utf-8'))\n"
     )
     files = [str(f) for p in COMMON_INTERFACES for f in sorted((share / p / "msg").glob("*.msg"))]
-    probe = subprocess.run([sys.executable, "-c", "import rosidl_adapter.parser"], capture_output=True, check=False)
+    probe = subprocess.run(
+        [sys.executable, "-c", "import rosidl_adapter.parser"], capture_output=True, check=False
+    )
     if probe.returncode != 0:
         return None
     return timed([sys.executable, "-c", script, *files], dict(os.environ), 3), len(files)

@@ -16,7 +16,7 @@ from microros_gen.output.tree import JOURNAL, MANIFEST, write_tree
 
 def tree_of(**files: str) -> dict[str, bytes]:
     content = {name.replace("__", "/").replace("_c", ".c"): text.encode() for name, text in files.items()}
-    manifest = {"generator": {"name": "microros-gen"}, "outputs": {name: "" for name in content}}
+    manifest = {"generator": {"name": "microros-gen"}, "outputs": dict.fromkeys(content, "")}
     return content | {MANIFEST: json.dumps(manifest).encode()}
 
 
