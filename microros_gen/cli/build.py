@@ -11,8 +11,8 @@ import click
 
 from microros_gen.build.compile import compile_tree
 from microros_gen.build.measure import check_budget, measure_library
-from microros_gen.build.toolchain import find_toolchain
-from microros_gen.cli.generate import files_line, generate
+from microros_gen.build.toolchain import Toolchain, find_toolchain
+from microros_gen.cli.generate import files_line, plan, write
 from microros_gen.cli.options import SelectionOptions, output_option, selection_options
 from microros_gen.cli.pipeline import Planned
 from microros_gen.cli.summary import built_summary, plan_summary
@@ -30,14 +30,15 @@ def command(output: Path | None, **options: Any) -> None:
     microros-gen build --profile pure_sender
     microros-gen build -c microros.yaml -o build/robot
     """
-    planned, out, report = generate(SelectionOptions(**options), output)
+    planned, out = plan(SelectionOptions(**options), output)
+    tools = find_toolchain(planned.project.target, os.environ)
+    report = write(planned, out)
     click.echo(plan_summary(planned) + files_line(out, report), nl=False)
-    _compile(planned, out)
+    _compile(planned, out, tools)
 
 
-def _compile(planned: Planned, out: Path) -> None:
+def _compile(planned: Planned, out: Path, tools: Toolchain) -> None:
     project = planned.project
-    tools = find_toolchain(project.target, os.environ)
     sources = (out / "sources.txt").read_text(encoding="utf-8").split("\n")[:-1]
     image = f"{project.name}{project.target.image_suffix}"
     built = compile_tree(out, sources, f"examples/{project.name}/main.c", image, tools)

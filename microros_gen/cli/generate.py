@@ -36,7 +36,8 @@ def command(output: Path | None, **options: Any) -> None:
     from microros_gen.cli.pipeline import read_paths
     from microros_gen.cli.summary import plan_summary
 
-    planned, out, report = generate(SelectionOptions(**options), output)
+    planned, out = plan(SelectionOptions(**options), output)
+    report = write(planned, out)
     summary = plan_summary(planned)
     files = report.written + report.unchanged
     run = Run(out, summary, len(files))
@@ -44,21 +45,28 @@ def command(output: Path | None, **options: Any) -> None:
     click.echo(summary + files_line(out, report), nl=False)
 
 
-def generate(options: SelectionOptions, output: Path | None) -> tuple[Planned, Path, WriteReport]:
-    """Plan, render and write; return the plan, the folder and what was done to it."""
-    from microros_gen.cli.pipeline import plan_request, print_warnings, read_request, render_request
+def plan(options: SelectionOptions, output: Path | None) -> tuple[Planned, Path]:
+    """Decide everything; return the plan and the folder that it is for. Nothing is written yet."""
+    from microros_gen.cli.pipeline import plan_request, print_warnings, read_request
     from microros_gen.cli.pipeline import resolve_request as resolve
     from microros_gen.diagnostics import Diagnostics
-    from microros_gen.output.tree import check_owned, write_tree
+    from microros_gen.output.tree import check_owned
 
     diagnostics = Diagnostics()
     resolved = resolve(read_request(options, diagnostics), diagnostics)
     out = output or Path("build") / "+".join(resolved.selection.profiles)
     check_owned(out)
     planned = plan_request(resolved, options, diagnostics)
-    report = write_tree(out, render_request(planned))
     print_warnings(diagnostics)
-    return planned, out, report
+    return planned, out
+
+
+def write(planned: Planned, out: Path) -> WriteReport:
+    """Render the plan and write it; return what was done to the folder."""
+    from microros_gen.cli.pipeline import render_request
+    from microros_gen.output.tree import write_tree
+
+    return write_tree(out, render_request(planned))
 
 
 def files_line(out: Path, report: WriteReport) -> str:

@@ -36,12 +36,17 @@ DEFAULT_INTERFACE = "std_msgs/msg/Int32"
 
 @dataclass(frozen=True)
 class Request:
-    """What the user asked for, read but not yet resolved."""
+    """What the user asked for, read but not yet resolved.
+
+    Names of files in the application file are relative to `near`, its folder; names of profiles on the command
+    line to the current folder, `profiles_near`.
+    """
 
     application: Application
     from_file: bool
     config: Path | None
     near: Path
+    profiles_near: Path
     target: Target
     inputs: Mapping[str, bytes]
 
@@ -74,19 +79,20 @@ def read_request(options: SelectionOptions, diagnostics: Diagnostics) -> Request
     assert application is not None
     application = _with_options(application, options, diagnostics)
     near = options.config.parent if options.config else Path()
+    profiles_near = Path() if options.profiles else near
     target = read_target(application.target.name, near, application.target.span, diagnostics)
     if not application.nodes and not application.interfaces:
         application = replace(application, interfaces=(Named(DEFAULT_INTERFACE),))
     diagnostics.check()
     assert target is not None
     inputs = {"microros.yaml": source.text.encode()} if source else {}
-    return Request(application, source is not None, options.config, near, target, inputs)
+    return Request(application, source is not None, options.config, near, profiles_near, target, inputs)
 
 
 def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
     """Resolve profiles and components."""
     catalogue = load_catalogue()
-    profiles = load_profiles(request.application.profiles, request.near, diagnostics)
+    profiles = load_profiles(request.application.profiles, request.profiles_near, diagnostics)
     resolved = resolve_profiles(profiles, diagnostics)
     diagnostics.check()
     selection = resolve_selection(
@@ -104,7 +110,7 @@ def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Dia
     finder.check_paths(diagnostics)
     interfaces = resolve_interfaces(_requested(application), finder, diagnostics)
     diagnostics.check()
-    capacities = _capacities(resolved.request, interfaces, diagnostics)
+    capacities = _capacities(resolved, interfaces, diagnostics)
     diagnostics.check()
     types = plan_types(interfaces.messages, capacities, interfaces.type_hash, diagnostics)
     diagnostics.check()
@@ -138,8 +144,8 @@ def read_paths(planned: Planned) -> Iterator[Path]:
     yield from (near, near / APPLICATION_FILE)
     if request.config:
         yield request.config
-    yield from (near / name.name for name in request.application.profiles)
-    yield from (near / f"{name.name}.yaml" for name in request.application.profiles)
+    yield from (request.profiles_near / name.name for name in request.application.profiles)
+    yield from (request.profiles_near / f"{name.name}.yaml" for name in request.application.profiles)
     yield near / request.application.target.name
     yield from planned.searched
     for entry in planned.interfaces:
@@ -193,9 +199,9 @@ def _requested(application: Application) -> tuple[Named, ...]:
     return declared + application.interfaces
 
 
-def _capacities(request: Request, interfaces: InterfaceSet, diagnostics: Diagnostics) -> Capacities:
-    application = request.application
-    room = (application.transport.mtu or DEFAULT_MTU[application.transport.type]) - WRITE_DATA_OVERHEAD
+def _capacities(resolved: Resolved, interfaces: InterfaceSet, diagnostics: Diagnostics) -> Capacities:
+    request, application = resolved.request, resolved.request.application
+    room = (application.transport.mtu or DEFAULT_MTU[resolved.selection.transport]) - WRITE_DATA_OVERHEAD
     declared = [
         Root(type_name(endpoint.type), endpoint.limits, endpoint.type_span or endpoint.span, room)
         for _, _, endpoint in publisher_declarations(application)

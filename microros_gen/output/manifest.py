@@ -22,7 +22,7 @@ def manifest(project: Project, inputs: Mapping[str, bytes], outputs: Mapping[str
         "image": f"{project.name}{project.target.image_suffix}",
         "target": project.target.name,
         "transport": {
-            "type": project.application.transport.type,
+            "type": project.selection.transport,
             "agent": f"{project.runtime.agent_host}:{project.runtime.agent_port}",
             "mtu": project.runtime.mtu,
         },

@@ -10,23 +10,6 @@ from __future__ import annotations
 from microros_gen.model.types import TypeName
 
 
-def expand_topic(topic: str, node: str, namespace: str) -> str:
-    """Return the fully qualified name: `imu/data` → `/ns/imu/data`, `~/x` → `/ns/node/x`, `/x` stays.
-
-    `{node}`, `{ns}` and `{namespace}` are replaced, as rcl does.
-    """
-    for key, value in (("{node}", node), ("{ns}", namespace), ("{namespace}", namespace)):
-        topic = topic.replace(key, value)
-    if topic.startswith("/"):
-        return topic
-    base = namespace.rstrip("/")
-    if topic == "~":
-        return f"{base}/{node}"
-    if topic.startswith("~/"):
-        return f"{base}/{node}/{topic[2:]}"
-    return f"{base}/{topic}"
-
-
 def dds_topic(name: str) -> str:
     """Return the DDS topic of a fully qualified ROS topic name."""
     return f"rt{name}"

@@ -9,10 +9,11 @@ from dataclasses import dataclass, replace
 
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.model.application import Application, EndpointDecl, NodeDecl
+from microros_gen.model.names import expand_topic_name
 from microros_gen.model.selection import Selection
 from microros_gen.model.target import Target
 from microros_gen.model.types import TypeName
-from microros_gen.plan.names import dds_topic, dds_type, expand_topic, participant_name
+from microros_gen.plan.names import dds_topic, dds_type, participant_name
 from microros_gen.plan.runtime import NodePlan, PublisherPlan, RuntimePlan
 from microros_gen.plan.streams import CreateNames, StreamPlan, Written, plan_streams
 from microros_gen.plan.types import TypePlan
@@ -104,7 +105,7 @@ def _declared(application: Application) -> tuple[tuple[NodePlan, ...], tuple[Pub
     )
     publishers = []
     for index, (node_index, node, endpoint) in enumerate(publisher_declarations(application)):
-        topic = expand_topic(endpoint.topic, node.name, node.namespace)
+        topic = expand_topic_name(endpoint.topic, node.name, node.namespace)
         reliable = endpoint.qos.reliability == "reliable"
         publishers.append(
             PublisherPlan(index, node_index, topic, dds_topic(topic), type_name(endpoint.type), reliable)
@@ -121,19 +122,19 @@ def _streams(
 ) -> StreamPlan:
     creates = _create_names(application, roots) if selection.entities == "binary" else None
     if not selection.has("publish"):
-        return plan_streams(application, (), creates, diagnostics)
+        return plan_streams(application, selection.transport, (), creates, diagnostics)
     if application.nodes:
         declarations = publisher_declarations(application)
         written = tuple(_written(node, endpoint, types) for _, node, endpoint in declarations)
     else:
         written = tuple(Written(str(r), types[r].max_encoded_size, True, True) for r in roots)
-    return plan_streams(application, written, creates, diagnostics)
+    return plan_streams(application, selection.transport, written, creates, diagnostics)
 
 
 def _written(node: NodeDecl, endpoint: EndpointDecl, types: Mapping[TypeName, TypePlan]) -> Written:
     plan = types[type_name(endpoint.type)]
     reliable = endpoint.qos.reliability == "reliable"
-    label = f"{endpoint.type} on {expand_topic(endpoint.topic, node.name, node.namespace)}"
+    label = f"{endpoint.type} on {expand_topic_name(endpoint.topic, node.name, node.namespace)}"
     return Written(label, plan.max_encoded_size, reliable, not reliable, endpoint.type_span or endpoint.span)
 
 

@@ -75,16 +75,17 @@ def create_size(names: CreateNames) -> int:
 
 def plan_streams(
     application: Application,
+    transport: str,
     written: Iterable[Written],
     creates: CreateNames | None,
     diagnostics: Diagnostics,
 ) -> StreamPlan:
     """Size the streams; a message that cannot fit its stream is an error with the number that would do.
 
-    `creates` is None where the client creates nothing (entities: preconfigured).
+    `transport` is the selected one. `creates` is None where the client creates nothing (entities: preconfigured).
     """
     messages = tuple(written)
-    ceiling = application.transport.mtu or DEFAULT_MTU[application.transport.type]
+    ceiling = application.transport.mtu or DEFAULT_MTU[transport]
     for message in messages:
         _check_fits(message, ceiling, application, diagnostics)
     create = create_size(creates) if creates else 0

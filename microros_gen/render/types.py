@@ -20,6 +20,7 @@ from microros_gen.render.types_struct import functions_view, struct_view
 class HeaderView:
     """message.h.j2."""
 
+    ros_name: str
     guard: str
     includes: tuple[str, ...]
 
@@ -68,7 +69,8 @@ class _Renderer:
             view = _values(storage_view(plan, self._plans))
             self._print(plan.files.storage, "storage.h", {**view, "includes": view["header_includes"]})
             self._print(plan.files.storage_source, "storage.c", view)
-        header = HeaderView(guard(plan.files.header), tuple(sorted(include_path(path) for path in own)))
+        includes = tuple(sorted(include_path(path) for path in own))
+        header = HeaderView(str(plan.name), guard(plan.files.header), includes)
         self._print(plan.files.header, "message.h", _values(header))
 
     def _print(self, path: str, template: str, view: dict[str, Any]) -> None:

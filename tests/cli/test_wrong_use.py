@@ -142,6 +142,7 @@ def test_a_missing_compiler(run: Runner, folder: Path, monkeypatch: pytest.Monke
     assert outcome.status == 2
     assert "C compiler" in outcome.err
     assert "apt-get install gcc" in outcome.err
+    assert left_behind(folder) == ["empty"]
 
 
 def test_a_compiler_that_fails_shows_what_it_said(
