@@ -8,6 +8,7 @@ from callgrind and repeat exactly with one compiler.
 from __future__ import annotations
 
 import argparse
+import importlib.util
 import os
 import shutil
 import statistics
@@ -17,8 +18,9 @@ import tempfile
 import time
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-ROOT = HERE.parents[1]
+from instructions import bench_instructions
+
+ROOT = Path(__file__).resolve().parents[2]
 IDL = ROOT / "microros_gen" / "idl"
 COMMON_INTERFACES = (
     "actionlib_msgs",
@@ -92,35 +94,22 @@ def bench_generate(work: Path) -> None:
     print("  wall time of the whole process, interpreter start included; median of 5")
     start = timed([sys.executable, "-c", "pass"], environment, 5)
     peer = peer_rosidl(work)
-    heading = "ratio to peer" if peer else ""
-    print(f"{'':58} {'':10}  {heading:8}  target")
+    print(f"{'':58} {'':10}  {'to peer' if peer else '':8}  target")
     row("the interpreter alone", start, "")
     if peer:
-        row(f"peer: rosidl_adapter of ROS 2 Jazzy, .msg to .idl, {peer[1]} files", peer[0], "", peer[0])
-    row("from nothing", timed(command, environment, 5, out), "1 s", peer[0] if peer else None)
-    row("unchanged", timed(command, environment, 5), "0.2 s", peer[0] if peer else None)
+        row("peer: rosidl_generator_c of ROS 2 Jazzy, one step of five", peer, "", peer)
+    row("from nothing", timed(command, environment, 5, out), "1 s", peer)
+    row("unchanged", timed(command, environment, 5), "0.2 s", peer)
     print()
 
 
-def peer_rosidl(work: Path) -> tuple[float, int] | None:
-    """Time the first step alone of ROS 2's generator on the same packages, where it is installed."""
-    share = Path(sys.prefix) / "share"
-    if not (share / "std_msgs" / "msg").is_dir():
+def peer_rosidl(work: Path) -> float | None:
+    """Time one step of ROS 2's generator on the same packages, where it is installed."""
+    if importlib.util.find_spec("rosidl_generator_c") is None:
         return None
-    script = (
-        "import pathlib, sys\n"
-        "from rosidl_adapter.parser import parse_message_string\n"
-        "files = [pathlib.Path(f) for f in sys.argv[1:]]\n"
-        "for f in files:\n"
-        "    parse_message_string(f.parent.parent.name, f.stem, f.read_text(encoding='utf-8'))\n"
-    )
-    files = [str(f) for p in COMMON_INTERFACES for f in sorted((share / p / "msg").glob("*.msg"))]
-    probe = subprocess.run(
-        [sys.executable, "-c", "import rosidl_adapter.parser"], capture_output=True, check=False
-    )
-    if probe.returncode != 0:
-        return None
-    return timed([sys.executable, "-c", script, *files], dict(os.environ), 3), len(files)
+    out = work / "peer"
+    command = [sys.executable, str(Path(__file__).with_name("peer_rosidl.py")), str(out), *COMMON_INTERFACES]
+    return timed(command, dict(os.environ), 1, out)
 
 
 def bench_build(work: Path) -> None:
@@ -133,11 +122,6 @@ def bench_build(work: Path) -> None:
     row("from nothing", timed(command, environment, 3, out), "3 s")
     row("unchanged", timed(command, environment, 3), "")
     print()
-
-
-def bench_instructions(work: Path) -> None:
-    """Instructions of publish and encode on this host."""
-    del work
 
 
 if __name__ == "__main__":

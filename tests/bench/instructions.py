@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Instructions of publish and encode on this host, counted by callgrind inside one function."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+IDL = HERE.parents[1] / "microros_gen" / "idl"
+# Bare instructions of the peers on x86-64 (-O2), from the mission's figures: not run here.
+ENCODES = {
+    "Int32": ("std_msgs/msg/Int32", 353, 120),
+    "String": ("std_msgs/msg/String, 32 characters", 454, 240),
+    "Imu": ("sensor_msgs/msg/Imu", 1222, 1593),
+    "JointState": ("sensor_msgs/msg/JointState, 6 joints", 1711, 2320),
+    "LaserScan": ("sensor_msgs/msg/LaserScan, 360 ranges", 1113, 1402),
+    "TwistStamped": ("geometry_msgs/msg/TwistStamped", 828, 924),
+}
+APPLICATION = """\
+version: 1
+profiles: [pure_sender]
+nodes:
+  - name: bench
+    publishers:
+      - {topic: best_effort, type: std_msgs/msg/Int32, qos: {reliability: best_effort}}
+      - {topic: reliable, type: std_msgs/msg/Int32}
+interfaces:
+  - std_msgs/msg/String
+  - sensor_msgs/msg/Imu
+  - sensor_msgs/msg/JointState
+  - sensor_msgs/msg/LaserScan
+  - geometry_msgs/msg/TwistStamped
+limits:
+  "*": {string: 32, sequence: 6}
+  sensor_msgs/msg/LaserScan: {ranges: 360, intensities: 360}
+"""
+
+
+def bench_instructions(work: Path) -> None:
+    """Build a program for both and print two tables."""
+    if shutil.which("valgrind") is None:
+        sys.exit("instructions need valgrind: apt-get install valgrind")
+    out = work / "instructions"
+    config = work / "instructions.yaml"
+    config.write_text(APPLICATION)
+    with agent() as port:
+        command = [sys.executable, "-m", "microros_gen", "build", "-c", str(config), "-o", str(out)]
+        run([*command, "--interface-path", str(IDL), "--agent", f"127.0.0.1:{port}"])
+        # The program itself is not optimized, so that the counted call stays one; the library is (-O2).
+        program = work / "publish"
+        compiler = ["cc", "-std=c99", "-O0", "-g", f"-I{out / 'include'}", str(HERE / "publish.c")]
+        run([*compiler, str(out / "lib/libmicroros.a"), "-o", str(program)])
+        print(f"instructions: callgrind inside the call, {version('cc')}, -O2, this host; no system calls")
+        print(f"{'publish of std_msgs/msg/Int32':<58} {'here':>8}")
+        for name in ("best_effort", "reliable"):
+            print(f"  {name.replace('_', ' '):<56} {count(program, name, 'rcl_publish', work):8.0f}")
+    print(f"{'encode, through the type support handle':<58} {'here':>8} {'Fast CDR':>9} {'Micro-CDR':>10}")
+    for name, (label, fast_cdr, micro_cdr) in ENCODES.items():
+        instructions = count(program, name, "bench_encode", work)
+        print(f"  {label:<56} {instructions:8.0f} {fast_cdr:9} {micro_cdr:10}")
+    print("  (the peers' columns are recorded figures, docs/figures.md, not of this run)")
+    print()
+
+
+def count(program: Path, what: str, function: str, work: Path) -> float:
+    """Return instructions per call of `function` in a run of `program what`."""
+    valgrind = ["valgrind", "--tool=callgrind", f"--toggle-collect={function}"]
+    result = run([*valgrind, f"--callgrind-out-file={work / 'callgrind.out'}", str(program), what])
+    calls = re.search(r"^(\d+) calls", result.stdout, re.MULTILINE)
+    collected = re.search(r"Collected : (\d+)", result.stderr)
+    if not calls or not collected:
+        sys.exit(f"callgrind gave no count:\n{result.stdout}{result.stderr}")
+    return int(collected.group(1)) / int(calls.group(1))
+
+
+def version(compiler: str) -> str:
+    """Return the compiler's first line of --version."""
+    return run([compiler, "--version"]).stdout.splitlines()[0]
+
+
+def run(command: list[str]) -> subprocess.CompletedProcess[str]:
+    """Run `command`; end the bench with its output when it fails."""
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    if result.returncode != 0:
+        sys.exit(f"{' '.join(command)} failed:\n{result.stdout}{result.stderr}")
+    return result
+
+
+@contextmanager
+def agent() -> Iterator[int]:
+    """Start an agent on a free port."""
+    command = [sys.executable, "-m", "microros_gen", "agent", "udp4", "--port", "0"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    assert process.stdout is not None
+    try:
+        ready = process.stdout.readline()
+        yield int(ready.rsplit(":", 1)[1])
+    finally:
+        process.terminate()
+        process.wait(timeout=10)
