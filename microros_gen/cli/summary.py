@@ -48,8 +48,8 @@ def built_summary(out: Path, report: BuildReport, usage: Usage | None) -> str:
 def _components(planned: Planned) -> str:
     chosen = planned.project.selection.components
     own = [c.component.name for c in chosen if c.component.layer == "micro-ROS"]
-    below = [c.component.name for c in chosen if c.component.layer != "micro-ROS"]
-    return f"{', '.join(own)} on {', '.join(below)}"
+    below = len(chosen) - len(own)
+    return f"{', '.join(own)} and {below} components below them (`resolve` says why)"
 
 
 def _entities(planned: Planned) -> list[str]:

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The README is true: its example is the demo's file, its commands run, and print what it shows."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from microros_gen.cli.main import _COMMANDS
+
+ROOT = Path(__file__).resolve().parents[2]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def blocks(kind: str) -> list[str]:
+    return re.findall(rf"^```{kind}\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
+
+
+def test_the_example_is_the_demos_application() -> None:
+    (shown,) = blocks("yaml")
+    lines = (ROOT / "examples/demo/microros.yaml").read_text(encoding="utf-8").splitlines(keepends=True)
+    assert shown == "".join(line for line in lines if not line.startswith("#"))
+
+
+def masked(text: str) -> str:
+    """Sizes of compiled code are the compiler's, numbers of objects may grow with the runtime."""
+    text = re.sub(r"(?m)^(library .*): \d+ bytes of code.*$", r"\1", text)
+    return re.sub(r"(?m)^(files|compiled) +\d+", r"\1 N", text).rstrip()
+
+
+def test_the_console_example_prints_what_it_shows(tmp_path: Path) -> None:
+    (block,) = blocks("console")
+    command, _, shown = block.partition("\n")
+    assert command.startswith("$ microros-gen ")
+    arguments = shlex.split(command.removeprefix("$ microros-gen "))
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(tmp_path / "cache")}
+    result = subprocess.run(
+        [sys.executable, "-m", "microros_gen", *arguments],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert result.returncode == 0, result.stderr
+    assert masked(result.stdout) == masked(shown)
+
+
+@pytest.mark.parametrize("command", list(_COMMANDS))
+def test_every_command_is_in_the_readme(command: str) -> None:
+    assert re.search(rf"`{command}\b", README), command
+
+
+def test_every_document_that_is_linked_exists() -> None:
+    for link in re.findall(r"\]\((docs/[^)]+)\)", README):
+        assert (ROOT / link).is_file(), link
+
+
+def test_the_make_targets_exist() -> None:
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    for target in re.findall(r"(?m)(?:^    |`)make (\w+)", README):
+        assert re.search(rf"^{target}:", makefile, re.MULTILINE), target
