@@ -3,11 +3,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from microros_gen.model.application import Qos
 from microros_gen.model.types import TypeName
 from microros_gen.plan.example import MemberValue, plan_filling
-from microros_gen.plan.project import Project
+from microros_gen.plan.project import Project, publisher_declarations
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_names import include_path, snake_case
 
@@ -30,6 +31,7 @@ class PublisherView:
     message: str
     function: str
     init: str
+    qos: tuple[str, ...]
     package: str
     type: str
     c_type: str
@@ -97,8 +99,11 @@ def _publishers(
 ) -> list[_Publisher]:
     runtime = project.runtime
     if runtime.nodes:
+        declared = [endpoint for _, _, endpoint in publisher_declarations(project.application)]
         return [
-            _publisher(project, types[p.type], nodes[p.node], p.index, _topic(project, p.index), p.reliable)
+            _publisher(
+                project, types[p.type], nodes[p.node], p.index, declared[p.index].topic, declared[p.index].qos
+            )
             for p in runtime.publishers
         ]
     roots = project.roots[: runtime.publishers_max] if project.selection.has("publish") else ()
@@ -110,29 +115,47 @@ def _publishers(
             nodes[0],
             index,
             topic if topics.count(topic) == 1 else f"{root.package}/{topic}",
-            True,
+            Qos(),
         )
         for index, (root, topic) in enumerate(zip(roots, topics, strict=True))
     ]
 
 
-def _topic(project: Project, index: int) -> str:
-    declared = [e.topic for n in project.application.nodes for e in n.endpoints if e.kind == "publisher"]
-    return declared[index]
+# rmw_qos_profile_sensor_data, as rclc_publisher_init_best_effort takes it.
+_SENSOR_DATA = Qos(reliability="best_effort", depth=5)
+
+
+def _init(qos: Qos) -> tuple[str, tuple[str, ...]]:
+    """Return the function that opens the publisher, and what differs from the default QoS, as C."""
+    asked, default = replace(qos, span=None), Qos()
+    if asked == default:
+        return "rclc_publisher_init_default", ()
+    if asked == _SENSOR_DATA:
+        return "rclc_publisher_init_best_effort", ()
+    policies = [(p, getattr(asked, p)) for p in ("reliability", "durability", "history")]
+    changes = [
+        f"{policy} = RMW_QOS_POLICY_{policy.upper()}_{value.upper()}"
+        for policy, value in policies
+        if value != getattr(default, policy)
+    ]
+    changes += [f"depth = {asked.depth}"] if asked.depth != default.depth else []
+    return "rclc_publisher_init", tuple(changes)
 
 
 def _publisher(
-    project: Project, plan: TypePlan, node: NodeView, index: int, topic: str, reliable: bool
+    project: Project, plan: TypePlan, node: NodeView, index: int, topic: str, qos: Qos
 ) -> _Publisher:
     messages = {p.name: p.message for p in project.types}
     filling = plan_filling(plan.message, messages, node.name)
     name = f"{snake_case(plan.name.name)}_{index}"
+    init, changes = _init(qos)
     view = PublisherView(
         variable=f"publisher_{index}",
         node=node.variable,
         message=name,
         function=f"publish_{name}",
-        init="rclc_publisher_init_default" if reliable else "rclc_publisher_init_best_effort",
+        init=init,
+        qos=changes,
         package=plan.name.package,
         type=plan.name.name,
         c_type=plan.c_name,
