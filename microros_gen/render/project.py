@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
@@ -101,6 +102,11 @@ def _unselected_headers(
         yield from ((f"include/{header}", content) for header in component.headers)
 
 
+def _without_folder(reason: str) -> str:
+    """Return `… (microros.yaml:9)` for `… (some/folder/microros.yaml:9)`: output depends on content alone."""
+    return re.sub(r"\((?:[^()]*[/\\])?([^()/\\]+:\d+)\)", r"(\1)", reason)
+
+
 def _project_view(project: Project, example: str, rendered: Mapping[str, bytes]) -> _ProjectView:
     runtime = project.runtime
     declared = [f"node `{n.name}` in `{n.namespace}`" for n in runtime.nodes]
@@ -117,7 +123,10 @@ def _project_view(project: Project, example: str, rendered: Mapping[str, bytes])
         image=project.name,
         example=example,
         sources=library_sources(rendered),
-        components=tuple(_Row(c.component.name, ", ".join(c.reasons)) for c in project.selection.components),
+        components=tuple(
+            _Row(c.component.name, ", ".join(_without_folder(r) for r in c.reasons))
+            for c in project.selection.components
+        ),
         entities=tuple(declared or pools),
         memory=(
             _Bytes("reliable output", runtime.reliable_slots * runtime.reliable_slot_size),
