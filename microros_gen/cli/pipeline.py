@@ -12,7 +12,7 @@ import click
 from microros_gen.cli.options import SelectionOptions
 from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.model.application import Application, Named
-from microros_gen.model.component import Catalogue
+from microros_gen.model.component import Catalogue, Profile
 from microros_gen.model.selection import Selection
 from microros_gen.model.target import Target
 from microros_gen.model.types import TypeName
@@ -53,9 +53,10 @@ class Request:
 
 @dataclass(frozen=True)
 class Resolved:
-    """A request with its selection."""
+    """A request with its selection and the user's own profiles that it came from."""
 
     request: Request
+    own_profiles: tuple[Profile, ...]
     catalogue: Catalogue
     selection: Selection
 
@@ -99,7 +100,8 @@ def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
         request.application, resolved, catalogue, load_middleware(), diagnostics, request.target.port
     )
     diagnostics.check()
-    return Resolved(request, catalogue, selection)
+    own = tuple(p for p in profiles.profiles.values() if not p.builtin)
+    return Resolved(request, own, catalogue, selection)
 
 
 def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Diagnostics) -> Planned:
@@ -132,6 +134,8 @@ def render_request(planned: Planned) -> dict[str, bytes]:
     unselected = [c for c in planned.resolved.catalogue.values() if c.name not in chosen]
     files = render_project(planned.project, _component_files(planned.project), unselected, make_environment())
     inputs = dict(planned.resolved.request.inputs)
+    own = planned.resolved.own_profiles
+    inputs |= {f"profile {p.name}": p.span.source.text.encode() for p in own if p.span}
     inputs |= {str(entry.name): entry.source.text.encode() for entry in planned.interfaces}
     files[MANIFEST] = manifest(planned.project, inputs, files)
     return files
@@ -144,8 +148,8 @@ def read_paths(planned: Planned) -> Iterator[Path]:
     yield from (near, near / APPLICATION_FILE)
     if request.config:
         yield request.config
-    yield from (request.profiles_near / name.name for name in request.application.profiles)
     yield from (request.profiles_near / f"{name.name}.yaml" for name in request.application.profiles)
+    yield from (Path(p.span.source.name) for p in planned.resolved.own_profiles if p.span)
     yield near / request.application.target.name
     yield from planned.searched
     for entry in planned.interfaces:
