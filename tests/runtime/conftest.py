@@ -39,12 +39,18 @@ class Bench:
         self._programs = programs
         self._stack = stack
 
-    def start(self, plan: RuntimePlan = POOL, liveliness: str = "ping", agent: FakeAgent | None = None) -> Client:
+    def start(
+        self, plan: RuntimePlan = POOL, liveliness: str = "ping", agent: FakeAgent | None = None
+    ) -> Client:
         """Return a client that has made no call yet."""
         return self._stack.enter_context(Client(self._programs(plan, liveliness), agent or FakeAgent()))
 
     def connected(
-        self, plan: RuntimePlan = POOL, liveliness: str = "ping", qos: str = "reliable", topic: str = "chatter"
+        self,
+        plan: RuntimePlan = POOL,
+        liveliness: str = "ping",
+        qos: str = "reliable",
+        topic: str = "chatter",
     ) -> Client:
         """Return a client with node 0 and publisher 0 (Int32), whose datagrams so far are forgotten."""
         client = self.start(plan, liveliness)

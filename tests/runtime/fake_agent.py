@@ -99,7 +99,9 @@ class FakeAgent:
         first = (self.last_handled + 1) & 0xFFFF
         count = (self.last_announced - self.last_handled) & 0xFFFF
         missing = sum(
-            1 << i for i in range(min(count, 16)) if count < 0x8000 and (first + i) & 0xFFFF not in self.waiting
+            1 << i
+            for i in range(min(count, 16))
+            if count < 0x8000 and (first + i) & 0xFFFF not in self.waiting
         )
         body = struct.pack("<H", first) + struct.pack(">H", missing) + b"\x80"
         return b"\x81\0\0\0\x0a\x01\x05\0" + body

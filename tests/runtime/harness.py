@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import shutil
 import subprocess
 from collections.abc import Iterable, Sequence
@@ -20,7 +21,17 @@ from microros_gen.sources.components import components_folder, load_catalogue
 FIXTURES = Path(__file__).parent / "c"
 INT32 = TypeName("std_msgs", "msg", "Int32")
 STRING = TypeName("std_msgs", "msg", "String")
-CORE = ("support", "session", "memory", "rosidl_runtime", "node", "publish", "cdr", "transport_udp", "port_posix")
+CORE = (
+    "support",
+    "session",
+    "memory",
+    "rosidl_runtime",
+    "node",
+    "publish",
+    "cdr",
+    "transport_udp",
+    "port_posix",
+)
 SANITIZE = ("-g", "-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 
 POOL = RuntimePlan(
@@ -118,26 +129,38 @@ def compilers() -> tuple[str, ...]:
     return tuple(name for name in ("gcc", "clang") if shutil.which(name))
 
 
-def compile_objects(tree: Tree, sources: Iterable[Path], compiler: str, flags: Sequence[str]) -> tuple[Path, ...]:
+_OBJECTS: dict[str, Path] = {}
+"""Objects of this run by what they were made from: most files are the same in every plan."""
+
+
+def compile_objects(
+    tree: Tree, sources: Iterable[Path], compiler: str, flags: Sequence[str]
+) -> tuple[Path, ...]:
     """Compile each source with the project's warnings as errors; raises with the compiler's words."""
     folder = tree.folder / "-".join(["objects", compiler, *(f.strip("-").replace(",", "_") for f in flags)])
     folder.mkdir(exist_ok=True)
-    objects = []
-    running = []
-    for source in sources:
-        target = folder / f"{source.parent.name}_{source.stem}.o"
-        command = [compiler, *WARNINGS, *LIBRARY_FLAGS, *flags, f"-I{tree.include}", f"-I{FIXTURES}", "-c"]
-        running.append(([*command, str(source), "-o", str(target)], source))
-        objects.append(target)
+    common = [*WARNINGS, *LIBRARY_FLAGS, *flags, f"-I{tree.include}", f"-I{FIXTURES}"]
 
-    def compile_one(job: tuple[list[str], Path]) -> str:
-        done = subprocess.run(job[0], capture_output=True, text=True, check=False)
-        return f"{compiler} {job[1]}:\n{done.stderr}" if done.returncode != 0 else ""
+    def compile_one(source: Path) -> tuple[Path, str]:
+        target = folder / f"{source.parent.name}_{source.stem}.o"
+        plain = subprocess.run(
+            [compiler, *common, "-E", "-P", str(source)], capture_output=True, check=False
+        ).stdout
+        key = hashlib.sha256(repr((compiler, tuple(flags), source.name)).encode() + plain).hexdigest()
+        if key in _OBJECTS:
+            return _OBJECTS[key], ""
+        command = [compiler, *common, "-c", str(source), "-o", str(target)]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            return target, f"{compiler} {source}:\n{done.stderr}"
+        _OBJECTS[key] = target
+        return target, ""
 
     with ThreadPoolExecutor(2) as pool:
-        failed = [words for words in pool.map(compile_one, running) if words]
+        compiled = list(pool.map(compile_one, sources))
+    failed = [words for _, words in compiled if words]
     assert not failed, "\n".join(failed)
-    return tuple(objects)
+    return tuple(target for target, _ in compiled)
 
 
 def link(objects: Sequence[Path], compiler: str, flags: Sequence[str], program: Path) -> Path:

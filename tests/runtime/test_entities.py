@@ -18,10 +18,17 @@ UNSUPPORTED = 3
 
 @pytest.mark.parametrize(
     ("kind", "shown"),
-    [("participant", "node n"), ("topic", "topic /x"), ("publisher", "publisher /x"), ("datawriter", "datawriter /x")],
+    [
+        ("participant", "node n"),
+        ("topic", "topic /x"),
+        ("publisher", "publisher /x"),
+        ("datawriter", "datawriter /x"),
+    ],
 )
 @pytest.mark.parametrize(("status", "name"), [(0x80, "DDS_ERROR"), (0x83, "DENIED"), (0x20, "32")])
-def test_a_refusal_names_entity_and_status(bench: Bench, kind: str, shown: str, status: int, name: str) -> None:
+def test_a_refusal_names_entity_and_status(
+    bench: Bench, kind: str, shown: str, status: int, name: str
+) -> None:
     client = bench.start()
     client.ok("init")
     client.agent.refuse = {kind: status}
@@ -29,7 +36,9 @@ def test_a_refusal_names_entity_and_status(bench: Bench, kind: str, shown: str, 
     failed = results[0 if kind == "participant" else 1]
     assert (failed.code, failed.error) == (1, f"{shown}: the agent refuses it: {name}")
     client.spin(20, 50)
-    assert len(client.agent.objects) == (0 if kind == "participant" else 1), "what was created before is deleted"
+    assert len(client.agent.objects) == (0 if kind == "participant" else 1), (
+        "what was created before is deleted"
+    )
     client.agent.refuse = {}
     if kind == "participant":
         client.ok("node 0 n -")
@@ -73,7 +82,8 @@ def test_bad_topics(bench: Bench, topic: str, reason: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("topic", "expanded"), [("a", "/ns/a"), ("a/b_2", "/ns/a/b_2"), ("/a", "/a"), ("~", "/ns/n"), ("~/a", "/ns/n/a")]
+    ("topic", "expanded"),
+    [("a", "/ns/a"), ("a/b_2", "/ns/a/b_2"), ("/a", "/a"), ("~", "/ns/n"), ("~/a", "/ns/n/a")],
 )
 def test_good_topics(bench: Bench, topic: str, expanded: str) -> None:
     client = bench.start()
@@ -105,7 +115,9 @@ def test_names_of_nodes(bench: Bench, name: str, namespace: str, code: int) -> N
 def test_full_pools_name_the_key(bench: Bench) -> None:
     client = bench.connected()
     client.ok("node 1 second -")
-    assert client.call("node 2 third -").error == "all 2 nodes are open: set pools: {nodes: 3} in microros.yaml"
+    assert (
+        client.call("node 2 third -").error == "all 2 nodes are open: set pools: {nodes: 3} in microros.yaml"
+    )
     for index in (1, 2):
         client.ok(f"publisher {index} 0 Int32 t{index} reliable")
     result = client.call("publisher 3 0 Int32 t3 reliable")
@@ -144,6 +156,14 @@ def test_a_place_that_could_not_be_deleted_is_deleted_before_it_is_used_again(be
     assert client.agent.values() == [4]
     kinds = [(d[4], d[11]) for d in client.sent if d[4] in (1, 3)]
     assert kinds[-6:] == [(3, 5), (3, 3), (3, 2), (1, 2), (1, 3), (1, 5)]
+
+
+def test_an_old_owner_that_cannot_be_deleted_is_said(bench: Bench) -> None:
+    client = bench.connected(replace(POOL, publishers_max=1))
+    client.agent.silent = True
+    client.ok("publisher_fini 0 0")
+    result = client.call("publisher 0 0 Int32 other reliable")
+    assert (result.code, result.error) == (2, "datawriter /other: no answer of the agent within 400 ms")
 
 
 def test_what_was_closed_without_a_session_is_deleted_in_the_next(bench: Bench) -> None:
@@ -189,8 +209,14 @@ def test_an_undeclared_publisher_gets_the_line_to_add(bench: Bench) -> None:
     expected = "publisher not declared: add to its node's publishers: in microros.yaml: {topic: %s, type: %s}"
     result = client.call("publisher 1 0 Int32 ~/other reliable")
     assert (result.code, result.error) == (1, expected % ("~/other", "std_msgs/msg/Int32"))
-    assert client.call("publisher 1 0 String chatter reliable").error == expected % ("chatter", "std_msgs/msg/String")
-    assert client.call("publisher 1 0 Int32 /arm/chatter reliable").error == "publisher /arm/chatter is open already"
+    assert client.call("publisher 1 0 String chatter reliable").error == expected % (
+        "chatter",
+        "std_msgs/msg/String",
+    )
+    assert (
+        client.call("publisher 1 0 Int32 /arm/chatter reliable").error
+        == "publisher /arm/chatter is open already"
+    )
     client.ok("publisher_fini 0 0")
     client.ok("publisher 1 0 Int32 /arm/chatter reliable")
 
@@ -219,7 +245,10 @@ def test_a_domain_of_the_application_wins(bench: Bench) -> None:
         ("init_options 0 h 0 1", "address h or port 0 is not valid (host: up to 31 bytes)"),
         ("init_options 0 h 65536 1", "address h or port 65536 is not valid (host: up to 31 bytes)"),
         ("init_options 0 h 8x 1", "address h or port 8x is not valid (host: up to 31 bytes)"),
-        ("init_options 0 " + "h" * 32 + " 1 1", "address " + "h" * 32 + " or port 1 is not valid (host: up to 31 bytes)"),
+        (
+            "init_options 0 " + "h" * 32 + " 1 1",
+            "address " + "h" * 32 + " or port 1 is not valid (host: up to 31 bytes)",
+        ),
         ("init_options 0 h 1 0", "client_key or rmw_options: NULL or not initialized"),
     ],
 )
@@ -242,6 +271,17 @@ def test_a_field_above_its_limit_names_field_and_limit(bench: Bench) -> None:
     assert [body for target, body in client.agent.written] == [b"\x09\0\0\x0012345678\0", b"\x02\0\0\0x\0"]
 
 
+def test_a_type_whose_name_does_not_fit_a_create(bench: Bench) -> None:
+    fits = 4 + 16 + 24 + 4 + len("std_msgs::msg::dds_::Int32_") + 1 + 2
+    bench.connected(replace(POOL, best_effort_size=fits), topic="twelve_bytes")
+    client = bench.start(replace(POOL, best_effort_size=fits - 1))
+    for call in ("init", "node 0 n -"):
+        client.ok(call)
+    assert client.call("publisher 0 0 Int32 twelve_bytes reliable").error.startswith(
+        "name 'std_msgs::msg::dds_"
+    )
+
+
 def test_a_type_that_does_not_fit_its_stream(bench: Bench) -> None:
     client = bench.connected(replace(POOL, reliable_slot_size=24))
     result = client.call("publisher 1 0 String words reliable")
@@ -252,7 +292,9 @@ def test_a_type_that_does_not_fit_its_stream(bench: Bench) -> None:
 def test_a_stream_that_the_plan_does_not_have(bench: Bench) -> None:
     plan = replace(POOL, reliable_slots=0, reliable_slot_size=0)
     client = bench.connected(plan, qos="best_effort")
-    assert client.call("publisher 1 0 Int32 x reliable").error.startswith("std_msgs/msg/Int32 takes 4 bytes and its ")
+    assert client.call("publisher 1 0 Int32 x reliable").error.startswith(
+        "std_msgs/msg/Int32 takes 4 bytes and its "
+    )
     client.ok("publish 0 3")
     assert client.agent.values() == [3]
 

@@ -37,7 +37,9 @@ def test_a_transport_that_does_not_open(bench: Bench) -> None:
     client.ok("init")
 
 
-@pytest.mark.parametrize(("status", "name"), [(0x80, "DDS_ERROR"), (0x85, "INVALID_DATA"), (0x87, "RESOURCES")])
+@pytest.mark.parametrize(
+    ("status", "name"), [(0x80, "DDS_ERROR"), (0x85, "INVALID_DATA"), (0x87, "RESOURCES")]
+)
 def test_an_agent_that_refuses_the_session(bench: Bench, status: int, name: str) -> None:
     client = bench.start(agent=FakeAgent(session_status=status))
     result = client.call("init")
@@ -57,7 +59,14 @@ def test_lost_datagrams_of_every_kind_are_repeated(bench: Bench) -> None:
         return fresh
 
     client = bench.start(agent=FakeAgent(drop=first_time))
-    for call in ("init", "node 0 n -", "publisher 0 0 Int32 x reliable", "publisher_fini 0 0", "node_fini 0", "fini"):
+    for call in (
+        "init",
+        "node 0 n -",
+        "publisher 0 0 Int32 x reliable",
+        "publisher_fini 0 0",
+        "node_fini 0",
+        "fini",
+    ):
         client.ok(call)
     assert len(client.sent) == 2 * 10
     assert not client.agent.objects
@@ -201,7 +210,9 @@ def test_ping_api(bench: Bench) -> None:
     result = client.call("ping 10 3")
     assert result.code == 1
     assert 30 <= result.slept <= 33
-    assert client.call("ping_options 10 1 10.1.1.1 99").error == "no agent answers at 10.1.1.1:99 within 10 ms"
+    assert (
+        client.call("ping_options 10 1 10.1.1.1 99").error == "no agent answers at 10.1.1.1:99 within 10 ms"
+    )
     client.agent.silent = False
     client.ok("init")
     client.sent.clear()

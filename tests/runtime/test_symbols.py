@@ -34,7 +34,9 @@ VARIANTS = {
     "best-effort-none": (BEST_EFFORT_ONLY, "none"),
     "block-none": (BLOCKING, "none"),
 }
-FORBIDDEN = re.compile(r"\b(malloc|calloc|realloc|free|\w*printf|puts|fputs|fwrite|strtol|strdup|abort|exit|__assert\w*)$")
+FORBIDDEN = re.compile(
+    r"\b(malloc|calloc|realloc|free|\w*printf|puts|fputs|fwrite|strtol|strdup|abort|exit|__assert\w*)$"
+)
 
 
 @pytest.mark.parametrize(("plan", "liveliness"), VARIANTS.values(), ids=VARIANTS.keys())
@@ -79,13 +81,15 @@ def test_cpp_links_against_the_c_library(tree: Tree) -> None:
     objects = compile_objects(tree, tree.sources, "gcc", ("-Os",))
     source = tree.folder / "main.cpp"
     calls = (
-        "rclc_support_init(&support, 0, NULL, &allocator) + rclc_node_init_default(&node, \"n\", \"\", &support) +"
+        'rclc_support_init(&support, 0, NULL, &allocator) + rclc_node_init_default(&node, "n", "", &support) +'
         " rcl_publish(&publisher, &support, NULL)"
     )
     source.write_text(
         "#include <rclc/rclc.h>\n#include <rcl/rcl.h>\n#include <rmw_microros/rmw_microros.h>\n"
         "static rclc_support_t support; static rcl_node_t node; static rcl_publisher_t publisher;\n"
-        "int main() { rcl_allocator_t allocator = rcl_get_default_allocator(); return (int)(" + calls + "); }\n"
+        "int main() { rcl_allocator_t allocator = rcl_get_default_allocator(); return (int)("
+        + calls
+        + "); }\n"
     )
     command = ["g++", "-Wall", "-Wextra", "-Werror", f"-I{tree.include}", str(source), *map(str, objects)]
     subprocess.run([*command, "-o", str(tree.folder / "cpp")], check=True)
@@ -128,7 +132,12 @@ def test_objects_of_another_plan_do_not_link(tree: Tree, tmp_path: Path) -> None
     )
     library = compile_objects(tree, tree.sources, "gcc", ("-Os",))
     with pytest.raises(AssertionError, match="rclc_support_init__plan_fedcba9876543210"):
-        link([*library, *compile_objects(other, [application], "gcc", ("-Os",))], "gcc", (), tmp_path / "program")
+        link(
+            [*library, *compile_objects(other, [application], "gcc", ("-Os",))],
+            "gcc",
+            (),
+            tmp_path / "program",
+        )
     link([*library, *compile_objects(tree, [application], "gcc", ("-Os",))], "gcc", (), tmp_path / "program")
 
 
@@ -144,8 +153,15 @@ def test_size_on_a_cortex_m4(error_text_size: int, most: int, tmp_path: Path) ->
     tree = render(tmp_path, plan, names)
     sources = [*tree.sources, FIXTURES / "types.c", FIXTURES / "sender.c"]
     objects = compile_objects(tree, sources, "arm-none-eabi-gcc", ARM)
-    program = link(objects, "arm-none-eabi-gcc", (*ARM, "-nostartfiles", "-Wl,-e,main", "--specs=nano.specs"), tmp_path / "a")
-    out = subprocess.run(["arm-none-eabi-size", str(program)], capture_output=True, text=True, check=True).stdout
+    program = link(
+        objects,
+        "arm-none-eabi-gcc",
+        (*ARM, "-nostartfiles", "-Wl,-e,main", "--specs=nano.specs"),
+        tmp_path / "a",
+    )
+    out = subprocess.run(
+        ["arm-none-eabi-size", str(program)], capture_output=True, text=True, check=True
+    ).stdout
     text, data, bss = (int(word) for word in out.splitlines()[1].split()[:3])
     assert text <= most
     assert data + bss <= 1100

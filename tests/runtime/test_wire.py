@@ -78,7 +78,12 @@ def test_domain_follows_the_name_at_an_even_place(bench: Bench, name: str, domai
 
 def test_a_namespace_is_part_of_the_participant_name_and_of_the_topic(bench: Bench) -> None:
     client = bench.start()
-    for call in ("init", "node 0 n /a/b", "publisher 0 0 Int32 ~/x reliable", "publisher 1 0 Int32 y reliable"):
+    for call in (
+        "init",
+        "node 0 n /a/b",
+        "publisher 0 0 Int32 ~/x reliable",
+        "publisher 1 0 Int32 y reliable",
+    ):
         client.ok(call)
     assert b"/a/b/n\0" in client.sent[1]
     assert b"rt/a/b/n/x\0" in client.sent[2]

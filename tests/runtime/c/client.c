@@ -125,8 +125,8 @@ static rcl_ret_t print_statistics(void)
 
   if (result == RCL_RET_OK) {
     printf(
-      "statistics sent=%" PRIu32 " resent=%" PRIu32 " received=%" PRIu32 " malformed=%" PRIu32 " dropped=%" PRIu32
-      " reconnects=%" PRIu32 " refused=%" PRIu32 "\n",
+      "statistics sent=%" PRIu32 " resent=%" PRIu32 " received=%" PRIu32 " malformed=%" PRIu32
+      " dropped=%" PRIu32 " reconnects=%" PRIu32 " refused=%" PRIu32 "\n",
       s.sent, s.resent, s.received, s.malformed, s.dropped, s.reconnects, s.refused);
   }
   return result;
@@ -138,8 +138,9 @@ static rcl_ret_t print_names(char ** word)
   const rcl_ret_t result = rcl_node_get_domain_id(&nodes[atoi(word[1])], &domain);
 
   printf(
-    "names %s %s %s %u\n", rcl_node_get_name(&nodes[atoi(word[1])]), rcl_node_get_namespace(&nodes[atoi(word[1])]),
-    rcl_publisher_get_topic_name(&publishers[atoi(word[2])]), (unsigned)domain);
+    "names %s %s %s %u\n", rcl_node_get_name(&nodes[atoi(word[1])]),
+    rcl_node_get_namespace(&nodes[atoi(word[1])]), rcl_publisher_get_topic_name(&publishers[atoi(word[2])]),
+    (unsigned)domain);
   return result;
 }
 
@@ -177,7 +178,8 @@ static rcl_ret_t call_session(char ** word)
 static rcl_ret_t call_entity(char ** word)
 {
   if (strcmp(word[0], "node") == 0) {
-    return rclc_node_init_default(&nodes[atoi(word[1])], word[2], strcmp(word[3], "-") == 0 ? "" : word[3], &support);
+    return rclc_node_init_default(
+      &nodes[atoi(word[1])], word[2], strcmp(word[3], "-") == 0 ? "" : word[3], &support);
   }
   if (strcmp(word[0], "node_fini") == 0) {
     return rcl_node_fini(&nodes[atoi(word[1])]);
@@ -198,7 +200,8 @@ static rcl_ret_t call_entity(char ** word)
     return publish_raw(word);
   }
   if (strcmp(word[0], "acked") == 0) {
-    return rcl_publisher_wait_for_all_acked(&publishers[atoi(word[1])], RCL_MS_TO_NS(strtol(word[2], NULL, 10)));
+    return rcl_publisher_wait_for_all_acked(
+      &publishers[atoi(word[1])], RCL_MS_TO_NS(strtol(word[2], NULL, 10)));
   }
   if (strcmp(word[0], "names") == 0) {
     return print_names(word);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A port whose time and network are in the hands of the test: it speaks lines over standard input and output. */
+/* A port whose time and network are in the hands of the test: it speaks lines over standard input and output.
+ */
 #include "port_fake.h"
 
 #include "microros/port.h"

@@ -30,10 +30,12 @@ static uint32_t int32_size(const void * message, cdr_fault_t * fault)
   return 4;
 }
 
-static const microros_message_type_t int32_type = {"std_msgs::msg::dds_::Int32_", 4, int32_encode, int32_size, NULL};
+static const microros_message_type_t int32_type = {
+  "std_msgs::msg::dds_::Int32_", 4, int32_encode, int32_size, NULL};
 static const rosidl_message_type_support_t int32_support = {"microros", &int32_type};
 
-const rosidl_message_type_support_t * rosidl_typesupport_c__get_message_type_support_handle__std_msgs__msg__Int32(void)
+const rosidl_message_type_support_t *
+rosidl_typesupport_c__get_message_type_support_handle__std_msgs__msg__Int32(void)
 {
   return &int32_support;
 }
@@ -68,8 +70,8 @@ static const microros_message_type_t string_type = {
   "std_msgs::msg::dds_::String_", STRING_LIMIT + 5, string_encode, string_size, NULL};
 static const rosidl_message_type_support_t string_support = {"microros", &string_type};
 
-const rosidl_message_type_support_t * rosidl_typesupport_c__get_message_type_support_handle__std_msgs__msg__String(
-  void)
+const rosidl_message_type_support_t *
+rosidl_typesupport_c__get_message_type_support_handle__std_msgs__msg__String(void)
 {
   return &string_support;
 }

@@ -16,9 +16,9 @@ typedef struct std_msgs__msg__String {
   rosidl_runtime_c__String data;
 } std_msgs__msg__String;
 
-const rosidl_message_type_support_t * rosidl_typesupport_c__get_message_type_support_handle__std_msgs__msg__Int32(
-  void);
-const rosidl_message_type_support_t * rosidl_typesupport_c__get_message_type_support_handle__std_msgs__msg__String(
-  void);
+const rosidl_message_type_support_t *
+rosidl_typesupport_c__get_message_type_support_handle__std_msgs__msg__Int32(void);
+const rosidl_message_type_support_t *
+rosidl_typesupport_c__get_message_type_support_handle__std_msgs__msg__String(void);
 
 #endif /* TYPES_H */

@@ -128,7 +128,9 @@ static void test_uint8_array(rcl_allocator_t a)
   CHECK(rcutils_uint8_array_init(&array, 16, &a) == RCUTILS_RET_OK && array.buffer_capacity == 16u);
   memcpy(array.buffer, "0123456789abcdef", 16);
   array.buffer_length = 16;
-  CHECK(rcutils_uint8_array_resize(&array, 64) == RCUTILS_RET_OK && memcmp(array.buffer, "0123456789abcdef", 16) == 0);
+  CHECK(
+    rcutils_uint8_array_resize(&array, 64) == RCUTILS_RET_OK &&
+    memcmp(array.buffer, "0123456789abcdef", 16) == 0);
   CHECK(rcutils_uint8_array_resize(&array, 4) == RCUTILS_RET_OK && array.buffer_length == 4u);
   CHECK(rcutils_uint8_array_resize(&array, 5000) == RCUTILS_RET_BAD_ALLOC && array.buffer_capacity == 4u);
   CHECK(rcutils_uint8_array_resize(&array, 0) == RCUTILS_RET_INVALID_ARGUMENT);

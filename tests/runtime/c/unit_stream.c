@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The reliable stream by itself: the ring, the wrap of sequence numbers, ACKNACKs old and wrong. Four slots. */
+/* The reliable stream by itself: the ring, the wrap of sequence numbers, ACKNACKs old and wrong. Four slots.
+ */
 #include "unit.h"
 
 #include "microros/xrce_client.h"
@@ -77,8 +78,8 @@ static void test_old_and_wrong_acknacks(void)
   begin_at(10);
   write_one();
   write_one();
-  acknack(9, 0);     /* older than what was acknowledged */
-  acknack(13, 0);    /* more than was sent */
+  acknack(9, 0);  /* older than what was acknowledged */
+  acknack(13, 0); /* more than was sent */
   acknack(0x8009, 0);
   CHECK(stream.count == 2u && stream.first == 10u && session.statistics.resent == 0u);
   acknack(10, 0xffff); /* bits beyond the last */

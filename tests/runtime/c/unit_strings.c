@@ -99,7 +99,8 @@ static void test_u16strings(void)
   CHECK(rosidl_runtime_c__U16String__init(&a) && rosidl_runtime_c__U16String__init(&b));
   CHECK(rosidl_runtime_c__U16String__assign(&a, words) && a.size == 3u && a.data[3] == 0u);
   CHECK(rosidl_runtime_c__U16String__copy(&a, &b) && rosidl_runtime_c__U16String__are_equal(&a, &b));
-  CHECK(rosidl_runtime_c__U16String__resize(&b, 6) && b.size == 6u && b.data[2] == 0x20acu && b.data[5] == 0u);
+  CHECK(
+    rosidl_runtime_c__U16String__resize(&b, 6) && b.size == 6u && b.data[2] == 0x20acu && b.data[5] == 0u);
   CHECK(rosidl_runtime_c__U16String__resize(&b, 1) && b.size == 1u && b.data[1] == 0u);
   CHECK(rosidl_runtime_c__U16String__assignn_from_char(&b, (const char *)words, 2) && b.data[1] == 0x00e4u);
   CHECK(rosidl_runtime_c__U16String__Sequence__init(&several, 2));
@@ -114,9 +115,13 @@ static void test_primitive_sequences(void)
   rosidl_runtime_c__double__Sequence b = {NULL, 0, 0};
   rosidl_runtime_c__boolean__Sequence flags;
 
-  CHECK(rosidl_runtime_c__double__Sequence__init(&a, 3) && a.size == 3u && a.capacity == 3u && !(a.data[2] > 0.0));
+  CHECK(
+    rosidl_runtime_c__double__Sequence__init(&a, 3) && a.size == 3u && a.capacity == 3u &&
+    !(a.data[2] > 0.0));
   a.data[1] = 1.5;
-  CHECK(rosidl_runtime_c__double__Sequence__copy(&a, &b) && rosidl_runtime_c__float64__Sequence__are_equal(&a, &b));
+  CHECK(
+    rosidl_runtime_c__double__Sequence__copy(&a, &b) &&
+    rosidl_runtime_c__float64__Sequence__are_equal(&a, &b));
   a.data[0] = (double)NAN;
   CHECK(!rosidl_runtime_c__double__Sequence__are_equal(&a, &a));
   a.data[0] = -0.0;

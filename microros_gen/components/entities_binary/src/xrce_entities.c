@@ -60,7 +60,7 @@ static void entities_wake(xrce_entities_t * entities, uint32_t now)
 
 void xrce_entities_renew(xrce_client_t * client, uint32_t now)
 {
-  for (uint16_t place = 0; place < XRCE_PLACES; ++place) {
+  for (size_t place = 0; place < XRCE_PLACES; ++place) {
     xrce_object_state_t * state = &client->states[place];
 
     if (state->wanted && !state->stale) {
@@ -107,7 +107,7 @@ static bool entities_begin(xrce_client_t * client, uint32_t now)
 {
   xrce_entities_t * entities = &client->entities;
 
-  for (uint16_t i = 0; i < XRCE_PLACES; ++i) {
+  for (size_t i = 0; i < XRCE_PLACES; ++i) {
     const uint8_t level = client->states[entities->cursor].level;
     const uint8_t goal = entities_goal(client, entities->cursor);
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * CREATE with binary representation (OMG DDS-XRCE 1.0, 7.7.3), as messages of the best-effort stream. Names are
- * those that the plan sized the stream for; a type that it does not know is refused before (xrce_entities_fits).
+ * CREATE with binary representation (OMG DDS-XRCE 1.0, 7.7.3), as messages of the best-effort stream. Names
+ * are those that the plan sized the stream for; a type that it does not know is refused before
+ * (xrce_entities_fits).
  */
 #include "microros/xrce_entities_binary.h"
 
@@ -28,7 +29,8 @@ bool xrce_entities_fits(const xrce_writer_t * writer)
   const size_t topic = 4u + sizeof("rt") + microros_text_size(writer->topic) + 2u; /* and two flags */
   const size_t type = 4u + microros_text_size(writer->type->dds_type_name) + 1u;
 
-  return BLOB_AT + ((topic + 3u) & ~(size_t)3u) + type + 2u <= MICROROS_BEST_EFFORT_SIZE - XRCE_MESSAGE_HEADER;
+  return BLOB_AT + ((topic + 3u) & ~(size_t)3u) + type + 2u <=
+         MICROROS_BEST_EFFORT_SIZE - XRCE_MESSAGE_HEADER;
 }
 
 static uint8_t * put_text(uint8_t * at, const char * text)
@@ -56,7 +58,8 @@ static uint8_t * put_id(uint8_t * at, uint16_t id)
   return &at[2];
 }
 
-/* The name is that of a QoS profile; there is no domain reference. Behind the blob the domain, at an even place. */
+/* The name is that of a QoS profile; there is no domain reference. Behind the blob the domain, at an even
+ * place. */
 static uint8_t * put_participant(uint8_t * blob, const xrce_participant_t * participant)
 {
   const bool is_root = participant->namespace_[1] == '\0';

@@ -8,7 +8,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* What every type can be aligned to; blocks begin with one of these, so that the memory behind it is aligned. */
+/* What every type can be aligned to; blocks begin with one, so the memory behind is aligned. */
 typedef union arena_unit_t {
   struct {
     uint32_t units; /* of the whole block, this one included; 0: never used arena */

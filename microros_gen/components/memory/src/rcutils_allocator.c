@@ -24,7 +24,8 @@ rcutils_allocator_t rcutils_get_zero_initialized_allocator(void)
 rcutils_allocator_t rcutils_get_default_allocator(void)
 {
   const rcutils_allocator_t arena = {
-    microros_arena_allocate, microros_arena_deallocate, microros_arena_reallocate, microros_arena_zero_allocate, NULL};
+    microros_arena_allocate, microros_arena_deallocate, microros_arena_reallocate,
+    microros_arena_zero_allocate, NULL};
 
   return allocator_chosen()->allocate != NULL ? *allocator_chosen() : arena;
 }

@@ -32,7 +32,8 @@ static rcl_ret_t node_check_names(const char * name, const char * namespace_)
   return RCL_RET_OK;
 }
 
-rcl_ret_t rcl_node_open(rcl_node_t * node, const char * name, const char * namespace_, rcl_context_t * context)
+rcl_ret_t rcl_node_open(
+  rcl_node_t * node, const char * name, const char * namespace_, rcl_context_t * context)
 {
   rcl_ret_t result;
 

@@ -7,10 +7,10 @@
 
 #include <stddef.h>
 
-/* Returns what the place was waiting for. */
+/* Returns what the place was waiting for: the next object, or the last one when that is to be deleted. */
 static const char * place_kind(const xrce_client_t * client, uint16_t place)
 {
-  static const char * const objects[] = {"topic", "publisher", "datawriter"};
+  static const char * const objects[] = {"topic", "publisher", "datawriter", "datawriter"};
 
   return place < MICROROS_NODES_MAX ? "node" : objects[client->states[place].level];
 }
@@ -50,7 +50,8 @@ uint16_t rmw_node_index(const rmw_node_t * node)
   return (uint16_t)(participant - node->context->impl->participants);
 }
 
-rmw_ret_t rmw_node_open(rmw_context_t * context, const char * name, const char * namespace_, rmw_node_t ** node)
+rmw_ret_t rmw_node_open(
+  rmw_context_t * context, const char * name, const char * namespace_, rmw_node_t ** node)
 {
   static rmw_node_t nodes[MICROROS_NODES_MAX]; /* handed out by place */
   xrce_client_t * client = context->impl;

@@ -52,7 +52,8 @@ static bool ping_once(xrce_transport_t * transport, uint32_t timeout_ms)
   }
 }
 
-static bool ping_out_of_session(const rmw_uxrce_transport_params_t * params, uint32_t timeout_ms, uint8_t attempts)
+static bool ping_out_of_session(
+  const rmw_uxrce_transport_params_t * params, uint32_t timeout_ms, uint8_t attempts)
 {
   xrce_transport_t transport;
   bool answered = false;
@@ -74,7 +75,8 @@ static rmw_ret_t ping_agent(const rmw_uxrce_transport_params_t * params, int tim
 
   if (!answered) {
     microros_error_set(
-      microros_error_agent_silent, rmw_client_host(params), NULL, rmw_client_port(params), timeout * attempts);
+      microros_error_agent_silent, rmw_client_host(params), NULL, rmw_client_port(params),
+      timeout * attempts);
   }
   return answered ? RMW_RET_OK : RMW_RET_ERROR;
 }

@@ -80,7 +80,8 @@ bool port_udp_send(port_udp_t * udp, const uint8_t * data, size_t size)
   ssize_t sent = send(handle, data, size, 0);
 
   if (sent < 0 && errno == ECONNREFUSED) {
-    sent = send(handle, data, size, 0); /* that was the news about an earlier datagram; this one was not sent */
+    sent =
+      send(handle, data, size, 0); /* that was the news about an earlier datagram; this one was not sent */
   }
   return sent == (ssize_t)size;
 }

@@ -23,7 +23,8 @@ static bool publisher_fits(const xrce_writer_t * writer)
   if (size <= capacity) {
     return true;
   }
-  microros_error_set(microros_error_stream_small, writer->type->dds_type_name, NULL, size, (uint32_t)capacity);
+  microros_error_set(
+    microros_error_stream_small, writer->type->dds_type_name, NULL, size, (uint32_t)capacity);
   return false;
 }
 
@@ -58,7 +59,9 @@ rmw_ret_t rmw_publisher_open(
   writer = &wanted.client->writers[wanted.index];
   *writer = wanted;
   if (!xrce_entities_fits(writer)) {
-    return microros_error_named(RMW_RET_ERROR, microros_error_name, writer->type->dds_type_name);
+    microros_error_set(
+      microros_error_name, writer->type->dds_type_name, "too long for the stream of this plan", 0, 0);
+    return RMW_RET_ERROR;
   }
   result = rmw_place_open(writer->client, publisher_place(writer), writer->topic);
   if (result == RMW_RET_OK) {

@@ -30,7 +30,9 @@ static const char * qos_refuse(const rmw_qos_profile_t * qos)
   if (!qos_is_unlimited(&qos->lifespan)) {
     return "lifespan";
   }
-  if (qos->liveliness > RMW_QOS_POLICY_LIVELINESS_AUTOMATIC || !qos_is_unlimited(&qos->liveliness_lease_duration)) {
+  if (
+    qos->liveliness > RMW_QOS_POLICY_LIVELINESS_AUTOMATIC ||
+    !qos_is_unlimited(&qos->liveliness_lease_duration)) {
     return "liveliness";
   }
   return qos->avoid_ros_namespace_conventions ? "avoid_ros_namespace_conventions" : NULL;

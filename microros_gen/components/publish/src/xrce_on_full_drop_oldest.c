@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * on_full: drop_oldest. A reliable message takes the place of the oldest one, also while there is no session: the newest
- * are sent when there is one again. A best-effort message without a session is given up.
+ * on_full: drop_oldest. A reliable message takes the place of the oldest one, also while there is no session:
+ * the newest are sent when there is one again. A best-effort message without a session is given up.
  */
 #include "microros/xrce_client.h"
 #include "microros/xrce_routes.h"

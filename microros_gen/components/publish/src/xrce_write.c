@@ -17,7 +17,7 @@ static bool write_is_reliable(const xrce_writer_t * writer)
 
 static bool write_has_session(const xrce_writer_t * writer)
 {
-  return writer->client->session.state == XRCE_READY && 
+  return writer->client->session.state == XRCE_READY &&
          writer->client->states[MICROROS_NODES_MAX + writer->index].level == XRCE_WRITER_COMPLETE;
 }
 

@@ -21,7 +21,8 @@ static void sequence_deallocate(void * data)
   }
 }
 
-/* One group of functions for each type: C has no other way to say it once. Elements are compared as numbers are. */
+/* One group of functions for each type: C has no other way to say it once. Elements are compared as numbers
+ * are. */
 #define PRIMITIVE_SEQUENCE_FUNCTIONS(NAME, SEQUENCE, TYPE) \
   bool rosidl_runtime_c__##NAME##__Sequence__init( \
     rosidl_runtime_c__##SEQUENCE##__Sequence * sequence, size_t size) \

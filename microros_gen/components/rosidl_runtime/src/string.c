@@ -85,8 +85,7 @@ bool rosidl_runtime_c__String__assign(rosidl_runtime_c__String * str, const char
   return value != NULL && rosidl_runtime_c__String__assignn(str, value, strlen(value));
 }
 
-bool rosidl_runtime_c__String__copy(
-  const rosidl_runtime_c__String * input, rosidl_runtime_c__String * output)
+bool rosidl_runtime_c__String__copy(const rosidl_runtime_c__String * input, rosidl_runtime_c__String * output)
 {
   return input != NULL && rosidl_runtime_c__String__assignn(output, input->data, input->size);
 }

@@ -61,7 +61,7 @@ static bool string_make_room(rosidl_runtime_c__U16String * str, size_t size, boo
   if (data == NULL) {
     return false;
   }
-  if (keep && str->size != 0u) {
+  if (keep && str->data != NULL) {
     memcpy(data, str->data, str->size * sizeof(uint_least16_t));
   }
   string_give_back(str);

@@ -5,7 +5,8 @@
 
 #include <stdint.h>
 
-bool rosidl_runtime_c__U16String__Sequence__init(rosidl_runtime_c__U16String__Sequence * sequence, size_t size)
+bool rosidl_runtime_c__U16String__Sequence__init(
+  rosidl_runtime_c__U16String__Sequence * sequence, size_t size)
 {
   rcutils_allocator_t allocator;
   rosidl_runtime_c__U16String * data = NULL;

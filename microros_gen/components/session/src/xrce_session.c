@@ -84,7 +84,8 @@ static void session_send_delete_client(xrce_session_t * session)
 
 uint16_t xrce_session_longer_pause(uint16_t pause_ms)
 {
-  return pause_ms < MICROROS_RETRY_MOST_MS / 2u ? (uint16_t)(2u * pause_ms) : (uint16_t)MICROROS_RETRY_MOST_MS;
+  return pause_ms < MICROROS_RETRY_MOST_MS / 2u ? (uint16_t)(2u * pause_ms)
+                                                : (uint16_t)MICROROS_RETRY_MOST_MS;
 }
 
 void xrce_session_step(xrce_client_t * client, uint32_t now)
@@ -146,8 +147,8 @@ void xrce_session_on_status(xrce_client_t * client, const uint8_t * payload, siz
   xrce_session_t * session = &client->session;
 
   if (
-    session->state == XRCE_CLOSING && size >= STATUS_SIZE && xrce_get_be16(&payload[0]) == XRCE_REQUEST_LOGOUT &&
-    xrce_get_be16(&payload[2]) == XRCE_OBJECT_CLIENT) {
+    session->state == XRCE_CLOSING && size >= STATUS_SIZE &&
+    xrce_get_be16(&payload[0]) == XRCE_REQUEST_LOGOUT && xrce_get_be16(&payload[2]) == XRCE_OBJECT_CLIENT) {
     session->state = XRCE_CLOSED;
   }
 }

@@ -34,7 +34,8 @@ static void stream_send(const xrce_stream_reliable_t * stream, xrce_session_t * 
 static void stream_number(xrce_stream_reliable_t * stream, uint8_t i)
 {
   xrce_put_header(
-    stream->message[stream_slot(stream, i)], XRCE_SESSION_ID, XRCE_STREAM_RELIABLE, (uint16_t)(stream->first + i));
+    stream->message[stream_slot(stream, i)], XRCE_SESSION_ID, XRCE_STREAM_RELIABLE,
+    (uint16_t)(stream->first + i));
 }
 
 void xrce_stream_reliable_commit(
@@ -118,8 +119,8 @@ void xrce_stream_reliable_step(
 }
 
 bool xrce_stream_reliable_on_acknack(
-  xrce_stream_reliable_t * stream, xrce_session_t * session, const uint8_t * payload, size_t size, uint8_t flags,
-  uint32_t now)
+  xrce_stream_reliable_t * stream, xrce_session_t * session, const uint8_t * payload, size_t size,
+  uint8_t flags, uint32_t now)
 {
   uint16_t expected;
   uint16_t missing;
@@ -139,7 +140,7 @@ bool xrce_stream_reliable_on_acknack(
   } else if (missing != 0u) {
     stream->heartbeat_ms = now; /* it waits for what was dropped: tell it not to */
   }
-  for (uint8_t i = 0; i < ACKNACK_WINDOW; ++i) {
+  for (uint32_t i = 0; i < ACKNACK_WINDOW; ++i) {
     const uint16_t place = (uint16_t)(expected + i - stream->first);
 
     if (((uint32_t)missing >> i & 1u) != 0u && place < stream->count) {

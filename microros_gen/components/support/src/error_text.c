@@ -7,8 +7,8 @@
 #include <stddef.h>
 
 /*
- * %s name, %d detail, %n found, %m fits; %t name is a DDS type, written as ROS does, %D detail is one; %a found is a
- * status of the agent; %y where to change that.
+ * %s name, %d detail, %n found, %m fits; %t name is a DDS type, written as ROS does, %D detail is one; %a
+ * found is a status of the agent; %y where to change that.
  */
 const char microros_error_argument[] = "%s: NULL or not initialized";
 const char microros_error_context_in_use[] = "a context is open already: there is one session";

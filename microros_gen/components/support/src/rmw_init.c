@@ -76,7 +76,8 @@ rmw_ret_t rmw_open(const rmw_init_options_t * options, rmw_context_t * context)
   }
   ++context->instance_id;
   context->implementation_identifier = rmw_implementation_identifier;
-  context->actual_domain_id = context->options.domain_id == RMW_DEFAULT_DOMAIN_ID ? 0u : context->options.domain_id;
+  context->actual_domain_id =
+    context->options.domain_id == RMW_DEFAULT_DOMAIN_ID ? 0u : context->options.domain_id;
   context->impl = client;
   return RMW_RET_OK;
 }

@@ -28,7 +28,9 @@ rmw_ret_t rmw_init_options_init(rmw_init_options_t * init_options, rcutils_alloc
 
 rmw_ret_t rmw_init_options_copy(const rmw_init_options_t * src, rmw_init_options_t * dst)
 {
-  if (src == NULL || dst == NULL || src->implementation_identifier == NULL || dst->implementation_identifier != NULL) {
+  if (
+    src == NULL || dst == NULL || src->implementation_identifier == NULL ||
+    dst->implementation_identifier != NULL) {
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "init_options");
   }
   *dst = *src;

@@ -20,7 +20,8 @@ static bool options_is_port(const char * text)
   return value != 0u && value <= 65535u && text[0] != '0';
 }
 
-rmw_ret_t rmw_uros_options_set_udp_address(const char * ip, const char * port, rmw_init_options_t * rmw_options)
+rmw_ret_t rmw_uros_options_set_udp_address(
+  const char * ip, const char * port, rmw_init_options_t * rmw_options)
 {
   if (ip == NULL || port == NULL || rmw_options == NULL) {
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "ip, port or rmw_options");

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The arena behind the default allocator: `memory.arena` bytes, first fit, neighbours joined. Every call walks the
- * blocks once at most. What was not taken from the arena is not given back to it: such a pointer is left alone. Not
- * thread-safe.
+ * The arena behind the default allocator: `memory.arena` bytes, first fit, neighbours joined. Every call
+ * walks the blocks once at most. What was not taken from the arena is not given back to it: such a pointer is
+ * left alone. Not thread-safe.
  */
 #ifndef MICROROS_ARENA_H
 #define MICROROS_ARENA_H

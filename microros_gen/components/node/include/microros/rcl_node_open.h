@@ -9,7 +9,8 @@
 extern "C" {
 #endif
 
-rcl_ret_t rcl_node_open(rcl_node_t * node, const char * name, const char * namespace_, rcl_context_t * context);
+rcl_ret_t rcl_node_open(
+  rcl_node_t * node, const char * name, const char * namespace_, rcl_context_t * context);
 
 #ifdef __cplusplus
 }

@@ -17,7 +17,7 @@ typedef struct rmw_name_t {
 /* A namespace with the slash in front that the caller may have left out. */
 rmw_name_t rmw_name_of_namespace(const char * namespace_);
 
-/* A topic as the node sees it: "chatter" is /ns/chatter, "~/x" is /ns/node/x, "/x" stays. The topic is valid. */
+/* A topic as the node sees it: "chatter" is /ns/chatter, "~/x" is /ns/node/x, "/x" stays. It is a valid one. */
 rmw_name_t rmw_name_of_topic(const char * topic, const char * node, const char * namespace_);
 
 bool rmw_name_equals(const rmw_name_t * name, const char * text);

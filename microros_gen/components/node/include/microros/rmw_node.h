@@ -19,7 +19,8 @@ enum { RMW_NO_PLACE = 0xffff };
  * Takes a node's place and waits for its participant. RMW_RET_OK: *node is set and belongs to the library;
  * RMW_RET_TIMEOUT, RMW_RET_ERROR with a text otherwise. `name` and `namespace_` are valid.
  */
-rmw_ret_t rmw_node_open(rmw_context_t * context, const char * name, const char * namespace_, rmw_node_t ** node);
+rmw_ret_t rmw_node_open(
+  rmw_context_t * context, const char * name, const char * namespace_, rmw_node_t ** node);
 
 /* Gives the place back, and those of its publishers. */
 void rmw_node_close(rmw_node_t * node);
@@ -29,8 +30,8 @@ bool rmw_node_is_open(const rmw_node_t * node);
 /* Returns the node's place in the client's table. */
 uint16_t rmw_node_index(const rmw_node_t * node);
 
-/* Returns a free place for the node with its names and domain filled in, or RMW_NO_PLACE with a text: declared nodes and
- * pools each have their own. */
+/* Returns a free place for the node with its names and domain filled in, or RMW_NO_PLACE with a text:
+ * declared nodes and pools each have their own. */
 uint16_t rmw_node_take(xrce_client_t * client, const char * name, const char * namespace_);
 
 /* Opens the place, which is filled in, and waits for the agent; else closes it again and sets the text. */

@@ -29,15 +29,17 @@ typedef struct rcl_node_s {
 rcl_node_t rcl_get_zero_initialized_node(void);
 
 /*
- * Waits for the agent, at most MICROROS_CREATE_TIMEOUT_MS. With `nodes:` in the application file the node must be
- * declared there; else it takes one of `pools: {nodes: N}`. RCL_RET_NODE_INVALID_NAME and _NAMESPACE for names that ROS 2
- * refuses, RCL_RET_ALREADY_INIT, RCL_RET_NOT_INIT, RCL_RET_TIMEOUT, else RCL_RET_ERROR with a text.
+ * Waits for the agent, at most MICROROS_CREATE_TIMEOUT_MS. With `nodes:` in the application file the node
+ * must be declared there; else it takes one of `pools: {nodes: N}`. RCL_RET_NODE_INVALID_NAME and _NAMESPACE
+ * for names that ROS 2 refuses, RCL_RET_ALREADY_INIT, RCL_RET_NOT_INIT, RCL_RET_TIMEOUT, else RCL_RET_ERROR
+ * with a text.
  */
 rcl_ret_t rcl_node_init(
   rcl_node_t * node, const char * name, const char * namespace_, rcl_context_t * context,
   const rcl_node_options_t * options);
 
-/* Frees the node's place at once, and those of its publishers; waits for the agent at most MICROROS_CLOSE_TIMEOUT_MS. */
+/* Frees the node's place at once, and those of its publishers; waits for the agent at most
+ * MICROROS_CLOSE_TIMEOUT_MS. */
 rcl_ret_t rcl_node_fini(rcl_node_t * node);
 
 bool rcl_node_is_valid(const rcl_node_t * node);

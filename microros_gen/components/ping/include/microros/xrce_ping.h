@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* GET_INFO and its answer: asked by the application, and when nothing was heard for a while, to find a lost session. */
+/* GET_INFO and its answer: asked by the application, and when nothing was heard for a while, to find a lost
+ * session. */
 #ifndef MICROROS_XRCE_PING_H
 #define MICROROS_XRCE_PING_H
 
@@ -26,8 +27,8 @@ void xrce_ping_reset(xrce_ping_t * ping);
 /* Writes GET_INFO into `message`, XRCE_PING_SIZE bytes. */
 void xrce_ping_write(uint8_t * message, uint8_t session);
 
-/* Asks when MICROROS_LIVELINESS_PERIOD_MS went by in silence; after MICROROS_LIVELINESS_ATTEMPTS without an answer the
- * session is lost. */
+/* Asks when MICROROS_LIVELINESS_PERIOD_MS went by in silence; after MICROROS_LIVELINESS_ATTEMPTS without an
+ * answer the session is lost. */
 void xrce_ping_step(xrce_client_t * client, uint32_t now);
 
 /* An answer that says "not in a session" loses it, too: the agent has started anew. */

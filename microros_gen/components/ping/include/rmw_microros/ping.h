@@ -14,8 +14,8 @@ extern "C" {
 #endif
 
 /*
- * Asks `attempts` times and waits `timeout_ms` for each answer: inside the session where there is one, else over a
- * transport of its own to the agent of the plan. RMW_RET_OK: an agent answered.
+ * Asks `attempts` times and waits `timeout_ms` for each answer: inside the session where there is one, else
+ * over a transport of its own to the agent of the plan. RMW_RET_OK: an agent answered.
  */
 rmw_ret_t rmw_uros_ping_agent(const int timeout_ms, const uint8_t attempts);
 

@@ -30,7 +30,7 @@ xrce_write_t xrce_write_body(xrce_writer_t * writer, const uint8_t * body, size_
 /* Returns room for the writer's next submessage, or NULL: no session, or no room. */
 uint8_t * xrce_write_reserve(const xrce_writer_t * writer);
 
-/* There is no room: XRCE_WRITTEN and *room when there is now, else why not. One of on_full_*.c is selected. */
+/* There is no room: XRCE_WRITTEN and *room when there is now, else why not. One of on_full_*.c is there. */
 xrce_write_t xrce_write_on_full(xrce_writer_t * writer, uint8_t ** room);
 
 /* Why there is no room. */

@@ -33,9 +33,10 @@ typedef struct rcl_publisher_options_s {
 rcl_publisher_t rcl_get_zero_initialized_publisher(void);
 
 /*
- * Waits for the agent, at most MICROROS_CREATE_TIMEOUT_MS. With `nodes:` in the application file the publisher must be
- * declared there; else it takes one of `pools: {publishers: N}`. RCL_RET_TOPIC_NAME_INVALID for a name that ROS 2
- * refuses, RCL_RET_UNSUPPORTED for a QoS that XRCE cannot carry, RCL_RET_TIMEOUT, else RCL_RET_ERROR with a text.
+ * Waits for the agent, at most MICROROS_CREATE_TIMEOUT_MS. With `nodes:` in the application file the
+ * publisher must be declared there; else it takes one of `pools: {publishers: N}`. RCL_RET_TOPIC_NAME_INVALID
+ * for a name that ROS 2 refuses, RCL_RET_UNSUPPORTED for a QoS that XRCE cannot carry, RCL_RET_TIMEOUT, else
+ * RCL_RET_ERROR with a text.
  */
 rcl_ret_t rcl_publisher_init(
   rcl_publisher_t * publisher, const rcl_node_t * node, const rosidl_message_type_support_t * type_support,
@@ -49,8 +50,8 @@ rcl_publisher_options_t rcl_publisher_get_default_options(void);
 
 /*
  * Encodes into the stream, carries the session on and does not wait, unless `on_full` is block (then at most
- * MICROROS_ON_FULL_BLOCK_MS). RCL_RET_OK: the stream has taken it. RCL_RET_ERROR: a field above its limit, no room, or no
- * session; the text says which, and `dropped` of rmw_uros_get_statistics counts the last two.
+ * MICROROS_ON_FULL_BLOCK_MS). RCL_RET_OK: the stream has taken it. RCL_RET_ERROR: a field above its limit, no
+ * room, or no session; the text says which, and `dropped` of rmw_uros_get_statistics counts the last two.
  */
 rcl_ret_t rcl_publish(
   const rcl_publisher_t * publisher, const void * ros_message, rmw_publisher_allocation_t * allocation);
@@ -60,8 +61,8 @@ rcl_ret_t rcl_publish_serialized_message(
   const rcl_publisher_t * publisher, const rcl_serialized_message_t * serialized_message,
   rmw_publisher_allocation_t * allocation);
 
-/* Waits until the agent has acknowledged every reliable message; `timeout` is nanoseconds, negative: as long as it
- * takes. RCL_RET_TIMEOUT otherwise. */
+/* Waits until the agent has acknowledged every reliable message; `timeout` is nanoseconds, negative: as long
+ * as it takes. RCL_RET_TIMEOUT otherwise. */
 rcl_ret_t rcl_publisher_wait_for_all_acked(const rcl_publisher_t * publisher, rcl_duration_value_t timeout);
 
 /* Returns the fully qualified name, which belongs to the publisher; NULL for an invalid one. */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Functions on sequences of primitive types. `init` takes `size` zeroed elements from the default allocator, `fini`
- * gives them back; `copy` keeps an output with room enough. False: no memory was left, or an argument is NULL.
+ * Functions on sequences of primitive types. `init` takes `size` zeroed elements from the default allocator,
+ * `fini` gives them back; `copy` keeps an output with room enough. False: no memory was left, or an argument
+ * is NULL.
  */
 #ifndef MICROROS_ROSIDL_RUNTIME_C_PRIMITIVES_SEQUENCE_FUNCTIONS_H
 #define MICROROS_ROSIDL_RUNTIME_C_PRIMITIVES_SEQUENCE_FUNCTIONS_H

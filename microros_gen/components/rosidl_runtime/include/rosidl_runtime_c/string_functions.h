@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Functions on strings. Where more room is needed than the string has, the default allocator supplies it; a buffer
- * with room enough is kept, whoever supplied it. An empty string needs no memory: it points to a NUL that all share,
- * with a capacity of 1. Every function returns false for a NULL string, and when no memory was left; the string then
- * still holds what it held before.
+ * Functions on strings. Where more room is needed than the string has, the default allocator supplies it; a
+ * buffer with room enough is kept, whoever supplied it. An empty string needs no memory: it points to a NUL
+ * that all share, with a capacity of 1. Every function returns false for a NULL string, and when no memory
+ * was left; the string then still holds what it held before.
  */
 #ifndef MICROROS_ROSIDL_RUNTIME_C_STRING_FUNCTIONS_H
 #define MICROROS_ROSIDL_RUNTIME_C_STRING_FUNCTIONS_H
@@ -20,7 +20,7 @@ extern "C" {
 
 bool rosidl_runtime_c__String__init(rosidl_runtime_c__String * str);
 
-/* Gives the memory back and leaves the string without any; a buffer of the user's is left alone by the arena. */
+/* Gives the memory back and leaves the string without any; the arena leaves a buffer of the user's alone. */
 void rosidl_runtime_c__String__fini(rosidl_runtime_c__String * str);
 
 bool rosidl_runtime_c__String__copy(
@@ -44,7 +44,8 @@ bool rosidl_runtime_c__String__Sequence__are_equal(
 bool rosidl_runtime_c__String__Sequence__copy(
   const rosidl_runtime_c__String__Sequence * input, rosidl_runtime_c__String__Sequence * output);
 
-/* Returns a sequence of `size` empty strings that rosidl_runtime_c__String__Sequence__destroy gives back, or NULL. */
+/* Returns a sequence of `size` empty strings that rosidl_runtime_c__String__Sequence__destroy gives back, or
+ * NULL. */
 rosidl_runtime_c__String__Sequence * rosidl_runtime_c__String__Sequence__create(size_t size);
 
 void rosidl_runtime_c__String__Sequence__destroy(rosidl_runtime_c__String__Sequence * sequence);

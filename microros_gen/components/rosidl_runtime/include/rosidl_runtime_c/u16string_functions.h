@@ -25,7 +25,8 @@ bool rosidl_runtime_c__U16String__copy(
   const rosidl_runtime_c__U16String * input, rosidl_runtime_c__U16String * output);
 
 /* Copies `n` units of `value` and terminates them. */
-bool rosidl_runtime_c__U16String__assignn(rosidl_runtime_c__U16String * str, const uint16_t * value, size_t n);
+bool rosidl_runtime_c__U16String__assignn(
+  rosidl_runtime_c__U16String * str, const uint16_t * value, size_t n);
 
 /* Copies `n` units from memory that holds them as bytes, of whatever alignment. */
 bool rosidl_runtime_c__U16String__assignn_from_char(
@@ -39,7 +40,8 @@ size_t rosidl_runtime_c__U16String__len(const uint16_t * value);
 /* Makes the string `n` units long; new units are zero. */
 bool rosidl_runtime_c__U16String__resize(rosidl_runtime_c__U16String * str, size_t n);
 
-bool rosidl_runtime_c__U16String__Sequence__init(rosidl_runtime_c__U16String__Sequence * sequence, size_t size);
+bool rosidl_runtime_c__U16String__Sequence__init(
+  rosidl_runtime_c__U16String__Sequence * sequence, size_t size);
 
 void rosidl_runtime_c__U16String__Sequence__fini(rosidl_runtime_c__U16String__Sequence * sequence);
 
@@ -49,7 +51,7 @@ bool rosidl_runtime_c__U16String__Sequence__are_equal(
 bool rosidl_runtime_c__U16String__Sequence__copy(
   const rosidl_runtime_c__U16String__Sequence * input, rosidl_runtime_c__U16String__Sequence * output);
 
-/* Returns a sequence of `size` empty strings that rosidl_runtime_c__U16String__Sequence__destroy gives back. */
+/* Returns `size` empty strings that rosidl_runtime_c__U16String__Sequence__destroy gives back, or NULL. */
 rosidl_runtime_c__U16String__Sequence * rosidl_runtime_c__U16String__Sequence__create(size_t size);
 
 void rosidl_runtime_c__U16String__Sequence__destroy(rosidl_runtime_c__U16String__Sequence * sequence);

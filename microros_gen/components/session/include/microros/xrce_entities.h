@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Creating and deleting entities, in whatever way the selection has (entities_binary and its siblings implement these).
- * One request is outstanding at a time and repeated with growing pauses until its STATUS comes; a place that is given
- * back is deleted in the background.
+ * Creating and deleting entities, in whatever way the selection has (entities_binary and its siblings
+ * implement these). One request is outstanding at a time and repeated with growing pauses until its STATUS
+ * comes; a place that is given back is deleted in the background.
  */
 #ifndef MICROROS_XRCE_ENTITIES_H
 #define MICROROS_XRCE_ENTITIES_H
@@ -45,7 +45,7 @@ void xrce_entities_add(xrce_client_t * client, uint16_t place);
 /* The application closes a place; with a participant go its writers. */
 void xrce_entities_remove(xrce_client_t * client, uint16_t place);
 
-/* Waits at most `timeout_ms` until the agent has what the application wants of this place, or has let it go. */
+/* Waits at most `timeout_ms` until the agent has what is wanted of this place, or has let it go. */
 xrce_outcome_t xrce_entities_await(xrce_client_t * client, uint16_t place, uint32_t timeout_ms);
 
 #ifdef __cplusplus

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The entities of a client: what the application wants, and what the agent has of it. They stay in these tables over a
- * lost session, so that creating them again is the code that created them first.
+ * The entities of a client: what the application wants, and what the agent has of it. They stay in these
+ * tables over a lost session, so that creating them again is the code that created them first.
  */
 #ifndef MICROROS_XRCE_OBJECTS_H
 #define MICROROS_XRCE_OBJECTS_H

@@ -15,8 +15,8 @@
 extern "C" {
 #endif
 
-/* Hands a received submessage to the part that understands it; the others are ignored. `in_session` is false for one
- * that came outside of a session. */
+/* Hands a received submessage to the part that understands it; the others are ignored. `in_session` is false
+ * for one that came outside of a session. */
 void xrce_route_submessage(
   xrce_client_t * client, uint8_t id, uint8_t flags, const uint8_t * payload, size_t size, bool in_session,
   uint32_t now);
@@ -28,15 +28,16 @@ void xrce_route_step(xrce_client_t * client, uint32_t now);
 void xrce_route_connected(xrce_client_t * client, uint32_t now);
 
 /*
- * Returns room for one submessage in the stream, or NULL when it has none; a second call without xrce_route_commit gives
- * the same room. The room is what xrce_route_capacity says.
+ * Returns room for one submessage in the stream, or NULL when it has none; a second call without
+ * xrce_route_commit gives the same room. The room is what xrce_route_capacity says.
  */
 uint8_t * xrce_route_reserve(xrce_client_t * client, bool reliable);
 
 /* Sends what was reserved, `size` bytes. False: a best-effort message that the transport did not take. */
 bool xrce_route_commit(xrce_client_t * client, bool reliable, size_t size);
 
-/* Returns the largest message body that the stream takes, in bytes; 0 for a stream that the plan does not have. */
+/* Returns the largest message body that the stream takes, in bytes; 0 for a stream that the plan does not
+ * have. */
 size_t xrce_route_capacity(bool reliable);
 
 /* Forgets the oldest unacknowledged reliable message; false: there is none. */

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The session with the agent: a state machine that never blocks. Nothing here is thread-safe; one task owns a client.
+ * The session with the agent: a state machine that never blocks. Nothing here is thread-safe; one task owns a
+ * client.
  *
- * closed -> connecting (CREATE_CLIENT, repeated with growing pauses) -> ready -> closing (DELETE, answered by STATUS)
+ * closed -> connecting (CREATE_CLIENT, repeated with growing pauses) -> ready -> closing (DELETE, answered by
+ * STATUS)
  * -> closed. A session found lost goes back to connecting by itself.
  */
 #ifndef MICROROS_XRCE_SESSION_H
@@ -55,7 +57,8 @@ void xrce_session_open(xrce_client_t * client, const char * host, uint16_t port,
 /* Waits at most `timeout_ms` for the session. False: session.refusal says whether the agent refused. */
 bool xrce_session_await(xrce_client_t * client, uint32_t timeout_ms);
 
-/* Takes leave of the agent, repeats that until it answers or `timeout_ms` are over (0: says it once), and closes. */
+/* Takes leave of the agent, repeats that until it answers or `timeout_ms` are over (0: says it once), and
+ * closes. */
 void xrce_session_close(xrce_client_t * client, uint32_t timeout_ms);
 
 /* Gives the session up and connects again. */

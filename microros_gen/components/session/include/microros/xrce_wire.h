@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Bytes of DDS-XRCE 1.0 (OMG formal/2020-02-01) as the public agent speaks it. Numbers are little endian; request ids,
- * object ids and the client key are byte arrays, most significant byte first. Sessions are 0x81: a message header has
- * four bytes.
+ * Bytes of DDS-XRCE 1.0 (OMG formal/2020-02-01) as the public agent speaks it. Numbers are little endian;
+ * request ids, object ids and the client key are byte arrays, most significant byte first. Sessions are 0x81:
+ * a message header has four bytes.
  */
 #ifndef MICROROS_XRCE_WIRE_H
 #define MICROROS_XRCE_WIRE_H

@@ -25,7 +25,8 @@ void xrce_stream_best_effort_reset(xrce_stream_best_effort_t * stream);
 uint8_t * xrce_stream_best_effort_reserve(xrce_stream_best_effort_t * stream);
 
 /* Sends `size` bytes of submessages. False: the transport did not take them, they are gone. */
-bool xrce_stream_best_effort_commit(xrce_stream_best_effort_t * stream, xrce_session_t * session, size_t size);
+bool xrce_stream_best_effort_commit(
+  xrce_stream_best_effort_t * stream, xrce_session_t * session, size_t size);
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What rclc and rcl share: opening without options of rcl. Internal; pointers are checked here, except as said. */
+/* What rclc and rcl share: opening without options of rcl. Internal; pointers are checked here, except as
+ * said. */
 #ifndef MICROROS_RCL_OPEN_H
 #define MICROROS_RCL_OPEN_H
 

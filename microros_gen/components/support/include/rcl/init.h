@@ -16,9 +16,9 @@ extern "C" {
 #endif
 
 /*
- * Waits for the agent, at most MICROROS_CONNECT_TIMEOUT_MS. `context` must be zero-initialized; arguments are not read.
- * RCL_RET_TIMEOUT: no agent answered; RCL_RET_ERROR: it refused, or another context is open; RCL_RET_ALREADY_INIT.
- * Afterwards a lost session heals by itself: every call of this library carries it on.
+ * Waits for the agent, at most MICROROS_CONNECT_TIMEOUT_MS. `context` must be zero-initialized; arguments are
+ * not read. RCL_RET_TIMEOUT: no agent answered; RCL_RET_ERROR: it refused, or another context is open;
+ * RCL_RET_ALREADY_INIT. Afterwards a lost session heals by itself: every call of this library carries it on.
  */
 rcl_ret_t rcl_init(
   int argc, char const * const * argv, const rcl_init_options_t * options, rcl_context_t * context);

@@ -33,7 +33,7 @@ rcl_ret_t rcl_init_options_get_domain_id(const rcl_init_options_t * init_options
 /* A domain set here wins over the one of the application file. 0 to 232, or RCL_DEFAULT_DOMAIN_ID. */
 rcl_ret_t rcl_init_options_set_domain_id(rcl_init_options_t * init_options, size_t domain_id);
 
-/* Returns what the functions of rmw_microros/init_options.h take; NULL for options that are not initialized. */
+/* Returns what rmw_microros/init_options.h takes; NULL for options that are not initialized. */
 rmw_init_options_t * rcl_init_options_get_rmw_init_options(rcl_init_options_t * init_options);
 
 const rcl_allocator_t * rcl_init_options_get_allocator(const rcl_init_options_t * init_options);

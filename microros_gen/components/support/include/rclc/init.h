@@ -14,8 +14,9 @@ extern "C" {
 #endif
 
 /*
- * Waits for the agent, at most MICROROS_CONNECT_TIMEOUT_MS, and fails with rcl_init's codes. `support` is the user's and
- * must outlive everything made with it; arguments are not read, `allocator` is kept and not called.
+ * Waits for the agent, at most MICROROS_CONNECT_TIMEOUT_MS, and fails with rcl_init's codes. `support` is the
+ * user's and must outlive everything made with it; arguments are not read, `allocator` is kept and not
+ * called.
  */
 rcl_ret_t rclc_support_init(
   rclc_support_t * support, int argc, char const * const * argv, rcl_allocator_t * allocator);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The last error, as one bounded text. Its room is `errors:` of the application file (MICROROS_ERROR_TEXT_SIZE bytes,
- * the NUL included); with `errors: code` the text is a letter and a number (microros/error.h). The last error is kept
- * until the next one or rcutils_reset_error. One state per process, not thread-safe.
+ * The last error, as one bounded text. Its room is `errors:` of the application file
+ * (MICROROS_ERROR_TEXT_SIZE bytes, the NUL included); with `errors: code` the text is a letter and a number
+ * (microros/error.h). The last error is kept until the next one or rcutils_reset_error. One state per
+ * process, not thread-safe.
  */
 #ifndef MICROROS_RCUTILS_ERROR_HANDLING_H
 #define MICROROS_RCUTILS_ERROR_HANDLING_H

@@ -29,8 +29,8 @@ typedef struct rmw_context_s {
 rmw_context_t rmw_get_zero_initialized_context(void);
 
 /*
- * Opens the transport and waits for the agent, at most MICROROS_CONNECT_TIMEOUT_MS. RMW_RET_TIMEOUT: no agent answered;
- * RMW_RET_ERROR: the agent refused, or the transport did not open.
+ * Opens the transport and waits for the agent, at most MICROROS_CONNECT_TIMEOUT_MS. RMW_RET_TIMEOUT: no agent
+ * answered; RMW_RET_ERROR: the agent refused, or the transport did not open.
  */
 rmw_ret_t rmw_init(const rmw_init_options_t * options, rmw_context_t * context);
 

@@ -21,7 +21,7 @@ extern "C" {
 #define RMW_UXRCE_MAX_HOST_SIZE 32
 #define RMW_UXRCE_MAX_PORT_SIZE 6
 
-/* Where the agent is, and the key of the session. An empty address: the one of the plan. Key 0: the plan's. */
+/* Where the agent is, and the key of the session. Empty or 0: as the plan says. */
 typedef struct rmw_uxrce_transport_params_t {
   char agent_address[RMW_UXRCE_MAX_HOST_SIZE];
   char agent_port[RMW_UXRCE_MAX_PORT_SIZE];

@@ -14,8 +14,7 @@ static const rmw_qos_profile_t rmw_qos_profile_sensor_data = {
   RMW_QOS_LIFESPAN_DEFAULT,
   RMW_QOS_POLICY_LIVELINESS_SYSTEM_DEFAULT,
   RMW_QOS_LIVELINESS_LEASE_DURATION_DEFAULT,
-  false
-};
+  false};
 
 static const rmw_qos_profile_t rmw_qos_profile_parameters = {
   RMW_QOS_POLICY_HISTORY_KEEP_LAST,
@@ -26,8 +25,7 @@ static const rmw_qos_profile_t rmw_qos_profile_parameters = {
   RMW_QOS_LIFESPAN_DEFAULT,
   RMW_QOS_POLICY_LIVELINESS_SYSTEM_DEFAULT,
   RMW_QOS_LIVELINESS_LEASE_DURATION_DEFAULT,
-  false
-};
+  false};
 
 static const rmw_qos_profile_t rmw_qos_profile_default = {
   RMW_QOS_POLICY_HISTORY_KEEP_LAST,
@@ -38,8 +36,7 @@ static const rmw_qos_profile_t rmw_qos_profile_default = {
   RMW_QOS_LIFESPAN_DEFAULT,
   RMW_QOS_POLICY_LIVELINESS_SYSTEM_DEFAULT,
   RMW_QOS_LIVELINESS_LEASE_DURATION_DEFAULT,
-  false
-};
+  false};
 
 static const rmw_qos_profile_t rmw_qos_profile_services_default = {
   RMW_QOS_POLICY_HISTORY_KEEP_LAST,
@@ -50,8 +47,7 @@ static const rmw_qos_profile_t rmw_qos_profile_services_default = {
   RMW_QOS_LIFESPAN_DEFAULT,
   RMW_QOS_POLICY_LIVELINESS_SYSTEM_DEFAULT,
   RMW_QOS_LIVELINESS_LEASE_DURATION_DEFAULT,
-  false
-};
+  false};
 
 static const rmw_qos_profile_t rmw_qos_profile_parameter_events = {
   RMW_QOS_POLICY_HISTORY_KEEP_LAST,
@@ -62,8 +58,7 @@ static const rmw_qos_profile_t rmw_qos_profile_parameter_events = {
   RMW_QOS_LIFESPAN_DEFAULT,
   RMW_QOS_POLICY_LIVELINESS_SYSTEM_DEFAULT,
   RMW_QOS_LIVELINESS_LEASE_DURATION_DEFAULT,
-  false
-};
+  false};
 
 static const rmw_qos_profile_t rmw_qos_profile_system_default = {
   RMW_QOS_POLICY_HISTORY_SYSTEM_DEFAULT,
@@ -74,8 +69,7 @@ static const rmw_qos_profile_t rmw_qos_profile_system_default = {
   RMW_QOS_LIFESPAN_DEFAULT,
   RMW_QOS_POLICY_LIVELINESS_SYSTEM_DEFAULT,
   RMW_QOS_LIVELINESS_LEASE_DURATION_DEFAULT,
-  false
-};
+  false};
 
 static const rmw_qos_profile_t rmw_qos_profile_best_available = {
   RMW_QOS_POLICY_HISTORY_KEEP_LAST,
@@ -86,8 +80,7 @@ static const rmw_qos_profile_t rmw_qos_profile_best_available = {
   RMW_QOS_LIFESPAN_DEFAULT,
   RMW_QOS_POLICY_LIVELINESS_BEST_AVAILABLE,
   RMW_QOS_LIVELINESS_LEASE_DURATION_BEST_AVAILABLE,
-  false
-};
+  false};
 
 static const rmw_qos_profile_t rmw_qos_profile_unknown = {
   RMW_QOS_POLICY_HISTORY_UNKNOWN,
@@ -98,7 +91,6 @@ static const rmw_qos_profile_t rmw_qos_profile_unknown = {
   RMW_QOS_LIFESPAN_DEFAULT,
   RMW_QOS_POLICY_LIVELINESS_UNKNOWN,
   RMW_QOS_LIVELINESS_LEASE_DURATION_DEFAULT,
-  false
-};
+  false};
 
 #endif /* MICROROS_RMW_QOS_PROFILES_H */

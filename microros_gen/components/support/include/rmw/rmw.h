@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The middleware interface, as far as applications call it. Publishing and serialization link with the component
- * `publish`.
+ * The middleware interface, as far as applications call it. Publishing and serialization link with the
+ * component `publish`.
  */
 #ifndef MICROROS_RMW_RMW_H
 #define MICROROS_RMW_RMW_H
@@ -28,8 +28,9 @@ const char * rmw_get_implementation_identifier(void);
 const char * rmw_get_serialization_format(void);
 
 /*
- * Encodes into the stream and hands it to the transport; pumps the session once and does not wait, unless `on_full` is
- * block. RMW_RET_OK: the stream has taken it. RMW_RET_ERROR: a field above its limit, or no room, or no session.
+ * Encodes into the stream and hands it to the transport; pumps the session once and does not wait, unless
+ * `on_full` is block. RMW_RET_OK: the stream has taken it. RMW_RET_ERROR: a field above its limit, or no
+ * room, or no session.
  */
 rmw_ret_t rmw_publish(
   const rmw_publisher_t * publisher, const void * ros_message, rmw_publisher_allocation_t * allocation);
@@ -44,7 +45,8 @@ rmw_ret_t rmw_get_serialized_message_size(
   const rosidl_message_type_support_t * type_support,
   const rosidl_runtime_c__Sequence__bound * message_bounds, size_t * size);
 
-/* Writes encapsulation and body. A buffer that is too small is resized by its own allocator, or RMW_RET_BAD_ALLOC. */
+/* Writes encapsulation and body. A buffer that is too small is resized by its own allocator, or
+ * RMW_RET_BAD_ALLOC. */
 rmw_ret_t rmw_serialize(
   const void * ros_message, const rosidl_message_type_support_t * type_support,
   rmw_serialized_message_t * serialized_message);

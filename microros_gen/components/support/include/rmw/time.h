@@ -17,7 +17,9 @@ typedef struct rmw_time_s {
 typedef rcutils_time_point_value_t rmw_time_point_value_t;
 typedef rcutils_duration_value_t rmw_duration_t;
 
+/* clang-format off */
 #define RMW_DURATION_INFINITE {9223372036LL, 854775807LL}
 #define RMW_DURATION_UNSPECIFIED {0LL, 0LL}
+/* clang-format on */
 
 #endif /* MICROROS_RMW_TIME_H */

@@ -105,15 +105,17 @@ typedef enum rmw_qos_liveliness_policy_e {
 
 enum { RMW_QOS_POLICY_DEPTH_SYSTEM_DEFAULT = 0 };
 
+/* clang-format off */
 #define RMW_QOS_DEADLINE_DEFAULT RMW_DURATION_UNSPECIFIED
 #define RMW_QOS_DEADLINE_BEST_AVAILABLE {9223372036LL, 854775806LL}
 #define RMW_QOS_LIFESPAN_DEFAULT RMW_DURATION_UNSPECIFIED
 #define RMW_QOS_LIVELINESS_LEASE_DURATION_DEFAULT RMW_DURATION_UNSPECIFIED
 #define RMW_QOS_LIVELINESS_LEASE_DURATION_BEST_AVAILABLE {9223372036LL, 854775806LL}
+/* clang-format on */
 
 /*
- * XRCE carries reliability, durability, history and depth. SYSTEM_DEFAULT is reliable, volatile, keep last. A policy
- * that cannot be carried is refused when an entity asks for it, with RMW_RET_UNSUPPORTED.
+ * XRCE carries reliability, durability, history and depth. SYSTEM_DEFAULT is reliable, volatile, keep last. A
+ * policy that cannot be carried is refused when an entity asks for it, with RMW_RET_UNSUPPORTED.
  */
 typedef struct rmw_qos_profile_s {
   enum rmw_qos_history_policy_e history;

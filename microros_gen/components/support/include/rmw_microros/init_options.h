@@ -13,8 +13,9 @@
 extern "C" {
 #endif
 
-/* Copies an address and a decimal port (1 to 65535). RMW_RET_INVALID_ARGUMENT: NULL, too long, or no number. */
-rmw_ret_t rmw_uros_options_set_udp_address(const char * ip, const char * port, rmw_init_options_t * rmw_options);
+/* Copies an address and a decimal port (1 to 65535). RMW_RET_INVALID_ARGUMENT: NULL, too long, no number. */
+rmw_ret_t rmw_uros_options_set_udp_address(
+  const char * ip, const char * port, rmw_init_options_t * rmw_options);
 
 /* Two clients with one key take each other's session. 0 is refused: agents do so too. */
 rmw_ret_t rmw_uros_options_set_client_key(uint32_t client_key, rmw_init_options_t * rmw_options);

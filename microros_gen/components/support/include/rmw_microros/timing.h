@@ -14,8 +14,9 @@ extern "C" {
 rmw_ret_t rmw_uros_set_context_entity_creation_session_timeout(rmw_context_t * context, int session_timeout);
 
 /*
- * How long fini of a node or publisher, and the end of the session, wait, in milliseconds (MICROROS_CLOSE_TIMEOUT_MS at
- * first). With 0 they do not: what is to be deleted is deleted by later calls, or with the session.
+ * How long fini of a node or publisher, and the end of the session, wait, in milliseconds
+ * (MICROROS_CLOSE_TIMEOUT_MS at first). With 0 they do not: what is to be deleted is deleted by later calls,
+ * or with the session.
  */
 rmw_ret_t rmw_uros_set_context_entity_destroy_session_timeout(rmw_context_t * context, int session_timeout);
 

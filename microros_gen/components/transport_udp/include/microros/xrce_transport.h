@@ -24,7 +24,8 @@ void xrce_transport_close(xrce_transport_t * transport);
 /* Sends one message without blocking. False: it was not taken. */
 bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, size_t size);
 
-/* Takes one message without blocking. Returns its size, 0 when there is none, -1 for one that had to be thrown away. */
+/* Takes one message without blocking. Returns its size, 0 when there is none, -1 for one that had to be
+ * thrown away. */
 int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity);
 
 #ifdef __cplusplus

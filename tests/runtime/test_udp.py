@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The POSIX port: real sockets and clocks, with a fake agent in a thread."""
+
+from __future__ import annotations
+
+import socket
+import subprocess
+import threading
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from runtime.fake_agent import FakeAgent
+from runtime.harness import INT32, POOL, build, components, render
+
+PLAN = replace(POOL, connect_timeout_ms=3000, create_timeout_ms=3000, liveliness_period_ms=50)
+AGENT_TIME = 20.0
+
+
+class UdpAgent(threading.Thread):
+    """Answers on a socket of its own until it is stopped."""
+
+    def __init__(self) -> None:
+        super().__init__(daemon=True)
+        self.agent = FakeAgent()
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.bind(("127.0.0.1", 0))
+        self.socket.settimeout(AGENT_TIME)
+        self.port: int = self.socket.getsockname()[1]
+        self.before: Callable[[int], None] = lambda count: None
+
+    def run(self) -> None:
+        count = 0
+        while True:
+            try:
+                datagram, peer = self.socket.recvfrom(2048)
+            except OSError:
+                return
+            count += 1
+            self.before(count)
+            for answer in self.agent.receive(datagram):
+                self.socket.sendto(answer, peer)
+
+
+def _program(tmp_path: Path, port: int) -> Path:
+    tree = render(tmp_path, replace(PLAN, agent_port=port), components(PLAN))
+    return build(tree, ["types.c", "udp.c"], "udp")
+
+
+@pytest.mark.parametrize("restarts", [False, True])
+def test_publishes_over_a_real_socket(restarts: bool, tmp_path: Path) -> None:
+    agent = UdpAgent()
+    if restarts:
+        agent.before = lambda count: agent.agent.restart() if count == 12 else None
+    agent.start()
+    done = subprocess.run(
+        [_program(tmp_path, agent.port)], capture_output=True, text=True, timeout=60, check=False
+    )
+    agent.socket.close()
+    assert done.returncode == 0, done.stdout + done.stderr
+    values = agent.agent.values()
+    assert values[-1] == 99
+    assert values == sorted(set(values))
+    assert len(values) == 100 if not restarts else len(values) > 10
+    assert not agent.agent.connected, "it took its leave"
+    assert INT32.name.encode() in b"".join(agent.agent.log)
+
+
+def test_nobody_listens(tmp_path: Path) -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
+        taken.bind(("127.0.0.1", 0))
+        port = taken.getsockname()[1]
+    done = subprocess.run([_program(tmp_path, port)], capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 2
+    assert done.stdout == f"no agent answers at 127.0.0.1:{port} within 3000 ms\n"
