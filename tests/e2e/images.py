@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Builds images and applications with the tool, as a user does, each once for all tests of a worker."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+C_FILES = Path(__file__).parent / "c"
+SANITIZE = ("-O1", "-g0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+QUICK = ("-O0",)
+
+# What an application without `nodes:` declares for live.c.
+POOLS = """\
+version: 1
+profiles: [pure_sender]
+interfaces: [std_msgs/msg/Int32, std_msgs/msg/String]
+pools: {nodes: 2, publishers: 3, name_size: 32}
+limits: {"*": {string: 16}}
+"""
+
+# Both streams, a namespace, a private name, three kinds of QoS.
+DECLARED = """\
+version: 1
+profiles: [pure_sender]
+nodes:
+  - name: imu_node
+    namespace: /arm
+    publishers:
+      - {topic: imu/data, type: sensor_msgs/msg/Imu, qos: {reliability: best_effort, depth: 1}}
+      - {topic: count, type: std_msgs/msg/Int32}
+      - {topic: ~/state, type: std_msgs/msg/String, qos: {durability: transient_local, depth: 1}}
+limits:
+  sensor_msgs/msg/Imu: {header: {frame_id: 16}}
+  std_msgs/msg/String: {data: 16}
+"""
+
+
+@dataclass(frozen=True)
+class Image:
+    """An output folder with its library and the example of its profile, and how it was compiled."""
+
+    out: Path
+    compiler: str
+    flags: tuple[str, ...]
+
+    @property
+    def program(self) -> Path:
+        """The example of the profile."""
+        return self.out / "bin" / "pure_sender"
+
+    def application(
+        self, source: Path, *flags: str, compiler: str = "", against: Image | None = None
+    ) -> Path:
+        """Compile a C or C++ file with this image's headers and link it with its library; AssertionError with
+        the compiler's words. `against`: link the library of another image.
+        """
+        program = self.out.parent / f"{self.out.name}-{source.stem}"
+        library = (against or self).out / "lib" / "libmicroros.a"
+        command = [compiler or self.compiler, *self.flags, *flags, f"-I{self.out / 'include'}", str(source)]
+        done = run([*command, str(library), "-o", str(program)])
+        assert done.returncode == 0, done.stdout + done.stderr
+        return program
+
+
+class Images:
+    """Image factory with a memory, below one folder."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.build = cache(self._build)
+        self.live = cache(self._live)
+
+    def _build(
+        self, port: int, application: str = "", compiler: str = "gcc", flags: tuple[str, ...] = SANITIZE
+    ) -> Image:
+        """Run `microros-gen build` for an agent at `port`; `application` empty: `--profile pure_sender` alone."""
+        home = self.folder / f"image{len(list(self.folder.iterdir()))}"
+        home.mkdir()
+        arguments = ["--agent", f"127.0.0.1:{port}", "-o", "out"]
+        if application:
+            (home / "microros.yaml").write_text(application)
+        else:
+            arguments += ["--profile", "pure_sender"]
+        environment = {k: v for k, v in os.environ.items() if k not in ("AR", "AMENT_PREFIX_PATH")}
+        environment |= {"CC": compiler, "CFLAGS": " ".join(flags)}
+        environment["XDG_CACHE_HOME"] = str(self.folder.parent / "cache")
+        done = run([sys.executable, "-m", "microros_gen", "build", *arguments], cwd=home, env=environment)
+        assert done.returncode == 0, done.stdout + done.stderr
+        return Image(home / "out", compiler, flags)
+
+    def _live(self, image: Image) -> Path:
+        """Compile live.c for an image."""
+        ping = "-DLIVE_PING" if (image.out / "src" / "ping").is_dir() else "-DLIVE_NO_PING"
+        return image.application(C_FILES / "live.c", "-std=c99", "-Wall", "-Wextra", "-Werror", ping)
+
+
+def run(
+    command: Sequence[str], cwd: Path | None = None, env: dict[str, str] | None = None
+) -> subprocess.CompletedProcess[str]:
+    """Run a command to its end, at most a minute."""
+    return subprocess.run(
+        list(command), cwd=cwd, env=env, text=True, capture_output=True, timeout=60, check=False
+    )
+
+
+@contextmanager
+def started(program: Path, *arguments: str) -> Iterator[subprocess.Popen[str]]:
+    """Start a program; kill it afterwards where it still runs."""
+    process = subprocess.Popen(
+        [program, *arguments], text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
+    try:
+        yield process
+    finally:
+        if process.poll() is None:
+            process.kill()
+        process.communicate(timeout=10)
+
+
+def ends_well(process: subprocess.Popen[str], timeout_s: float = 15.0) -> None:
+    """Wait for the end of a program that has nothing to report: neither itself nor its sanitizers."""
+    out, errors = process.communicate(timeout=timeout_s)
+    assert (process.returncode, errors) == (0, ""), out + errors
+
+
+def kill(process: subprocess.Popen[str]) -> None:
+    """End a process at once, as a power cut does."""
+    process.send_signal(signal.SIGKILL)
+    process.wait(timeout=10)

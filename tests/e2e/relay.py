@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A UDP relay between images and their agent: it keeps the port that an image was built for, lets the agent
+behind it come and go, and loses, doubles and delays datagrams when told to.
+"""
+
+from __future__ import annotations
+
+import heapq
+import random
+import selectors
+import socket
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from types import TracebackType
+
+# Seconds until each copy of a datagram goes on; none: it is lost.
+Fault = Callable[[], list[float]]
+
+
+def no_fault() -> list[float]:
+    """Pass each datagram on at once."""
+    return [0.0]
+
+
+def rough(seed: int) -> Fault:
+    """Return a bad network: one datagram in six is lost, one in six comes twice, one in four late."""
+    chance = random.Random(seed)
+
+    def fault() -> list[float]:
+        copies = chance.choice([0, 1, 1, 1, 1, 2])
+        return [chance.choice([0.0, 0.0, 0.0, chance.uniform(0.001, 0.04)]) for _ in range(copies)]
+
+    return fault
+
+
+@dataclass(order=True)
+class _Waiting:
+    due: float
+    number: int
+    send: Callable[[], object] = field(compare=False)
+
+
+class Relay:
+    """Listens on a port of its own from the start; used as a context manager."""
+
+    def __init__(self) -> None:
+        self.fault: Fault = no_fault
+        self.passed = 0
+        self._front = _socket()
+        self.port: int = self._front.getsockname()[1]
+        self._target = 0
+        self._backs: dict[tuple[str, int], socket.socket] = {}
+        self._waiting: list[_Waiting] = []
+        self._lock = threading.Lock()
+        self._ends = threading.Event()
+        self._selector = selectors.DefaultSelector()
+        self._selector.register(self._front, selectors.EVENT_READ, None)
+        self._thread = threading.Thread(target=self._serve, daemon=True)
+
+    def __enter__(self) -> Relay:
+        self._thread.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._ends.set()
+        self._thread.join(10)
+        self.connect(0)
+        self._selector.close()
+        self._front.close()
+
+    def connect(self, port: int) -> None:
+        """Serve with the agent at `port` from now on; 0: nobody is there."""
+        with self._lock:
+            self._target = port
+            self.fault = no_fault
+            for back in self._backs.values():
+                self._selector.unregister(back)
+                back.close()
+            self._backs.clear()
+            self._waiting.clear()
+
+    def _serve(self) -> None:
+        while not self._ends.is_set():
+            events = self._selector.select(0.002 if self._waiting else 0.02)
+            with self._lock:
+                for key, _ in events:
+                    if key.fileobj is self._front or key.data in self._backs:
+                        self._take(key.fileobj, key.data)  # type: ignore[arg-type]
+                self._send_due()
+
+    def _take(self, arrived: socket.socket, client: tuple[str, int] | None) -> None:
+        try:
+            data, address = arrived.recvfrom(65535)
+        except OSError:
+            return  # the news that nobody listens there
+        if client is not None:
+            self._pass_on(lambda: self._front.sendto(data, client))
+        elif self._target:
+            back = self._back(address)
+            self._pass_on(lambda: back.send(data))
+
+    def _back(self, client: tuple[str, int]) -> socket.socket:
+        if client not in self._backs:
+            back = _socket()
+            back.connect(("127.0.0.1", self._target))
+            self._backs[client] = back
+            self._selector.register(back, selectors.EVENT_READ, client)
+        return self._backs[client]
+
+    def _pass_on(self, send: Callable[[], object]) -> None:
+        for delay in self.fault():
+            self.passed += 1
+            heapq.heappush(self._waiting, _Waiting(time.monotonic() + delay, self.passed, send))
+
+    def _send_due(self) -> None:
+        while self._waiting and self._waiting[0].due <= time.monotonic():
+            try:
+                heapq.heappop(self._waiting).send()
+            except OSError:
+                continue  # lost, as on a network
+
+
+def _socket() -> socket.socket:
+    made = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    made.setblocking(False)
+    made.bind(("127.0.0.1", 0))
+    return made

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the tool builds, run: samples and graph as a ROS 2 process sees them, with sanitizers in the image."""
+
+from __future__ import annotations
+
+import math
+import time
+from contextlib import ExitStack
+from typing import Any
+
+import pytest
+from agent.observer import Observer
+from agent.process import AgentProcess
+
+from e2e.images import DECLARED, SANITIZE, Image, Images, ends_well, kill, started
+from e2e.relay import Relay
+
+pytestmark = pytest.mark.ros
+
+SAMPLES = 150
+SHORT_RUN = (*SANITIZE, f"-DEXAMPLE_SAMPLES={SAMPLES}", "-DEXAMPLE_PERIOD_MS=20")
+
+
+def until(observer: Observer, topics: list[str], last: int, timeout_s: float = 20.0) -> dict[str, list[Any]]:
+    """Take samples until each of `topics` has the value `last`; return all samples by topic."""
+    found: dict[str, list[Any]] = {}
+    end = time.monotonic() + timeout_s
+    missing = set(topics)
+    while missing:
+        assert time.monotonic() < end, f"{last} does not come on {missing}: {found.keys()}"
+        for name, value in observer.ask(do="samples"):
+            found.setdefault(name, []).append(value)
+            if value.get("data") == last:
+                missing.discard(name)
+        time.sleep(0.02)
+    return found
+
+
+def run_to(last: int, values: list[int]) -> None:
+    """Check that `values` are consecutive up to `last`, and more than the end: discovery took the first."""
+    assert values == list(range(values[0], last + 1))
+    assert len(values) >= 20
+
+
+def declared(name: str) -> str:
+    """Return the declared application in a namespace of its own; with it goes the client key."""
+    return DECLARED.replace("/arm", f"/{name}")
+
+
+def subscribe(observer: Observer, name: str) -> None:
+    observer.subscribe(f"/{name}/imu/data", "sensor_msgs/msg/Imu", reliable=False)
+    observer.subscribe(f"/{name}/count", "std_msgs/msg/Int32")
+    observer.subscribe(f"/{name}/imu_node/state", "std_msgs/msg/String", transient_local=True)
+
+
+def check_graph(graph: dict[str, Any], name: str) -> None:
+    node = f"/{name}/imu_node"
+    assert graph["nodes"].count(node) == 1
+    assert graph["topics"][f"/{name}/imu/data"] == ["sensor_msgs/msg/Imu"]
+    assert graph["topics"][f"/{name}/count"] == ["std_msgs/msg/Int32"]
+    assert graph["topics"][f"{node}/state"] == ["std_msgs/msg/String"]
+    assert graph["publishers"][f"/{name}/imu/data"] == [[node, "BEST_EFFORT", "VOLATILE"]]
+    assert graph["publishers"][f"/{name}/count"] == [[node, "RELIABLE", "VOLATILE"]]
+    assert graph["publishers"][f"{node}/state"] == [[node, "RELIABLE", "TRANSIENT_LOCAL"]]
+
+
+def test_what_every_compiler_makes(
+    images: Images, image_port: Relay, agent: AgentProcess, observer: Observer
+) -> None:
+    """The profile alone, and the declared application by gcc, clang and for 32 bit, all at the same time: each
+    sample in order with its contents on both streams, the graph as asked for, no word of a sanitizer, and each
+    leaves the graph with its end.
+    """
+    compilers = {
+        "gcc": ("gcc", SHORT_RUN),
+        "clang": ("clang", SHORT_RUN),
+        "m32": ("gcc", ("-m32", *SHORT_RUN)),
+    }
+    built = {
+        name: images.build(image_port.port, declared(name), compiler, flags)
+        for name, (compiler, flags) in compilers.items()
+    }
+    alone = images.build(image_port.port, "", "gcc", SHORT_RUN)
+    observer.subscribe("/int32", "std_msgs/msg/Int32")
+    for name in built:
+        subscribe(observer, name)
+    observer.ask(do="samples")
+    with ExitStack() as stack:
+        processes = [stack.enter_context(started(image.program)) for image in (alone, *built.values())]
+        states = [f"/{name}/imu_node/state" for name in built]
+        graph = observer.see(lambda g: all(g["publishers"].get(topic) for topic in (*states, "/int32")))
+        found = until(observer, ["/int32", *(f"/{name}/count" for name in built)], SAMPLES - 1)
+        for process in processes:
+            ends_well(process)
+    assert graph["nodes"].count("/pure_sender") == 1
+    assert graph["topics"]["/int32"] == ["std_msgs/msg/Int32"]
+    assert graph["publishers"]["/int32"] == [["/pure_sender", "RELIABLE", "VOLATILE"]]
+    run_to(SAMPLES - 1, [value["data"] for value in found["/int32"]])
+    for name in built:
+        check_graph(graph, name)
+        run_to(SAMPLES - 1, [value["data"] for value in found[f"/{name}/count"]])
+        check_measurements(found[f"/{name}/imu/data"])
+        assert {value["data"] for value in found[f"/{name}/imu_node/state"]} == {"imu_node"}
+    ours = {"/pure_sender", *(f"/{name}/imu_node" for name in built)}
+    gone = observer.see(lambda g: not ours & set(g["nodes"]))
+    assert not any(gone["publishers"].get(f"/{name}/count") for name in built)
+
+
+def check_measurements(measurements: list[Any]) -> None:
+    """Check the fields that the example fills, and that it leaves the others alone."""
+    turns = [value["angular_velocity"]["x"] for value in measurements]
+    run_to(SAMPLES - 1, [round(turn / 0.1) for turn in turns])
+    # The 32-bit image rounds 0.1 * count in the wider registers of the x87 first.
+    assert all(abs(turn - 0.1 * round(turn / 0.1)) <= math.ulp(turn) for turn in turns)
+    now = time.time()
+    for value in measurements:
+        assert value["header"]["frame_id"] == "imu_node"
+        stamp = value["header"]["stamp"]
+        assert now - 30 < stamp["sec"] + stamp["nanosec"] * 1e-9 <= now
+        turn = value["angular_velocity"]["x"]
+        assert set(value["angular_velocity"].values()) == {turn}
+        assert set(value["linear_acceleration"].values()) == {turn}
+        assert value["orientation"] == {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}
+        assert value["orientation_covariance"] == [0.0] * 9
+    stamps = [(v["header"]["stamp"]["sec"], v["header"]["stamp"]["nanosec"]) for v in measurements]
+    assert stamps == sorted(stamps)
+
+
+def test_an_image_that_is_killed_leaves_the_graph_and_returns(
+    profile_image: Image, agent: AgentProcess, observer: Observer
+) -> None:
+    with started(profile_image.program) as process:
+        observer.see(lambda g: "/pure_sender" in g["nodes"])
+        kill(process)
+    start = time.monotonic()
+    observer.see(lambda g: "/pure_sender" not in g["nodes"])
+    assert time.monotonic() - start > 0.5, "only the time-out of the agent can tell"
+    with started(profile_image.program):
+        graph = observer.see(lambda g: "/pure_sender" in g["nodes"])
+        assert graph["nodes"].count("/pure_sender") == 1
