@@ -47,10 +47,13 @@ def command(golden: Path, update: bool, **options: Any) -> int:
     if update:
         report = write_tree(golden, files)
         click.echo(f"{golden}: {len(report.written)} written, {len(report.removed)} removed")
-        return 0
     differences = golden_differences(golden, files)
     for difference in differences:
         click.echo(difference, nl=False)
-    if differences:
+    if differences and update:
+        click.echo(
+            f"{golden} holds {len(differences)} more that microros-gen did not write: remove them", err=True
+        )
+    elif differences:
         click.echo(f"{len(differences)} of {len(files)} files differ from {golden}", err=True)
     return 1 if differences else 0

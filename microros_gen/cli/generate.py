@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -31,23 +32,27 @@ def command(output: Path | None, **options: Any) -> None:
     call = {"command": "generate", "output": output, **options}
     last = find_run(call, os.environ)
     if last is not None:
+        click.echo(last.warnings, nl=False, err=True)
         click.echo(last.summary + _files_line(last.out, 0, last.files, 0), nl=False)
         return
     from microros_gen.cli.pipeline import read_paths
     from microros_gen.cli.summary import plan_summary
+    from microros_gen.output.tree import JOURNAL
 
+    begun = time.time_ns()
     planned, out = plan(SelectionOptions(**options), output)
     report = write(planned, out)
     summary = plan_summary(planned)
     files = report.written + report.unchanged
-    run = Run(out, summary, len(files))
-    record_run(call, os.environ, run, read_paths(planned), (out / name for name in files))
+    run = Run(out, summary, len(files), planned.warnings)
+    inputs = (*read_paths(planned), out / JOURNAL)
+    record_run(call, os.environ, run, inputs, (out / name for name in files), begun)
     click.echo(summary + files_line(out, report), nl=False)
 
 
 def plan(options: SelectionOptions, output: Path | None) -> tuple[Planned, Path]:
     """Decide everything; return the plan and the folder that it is for. Nothing is written yet."""
-    from microros_gen.cli.pipeline import plan_request, print_warnings, read_request
+    from microros_gen.cli.pipeline import plan_request, read_request
     from microros_gen.cli.pipeline import resolve_request as resolve
     from microros_gen.diagnostics import Diagnostics
     from microros_gen.output.tree import check_owned
@@ -57,7 +62,7 @@ def plan(options: SelectionOptions, output: Path | None) -> tuple[Planned, Path]
     out = output or Path("build") / "+".join(resolved.selection.profiles)
     check_owned(out)
     planned = plan_request(resolved, options, diagnostics)
-    print_warnings(diagnostics)
+    click.echo(planned.warnings, nl=False, err=True)
     return planned, out
 
 

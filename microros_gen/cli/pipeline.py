@@ -63,13 +63,17 @@ class Resolved:
 
 @dataclass(frozen=True)
 class Planned:
-    """A resolved request with its plan and with what `capacities` had to assume."""
+    """A resolved request with its plan and with what `capacities` had to assume.
+
+    `searched` are the paths that decide where each interface is found; `warnings` the text for stderr.
+    """
 
     resolved: Resolved
     interfaces: InterfaceSet
     searched: tuple[Path, ...]
     capacities: Capacities
     project: Project
+    warnings: str = ""
 
 
 def read_request(options: SelectionOptions, diagnostics: Diagnostics) -> Request:
@@ -120,7 +124,9 @@ def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Dia
         application, selection, resolved.request.target, types, interfaces.roots, diagnostics
     )
     diagnostics.check()
-    return Planned(resolved, interfaces, finder.folders(), capacities, project)
+    packages = sorted({entry.name.package for entry in interfaces})
+    warnings = "".join(f"{diagnostic.render()}\n" for diagnostic in diagnostics)
+    return Planned(resolved, interfaces, tuple(finder.deciding(packages)), capacities, project, warnings)
 
 
 def render_request(planned: Planned) -> dict[str, bytes]:
@@ -142,19 +148,19 @@ def render_request(planned: Planned) -> dict[str, bytes]:
 
 
 def read_paths(planned: Planned) -> Iterator[Path]:
-    """Yield every file that the plan was made from, and every folder that was searched for it."""
+    """Yield every file that the plan was made from, and every path that would matter if there were one."""
     request = planned.resolved.request
     near = request.near
-    yield from (near, near / APPLICATION_FILE)
-    if request.config:
-        yield request.config
-    yield from (request.profiles_near / f"{name.name}.yaml" for name in request.application.profiles)
-    yield from (Path(p.span.source.name) for p in planned.resolved.own_profiles if p.span)
+    yield request.config or near / APPLICATION_FILE
+    asked = [request.profiles_near / name.name for name in request.application.profiles]
+    own = [Path(p.span.source.name) for p in planned.resolved.own_profiles if p.span]
+    yield from (Path(f"{path}{suffix}") for path in asked for suffix in ("", ".yaml", ".yml"))
+    yield from (candidate for path in own for candidate in (path, path.with_suffix(".yaml")))
     yield near / request.application.target.name
     yield from planned.searched
     for entry in planned.interfaces:
-        folder = entry.place.folder
-        yield from (folder, folder / entry.name.kind, folder / entry.name.kind / f"{entry.name.name}.msg")
+        folder = entry.place.folder / entry.name.kind
+        yield from (folder, folder / f"{entry.name.name}.msg")
 
 
 def print_warnings(diagnostics: Iterable[object]) -> None:

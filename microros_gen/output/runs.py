@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Remembers the last run of a command, so that a run with nothing changed ends before anything is parsed.
 
-A record lies in the user's cache folder, never in the output: it holds the state (size and time of change) of
+A record lies in the user's cache folder, never in the output: it holds the state (size and times of change) of
 everything that was read, the folders that were searched, the tool's own files, and of every file written. Any
-difference, and any doubt, means a full run. Nothing is lost when the cache is.
+difference, and any doubt, means a full run; so a run is not recorded when something that it read changed after
+it had begun. Nothing is lost when the cache is.
 """
 
 from __future__ import annotations
@@ -21,16 +22,21 @@ import microros_gen
 
 # What decides besides files: where interfaces are searched, and which Python's packages.
 _ENVIRONMENT = ("AMENT_PREFIX_PATH", "COLCON_PREFIX_PATH")
-_MISSING = [-1, -1]
+_MISSING = [-1, -1, -1]
+# File systems stamp files with the time of the last tick of the kernel: up to 10 ms old.
+_CLOCK_STEP_NS = 10_000_000
+# Beside the package in a repository; in a wheel they are part of it.
+_TOOL_BESIDE = ("profiles",)
 
 
 @dataclass(frozen=True)
 class Run:
-    """A run that need not be repeated: where it wrote, and what it said of its result."""
+    """A run that need not be repeated: where it wrote, and what it said of its result and on stderr."""
 
     out: Path
     summary: str
     files: int
+    warnings: str = ""
 
 
 def find_run(command: Mapping[str, object], environ: Mapping[str, str]) -> Run | None:
@@ -40,7 +46,7 @@ def find_run(command: Mapping[str, object], environ: Mapping[str, str]) -> Run |
         watched = {**data["inputs"], **data["outputs"]}
         if data["tool"] != _tool_state() or any(_state(Path(p)) != s for p, s in watched.items()):
             return None
-        return Run(Path(data["out"]), str(data["summary"]), len(data["outputs"]))
+        return Run(Path(data["out"]), str(data["summary"]), len(data["outputs"]), str(data["warnings"]))
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return None
 
@@ -51,14 +57,23 @@ def record_run(
     run: Run,
     inputs: Iterable[Path],
     outputs: Iterable[Path],
+    begun_ns: int,
 ) -> None:
-    """Record a finished run. A cache that cannot be written is no error: the next run is a full one."""
+    """Record a finished run. A cache that cannot be written is no error: the next run is a full one.
+
+    `begun_ns` is the time (nanoseconds since the epoch) before anything was read: an input that is as young may
+    have been read before its change.
+    """
+    states = {str(p.absolute()): _state(p) for p in inputs}
+    if any(max(state[1:]) >= begun_ns - _CLOCK_STEP_NS for state in states.values()):
+        return
     data = {
         "tool": _tool_state(),
-        "inputs": {str(p.absolute()): _state(p) for p in inputs},
+        "inputs": states,
         "outputs": {str(p.absolute()): _state(p) for p in outputs},
         "out": str(run.out),
         "summary": run.summary,
+        "warnings": run.warnings,
     }
     path = _record(command, environ)
     with suppress(OSError):
@@ -86,25 +101,43 @@ def _record(command: Mapping[str, object], environ: Mapping[str, str]) -> Path:
 
 
 def _state(path: Path) -> list[int]:
-    """Return size and time of change, or a mark where nothing is; a folder's time tells of its names."""
+    """Return size and times of change, or a mark where nothing is; a folder's times tell of its names.
+
+    The second time is that of the entry itself, which shows a file of the same size that was put in its place with
+    its old time (POSIX; on Windows it is the time of creation).
+    """
     try:
         found = path.stat()
     except OSError:
         return _MISSING
-    return [found.st_size, found.st_mtime_ns]
+    return [found.st_size, found.st_mtime_ns, found.st_ctime_ns]
 
 
 def _tool_state() -> str:
-    """Return a digest of the state of the tool's own files: templates, components and modules."""
+    """Return a digest of the state of the tool's own files: templates, components, profiles and modules."""
+    package = Path(microros_gen.__file__).parent
     digest = hashlib.sha256(microros_gen.__version__.encode())
-    pending = [str(Path(microros_gen.__file__).parent)]
+    digest.update(str([_state(folder) for folder in _package_folders()]).encode())
+    pending = [str(package), *(str(package.parent / name) for name in _TOOL_BESIDE)]
     while pending:
-        with os.scandir(pending.pop()) as entries:
-            for entry in sorted(entries, key=lambda e: e.name):
-                if entry.is_dir(follow_symlinks=False):
-                    if entry.name not in ("__pycache__", "idl", "agent"):
-                        pending.append(entry.path)
-                else:
-                    found = entry.stat()
-                    digest.update(f"{entry.path} {found.st_size} {found.st_mtime_ns}\n".encode())
+        for entry in _entries(pending.pop()):
+            if entry.is_dir(follow_symlinks=False):
+                if entry.name not in ("__pycache__", "idl", "agent"):
+                    pending.append(entry.path)
+            else:
+                found = entry.stat()
+                digest.update(f"{entry.path} {found.st_size} {found.st_mtime_ns}\n".encode())
     return digest.hexdigest()
+
+
+def _entries(folder: str) -> list[os.DirEntry[str]]:
+    try:
+        with os.scandir(folder) as entries:
+            return sorted(entries, key=lambda e: e.name)
+    except OSError:
+        return []
+
+
+def _package_folders() -> list[Path]:
+    """Return the folders with Python packages: installing another Jinja, say, changes one of them."""
+    return [Path(name) for name in sys.path if name.endswith(("site-packages", "dist-packages"))]

@@ -137,9 +137,19 @@ class InterfaceFinder:
             places.append("the definitions that ship with microros-gen")
         return ", ".join(places) if places else "nowhere: no place was given"
 
-    def folders(self) -> tuple[Path, ...]:
-        """Return the folders that the search looks into, in its order."""
-        return tuple(folder for folder, _ in self._roots())
+    def deciding(self, packages: Iterable[str]) -> Iterator[Path]:
+        """Yield the paths that decide where `packages` are found, those that are missing too.
+
+        While none of them changes (a folder: its names), the search has the same result.
+        """
+        names = tuple(packages)
+        for folder, origin in self._roots():
+            yield folder
+            if origin is Origin.PATH:  # any folder may hold any package: its package.xml has the name
+                children = [folder, *(entry for entry in _children(folder) if entry.is_dir())]
+                yield from (path for child in children for path in (child, child / "package.xml"))
+            else:
+                yield from (folder / name for name in names)
 
     def _roots(self) -> Iterator[tuple[Path, Origin]]:
         yield from ((path, Origin.PATH) for path in self.paths)
@@ -214,13 +224,16 @@ def _is_package(folder: Path) -> bool:
 def _packages_below(folder: Path, origin: Origin) -> list[PackagePlace]:
     if origin is Origin.PATH and _is_package(folder):
         return [PackagePlace(_name_of(folder), folder, origin)]
-    try:
-        entries = sorted(folder.iterdir())
-    except OSError:
-        return []
-    children = [entry for entry in entries if _is_package(entry)]
+    children = [entry for entry in _children(folder) if _is_package(entry)]
     named = origin is Origin.PATH
     return [PackagePlace(_name_of(c) if named else c.name, c, origin) for c in children]
+
+
+def _children(folder: Path) -> list[Path]:
+    try:
+        return sorted(folder.iterdir())
+    except OSError:
+        return []
 
 
 def _name_of(folder: Path) -> str:
