@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What the library asks of the system below it. A port implements the groups that the selection uses; each
+ * function is a symbol of its own, so that what nobody calls is not linked. The library calls these from the
+ * task that calls it, and keeps no pointer that it hands over.
+ *
+ * Groups: time and sleep, unique id, UDP. A further group (mutex, tasks, OS timers, wake-up, memory sections,
+ * other transports) is added here with the component that needs it.
+ */
+#ifndef MICROROS_PORT_H
+#define MICROROS_PORT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* --- time and sleep --- */
+
+/* Returns milliseconds since some start; never goes back, starts again at 0 after 2^32 - 1. */
+uint32_t port_time_ms(void);
+
+/* Returns nanoseconds since 1970-01-01 00:00 UTC, as far as the system knows. */
+int64_t port_time_epoch_ns(void);
+
+/* Sleeps at least `duration_ms`; 0 yields. */
+void port_sleep_ms(uint32_t duration_ms);
+
+/* --- unique id --- */
+
+/* Returns a number that no other device has and that stays over a restart; never 0. */
+uint32_t port_unique_id(void);
+
+/* --- UDP --- */
+
+/* One socket; `handle` is the port's own, of which the library only keeps a copy. */
+typedef struct port_udp_t {
+  intptr_t handle;
+} port_udp_t;
+
+/* Opens a socket that talks to one peer and hears no other. False: no network, or `host` is unknown. May
+ * block where a name has to be looked up, not for an address in digits. */
+bool port_udp_open(port_udp_t * udp, const char * host, uint16_t port);
+
+void port_udp_close(port_udp_t * udp);
+
+/* Sends one datagram without blocking. False: not sent. */
+bool port_udp_send(port_udp_t * udp, const uint8_t * data, size_t size);
+
+/* Takes one datagram without blocking. Returns its length, 0 when there is none, -1 when it did not fit
+ * `capacity`. */
+int32_t port_udp_receive(port_udp_t * udp, uint8_t * buffer, size_t capacity);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_PORT_H */

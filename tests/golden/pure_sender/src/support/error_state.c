@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/error_state.h"
+
+#include "microros/error.h"
+
+#include <stddef.h>
+#include <string.h>
+
+int32_t microros_error_named(int32_t result, const char * error, const char * name)
+{
+  microros_error_set(error, name, NULL, 0, 0);
+  return result;
+}
+
+int32_t microros_error_refuse(int32_t result, const char * argument)
+{
+  return microros_error_named(result, microros_error_argument, argument);
+}
+
+rcutils_error_state_t * microros_error_state(void)
+{
+  static rcutils_error_state_t state; /* rcutils has one for all: its functions take no handle */
+
+  return &state;
+}
+
+bool rcutils_error_is_set(void)
+{
+  return microros_error_state()->message[0] != '\0';
+}
+
+const rcutils_error_state_t * rcutils_get_error_state(void)
+{
+  return rcutils_error_is_set() ? microros_error_state() : NULL;
+}
+
+rcutils_error_string_t rcutils_get_error_string(void)
+{
+  rcutils_error_string_t text;
+
+  memcpy(text.str, microros_error_state()->message, sizeof(text.str));
+  return text;
+}
+
+void rcutils_reset_error(void)
+{
+  microros_error_state()->message[0] = '\0';
+}

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "rclc/init.h"
+
+#include "microros/error.h"
+#include "microros/rcl_open.h"
+#include "rcl/init.h"
+
+#include <string.h>
+
+static rcl_ret_t support_open(
+  rclc_support_t * support, const rmw_init_options_t * options, rcl_allocator_t * allocator)
+{
+  if (support == NULL || allocator == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "support or allocator");
+  }
+  memset(support, 0, sizeof(*support));
+  support->allocator = allocator;
+  return rcl_open(options, &support->context);
+}
+
+rcl_ret_t rclc_support_init_with_options(
+  rclc_support_t * support, int argc, char const * const * argv, rcl_init_options_t * init_options,
+  rcl_allocator_t * allocator)
+{
+  (void)argc;
+  (void)argv;
+  if (init_options == NULL || init_options->rmw.implementation_identifier == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "init_options");
+  }
+  return support_open(support, &init_options->rmw, allocator);
+}
+
+rcl_ret_t rclc_support_init(
+  rclc_support_t * support, int argc, char const * const * argv, rcl_allocator_t * allocator)
+{
+  (void)argc;
+  (void)argv;
+  return support_open(support, NULL, allocator);
+}
+
+rcl_ret_t rclc_support_fini(rclc_support_t * support)
+{
+  rcl_ret_t result;
+  rcl_ret_t fini;
+
+  if (support == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "support");
+  }
+  result = rcl_shutdown(&support->context);
+  fini = rcl_context_fini(&support->context);
+  return result != RCL_RET_OK ? result : fini;
+}

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "rmw/init.h"
+
+#include "microros/error.h"
+#include "microros/port.h"
+#include "microros/rmw_client.h"
+#include "microros/rmw_open.h"
+#include "microros/xrce_client.h"
+#include "rmw/rmw.h"
+
+#include <string.h>
+
+const char * rmw_get_implementation_identifier(void)
+{
+  return rmw_implementation_identifier;
+}
+
+const char * rmw_get_serialization_format(void)
+{
+  return "cdr";
+}
+
+rmw_context_t rmw_get_zero_initialized_context(void)
+{
+  rmw_context_t context;
+
+  memset(&context, 0, sizeof(context));
+  return context;
+}
+
+static rmw_ret_t init_report(const xrce_client_t * client)
+{
+  const xrce_session_t * session = &client->session;
+
+  if (session->refusal != 0u) {
+    microros_error_set(microros_error_agent_refused, session->host, NULL, session->refusal, session->port);
+    return RMW_RET_ERROR;
+  }
+  if (!session->transport_open) {
+    microros_error_set(microros_error_transport, session->host, NULL, session->port, 0);
+    return RMW_RET_ERROR;
+  }
+  microros_error_set(
+    microros_error_agent_silent, session->host, NULL, session->port, MICROROS_CONNECT_TIMEOUT_MS);
+  return RMW_RET_TIMEOUT;
+}
+
+/* The options must live as long as the session, so the context keeps them. */
+static void init_keep_options(const rmw_init_options_t * options, rmw_context_t * context)
+{
+  if (options != NULL) {
+    context->options = *options;
+  } else {
+    memset(&context->options, 0, sizeof(context->options));
+    context->options.domain_id = RMW_DEFAULT_DOMAIN_ID;
+  }
+}
+
+rmw_ret_t rmw_open(const rmw_init_options_t * options, rmw_context_t * context)
+{
+  xrce_client_t * client = rmw_client_instance();
+  const rmw_uxrce_transport_params_t * params = &context->options.transport_params;
+  rmw_ret_t result;
+
+  if (client->session.state != XRCE_CLOSED) {
+    return microros_error_named(RMW_RET_ERROR, microros_error_context_in_use, NULL);
+  }
+  init_keep_options(options, context);
+  xrce_session_open(
+    client, rmw_client_host(params), rmw_client_port(params),
+    params->client_key != 0u ? params->client_key : MICROROS_CLIENT_KEY);
+  if (!xrce_session_await(client, MICROROS_CONNECT_TIMEOUT_MS)) {
+    result = init_report(client);
+    xrce_session_close(client, 0);
+    return result;
+  }
+  ++context->instance_id;
+  context->implementation_identifier = rmw_implementation_identifier;
+  context->actual_domain_id =
+    context->options.domain_id == RMW_DEFAULT_DOMAIN_ID ? 0u : context->options.domain_id;
+  context->impl = client;
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_init(const rmw_init_options_t * options, rmw_context_t * context)
+{
+  if (options == NULL || context == NULL || options->implementation_identifier == NULL) {
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "options or context");
+  }
+  return rmw_open(options, context);
+}
+
+rmw_ret_t rmw_shutdown(rmw_context_t * context)
+{
+  if (context == NULL || context->impl == NULL) {
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "context");
+  }
+  xrce_session_close(context->impl, context->impl->close_timeout_ms);
+  context->impl = NULL;
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_context_fini(rmw_context_t * context)
+{
+  if (context == NULL || context->impl != NULL) {
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "context");
+  }
+  context->implementation_identifier = NULL;
+  return RMW_RET_OK;
+}
