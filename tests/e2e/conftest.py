@@ -86,7 +86,8 @@ def shared_agent(domain: int, images: Images, pool_image: Image) -> Iterator[Age
         running_agent(domain, "--domain", str(domain), "--client-timeout", "3") as running,
         Live(images.live(pool_image)) as keeper,
     ):
-        keeper.start(running.port, key=0xFFFF, topic="keeper")
+        keeper.ok(f"open 0xFFFF {running.port}")
+        keeper.ok("node 0 keeper -")
         yield running
 
 

@@ -192,6 +192,7 @@ def test_on_full_block(images: Images, none_image: Image) -> None:
         assert waited[10] < 40_000
         assert waited[-1] < 20_000 + HICCUP_US
         agent.silent = False
+        live.ok("flush 2000")
         samples = live.burst(100, 50, 0)
         assert {s.code for s in samples} == {0}
         live.ok("flush 2000")
@@ -245,7 +246,7 @@ def live_until_heard(live: Live, observer: Observer, topic: str) -> None:
     end = time.monotonic() + 15
     while not any(name == topic for name, _ in observer.ask(do="samples")):
         assert time.monotonic() < end, f"the subscription on {topic} gets nothing"
-        live.ok("publish 0 -1")
+        live.call("publish 0 -1")  # the stream may be full while the agent is busy
         time.sleep(0.05)
     live.ok("flush 2000")
     time.sleep(0.1)
@@ -350,7 +351,6 @@ def test_a_killed_agent_comes_back(
             if liveliness != "none":
                 assert live.statistics()["reconnects"] >= 1
             live.ok("close")
-            observer.see(lambda g: "/talker" not in g["nodes"])
 
 
 def stays_lost(live: Live) -> None:
