@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -119,6 +118,8 @@ def _replace_all(
     journal = {"files": sorted(set(files) | owned), "generator": {"name": "microros-gen"}}
     _replace(out / JOURNAL, (json.dumps(journal, indent=1) + "\n").encode())
     _remove_temporaries(out, set(files) | owned)
+    for folder in sorted({(out / name).parent for name in changed}):
+        folder.mkdir(parents=True, exist_ok=True)
     for name in changed:
         if name != MANIFEST:
             _replace(out / name, files[name])
@@ -131,16 +132,13 @@ def _replace_all(
 
 
 def _replace(path: Path, content: bytes) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", suffix=TEMPORARY_SUFFIX, dir=path.parent)
+    temporary = path.with_name(f".{path.name}.{os.getpid()}{TEMPORARY_SUFFIX}")
     try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(content)
-        Path(temporary).chmod(0o644)
-        Path(temporary).replace(path)
+        temporary.write_bytes(content)
+        temporary.replace(path)
     except BaseException:
         with suppress(OSError):
-            Path(temporary).unlink()
+            temporary.unlink()
         raise
 
 
