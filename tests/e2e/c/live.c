@@ -119,8 +119,8 @@ static rcl_ret_t print_statistics(void)
   if (result == RCL_RET_OK) {
     printf(
       "statistics sent=%u resent=%u received=%u malformed=%u dropped=%u reconnects=%u refused=%u\n",
-      (unsigned)s.sent, (unsigned)s.resent, (unsigned)s.received, (unsigned)s.malformed,
-      (unsigned)s.dropped, (unsigned)s.reconnects, (unsigned)s.refused);
+      (unsigned)s.sent, (unsigned)s.resent, (unsigned)s.received, (unsigned)s.malformed, (unsigned)s.dropped,
+      (unsigned)s.reconnects, (unsigned)s.refused);
   }
   return result;
 }
