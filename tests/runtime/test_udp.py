@@ -15,7 +15,7 @@ import pytest
 from runtime.fake_agent import FakeAgent
 from runtime.harness import INT32, POOL, build, components, render
 
-PLAN = replace(POOL, connect_timeout_ms=3000, create_timeout_ms=3000, liveliness_period_ms=50)
+PLAN = replace(POOL, create_timeout_ms=3000, liveliness_period_ms=50)
 AGENT_TIME = 20.0
 
 
@@ -44,8 +44,9 @@ class UdpAgent(threading.Thread):
                 self.socket.sendto(answer, peer)
 
 
-def _program(tmp_path: Path, port: int) -> Path:
-    tree = render(tmp_path, replace(PLAN, agent_port=port), components(PLAN))
+def _program(tmp_path: Path, port: int, connect_timeout_ms: int = 3000) -> Path:
+    plan = replace(PLAN, agent_port=port, connect_timeout_ms=connect_timeout_ms)
+    tree = render(tmp_path, plan, components(plan))
     return build(tree, ["types.c", "udp.c"], "udp")
 
 
@@ -72,6 +73,8 @@ def test_nobody_listens(tmp_path: Path) -> None:
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
         taken.bind(("127.0.0.1", 0))
         port = taken.getsockname()[1]
-    done = subprocess.run([_program(tmp_path, port)], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run(
+        [_program(tmp_path, port, 200)], capture_output=True, text=True, timeout=60, check=False
+    )
     assert done.returncode == 2
-    assert done.stdout == f"no agent answers at 127.0.0.1:{port} within 3000 ms\n"
+    assert done.stdout == f"no agent answers at 127.0.0.1:{port} within 200 ms\n"
