@@ -147,7 +147,7 @@ def compile_objects(
             [compiler, *common, "-E", "-P", str(source)], capture_output=True, check=False
         ).stdout
         key = hashlib.sha256(repr((compiler, tuple(flags), source.name)).encode() + plain).hexdigest()
-        if key in _OBJECTS:
+        if key in _OBJECTS and _OBJECTS[key].is_file():
             return _OBJECTS[key], ""
         command = [compiler, *common, "-c", str(source), "-o", str(target)]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
