@@ -74,6 +74,7 @@ def show(port: int) -> None:
     with ExitStack() as stack:
         print(f"2. agent: microros-gen agent udp4 --port {port}")
         agent_command = [sys.executable, "-m", "microros_gen", "agent", "udp4", "--port", str(port)]
+        agent_command += ["--domain", os.environ.get("ROS_DOMAIN_ID") or "0"]  # the listener's, too
         stack.enter_context(part("agent", agent_command, environment, "agent ready"))
         print("3. listener: an rclpy node in a process of its own")
         listener_command = [sys.executable, str(FOLDER / "subscriber.py")]
