@@ -88,7 +88,8 @@ void * microros_arena_allocate(size_t size, void * state)
     }
   }
   microros_error_set(
-    microros_error_arena, NULL, NULL, (uint32_t)size, (uint32_t)(MICROROS_ARENA_SIZE + size + 2u * UNIT));
+    microros_error_arena, NULL, NULL, (uint32_t)size,
+    (uint32_t)(MICROROS_ARENA_SIZE + size + (size_t)2u * UNIT));
   return NULL;
 }
 

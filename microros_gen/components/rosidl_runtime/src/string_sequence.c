@@ -7,14 +7,14 @@
 
 bool rosidl_runtime_c__String__Sequence__init(rosidl_runtime_c__String__Sequence * sequence, size_t size)
 {
-  rcutils_allocator_t allocator;
   rosidl_runtime_c__String * data = NULL;
 
   if (sequence == NULL || size > SIZE_MAX / sizeof(*data)) {
     return false;
   }
   if (size != 0u) {
-    allocator = rcutils_get_default_allocator();
+    const rcutils_allocator_t allocator = rcutils_get_default_allocator();
+
     data = allocator.allocate(size * sizeof(*data), allocator.state);
     if (data == NULL) {
       return false;
@@ -31,16 +31,15 @@ bool rosidl_runtime_c__String__Sequence__init(rosidl_runtime_c__String__Sequence
 
 void rosidl_runtime_c__String__Sequence__fini(rosidl_runtime_c__String__Sequence * sequence)
 {
-  rcutils_allocator_t allocator;
-
   if (sequence == NULL) {
     return;
   }
   if (sequence->data != NULL) {
+    const rcutils_allocator_t allocator = rcutils_get_default_allocator();
+
     for (size_t i = 0; i < sequence->capacity; ++i) {
       rosidl_runtime_c__String__fini(&sequence->data[i]);
     }
-    allocator = rcutils_get_default_allocator();
     allocator.deallocate(sequence->data, allocator.state);
   }
   sequence->data = NULL;

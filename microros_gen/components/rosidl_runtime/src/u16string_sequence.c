@@ -8,14 +8,14 @@
 bool rosidl_runtime_c__U16String__Sequence__init(
   rosidl_runtime_c__U16String__Sequence * sequence, size_t size)
 {
-  rcutils_allocator_t allocator;
   rosidl_runtime_c__U16String * data = NULL;
 
   if (sequence == NULL || size > SIZE_MAX / sizeof(*data)) {
     return false;
   }
   if (size != 0u) {
-    allocator = rcutils_get_default_allocator();
+    const rcutils_allocator_t allocator = rcutils_get_default_allocator();
+
     data = allocator.allocate(size * sizeof(*data), allocator.state);
     if (data == NULL) {
       return false;
@@ -32,16 +32,15 @@ bool rosidl_runtime_c__U16String__Sequence__init(
 
 void rosidl_runtime_c__U16String__Sequence__fini(rosidl_runtime_c__U16String__Sequence * sequence)
 {
-  rcutils_allocator_t allocator;
-
   if (sequence == NULL) {
     return;
   }
   if (sequence->data != NULL) {
+    const rcutils_allocator_t allocator = rcutils_get_default_allocator();
+
     for (size_t i = 0; i < sequence->capacity; ++i) {
       rosidl_runtime_c__U16String__fini(&sequence->data[i]);
     }
-    allocator = rcutils_get_default_allocator();
     allocator.deallocate(sequence->data, allocator.state);
   }
   sequence->data = NULL;

@@ -60,7 +60,6 @@ rmw_ret_t rmw_open(const rmw_init_options_t * options, rmw_context_t * context)
 {
   xrce_client_t * client = rmw_client_instance();
   const rmw_uxrce_transport_params_t * params = &context->options.transport_params;
-  rmw_ret_t result;
 
   if (client->session.state != XRCE_CLOSED) {
     return microros_error_named(RMW_RET_ERROR, microros_error_context_in_use, NULL);
@@ -70,7 +69,8 @@ rmw_ret_t rmw_open(const rmw_init_options_t * options, rmw_context_t * context)
     client, rmw_client_host(params), rmw_client_port(params),
     params->client_key != 0u ? params->client_key : MICROROS_CLIENT_KEY);
   if (!xrce_session_await(client, MICROROS_CONNECT_TIMEOUT_MS)) {
-    result = init_report(client);
+    const rmw_ret_t result = init_report(client);
+
     xrce_session_close(client, 0);
     return result;
   }

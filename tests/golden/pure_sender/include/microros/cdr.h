@@ -20,8 +20,7 @@
 #include "microros/message_type.h"
 
 #ifdef __cplusplus
-extern "C"
-{
+extern "C" {
 #endif
 
 /** The identifier of every type support handle that this project generates. */
@@ -48,8 +47,7 @@ CDR_STATIC_ASSERT(cdr_assert_double_is_binary64, sizeof(double) == 8U);
 CDR_STATIC_ASSERT(cdr_assert_character_has_16_bits, sizeof(uint_least16_t) == 2U);
 
 /** Shows how the target aligns an 8-byte number; never an object. */
-struct cdr_alignment_probe
-{
+struct cdr_alignment_probe {
   char before;
   int64_t number;
 };
@@ -59,8 +57,8 @@ struct cdr_alignment_probe
  * with 8-byte numbers aligned to 8 (ILP32: Arm, RISC-V, Xtensa) or to 4 (32-bit x86). A constant expression.
  */
 #define CDR_SIZE(lp64, ilp32, i386) \
-  ((sizeof(void *) == 8U) ? (lp64) : \
-   ((offsetof(struct cdr_alignment_probe, number) == 8U) ? (ilp32) : (i386)))
+  ((sizeof(void *) == 8U) ? (lp64) \
+                          : ((offsetof(struct cdr_alignment_probe, number) == 8U) ? (ilp32) : (i386)))
 
 /**
  * Whether the members of `type` from `first` to `last`, which take `bytes` on the wire without padding, lie in
@@ -304,7 +302,8 @@ static inline uint32_t cdr_put_sequence_8(uint8_t * body, uint32_t position, con
   return start + ((uint32_t)size * 8U);
 }
 
-static inline uint32_t cdr_put_sequence_bool(uint8_t * body, uint32_t position, const bool * data, size_t size)
+static inline uint32_t cdr_put_sequence_bool(
+  uint8_t * body, uint32_t position, const bool * data, size_t size)
 {
   const uint32_t start = cdr_put_length(body, position, size);
   cdr_put_array_bool(&body[start], data, size);
@@ -363,4 +362,4 @@ static inline uint32_t cdr_sequence_end_8(uint32_t position, size_t size, uint32
 }
 #endif
 
-#endif  /* MICROROS_CDR_H */
+#endif /* MICROROS_CDR_H */
