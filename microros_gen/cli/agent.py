@@ -29,6 +29,9 @@ def command() -> None:
 
     The protocol has no authentication and no encryption: whoever reaches the port can publish. So the agent
     listens on the loopback address unless --bind says otherwise; open it to trusted networks only.
+
+    \b
+    microros-gen agent udp4 --port 8888
     """
 
 
@@ -92,6 +95,10 @@ def udp4(
     Prints 'agent ready: udp4 ADDRESS:PORT' on stdout once clients are served (with --log-format json the
     event 'ready'); the log goes to stderr. SIGINT and SIGTERM end it with status 0, after all its nodes have
     left the ROS graph. Status 2: the port is in use, the address is not of this machine, or rclpy is missing.
+
+    \b
+    microros-gen agent udp4 --port 8888
+    microros-gen agent udp4 --bind 0.0.0.0 --client-timeout 10 -v
     """
     log = EventLog(sys.stderr, log_format == "json", verbose)
     limits = replace(_DEFAULTS, clients=max_clients, client_timeout_s=client_timeout)

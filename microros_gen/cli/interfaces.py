@@ -34,13 +34,18 @@ from microros_gen.sources.interfaces import InterfaceFinder, types_in
     type=click.Choice(["table", "json"]),
     default="table",
     show_default=True,
-    help="Output.",
+    help="Tables for people, or JSON for programs.",
 )
 def command(name: str | None, interface_paths: tuple[Path, ...], form: str) -> None:
     """List interface packages; with NAME = pkg its types, with NAME = pkg/Type that type.
 
     Packages are looked for in --interface-path, AMENT_PREFIX_PATH, packages installed by pip, and the
     definitions that ship with this tool, in this order; the first place that has a package hides the others.
+
+    \b
+    microros-gen interfaces
+    microros-gen interfaces sensor_msgs
+    microros-gen interfaces sensor_msgs/msg/Imu
     """
     finder = InterfaceFinder.from_environment(interface_paths)
     diagnostics = Diagnostics()

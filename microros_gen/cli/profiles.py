@@ -22,9 +22,22 @@ from microros_gen.sources.profiles import load_builtin_profiles, load_middleware
 
 @click.command()
 @click.argument("name", required=False)
-@click.option("--format", "kind", type=click.Choice(FORMATS), default="table", show_default=True)
+@click.option(
+    "--format",
+    "kind",
+    type=click.Choice(FORMATS),
+    default="table",
+    show_default=True,
+    help="Tables for people, JSON for programs, or a graph for Graphviz.",
+)
 def command(name: str | None, kind: str) -> None:
-    """List the profiles, or show what profile NAME (built-in, or a file) selects by itself."""
+    """List the profiles, or show what profile NAME (built-in, or a file) selects by itself.
+
+    \b
+    microros-gen profiles
+    microros-gen profiles pure_sender
+    microros-gen profiles ./my_profile.yaml --format json
+    """
     catalogue = load_catalogue()
     if name is None:
         click.echo(list_profiles(load_builtin_profiles(), catalogue, kind), nl=False)

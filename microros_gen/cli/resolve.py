@@ -19,12 +19,21 @@ from microros_gen.plan.streams import StreamPlan
 @click.command()
 @selection_options
 @click.option(
-    "--format", "kind", type=click.Choice(("table", "json", "dot")), default="table", show_default=True
+    "--format",
+    "kind",
+    type=click.Choice(("table", "json", "dot")),
+    default="table",
+    show_default=True,
+    help="Tables for people, JSON for programs, or a graph for Graphviz.",
 )
 def command(kind: str, **options: Any) -> None:
     """Print components, XRCE profiles, pools and sizes of a selection, each with its reason.
 
     Works for every profile; sizes are only there when all of its components are.
+
+    \b
+    microros-gen resolve --profile pure_sender --interface sensor_msgs/msg/Imu
+    microros-gen resolve -c microros.yaml --format dot | dot -Tsvg -o selection.svg
     """
     diagnostics = Diagnostics()
     selection = SelectionOptions(**options)

@@ -26,6 +26,10 @@ def command(out: Path, no_agent: bool) -> int:
     """Start the image of OUT (made by `build`) and an agent for it; Ctrl-C or SIGTERM ends both.
 
     The exit status is the image's (128 and more: a signal ended it), or 0 after Ctrl-C.
+
+    \b
+    microros-gen run build/pure_sender
+    microros-gen run build/pure_sender --no-agent
     """
     image, port = _image_of(out)
     with _Parts() as parts:

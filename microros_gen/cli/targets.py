@@ -17,9 +17,21 @@ from microros_gen.sources.targets import builtin_targets, read_target
 
 @click.command()
 @click.argument("name", required=False)
-@click.option("--format", "kind", type=click.Choice(("table", "json")), default="table", show_default=True)
+@click.option(
+    "--format",
+    "kind",
+    type=click.Choice(("table", "json")),
+    default="table",
+    show_default=True,
+    help="Tables for people, or JSON for programs.",
+)
 def command(name: str | None, kind: str) -> None:
-    """List the targets, or show target NAME (built-in, or the path of a target file)."""
+    """List the targets, or show target NAME (built-in, or the path of a target file).
+
+    \b
+    microros-gen targets
+    microros-gen targets host
+    """
     diagnostics = Diagnostics()
     names = builtin_targets() if name is None else (name,)
     found = [read_target(n, Path(), None, diagnostics) for n in names]
