@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 
 import pytest
@@ -18,12 +19,13 @@ from e2e.relay import Relay
 
 @pytest.fixture(scope="session")
 def images(tmp_path_factory: pytest.TempPathFactory) -> Images:
-    return Images(tmp_path_factory.mktemp("images"))
+    base = tmp_path_factory.getbasetemp()
+    return Images((base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "images")
 
 
 @pytest.fixture(scope="session")
 def image_port() -> Iterator[Relay]:
-    """The relay whose port every image is built for; tests give it the agent that they need."""
+    """The relay whose port the examples are built for; tests give it the agent that they need."""
     with Relay() as relay:
         yield relay
 
@@ -42,32 +44,31 @@ def profile_image(images: Images, image_port: Relay) -> Image:
     return images.build(image_port.port, "", "gcc")
 
 
+# These are for live.c, which is told where its agent is.
+
+
 @pytest.fixture(scope="session")
-def pool_image(images: Images, image_port: Relay) -> Image:
+def pool_image(images: Images) -> Image:
     """An application with pools; liveliness ping, on_full error; with sanitizers."""
-    return images.build(image_port.port, POOLS_YAML)
+    return images.build(1, POOLS_YAML)
 
 
 @pytest.fixture(scope="session")
-def declared_image(images: Images, image_port: Relay) -> Image:
+def declared_image(images: Images) -> Image:
     """An application with declared nodes, without sanitizers."""
-    return images.build(image_port.port, DECLARED_YAML, "gcc", QUICK)
+    return images.build(1, DECLARED_YAML, "gcc", QUICK)
 
 
 @pytest.fixture(scope="session")
-def acknack_image(images: Images, image_port: Relay) -> Image:
+def acknack_image(images: Images) -> Image:
     """As pool_image with liveliness acknack and on_full drop_oldest, without sanitizers."""
-    return images.build(
-        image_port.port, POOLS_YAML + "liveliness: acknack\non_full: drop_oldest\n", "gcc", QUICK
-    )
+    return images.build(1, POOLS_YAML + "liveliness: acknack\non_full: drop_oldest\n", "gcc", QUICK)
 
 
 @pytest.fixture(scope="session")
-def none_image(images: Images, image_port: Relay) -> Image:
+def none_image(images: Images) -> Image:
     """As pool_image without liveliness, on_full block 20 ms, without sanitizers."""
-    return images.build(
-        image_port.port, POOLS_YAML + "liveliness: none\non_full: block 20 ms\n", "gcc", QUICK
-    )
+    return images.build(1, POOLS_YAML + "liveliness: none\non_full: block 20 ms\n", "gcc", QUICK)
 
 
 @pytest.fixture(scope="session")

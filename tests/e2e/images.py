@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds images and applications with the tool, as a user does, each once for all tests of a worker."""
+"""Builds images and applications with the tool, as a user does, each once for all tests."""
 
 from __future__ import annotations
 
+import fcntl
+import hashlib
 import os
+import shutil
 import signal
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 
 C_FILES = Path(__file__).parent / "c"
@@ -57,12 +59,12 @@ class Image:
         return self.out / "bin" / "pure_sender"
 
     def application(
-        self, source: Path, *flags: str, compiler: str = "", against: Image | None = None
+        self, source: Path, program: Path, *flags: str, compiler: str = "", against: Image | None = None
     ) -> Path:
-        """Compile a C or C++ file with this image's headers and link it with its library; AssertionError with
-        the compiler's words. `against`: link the library of another image.
+        """Compile a C or C++ file with this image's headers and link it with its library to `program`.
+
+        AssertionError with the compiler's words. `against`: link the library of another image.
         """
-        program = self.out.parent / f"{self.out.name}-{source.stem}"
         library = (against or self).out / "lib" / "libmicroros.a"
         command = [compiler or self.compiler, *self.flags, *flags, f"-I{self.out / 'include'}", str(source)]
         done = run([*command, str(library), "-o", str(program)])
@@ -71,18 +73,45 @@ class Image:
 
 
 class Images:
-    """Image factory with a memory, below one folder."""
+    """Image factory below one folder, which several test processes may share: what one built, none builds again."""
 
     def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self.build = cache(self._build)
-        self.live = cache(self._live)
+        self._folder = folder
+        folder.mkdir(exist_ok=True)
 
-    def _build(
+    def build(
         self, port: int, application: str = "", compiler: str = "gcc", flags: tuple[str, ...] = SANITIZE
     ) -> Image:
         """Run `microros-gen build` for an agent at `port`; `application` empty: `--profile pure_sender` alone."""
-        home = self.folder / f"image{len(list(self.folder.iterdir()))}"
+        name = hashlib.sha256(repr((port, application, compiler, flags)).encode()).hexdigest()[:16]
+        image = Image(self._folder / name / "out", compiler, flags)
+        with self._once(name) as first:
+            if first:
+                self._build(image, port, application)
+        return image
+
+    def live(self, image: Image) -> Path:
+        """Return the program of live.c for an image."""
+        program = image.out.parent / "live"
+        ping = "-DLIVE_PING" if (image.out / "src" / "ping").is_dir() else "-DLIVE_NO_PING"
+        with self._once(f"{image.out.parent.name}-live") as first:
+            if first:
+                source = C_FILES / "live.c"
+                image.application(source, program, "-std=c99", "-Wall", "-Wextra", "-Werror", ping)
+        return program
+
+    @contextmanager
+    def _once(self, name: str) -> Iterator[bool]:
+        """Give true to the first of all processes, and let the others wait until it has succeeded."""
+        done = self._folder / f"{name}.done"
+        with (self._folder / f"{name}.lock").open("w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            yield not done.exists()
+            done.touch()
+
+    def _build(self, image: Image, port: int, application: str) -> None:
+        home = image.out.parent
+        shutil.rmtree(home, ignore_errors=True)
         home.mkdir()
         arguments = ["--agent", f"127.0.0.1:{port}", "-o", "out"]
         if application:
@@ -90,16 +119,10 @@ class Images:
         else:
             arguments += ["--profile", "pure_sender"]
         environment = {k: v for k, v in os.environ.items() if k not in ("AR", "AMENT_PREFIX_PATH")}
-        environment |= {"CC": compiler, "CFLAGS": " ".join(flags)}
-        environment["XDG_CACHE_HOME"] = str(self.folder.parent / "cache")
+        environment |= {"CC": image.compiler, "CFLAGS": " ".join(image.flags)}
+        environment["XDG_CACHE_HOME"] = str(self._folder / "cache")
         done = run([sys.executable, "-m", "microros_gen", "build", *arguments], cwd=home, env=environment)
         assert done.returncode == 0, done.stdout + done.stderr
-        return Image(home / "out", compiler, flags)
-
-    def _live(self, image: Image) -> Path:
-        """Compile live.c for an image."""
-        ping = "-DLIVE_PING" if (image.out / "src" / "ping").is_dir() else "-DLIVE_NO_PING"
-        return image.application(C_FILES / "live.c", "-std=c99", "-Wall", "-Wextra", "-Werror", ping)
 
 
 def run(

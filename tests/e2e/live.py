@@ -85,8 +85,12 @@ class Live:
 
     def burst(self, first: int, count: int, period_ms: int, publisher: int = 0) -> list[Sample]:
         """Publish `count` values in turn; return what each publish gave."""
-        answer = self.call(f"burst {publisher} {first} {count} {period_ms}")
-        return [Sample(*map(int, line.split()[1:])) for line in answer.lines]
+        self.begin(f"burst {publisher} {first} {count} {period_ms}")
+        return self.samples()
+
+    def samples(self) -> list[Sample]:
+        """Wait for the end of a burst; return what each publish gave."""
+        return [Sample(*map(int, line.split()[1:])) for line in self.end().lines]
 
     def statistics(self) -> dict[str, int]:
         (line,) = self.ok("statistics").lines

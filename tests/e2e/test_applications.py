@@ -87,7 +87,7 @@ def test_the_line_that_the_error_gives_mends_it(
     application = (declared_image.out.parent / "microros.yaml").read_text()
     mended = application.replace("    publishers:\n", f"    publishers:\n      - {line}\n")
     assert mended != application
-    image = images.build(port, mended, "gcc", declared_image.flags)
+    image = images.build(1, mended, "gcc", declared_image.flags)
     with Live(images.live(image)) as live:
         live.ok(f"open 2 {port}")
         live.ok("node 0 imu_node /arm")
@@ -163,7 +163,7 @@ def test_cpp_takes_all_headers_in_any_order(declared_image: Image, tmp_path: Pat
         random.Random(2).shuffle(names)
     source = tmp_path / f"{order}.cpp"
     source.write_text("".join(f"#include <{name}>\n" for name in names) + CPP_APPLICATION)
-    declared_image.application(source, *STRICT_CPP, compiler="g++")
+    declared_image.application(source, tmp_path / "program", *STRICT_CPP, compiler="g++")
 
 
 CPP_APPLICATION = """
@@ -197,7 +197,7 @@ def test_a_header_that_is_not_selected_names_its_key(pool_image: Image, tmp_path
         source = tmp_path / "unselected.c"
         source.write_text(f"#include <rcl/rcl.h>\n#include <{name}>\nint main(void) {{ return 0; }}\n")
         with pytest.raises(AssertionError, match=f"#error .*{key}.*microros.yaml"):
-            pool_image.application(source)
+            pool_image.application(source, tmp_path / "program")
 
 
 def test_another_plan_does_not_link(acknack_image: Image, none_image: Image, tmp_path: Path) -> None:
@@ -208,11 +208,11 @@ def test_another_plan_does_not_link(acknack_image: Image, none_image: Image, tmp
         "  rcl_allocator_t a = rcl_get_default_allocator();\n"
         "  return (int)rclc_support_init(&s, 0, NULL, &a);\n}\n"
     )
-    none_image.application(source)
+    none_image.application(source, tmp_path / "program")
     plan = re.search(r'MICROROS_PLAN_ID "(\w+)"', (none_image.out / "include/microros_config.h").read_text())
     assert plan is not None
     with pytest.raises(AssertionError, match=f"undefined reference to .rclc_support_init__plan_{plan[1]}"):
-        none_image.application(source, against=acknack_image)
+        none_image.application(source, tmp_path / "program", against=acknack_image)
 
 
 # The usual code
@@ -220,10 +220,12 @@ def test_another_plan_does_not_link(acknack_image: Image, none_image: Image, tmp
 
 @pytest.mark.ros
 def test_the_usual_reconnecting_sender(
-    profile_image: Image, relay: Relay, observer: Observer, domain: int
+    profile_image: Image, relay: Relay, observer: Observer, domain: int, tmp_path: Path
 ) -> None:
     """Compiles as it is, waits for the agent, publishes, and finds back to an agent that was killed."""
-    program = profile_image.application(C_FILES / "reconnect.c", "-std=c11", "-Wall", "-Wextra", "-Werror")
+    program = profile_image.application(
+        C_FILES / "reconnect.c", tmp_path / "usual", "-std=c11", "-Wall", "-Wextra", "-Werror"
+    )
     observer.subscribe("/usual_count", "std_msgs/msg/Int32", reliable=False)
     observer.ask(do="samples")
     with started(program) as process:
