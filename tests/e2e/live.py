@@ -64,7 +64,7 @@ class Live:
 
     def end(self) -> Answer:
         assert self.process.stdout is not None
-        lines = []
+        lines: list[str] = []
         for line in self.process.stdout:
             if line.startswith("ret "):
                 _, code, took, text = line.rstrip("\n").split(" ", 3)
