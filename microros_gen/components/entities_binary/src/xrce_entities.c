@@ -6,6 +6,9 @@
 #include "microros/xrce_entities_binary.h"
 #include "microros/xrce_wire.h"
 
+/* There is a session: what does not come was a lost datagram, and a caller waits for it. So no long pauses. */
+enum { RETRY_MOST_MS = 2 * MICROROS_RETRY_FIRST_MS };
+
 enum { NO_PLACE = 0xffff, STATUS_SIZE = 6 };
 
 static bool entities_is_participant(uint16_t place)
@@ -94,7 +97,7 @@ static void entities_send(xrce_client_t * client, uint32_t now)
   const uint8_t level = client->states[entities->cursor].level;
 
   entities->due_ms = now + entities->retry_ms;
-  entities->retry_ms = xrce_session_longer_pause(entities->retry_ms);
+  entities->retry_ms = RETRY_MOST_MS;
   if (entities->deleting) {
     xrce_entities_send_delete(client, entities->cursor, (uint8_t)(level - 1u));
   } else {

@@ -82,7 +82,8 @@ static void session_send_delete_client(xrce_session_t * session)
   (void)xrce_session_send(session, message, sizeof(message));
 }
 
-uint16_t xrce_session_longer_pause(uint16_t pause_ms)
+/* Twice as long, up to MICROROS_RETRY_MOST_MS. */
+static uint16_t session_longer_pause(uint16_t pause_ms)
 {
   return pause_ms < MICROROS_RETRY_MOST_MS / 2u ? (uint16_t)(2u * pause_ms)
                                                 : (uint16_t)MICROROS_RETRY_MOST_MS;
@@ -104,7 +105,7 @@ void xrce_session_step(xrce_client_t * client, uint32_t now)
     session_send_create_client(session);
   }
   session->due_ms = now + session->retry_ms;
-  session->retry_ms = xrce_session_longer_pause(session->retry_ms);
+  session->retry_ms = session_longer_pause(session->retry_ms);
 }
 
 void xrce_session_lose(xrce_client_t * client, uint32_t now)

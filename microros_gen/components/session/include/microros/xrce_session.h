@@ -73,9 +73,6 @@ bool xrce_session_send(xrce_session_t * session, const uint8_t * message, size_t
 /* Returns a request id that no outstanding request has. */
 uint16_t xrce_session_next_request(xrce_session_t * session);
 
-/* Returns the next pause between repetitions: twice as long, up to MICROROS_RETRY_MOST_MS. */
-uint16_t xrce_session_longer_pause(uint16_t pause_ms);
-
 /* What xrce_routes.c calls. */
 void xrce_session_step(xrce_client_t * client, uint32_t now);
 void xrce_session_on_status_agent(xrce_client_t * client, const uint8_t * payload, size_t size, uint32_t now);

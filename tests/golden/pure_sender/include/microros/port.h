@@ -41,8 +41,8 @@ typedef struct port_udp_t {
   intptr_t handle;
 } port_udp_t;
 
-/* Opens a socket that talks to one peer and hears no other. False: no network, or `host` is unknown. May
- * block where a name has to be looked up, not for an address in digits. */
+/* Opens a socket that talks to one peer and hears no other. `host` is an IPv4 address in digits, copied before
+ * the call returns. False: no network, or no such address. Does not block. */
 bool port_udp_open(port_udp_t * udp, const char * host, uint16_t port);
 
 void port_udp_close(port_udp_t * udp);

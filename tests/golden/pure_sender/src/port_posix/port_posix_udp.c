@@ -2,68 +2,40 @@
 #define _POSIX_C_SOURCE 200809L
 #include "microros/port.h"
 
+#include <arpa/inet.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <netdb.h>
+#include <netinet/in.h>
 #include <string.h>
 #include <sys/socket.h>
 #include <sys/types.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
-enum { PORT_DIGITS = 6 };
-
-/* Writes `port` in decimal. */
-static void udp_format_port(char * text, uint16_t port)
+static bool udp_connect(int handle, const struct sockaddr_in * address)
 {
-  uint16_t divisor = 10000;
-  size_t used = 0;
+  const int flags = fcntl(handle, F_GETFL);
 
-  while (divisor > 1u && port < divisor) {
-    divisor = (uint16_t)(divisor / 10u);
-  }
-  for (; divisor > 0u; divisor = (uint16_t)(divisor / 10u)) {
-    text[used++] = (char)('0' + port / divisor % 10);
-  }
-  text[used] = '\0';
-}
-
-static int udp_connect(const struct addrinfo * address)
-{
-  const int handle = socket(address->ai_family, address->ai_socktype, address->ai_protocol);
-  int flags;
-
-  if (handle < 0) {
-    return -1;
-  }
-  flags = fcntl(handle, F_GETFL);
-  if (
-    flags < 0 || fcntl(handle, F_SETFL, flags | O_NONBLOCK) < 0 ||
-    connect(handle, address->ai_addr, address->ai_addrlen) != 0) {
-    (void)close(handle);
-    return -1;
-  }
-  return handle;
+  return flags >= 0 && fcntl(handle, F_SETFL, flags | O_NONBLOCK) >= 0 &&
+         connect(handle, (const struct sockaddr *)address, sizeof(*address)) == 0;
 }
 
 bool port_udp_open(port_udp_t * udp, const char * host, uint16_t port)
 {
-  struct addrinfo hints;
-  struct addrinfo * addresses = NULL;
-  char service[PORT_DIGITS];
-  int handle = -1;
+  struct sockaddr_in address;
+  int handle;
 
-  memset(&hints, 0, sizeof(hints));
-  hints.ai_family = AF_UNSPEC;
-  hints.ai_socktype = SOCK_DGRAM;
-  udp_format_port(service, port);
-  if (getaddrinfo(host, service, &hints, &addresses) != 0) {
+  memset(&address, 0, sizeof(address));
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  if (inet_pton(AF_INET, host, &address.sin_addr) != 1) {
     return false;
   }
-  for (const struct addrinfo * at = addresses; at != NULL && handle < 0; at = at->ai_next) {
-    handle = udp_connect(at);
+  handle = socket(AF_INET, SOCK_DGRAM, 0);
+  if (handle >= 0 && !udp_connect(handle, &address)) {
+    (void)close(handle);
+    handle = -1;
   }
-  freeaddrinfo(addresses);
   udp->handle = handle;
   return handle >= 0;
 }
