@@ -121,7 +121,21 @@ def bench_build(work: Path) -> None:
     print("  wall time of the whole process with the host's C compiler; median of 3")
     row("from nothing", timed(command, environment, 3, out), "3 s")
     row("unchanged", timed(command, environment, 3), "")
+    row("a limit changed", time_of_a_changed_limit(work, environment), "1 s")
     print()
+
+
+def time_of_a_changed_limit(work: Path, environment: dict[str, str]) -> float:
+    """Return the median seconds of a build of sensor_msgs/msg/Imu after its limit changed."""
+    config, out = work / "limit.yaml", work / "limit"
+    times = []
+    for limit in (16, 24, 32, 40):
+        config.write_text(
+            "version: 1\nprofiles: [pure_sender]\ninterfaces: [sensor_msgs/msg/Imu]\n"
+            f"limits: {{'*': {{string: {limit}}}}}\n"
+        )
+        times.append(timed(tool("build", "-c", str(config), "-o", str(out)), environment, 1))
+    return statistics.median(times[1:])
 
 
 if __name__ == "__main__":
