@@ -6,9 +6,6 @@
 #include "microros/xrce_entities_binary.h"
 #include "microros/xrce_wire.h"
 
-/* There is a session: what does not come was a lost datagram, and a caller waits for it. So no long pauses. */
-enum { RETRY_MOST_MS = 2 * MICROROS_RETRY_FIRST_MS };
-
 enum { NO_PLACE = 0xffff, STATUS_SIZE = 6 };
 
 static bool entities_is_participant(uint16_t place)
@@ -96,8 +93,8 @@ static void entities_send(xrce_client_t * client, uint32_t now)
   xrce_entities_t * entities = &client->entities;
   const uint8_t level = client->states[entities->cursor].level;
 
-  entities->due_ms = now + entities->retry_ms;
-  entities->retry_ms = RETRY_MOST_MS;
+  /* There is a session: what does not come was a lost datagram, and a caller waits. So the pause does not grow. */
+  entities->due_ms = now + MICROROS_RETRY_FIRST_MS;
   if (entities->deleting) {
     xrce_entities_send_delete(client, entities->cursor, (uint8_t)(level - 1u));
   } else {
@@ -118,7 +115,6 @@ static bool entities_begin(xrce_client_t * client, uint32_t now)
       entities->deleting = level > goal;
       entities->outstanding = true;
       entities->request = xrce_session_next_request(&client->session);
-      entities->retry_ms = MICROROS_RETRY_FIRST_MS;
       entities_send(client, now);
       return true;
     }

@@ -21,7 +21,6 @@ typedef enum xrce_outcome_t { XRCE_DONE, XRCE_SILENT, XRCE_REFUSED } xrce_outcom
 
 typedef struct xrce_entities_t {
   uint32_t due_ms;
-  uint16_t retry_ms;
   uint16_t request;
   uint16_t cursor;        /* the place that the request is about */
   uint16_t refused_place; /* the last place that was refused, and why */
