@@ -40,8 +40,7 @@ def command(output: Path | None, **options: Any) -> None:
 def _compile(planned: Planned, out: Path, tools: Toolchain) -> None:
     project = planned.project
     sources = (out / "sources.txt").read_text(encoding="utf-8").split("\n")[:-1]
-    image = f"{project.name}{project.target.image_suffix}"
-    built = compile_tree(out, sources, f"examples/{project.name}/main.c", image, tools)
+    built = compile_tree(out, sources, project.example, project.image, tools)
     usage = measure_library(out, tools)
     click.echo(built_summary(out, built, usage), nl=False)
     if usage is not None:

@@ -11,10 +11,10 @@ import click
 from microros_gen.cli.options import SelectionOptions, selection_options
 from microros_gen.cli.pipeline import (
     plan_request,
-    print_warnings,
     read_request,
     render_request,
     resolve_request,
+    warnings_text,
 )
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.output.golden import golden_differences
@@ -43,7 +43,7 @@ def command(golden: Path, update: bool, **options: Any) -> int:
     selection = SelectionOptions(**options)
     resolved = resolve_request(read_request(selection, diagnostics), diagnostics)
     files = render_request(plan_request(resolved, selection, diagnostics))
-    print_warnings(diagnostics)
+    click.echo(warnings_text(diagnostics), nl=False, err=True)
     if update:
         report = write_tree(golden, files)
         click.echo(f"{golden}: {len(report.written)} written, {len(report.removed)} removed")

@@ -7,8 +7,6 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import click
-
 from microros_gen.cli.options import SelectionOptions
 from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.model.application import Application, Named
@@ -125,8 +123,8 @@ def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Dia
     )
     diagnostics.check()
     packages = sorted({entry.name.package for entry in interfaces})
-    warnings = "".join(f"{diagnostic.render()}\n" for diagnostic in diagnostics)
-    return Planned(resolved, interfaces, tuple(finder.deciding(packages)), capacities, project, warnings)
+    searched = tuple(finder.deciding(packages))
+    return Planned(resolved, interfaces, searched, capacities, project, warnings_text(diagnostics))
 
 
 def render_request(planned: Planned) -> dict[str, bytes]:
@@ -163,10 +161,9 @@ def read_paths(planned: Planned) -> Iterator[Path]:
         yield from (folder, folder / f"{entry.name.name}.msg")
 
 
-def print_warnings(diagnostics: Iterable[object]) -> None:
-    """Print what was found and is no error, on stderr."""
-    for diagnostic in diagnostics:
-        click.echo(diagnostic.render(), err=True)  # type: ignore[attr-defined]
+def warnings_text(diagnostics: Diagnostics) -> str:
+    """Return what was found and is no error, as it goes to stderr."""
+    return "".join(f"{diagnostic.render()}\n" for diagnostic in diagnostics)
 
 
 def _with_options(

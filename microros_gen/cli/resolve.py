@@ -10,7 +10,7 @@ from typing import Any
 import click
 
 from microros_gen.cli.options import SelectionOptions, selection_options
-from microros_gen.cli.pipeline import Planned, plan_request, print_warnings, read_request, resolve_request
+from microros_gen.cli.pipeline import Planned, plan_request, read_request, resolve_request, warnings_text
 from microros_gen.cli.resolve_format import format_selection, format_table, selection_data
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.plan.streams import StreamPlan
@@ -41,7 +41,7 @@ def command(kind: str, **options: Any) -> None:
     chosen = resolved.selection
     ready = all(c.component.ready for c in chosen.components)
     planned = plan_request(resolved, selection, diagnostics) if ready else None
-    print_warnings(diagnostics)
+    click.echo(warnings_text(diagnostics), nl=False, err=True)
     if kind == "json":
         data = selection_data(chosen) | (_plan_data(planned) if planned else {})
         click.echo(json.dumps(data, indent=2, sort_keys=True, ensure_ascii=False))

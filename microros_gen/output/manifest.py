@@ -19,7 +19,7 @@ def manifest(project: Project, inputs: Mapping[str, bytes], outputs: Mapping[str
     """
     data = {
         "generator": {"name": "microros-gen", "version": __version__},
-        "image": f"{project.name}{project.target.image_suffix}",
+        "image": project.image,
         "target": project.target.name,
         "transport": {
             "type": project.selection.transport,

@@ -6,17 +6,19 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.model.application import Application, EndpointDecl, NodeDecl
 from microros_gen.model.names import expand_topic_name
 from microros_gen.model.selection import Selection
 from microros_gen.model.target import Target
-from microros_gen.model.types import TypeName
+from microros_gen.model.types import Message, TypeName
 from microros_gen.plan.names import dds_topic, dds_type, participant_name
 from microros_gen.plan.runtime import NodePlan, PublisherPlan, RuntimePlan
 from microros_gen.plan.streams import CreateNames, StreamPlan, Written, plan_streams
 from microros_gen.plan.types import TypePlan
+from microros_gen.resolve.interfaces import split_type_name
 
 SESSION_ID = 0x81
 DEFAULT_NAME_SIZE = 64
@@ -37,6 +39,21 @@ class Project:
     streams: StreamPlan
     runtime: RuntimePlan
 
+    @cached_property
+    def messages(self) -> Mapping[TypeName, Message]:
+        """The messages of all types, by name."""
+        return {plan.name: plan.message for plan in self.types}
+
+    @property
+    def image(self) -> str:
+        """The file name of the image below bin/."""
+        return f"{self.name}{self.target.image_suffix}"
+
+    @property
+    def example(self) -> str:
+        """The path of the example application below the output folder."""
+        return f"examples/{self.name}/main.c"
+
 
 def plan_project(
     application: Application,
@@ -50,7 +67,8 @@ def plan_project(
     name = "+".join(selection.profiles)
     by_name = {plan.name: plan for plan in types}
     nodes, publishers = _declared(application)
-    streams = _streams(application, selection, by_name, roots, diagnostics)
+    creates = _create_names(application, nodes, publishers, roots) if selection.entities == "binary" else None
+    streams = _streams(application, selection, by_name, roots, creates, diagnostics)
     _check_budget(application, streams, diagnostics)
     runtime = RuntimePlan(
         plan_id="",
@@ -94,8 +112,9 @@ def publisher_declarations(application: Application) -> tuple[tuple[int, NodeDec
 
 def type_name(text: str) -> TypeName:
     """Return the name that `pkg/Type` or `pkg/msg/Type` stands for (already checked)."""
-    parts = text.split("/")
-    return TypeName(parts[0], parts[1] if len(parts) == 3 else "msg", parts[-1])
+    name = split_type_name(text)
+    assert name is not None, text
+    return name
 
 
 def _declared(application: Application) -> tuple[tuple[NodePlan, ...], tuple[PublisherPlan, ...]]:
@@ -118,9 +137,9 @@ def _streams(
     selection: Selection,
     types: Mapping[TypeName, TypePlan],
     roots: tuple[TypeName, ...],
+    creates: CreateNames | None,
     diagnostics: Diagnostics,
 ) -> StreamPlan:
-    creates = _create_names(application, roots) if selection.entities == "binary" else None
     if not selection.has("publish"):
         return plan_streams(application, selection.transport, (), creates, diagnostics)
     if application.nodes:
@@ -138,16 +157,20 @@ def _written(node: NodeDecl, endpoint: EndpointDecl, types: Mapping[TypeName, Ty
     return Written(label, plan.max_encoded_size, reliable, not reliable, endpoint.type_span or endpoint.span)
 
 
-def _create_names(application: Application, roots: tuple[TypeName, ...]) -> CreateNames:
+def _create_names(
+    application: Application,
+    nodes: tuple[NodePlan, ...],
+    publishers: tuple[PublisherPlan, ...],
+    roots: tuple[TypeName, ...],
+) -> CreateNames:
     longest_type = max((len(dds_type(r)) for r in roots), default=0)
-    if not application.nodes:
+    if not nodes:
         size = application.pools.get("name_size", DEFAULT_NAME_SIZE) - 1
         return CreateNames(2 * size + 1, size + len("rt"), longest_type)
-    nodes, publishers = _declared(application)
     return CreateNames(
         max(len(n.participant_name) for n in nodes),
         max((len(p.dds_topic) for p in publishers), default=0),
-        max((len(dds_type(p.type)) for p in publishers), default=0),
+        max((len(p.dds_type) for p in publishers), default=0),
     )
 
 

@@ -10,7 +10,8 @@ from microros_gen.diagnostics import Diagnostics
 from microros_gen.model.types import Message, TypeName
 from microros_gen.plan.capacity import Capacities
 from microros_gen.plan.layout import I386, ILP32, LP64, DataModel, StructLayouts
-from microros_gen.plan.types_names import TypeFiles, c_name, dds_name, type_files
+from microros_gen.plan.names import dds_type
+from microros_gen.plan.types_names import TypeFiles, c_name, type_files
 from microros_gen.plan.types_size import TypeLimits, WireSizes, is_fixed
 from microros_gen.plan.types_storage import StorageUnit, plan_storage, storage_extents
 from microros_gen.plan.types_wire import WirePlan, plan_wire
@@ -98,7 +99,7 @@ def plan_types(
                 message=message,
                 files=type_files(name),
                 c_name=c_name(name),
-                dds_name=dds_name(name),
+                dds_name=dds_type(name),
                 type_hash=type_hash(name),
                 root=name in capacities.limits,
                 received=name in received,

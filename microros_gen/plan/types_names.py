@@ -38,11 +38,6 @@ def c_name(name: TypeName) -> str:
     return f"{name.package}__{name.kind}__{name.name}"
 
 
-def dds_name(name: TypeName) -> str:
-    """Return the type name on the DDS side: `sensor_msgs::msg::dds_::Imu_`."""
-    return f"{name.package}::{name.kind}::dds_::{name.name}_"
-
-
 def element_c_type(element: ElementType) -> str:
     """Return the C type of one value."""
     if isinstance(element, Primitive):

@@ -145,8 +145,7 @@ def _init(qos: Qos) -> tuple[str, tuple[str, ...]]:
 def _publisher(
     project: Project, plan: TypePlan, node: NodeView, index: int, topic: str, qos: Qos
 ) -> _Publisher:
-    messages = {p.name: p.message for p in project.types}
-    filling = plan_filling(plan.message, messages, node.name)
+    filling = plan_filling(plan.message, project.messages, node.name)
     name = f"{snake_case(plan.name.name)}_{index}"
     init, changes = _init(qos)
     view = PublisherView(

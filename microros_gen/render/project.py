@@ -59,10 +59,9 @@ def render_project(
     rendered |= render_types(project.types, environment)
     for path, content in _unselected_headers(unselected, environment):
         rendered.setdefault(path, content)
-    example = f"examples/{project.name}/main.c"
     template = environment.get_template("example/main.c.j2")
-    rendered[example] = template.render(view=example_view(project)).encode()
-    view = _project_view(project, example, rendered)
+    rendered[project.example] = template.render(view=example_view(project)).encode()
+    view = _project_view(project, rendered)
     for name in ("CMakeLists.txt", "sources.txt", "README.md"):
         rendered[name] = environment.get_template(f"project/{name}.j2").render(view=view).encode()
     return rendered
@@ -107,7 +106,7 @@ def _without_folder(reason: str) -> str:
     return re.sub(r"\((?:[^()]*[/\\])?([^()/\\]+:\d+)\)", r"(\1)", reason)
 
 
-def _project_view(project: Project, example: str, rendered: Mapping[str, bytes]) -> _ProjectView:
+def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectView:
     runtime = project.runtime
     declared = [f"node `{n.name}` in `{n.namespace}`" for n in runtime.nodes]
     declared += [
@@ -121,7 +120,7 @@ def _project_view(project: Project, example: str, rendered: Mapping[str, bytes])
     return _ProjectView(
         title=project.name,
         image=project.name,
-        example=example,
+        example=project.example,
         sources=library_sources(rendered),
         components=tuple(
             _Row(c.component.name, ", ".join(_without_folder(r) for r in c.reasons))

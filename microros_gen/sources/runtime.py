@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import microros_gen
+from microros_gen.sources.components import components_folder
 
 PACKAGE = Path(microros_gen.__file__).resolve().parent
-COMPONENTS = PACKAGE / "components"
-TEMPLATES = PACKAGE / "templates"
+COMPONENTS = components_folder()
 TARGETS = PACKAGE / "targets"
 
 
