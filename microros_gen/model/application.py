@@ -30,7 +30,8 @@ class ComponentChange:
 class Transport:
     """How the firmware reaches its agent. `mtu`: largest datagram or frame payload, bytes; None: planned.
 
-    `type_span` None and `type` udp: the application does not say, so a profile's choice holds.
+    `type_span` None and `type` udp: the application does not say, so a profile's or the target's choice holds.
+    `device` and `baud` are the serial line's; `framing` None: a custom transport chooses at run time.
     """
 
     type: str = "udp"
@@ -41,6 +42,9 @@ class Transport:
     mtu_span: Span | None = None
     type_span: Span | None = None
     agent_span: Span | None = None
+    device: str = "/dev/ttyUSB0"
+    baud: int = 115_200
+    framing: bool | None = None
 
 
 @dataclass(frozen=True)
@@ -193,7 +197,8 @@ class TargetRef:
 class Application:
     """The whole file. `interfaces` are `pkg` or `pkg/msg/Type`.
 
-    `pools` count entities where no nodes are given. `logging` (console, callback, rosout) and `clock`
+    `pools` count entities where no nodes are given. `creation` (best_effort, reliable) is the stream of CREATE; None:
+    best effort. `logging` (console, callback, rosout) and `clock`
     (steady, ros) are axes like `entities` and `liveliness`. `spans` holds the places of top-level keys and of
     the keys of `pools` (as `pools.history`), for later steps.
     """
@@ -202,6 +207,7 @@ class Application:
     profiles: tuple[Named, ...] = ()
     components: tuple[ComponentChange, ...] = ()
     entities: Named | None = None
+    creation: Named | None = None
     liveliness: Named | None = None
     transport: Transport = Transport()
     session_key: int | str | None = None

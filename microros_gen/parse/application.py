@@ -22,6 +22,7 @@ from microros_gen.parse.limits import application_limits
 from microros_gen.parse.schema import validate_application
 from microros_gen.parse.tree_read import component_change
 from microros_gen.parse.tree_values import (
+    bool_of,
     child,
     entries,
     int_of,
@@ -43,6 +44,7 @@ LARGEST_UDP_PAYLOAD = 65_507
 _BLOCK = re.compile(r"block ([0-9]+) ?(ms|s)")
 _POOLS_BESIDE_NODES = ("history",)
 _WITHOUT_ADDRESS = ("serial", "custom")
+_ONLY_FOR = {"device": "serial", "baud": "serial", "framing": "custom"}
 
 
 def parse_application(source: Source, diagnostics: Diagnostics) -> Application | None:
@@ -72,6 +74,7 @@ def _application(tree: MappingNode, diagnostics: Diagnostics) -> Application:
         profiles=_names(child(tree, "profiles")),
         components=tuple(component_change(c.name, c.span) for c in _names(child(tree, "components"))),
         entities=named_of(child(tree, "entities")),
+        creation=named_of(child(tree, "creation")),
         liveliness=named_of(child(tree, "liveliness")),
         transport=_transport(child(tree, "transport"), diagnostics),
         session_key=_session_key(child(child(tree, "session"), "key")),
@@ -118,11 +121,27 @@ def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
     if agent is not None and type_name in _WITHOUT_ADDRESS:
         message = f"transport: {type_name} has no agent address"
         diagnostics.error(message, agent.span, "Remove `agent`, or take type: udp or tcp")
+    for key, only in _ONLY_FOR.items():
+        if child(node, key) is not None and type_name != only:
+            message = f"transport: {type_name} has no `{key}`"
+            diagnostics.error(message, span_of(child(node, key)), f"Remove `{key}`, or take type: {only}")
     size = int_of(mtu)
     if size is not None and type_name == "udp" and size > LARGEST_UDP_PAYLOAD:
         message = f"'transport.mtu' is {size}; a UDP datagram holds {LARGEST_UDP_PAYLOAD}"
         diagnostics.error(message, span_of(mtu), f"Set mtu: {LARGEST_UDP_PAYLOAD} or less")
-    return Transport(type_name, host, port, size, node.span, span_of(mtu), span_of(kind), span_of(agent))
+    return Transport(
+        type=type_name,
+        host=host,
+        port=port,
+        mtu=size,
+        span=node.span,
+        mtu_span=span_of(mtu),
+        type_span=span_of(kind),
+        agent_span=span_of(agent),
+        device=text_of(child(node, "device")) or Transport().device,
+        baud=int_of(child(node, "baud")) or Transport().baud,
+        framing=bool_of(child(node, "framing")),
+    )
 
 
 def _agent(node: YamlNode | None, diagnostics: Diagnostics) -> tuple[str, int] | None:

@@ -24,6 +24,7 @@ SESSION_ID = 0x81
 DEFAULT_NAME_SIZE = 64
 ERROR_TEXT_SIZE = 160
 LARGEST_POOL = 250
+_FRAMING = {True: "on", False: "off", None: "either"}
 
 
 @dataclass(frozen=True)
@@ -93,6 +94,12 @@ def plan_project(
         arena_size=application.memory.arena,
         on_full=application.on_full,
         on_full_block_ms=application.on_full_block_ms,
+        entities=selection.entities,
+        creation=application.creation.name if application.creation else "best_effort",
+        transport=selection.transport,
+        serial_device=application.transport.device if selection.transport == "serial" else "",
+        serial_baud=application.transport.baud,
+        framing=_FRAMING[application.transport.framing],
     )
     plan_id = _plan_id(runtime, selection, types)
     return Project(

@@ -49,6 +49,9 @@ class RuntimePlan:
     `declared` is false for an application without `nodes:`: then names come from the calls and are kept in
     pools (`nodes_max`, `publishers_max` slots, names of at most `name_size` bytes with their terminator).
     `client_key` None: the port supplies it (`session.key: device`).
+    `entities` is preconfigured, reference, xml or binary; `creation` the stream of CREATE (best_effort, reliable).
+    `transport` is udp, tcp, serial or custom; `framing` of a custom one on, off or either (chosen at run time).
+    `fragments`: some reliable message is larger than the MTU, `reliable_slot_size` holds it whole.
     `error_text_size` 0: codes only. `best_effort_size` 0 or `reliable_slots` 0: there is no such stream.
     """
 
@@ -80,6 +83,13 @@ class RuntimePlan:
     liveliness_attempts: int = 3
     retry_first_ms: int = 100
     retry_most_ms: int = 1000
+    entities: str = "binary"
+    creation: str = "best_effort"
+    transport: str = "udp"
+    serial_device: str = ""
+    serial_baud: int = 115_200
+    framing: str = "either"
+    fragments: bool = False
 
     @property
     def error_mode(self) -> str:
