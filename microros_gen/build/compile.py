@@ -9,13 +9,17 @@ import os
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from microros_gen.build.toolchain import WARNINGS, Toolchain, run
 from microros_gen.diagnostics import Diagnostic, UserError
 
 OBJECTS = ".build"
 LIBRARY = "lib/libmicroros.a"
+MAP = f"{OBJECTS}/image.map"
+TOOLS = f"{OBJECTS}/tools.json"
+# What gcc (10 and newer) says of each function: its frame, and whom it calls. Written beside the object, as .ci.
+CALL_GRAPH = "-fcallgraph-info=su"
 
 
 @dataclass(frozen=True)
@@ -42,8 +46,9 @@ def compile_tree(
 
     Raises UserError with status 1 and the compiler's own words when a step fails.
     """
-    library_units = [_unit(source, tools) for source in sources]
-    example_units = [_unit(example, tools)] if example else []
+    facts = _call_graph_flags(tools, out)
+    library_units = [_unit(source, tools, facts) for source in sources]
+    example_units = [_unit(example, tools, facts)] if example else []
     stamps = _Stamps(out / OBJECTS / "stamps.json")
     units = [*library_units, *example_units]
     stale = [unit for unit in units if not stamps.is_fresh(out, unit)]
@@ -54,8 +59,9 @@ def compile_tree(
     if stale or not (out / LIBRARY).is_file():
         _archive(out, [u.object for u in library_units], tools)
     linked = f"bin/{image}" if example else None
-    if linked and (stale or not (out / linked).is_file()):
+    if linked and (stale or not (out / linked).is_file() or not (out / MAP).is_file()):
         _link(out, example_units[0].object, linked, tools)
+    _record(out, tools, call_graph=bool(facts))
     _remove_others(out, {u.object for u in units}, {LIBRARY, linked or ""})
     return BuildReport(LIBRARY, linked, len(stale), len(units) - len(stale))
 
@@ -101,11 +107,32 @@ class _Stamps:
         return self._digests[key]
 
 
-def _unit(source: str, tools: Toolchain) -> _Unit:
-    target = f"{OBJECTS}/{source.removesuffix('.c')}.o"
+def object_name(source: str) -> str:
+    """Return the object of a C file, below the output folder; members of the library have names of their own.
+
+    `src/std_msgs/int32__functions.c` → `.build/src/std_msgs/std_msgs__int32__functions.o`.
+    """
+    path = PurePosixPath(source)
+    name = f"{path.parent.name}__{path.stem}" if path.parts[0] == "src" else path.stem
+    return f"{OBJECTS}/{path.parent}/{name}.o"
+
+
+def _call_graph_flags(tools: Toolchain, out: Path) -> tuple[str, ...]:
+    probe = [tools.compiler, CALL_GRAPH, "-E", "-x", "c", os.devnull, "-o", os.devnull]
+    return (CALL_GRAPH,) if run(probe, out).returncode == 0 else ()
+
+
+def _unit(source: str, tools: Toolchain, facts: Sequence[str]) -> _Unit:
+    target = object_name(source)
     depends = target.removesuffix(".o") + ".d"
-    command = (tools.compiler, *WARNINGS, *tools.c_flags, "-Iinclude", "-MMD", "-MF", depends, "-c", source)
-    return _Unit(source, target, (*command, "-o", target))
+    flags = (*WARNINGS, *tools.c_flags, *facts, "-Iinclude", "-MMD", "-MF", depends)
+    return _Unit(source, target, (tools.compiler, *flags, "-c", source, "-o", target))
+
+
+def _record(out: Path, tools: Toolchain, call_graph: bool) -> None:
+    """Say what built this folder, for `size` and `explain`."""
+    data = {"compiler": tools.compiler, "archiver": tools.archiver, "call_graph": call_graph}
+    (out / TOOLS).write_text(json.dumps(data, sort_keys=True), encoding="utf-8")
 
 
 def _compile(out: Path, units: Sequence[_Unit], stamps: _Stamps) -> None:
@@ -140,7 +167,8 @@ def _archive(out: Path, objects: Sequence[str], tools: Toolchain) -> None:
 def _link(out: Path, main_object: str, image: str, tools: Toolchain) -> None:
     (out / image).parent.mkdir(parents=True, exist_ok=True)
     fresh = f"{OBJECTS}/image"
-    command = [tools.compiler, *tools.link_flags, main_object, LIBRARY, *tools.libraries, "-o", fresh]
+    objects = [main_object, LIBRARY, *tools.libraries]
+    command = [tools.compiler, *tools.link_flags, f"-Wl,-Map={MAP}", *objects, "-o", fresh]
     _must_succeed(command, out, "the example cannot be linked")
     (out / fresh).replace(out / image)
 
@@ -155,7 +183,8 @@ def _remove_others(out: Path, objects: set[str], products: set[str]) -> None:
     for path in (out / OBJECTS).rglob("*.o"):
         if path.relative_to(out).as_posix() not in objects:
             path.unlink()
-            path.with_suffix(".d").unlink(missing_ok=True)
+            for suffix in (".d", ".ci"):
+                path.with_suffix(suffix).unlink(missing_ok=True)
     for folder in ("lib", "bin"):
         for path in (out / folder).glob("*"):
             if path.is_file() and path.relative_to(out).as_posix() not in products:

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from matrix import VARIANTS, Tree, check, compile_tree, has
 
+from microros_gen.build.compile import object_name
 from microros_gen.cli import main as cli
 from microros_gen.sources.components import components_folder
 from microros_gen.sources.interfaces import shipped_folder
@@ -179,7 +180,7 @@ def test_the_built_library_and_image(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert end.value.code == 0
     tree = Tree("built", tmp_path / "out")
     members = check(["ar", "t", "lib/libmicroros.a"], tree.out).split()
-    assert sorted(members) == sorted(Path(source).stem + ".o" for source in tree.sources)
+    assert sorted(members) == sorted(Path(object_name(source)).name for source in tree.sources)
     needed = check(["nm", "-u", "lib/libmicroros.a"], tree.out).split()
     assert not [n for n in needed if HEAP_AND_STDIO.match(n)]
     _image_holds_only_what_is_selected(tree)
