@@ -6,10 +6,14 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
+from pathlib import PurePath
 from typing import Any
 
 from microros_gen import __version__
+from microros_gen.model.application import Memory
+from microros_gen.model.types import Message, NamedType, TypeName, element_of
 from microros_gen.plan.project import Project
+from microros_gen.render.project import without_folder
 
 
 def manifest(project: Project, inputs: Mapping[str, bytes], outputs: Mapping[str, bytes]) -> bytes:
@@ -30,8 +34,13 @@ def manifest(project: Project, inputs: Mapping[str, bytes], outputs: Mapping[str
         "selection": _selection(project),
         "entities": _entities(project),
         "pools": _pools(project),
+        "memory": _memory(project.application.memory),
         "types": {
-            str(plan.name): {"hash": plan.type_hash, "max_encoded_size": plan.max_encoded_size}
+            str(plan.name): {
+                "hash": plan.type_hash,
+                "max_encoded_size": plan.max_encoded_size,
+                "parts": sorted(str(part) for part in closure(plan.name, project.messages)),
+            }
             for plan in project.types
         },
         "inputs": {name: _sha256(content) for name, content in inputs.items()},
@@ -45,6 +54,9 @@ def _selection(project: Project) -> dict[str, Any]:
     return {
         "profiles": list(selection.profiles),
         "components": [c.component.name for c in selection.components],
+        "reasons": {
+            c.component.name: [without_folder(reason) for reason in c.reasons] for c in selection.components
+        },
         "entities": selection.entities,
         "transport": selection.transport,
         "liveliness": selection.liveliness,
@@ -65,6 +77,32 @@ def _entities(project: Project) -> dict[str, Any]:
             {"node": p.node, "topic": p.topic, "type": str(p.type), "reliable": p.reliable}
             for p in project.runtime.publishers
         ],
+    }
+
+
+def closure(name: TypeName, messages: Mapping[TypeName, Message]) -> frozenset[TypeName]:
+    """Return the types that `name` is made of, at any depth, without itself."""
+    found: set[TypeName] = set()
+    waiting = [name]
+    while waiting:
+        elements = [element_of(field.type) for field in messages[waiting.pop()].fields]
+        new = {e.name for e in elements if isinstance(e, NamedType)} - found
+        found |= new
+        waiting += sorted(new)
+    return frozenset(found)
+
+
+def _memory(memory: Memory) -> dict[str, Any]:
+    """Return the budgets that the application sets, and where: `size` reads them from here."""
+    budgets = (
+        ("ram_budget", memory.ram_budget, memory.ram_span),
+        ("flash_budget", memory.flash_budget, memory.flash_span),
+        ("stack", memory.stack, memory.stack_span),
+    )
+    return {
+        key: {"bytes": value, "place": f"{PurePath(span.source.name).name}:{span.line}" if span else None}
+        for key, value, span in budgets
+        if value is not None
     }
 
 

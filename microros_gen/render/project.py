@@ -101,7 +101,7 @@ def _unselected_headers(
         yield from ((f"include/{header}", content) for header in component.headers)
 
 
-def _without_folder(reason: str) -> str:
+def without_folder(reason: str) -> str:
     """Return `… (microros.yaml:9)` for `… (some/folder/microros.yaml:9)`: output depends on content alone."""
     return re.sub(r"\((?:[^()]*[/\\])?([^()/\\]+:\d+)\)", r"(\1)", reason)
 
@@ -123,7 +123,7 @@ def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectVi
         example=project.example,
         sources=library_sources(rendered),
         components=tuple(
-            _Row(c.component.name, ", ".join(_without_folder(r) for r in c.reasons))
+            _Row(c.component.name, ", ".join(without_folder(r) for r in c.reasons))
             for c in project.selection.components
         ),
         entities=tuple(declared or pools),
