@@ -47,7 +47,8 @@ class RuntimePlan:
     """Sizes are bytes, times are milliseconds.
 
     `declared` is false for an application without `nodes:`: then names come from the calls and are kept in
-    pools (`nodes_max`, `publishers_max` slots, names of at most `name_size` bytes with their terminator).
+    pools (`nodes_max`, `publishers_max` slots, names of at most `name_size` bytes with their terminator, DDS
+    type names of `type_name_size`). `creation_size`: the largest CREATE, where creation is reliable, else 0.
     `client_key` None: the port supplies it (`session.key: device`).
     `entities` is preconfigured, reference, xml or binary; `creation` the stream of CREATE (best_effort, reliable).
     `transport` is udp, tcp, serial or custom; `framing` of a custom one on, off or either (chosen at run time).
@@ -90,6 +91,8 @@ class RuntimePlan:
     serial_baud: int = 115_200
     framing: str = "either"
     fragments: bool = False
+    type_name_size: int = 0
+    creation_size: int = 0
 
     @property
     def error_mode(self) -> str:

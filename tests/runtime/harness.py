@@ -61,11 +61,13 @@ POOL = RuntimePlan(
     liveliness_period_ms=100,
     retry_first_ms=40,
     retry_most_ms=160,
+    type_name_size=32,
 )
 
 DECLARED = replace(
     POOL,
     declared=True,
+    type_name_size=0,
     nodes_max=1,
     publishers_max=2,
     name_size=0,
@@ -77,9 +79,11 @@ DECLARED = replace(
 )
 
 
-def components(plan: RuntimePlan, liveliness: str = "ping", entities: str = "binary") -> tuple[str, ...]:
+def components(plan: RuntimePlan, liveliness: str = "ping") -> tuple[str, ...]:
     """Return the components that the resolver selects for `plan`."""
-    names = [*CORE, f"entities_{entities}"]
+    names = [*CORE, f"entities_{plan.entities}"]
+    names += ["entities", "session_close"] if plan.entities != "preconfigured" else []
+    names += ["stream_reliable_input"] if plan.creation == "reliable" else []
     names += ["stream_best_effort"] if plan.best_effort_size else []
     names += ["stream_reliable"] if plan.reliable_slots else []
     names += {"ping": ["ping"], "acknack": ["liveliness_acknack"], "none": []}[liveliness]
@@ -102,7 +106,7 @@ def render(out: Path, plan: RuntimePlan, names: Sequence[str]) -> Tree:
     """Write include/ and src/ of the components `names` below `out`."""
     catalogue = load_catalogue()
     chosen = tuple(ChosenComponent(catalogue[name], ("test",)) for name in names)
-    selection = Selection(("test",), chosen, "binary", "udp", "ping", (), (), (), (), ())
+    selection = Selection(("test",), chosen, plan.entities, "udp", "ping", (), (), (), (), ())
     headers = [header for c in chosen for header in c.component.headers]
     environment = make_environment()
     sources = []

@@ -6,6 +6,7 @@
 #include "microros/rmw_client.h"
 #include "microros/rmw_open.h"
 #include "microros/xrce_client.h"
+#include "microros/xrce_routes.h"
 #include "rmw/rmw.h"
 
 #include <string.h>
@@ -71,7 +72,7 @@ rmw_ret_t rmw_open(const rmw_init_options_t * options, rmw_context_t * context)
   if (!xrce_session_await(client, MICROROS_CONNECT_TIMEOUT_MS)) {
     const rmw_ret_t result = init_report(client);
 
-    xrce_session_close(client, 0);
+    xrce_session_close(client);
     return result;
   }
   ++context->instance_id;
@@ -95,7 +96,7 @@ rmw_ret_t rmw_shutdown(rmw_context_t * context)
   if (context == NULL || context->impl == NULL) {
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "context");
   }
-  xrce_session_close(context->impl, context->impl->close_timeout_ms);
+  xrce_route_close(context->impl);
   context->impl = NULL;
   return RMW_RET_OK;
 }

@@ -27,6 +27,9 @@ void xrce_route_step(xrce_client_t * client, uint32_t now);
 /* Starts every part again: the agent counts from 0 and may have nothing. */
 void xrce_route_connected(xrce_client_t * client, uint32_t now);
 
+/* Takes leave of the agent, where the plan has a way to, for at most client->close_timeout_ms; then closes. */
+void xrce_route_close(xrce_client_t * client);
+
 /*
  * Returns room for one submessage in the stream, or NULL when it has none; a second call without
  * xrce_route_commit gives the same room. The room is what xrce_route_capacity says.

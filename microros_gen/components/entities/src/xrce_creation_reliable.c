@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * creation: reliable. A request is a message of the reliable stream: it takes the number that follows what the agent has
+ * acknowledged, and the stream holds what the application writes until the STATUS is there. Sent again it has the same
+ * number and the same bytes, so the agent acts on it once. In a new session the first requests go before all that
+ * the stream has kept.
+ */
+#include "microros/xrce_client.h"
+#include "microros/xrce_creation.h"
+#include "microros/xrce_wire.h"
+
+bool xrce_creation_begin(xrce_client_t * client, uint32_t now)
+{
+  xrce_stream_reliable_t * stream = &client->reliable;
+
+  if (!stream->held) {
+    if (stream->count != 0u) {
+      return false; /* the agent has to acknowledge these first */
+    }
+    stream->held = true;
+    stream->held_until_ms = now;
+  }
+  return true;
+}
+
+uint8_t * xrce_creation_room(xrce_client_t * client)
+{
+  return &client->creation[XRCE_MESSAGE_HEADER];
+}
+
+void xrce_creation_send(xrce_client_t * client, size_t size)
+{
+  xrce_put_header(client->creation, XRCE_SESSION_ID, XRCE_STREAM_RELIABLE, client->reliable.first);
+  (void)xrce_session_send(&client->session, client->creation, XRCE_MESSAGE_HEADER + size);
+}
+
+void xrce_creation_end(xrce_client_t * client)
+{
+  ++client->reliable.first;
+}

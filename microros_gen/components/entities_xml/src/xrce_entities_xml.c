@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Objects in the XML that DDS implementations read as profiles (OMG DDS-XRCE 1.0, 7.7.3). Names of ROS 2 and of DDS types
+ * have no character that XML escapes.
+ */
+#include "microros/xrce_client.h"
+#include "microros/xrce_creation.h"
+#include "microros/xrce_wire.h"
+
+#include <stddef.h>
+
+/* Copies the texts up to NULL, one after the other. */
+static uint8_t * xml_put(uint8_t * at, const char * const * texts)
+{
+  while (*texts != NULL) {
+    at = xrce_describe_text(at, *texts++);
+  }
+  return at;
+}
+
+static uint8_t * xml_put_participant(uint8_t * at, const xrce_participant_t * participant)
+{
+  const bool is_root = participant->namespace_[1] == '\0';
+  const char * const texts[] = {
+    "<dds><participant><rtps><name>",
+    is_root ? "" : participant->namespace_,
+    is_root ? "" : "/",
+    participant->name,
+    "</name></rtps></participant></dds>",
+    NULL};
+
+  return xml_put(at, texts);
+}
+
+/* The name and the type of a writer's topic, in what stands around them. */
+static uint8_t * xml_put_topic(
+  uint8_t * at, const xrce_writer_t * writer, const char * before, const char * behind)
+{
+  const char * const texts[] = {
+    before, "<name>rt", writer->topic, "</name><dataType>", writer->type->dds_type_name, "</dataType>", behind,
+    NULL};
+
+  return xml_put(at, texts);
+}
+
+static uint8_t * xml_put_number(uint8_t * at, uint16_t number)
+{
+  uint16_t unit = 10000;
+
+  while (unit > number) {
+    unit = (uint16_t)(unit / 10u);
+  }
+  for (; unit != 0u; unit = (uint16_t)(unit / 10u)) {
+    *at++ = (uint8_t)('0' + number / unit % 10u);
+  }
+  return at;
+}
+
+/* Depth 0 is what the agent takes by itself. */
+static uint8_t * xml_put_depth(uint8_t * at, uint16_t depth)
+{
+  if (depth == 0u) {
+    return at;
+  }
+  at = xml_put_number(xrce_describe_text(at, "<depth>"), depth);
+  return xrce_describe_text(at, "</depth>");
+}
+
+static uint8_t * xml_put_data_writer(uint8_t * at, const xrce_writer_t * writer)
+{
+  const char * const texts[] = {
+    "</historyQos></topic><qos><durability><kind>",
+    (writer->qos & XRCE_QOS_TRANSIENT_LOCAL) != 0u ? "TRANSIENT_LOCAL" : "VOLATILE",
+    "</kind></durability><reliability><kind>",
+    (writer->qos & XRCE_QOS_RELIABLE) != 0u ? "RELIABLE" : "BEST_EFFORT",
+    "</kind></reliability></qos></data_writer></dds>",
+    NULL};
+
+  at = xml_put_topic(at, writer, "<dds><data_writer><topic><kind>NO_KEY</kind>", "<historyQos><kind>KEEP_");
+  at = xrce_describe_text(at, (writer->qos & XRCE_QOS_KEEP_LAST) != 0u ? "LAST</kind>" : "ALL</kind>");
+  return xml_put(xml_put_depth(at, writer->depth), texts);
+}
+
+/* The text of a publisher is empty. */
+uint8_t * xrce_describe(
+  const xrce_client_t * client, uint16_t place, uint8_t kind, uint8_t * blob, uint8_t * format)
+{
+  uint8_t * end = blob;
+
+  *format = XRCE_FORMAT_XML;
+  if (kind == XRCE_KIND_PARTICIPANT) {
+    end = xml_put_participant(blob, &client->participants[place]);
+  } else if (kind == XRCE_KIND_TOPIC) {
+    end = xml_put_topic(blob, xrce_entities_writer(client, place), "<dds><topic>", "</topic></dds>");
+  } else if (kind == XRCE_KIND_DATAWRITER) {
+    end = xml_put_data_writer(blob, xrce_entities_writer(client, place));
+  }
+  *end++ = 0;
+  return end;
+}
