@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import selectors
 import signal
+import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from types import FrameType
@@ -30,26 +31,36 @@ class Server:
         """End `run` soon; may be called from a signal handler or another thread."""
         self._stop = True
 
-    def run(self, ready: Callable[[], None], clock: Callable[[], float]) -> None:
-        """Serve; `ready` is called once, when messages are taken. Afterwards all clients are gone."""
+    def run(self, ready: Callable[[Transport], None], clock: Callable[[], float]) -> None:
+        """Serve; `ready` is called once for each transport, when its messages are taken.
+
+        Afterwards all clients are gone.
+        """
         try:
             with selectors.DefaultSelector() as selector:
-                for transport in self._transports:
-                    selector.register(transport.fileno(), selectors.EVENT_READ, transport)
-                ready()
-                self._serve(selector, clock)
+                watched = [_Watched(transport, selector, ready) for transport in self._transports]
+                self._serve(selector, watched, clock)
         finally:
             self._close()
 
-    def _serve(self, selector: selectors.BaseSelector, clock: Callable[[], float]) -> None:
+    def _serve(
+        self, selector: selectors.BaseSelector, watched: Sequence[_Watched], clock: Callable[[], float]
+    ) -> None:
         next_tick = clock()
         while not self._stop:
-            for key, _ in selector.select(TICK_S):
+            for one in watched:  # all first: a descriptor that one gave back may be another's by now
+                one.release()
+            for one in watched:
+                one.watch()
+            for key, _ in _select(selector):
                 key.data.pump(self._agent.receive)
                 self._agent.flush()
-            if clock() >= next_tick:
+            now = clock()
+            if now >= next_tick:
                 self._agent.tick()
-                next_tick = clock() + TICK_S
+                for transport in self._transports:
+                    transport.tick(now)
+                next_tick = now + TICK_S
 
     def _close(self) -> None:
         clients = len(self._agent.clients)
@@ -66,6 +77,47 @@ class Server:
             faults=faults,
             **{f"fault_{kind}": count for kind, count in sorted(self._log.counters.items())},
         )
+
+
+class _Watched:
+    """A transport and what the selector knows of it."""
+
+    def __init__(
+        self, transport: Transport, selector: selectors.BaseSelector, ready: Callable[[Transport], None]
+    ) -> None:
+        self._transport = transport
+        self._selector = selector
+        self._ready = ready
+        self._was_ready = False
+        self._known = (-1, 0)
+
+    def release(self) -> None:
+        """Let the selector forget what is not so any more."""
+        if self._known[0] >= 0 and self._known != self._wanted():
+            self._selector.unregister(self._known[0])
+            self._known = (-1, 0)
+
+    def watch(self) -> None:
+        """Tell the selector which descriptor the transport has now, and what is waited for."""
+        wanted = self._wanted()
+        if wanted[0] < 0 or wanted == self._known:
+            return
+        self._selector.register(*wanted, self._transport)
+        self._known = wanted
+        if not self._was_ready:
+            self._was_ready = True
+            self._ready(self._transport)
+
+    def _wanted(self) -> tuple[int, int]:
+        events = selectors.EVENT_READ | (selectors.EVENT_WRITE if self._transport.writing else 0)
+        return self._transport.fileno(), events
+
+
+def _select(selector: selectors.BaseSelector) -> list[tuple[selectors.SelectorKey, int]]:
+    if selector.get_map():
+        return selector.select(TICK_S)
+    time.sleep(TICK_S)  # no transport has a descriptor, and not every selector waits for nothing
+    return []
 
 
 @contextmanager

@@ -22,7 +22,13 @@ class TracedTransport:
         self.label = inner.label
         self.fileno = inner.fileno
         self.name_of = inner.name_of
+        self.tick = inner.tick
         self.close = inner.close
+
+    @property
+    def writing(self) -> bool:
+        """See Transport."""
+        return self._inner.writing
 
     def pump(self, receive: Receive) -> None:
         """See Transport."""

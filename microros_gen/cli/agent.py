@@ -3,9 +3,13 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import time
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
 
 import click
 
@@ -17,6 +21,7 @@ from microros_gen.agent.server import Server, stopped_by_signals
 from microros_gen.agent.trace import TracedTransport
 from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.transport.udp4 import Udp4
+from microros_gen.diagnostics import Diagnostic, UserError
 
 _DEFAULTS = Limits()
 
@@ -32,7 +37,84 @@ def command() -> None:
 
     \b
     microros-gen agent udp4 --port 8888
+    microros-gen agent serial --dev /dev/ttyUSB0 --baud 115200
+    microros-gen agent pty --link /tmp/board
     """
+
+
+_COMMON = (
+    click.option(
+        "--domain",
+        type=click.IntRange(0, MAXIMUM_DOMAIN),
+        help="Put every client into this ROS domain. Default: the one that the client asks for.",
+    ),
+    click.option(
+        "--client-timeout",
+        type=click.FloatRange(min=0.1),
+        default=_DEFAULTS.client_timeout_s,
+        show_default=True,
+        metavar="SECONDS",
+        help="A client that is not heard for this long leaves the ROS graph; when it is heard again, its nodes"
+        " and publishers return. Before that it is asked for a sign of life.",
+    ),
+    click.option(
+        "--max-clients",
+        type=click.IntRange(1, 65535),
+        default=_DEFAULTS.clients,
+        show_default=True,
+        help="Further clients are refused.",
+    ),
+    click.option(
+        "-v",
+        "--verbose",
+        count=True,
+        help="-v: a line for each message; -vv: each message decoded and in hexadecimal.",
+    ),
+    click.option(
+        "--log-format",
+        type=click.Choice(["text", "json"]),
+        default="text",
+        show_default=True,
+        help="Log for people, or one JSON object a line.",
+    ),
+)
+
+
+@dataclass(frozen=True)
+class _Common:
+    """What every transport's command takes; the names are those of the options."""
+
+    domain: int | None
+    client_timeout: float
+    max_clients: int
+    verbose: int
+    log_format: str
+
+    def log(self) -> EventLog:
+        """Return the log, on stderr."""
+        return EventLog(sys.stderr, self.log_format == "json", self.verbose)
+
+    def serve(self, transports: Sequence[Transport], log: EventLog) -> None:
+        """Serve until a signal comes; a ready line for each transport goes to stdout."""
+        limits = replace(_DEFAULTS, clients=self.max_clients, client_timeout_s=self.client_timeout)
+        try:
+            agent = Agent(open_bridge(limits.domains, self.domain), log, limits)
+        except UserError:
+            for transport in transports:
+                transport.close()
+            raise
+        if self.verbose:
+            transports = [TracedTransport(transport, log) for transport in transports]
+        server = Server(agent, transports, log)
+        announcements = EventLog(sys.stdout, self.log_format == "json")
+        with stopped_by_signals(server):
+            server.run(lambda transport: _announce(announcements, transport), time.monotonic)
+
+
+def _common(function: Callable[..., None]) -> Callable[..., None]:
+    for option in reversed(_COMMON):
+        function = option(function)
+    return function
 
 
 @command.command()
@@ -47,49 +129,8 @@ def command() -> None:
     metavar="ADDRESS",
     help="Own IPv4 address to listen on; 0.0.0.0 for all, so that boards in the network are served.",
 )
-@click.option(
-    "--domain",
-    type=click.IntRange(0, MAXIMUM_DOMAIN),
-    help="Put every client into this ROS domain. Default: the one that the client asks for.",
-)
-@click.option(
-    "--client-timeout",
-    type=click.FloatRange(min=0.1),
-    default=_DEFAULTS.client_timeout_s,
-    show_default=True,
-    metavar="SECONDS",
-    help="A client that is not heard for this long leaves the ROS graph; when it is heard again, its nodes"
-    " and publishers return. Before that it is asked for a sign of life.",
-)
-@click.option(
-    "--max-clients",
-    type=click.IntRange(1, 65535),
-    default=_DEFAULTS.clients,
-    show_default=True,
-    help="Further clients are refused.",
-)
-@click.option(
-    "-v",
-    "--verbose",
-    count=True,
-    help="-v: a line for each message; -vv: each message decoded and in hexadecimal.",
-)
-@click.option(
-    "--log-format",
-    type=click.Choice(["text", "json"]),
-    default="text",
-    show_default=True,
-    help="Log for people, or one JSON object a line.",
-)
-def udp4(
-    port: int,
-    host: str,
-    domain: int | None,
-    client_timeout: float,
-    max_clients: int,
-    verbose: int,
-    log_format: str,
-) -> None:
+@_common
+def udp4(port: int, host: str, **common: Any) -> None:
     """Serve clients that send UDP over IPv4.
 
     Prints 'agent ready: udp4 ADDRESS:PORT' on stdout once clients are served (with --log-format json the
@@ -100,16 +141,92 @@ def udp4(
     microros-gen agent udp4 --port 8888
     microros-gen agent udp4 --bind 0.0.0.0 --client-timeout 10 -v
     """
-    log = EventLog(sys.stderr, log_format == "json", verbose)
-    limits = replace(_DEFAULTS, clients=max_clients, client_timeout_s=client_timeout)
-    transport: Transport = Udp4(host, port)
-    if verbose:
-        transport = TracedTransport(transport, log)
-    agent = Agent(open_bridge(limits.domains, domain), log, limits)
-    server = Server(agent, [transport], log)
-    announcements = EventLog(sys.stdout, log_format == "json")
-    with stopped_by_signals(server):
-        server.run(lambda: _announce(announcements, transport), time.monotonic)
+    options = _Common(**common)
+    options.serve([Udp4(host, port)], options.log())
+
+
+@command.command()
+@click.option(
+    "--dev",
+    "devices",
+    multiple=True,
+    required=True,
+    metavar="PATH",
+    help="Serial device, as /dev/ttyUSB0, /dev/ttyACM0 or /dev/pts/3. May be given several times.",
+)
+@click.option(
+    "--baud",
+    type=click.IntRange(min=1),
+    default=115_200,
+    show_default=True,
+    metavar="N",
+    help="Speed of all of them in bit/s; 8 data bits, no parity, 1 stop bit, no flow control."
+    " A pseudo-terminal ignores it.",
+)
+@_common
+def serial(devices: tuple[str, ...], baud: int, **common: Any) -> None:
+    """Serve clients on serial lines: boards at a UART or USB, images in an emulator.
+
+    Prints 'agent ready: serial PATH' on stdout once the clients of a device are served; the log goes to
+    stderr. A device that is not there yet, or is unplugged, is waited for; its clients go on when it is back. Each
+    device is this process's alone. Several clients may share a line if each has a source address of its own in its
+    frames. What is between frames (the messages of a boot loader) is counted and ignored. Ends as udp4 does.
+    Status 2: a path is no serial device, is in use, may not be opened, or has no such speed; or rclpy is missing.
+
+    \b
+    microros-gen agent serial --dev /dev/ttyUSB0
+    microros-gen agent serial --dev /dev/ttyACM0 --dev /dev/ttyACM1 --baud 921600
+    """
+    options = _Common(**common)
+    log = options.log()
+    module = _serial_module()
+    lines: list[Transport] = []
+    try:
+        for device in dict.fromkeys(devices):
+            lines.append(module.serial_line(device, baud, log))
+    except UserError:
+        for line in lines:
+            line.close()
+        raise
+    options.serve(lines, log)
+
+
+@command.command()
+@click.option(
+    "--link",
+    type=click.Path(path_type=Path),
+    metavar="PATH",
+    help="Make a symbolic link to the pseudo-terminal, so that its name is known before; it goes with the agent.",
+)
+@_common
+def pty(link: Path | None, **common: Any) -> None:
+    """Make a pseudo-terminal and serve the clients that open it as their serial device.
+
+    Prints 'agent ready: serial PATH' on stdout; PATH is what the client opens. It stays the same, whichever clients
+    come and go. The log goes to stderr. Ends as udp4 does.
+
+    \b
+    microros-gen agent pty
+    microros-gen agent pty --link /tmp/board
+    """
+    options = _Common(**common)
+    log = options.log()
+    options.serve([_serial_module().Pty(log, link)], log)
+
+
+def _serial_module() -> Any:
+    if os.name != "posix":
+        raise UserError(
+            [
+                Diagnostic(
+                    "serial lines need Linux, macOS or another POSIX system",
+                    hint="Under Windows run the agent in WSL 2 and hand the device on to it (usbipd attach --wsl)",
+                )
+            ]
+        )
+    from microros_gen.agent.transport import serial as module
+
+    return module
 
 
 def _announce(announcements: EventLog, transport: Transport) -> None:

@@ -66,6 +66,10 @@ class FakeBridge:
 class FakeTransport:
     sent: list[tuple[Hashable, bytes]] = field(default_factory=list)
     label: str = "fake"
+    writing: bool = False
+
+    def tick(self, now: float) -> None:
+        """Time brings nothing."""
 
     def fileno(self) -> int:
         raise NotImplementedError

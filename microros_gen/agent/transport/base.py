@@ -17,11 +17,21 @@ class Transport(Protocol):
     def label(self) -> str:
         """Kind and own address for the log and the ready line, as `udp4 127.0.0.1:8888`."""
 
+    @property
+    def writing(self) -> bool:
+        """Whether something waits for the descriptor to become writable; then `pump` is due as well."""
+
     def fileno(self) -> int:
-        """Return the descriptor that becomes readable when something arrives."""
+        """Return the descriptor that becomes readable when something arrives; -1 while there is none.
+
+        Between two descriptors there is a `tick` that finds none.
+        """
 
     def pump(self, receive: Receive) -> None:
-        """Hand on what has arrived, without waiting, and not more than a batch of it. Never raises."""
+        """Write what waits, hand on what has arrived; not more than a batch of it, without waiting. Never raises."""
+
+    def tick(self, now: float) -> None:
+        """Do what time brings (`now`: seconds, monotonic); called some ten times a second. Never raises."""
 
     def send(self, data: bytes, address: Hashable) -> None:
         """Send one message without waiting; one that cannot go out is lost. Never raises."""

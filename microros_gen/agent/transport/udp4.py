@@ -37,6 +37,14 @@ class Udp4:
         """See Transport."""
         return f"udp4 {self.host}:{self.port}"
 
+    @property
+    def writing(self) -> bool:
+        """See Transport: a datagram never waits here."""
+        return False
+
+    def tick(self, now: float) -> None:
+        """See Transport: a socket needs no care."""
+
     def fileno(self) -> int:
         """See Transport."""
         return self._socket.fileno()

@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A serial line: frames on a descriptor that may vanish and come back.
+
+Several clients may share a line: each frame names its source, and the pair of line and source is an address.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+from collections import deque
+from collections.abc import Callable, Hashable
+
+from microros_gen.agent.framing import LARGEST_PAYLOAD, FrameDecoder, encode_frame
+from microros_gen.agent.log import EventLog, Level
+from microros_gen.agent.transport.base import Receive
+
+READ_BYTES = 16_384
+"""Bytes that are read before the answers go out."""
+QUEUE_BYTES = 65_536
+"""What may wait for a line that is slower than its answers; frames beyond it are lost."""
+RETRY_S = 0.25
+"""Seconds between two looks for a device that is not there."""
+
+Open = Callable[[], int]
+"""Opens the line: returns a descriptor that does not block; OSError when there is no line now."""
+
+
+class Line:
+    """One line, `name` by its path. Not there yet or lost: it is looked for until it is there."""
+
+    def __init__(self, name: str, open_line: Open, log: EventLog) -> None:
+        self._name = name
+        self._open = open_line
+        self._log = log
+        self._fd = -1
+        self._retry_at: float | None = 0.0
+        self._told = ""
+        self._was_open = False
+        self._queue: deque[bytes] = deque()
+        self._queued = 0
+        self._decoder = FrameDecoder(self._fault)
+
+    @property
+    def label(self) -> str:
+        """See Transport."""
+        return f"serial {self._name}"
+
+    @property
+    def writing(self) -> bool:
+        """See Transport."""
+        return bool(self._queue)
+
+    def fileno(self) -> int:
+        """See Transport."""
+        return self._fd
+
+    def pump(self, receive: Receive) -> None:
+        """See Transport."""
+        self._write()
+        if self._fd < 0:
+            return
+        try:
+            data = os.read(self._fd, READ_BYTES)
+        except BlockingIOError:
+            return
+        except OSError as error:
+            self._lose(error.strerror or str(error))
+            return
+        if not data:
+            self._lose("it hung up")
+            return
+        for source, payload in self._decoder.feed(data):
+            receive(payload, (self.label, source), self)
+
+    def send(self, data: bytes, address: Hashable) -> None:
+        """See Transport."""
+        if self._fd < 0 or not isinstance(address, tuple) or len(data) > LARGEST_PAYLOAD:
+            return
+        frame = encode_frame(data, address[1])
+        if self._queued + len(frame) > QUEUE_BYTES:
+            text = "serial {device} takes no more: messages to it are lost"
+            self._log.count("line_full", text, device=self._name)
+            return
+        self._queue.append(frame)
+        self._queued += len(frame)
+        if len(self._queue) == 1:
+            self._write()
+
+    def start(self) -> None:
+        """Open the line before the first tick; OSError says why it is not open."""
+        try:
+            self._fd = self._open()
+        except OSError as error:
+            self._told = error.strerror or str(error)
+            raise
+        self._was_open = True
+
+    def wait(self) -> None:
+        """Tell that a line which could not be opened is waited for."""
+        text = "serial {device} cannot be opened ({why}); waiting for it"
+        self._tell("device_waiting", text, why=self._told)
+
+    def tick(self, now: float) -> None:
+        """See Transport."""
+        if self._fd >= 0:
+            return
+        if self._retry_at is None:  # just lost: whoever watched the old descriptor sees that first
+            self._retry_at = now + RETRY_S
+        elif now >= self._retry_at:
+            self._retry_at = now + RETRY_S
+            self._try()
+
+    def name_of(self, address: Hashable) -> str:
+        """See Transport."""
+        return f"{self._name} client {address[1]}" if isinstance(address, tuple) else str(address)
+
+    def close(self) -> None:
+        """See Transport."""
+        if self._fd >= 0:
+            os.close(self._fd)
+            self._fd = -1
+
+    def _try(self) -> None:
+        known, before = self._was_open, self._told
+        try:
+            self.start()
+        except OSError:
+            if self._told != before:
+                self.wait()
+            return
+        self._told = ""
+        text = "serial {device} is back" if known else "serial {device} is there now"
+        self._tell("device_back", text)
+
+    def _lose(self, why: str) -> None:
+        os.close(self._fd)
+        self._fd = -1
+        self._retry_at = None
+        self._queue.clear()
+        self._queued = 0
+        self._decoder.reset()
+        self._told = os.strerror(errno.ENOENT)  # the ordinary reason needs no line of its own
+        self._tell("device_lost", "serial {device} is gone ({why}); waiting for it", why=why)
+
+    def _tell(self, event: str, text: str, **fields: str) -> None:
+        self._log.emit(Level.INFO, event, text, device=self._name, **fields)
+
+    def _write(self) -> None:
+        while self._queue and self._fd >= 0:
+            frame = self._queue[0]
+            try:
+                done = os.write(self._fd, frame)
+            except BlockingIOError:
+                return
+            except OSError as error:
+                self._lose(error.strerror or str(error))
+                return
+            self._queued -= done
+            if done < len(frame):
+                self._queue[0] = frame[done:]
+            else:
+                self._queue.popleft()
+
+    def _fault(self, kind: str, found: str) -> None:
+        self._log.count(kind, "serial {device}: ignored: {found}", device=self._name, found=found)
