@@ -14,9 +14,10 @@ from microros_gen.model.names import expand_topic_name
 from microros_gen.model.selection import Selection
 from microros_gen.model.target import Target
 from microros_gen.model.types import Message, TypeName
+from microros_gen.plan.creation import CreateNames, create_size, participant_reference
 from microros_gen.plan.names import dds_topic, dds_type, participant_name
 from microros_gen.plan.runtime import NodePlan, PublisherPlan, RuntimePlan
-from microros_gen.plan.streams import CreateNames, StreamPlan, Written, plan_streams
+from microros_gen.plan.streams import StreamPlan, Written, plan_streams
 from microros_gen.plan.types import TypePlan
 from microros_gen.resolve.interfaces import split_type_name
 
@@ -68,8 +69,8 @@ def plan_project(
     name = "+".join(selection.profiles)
     by_name = {plan.name: plan for plan in types}
     nodes, publishers = _declared(application)
-    creates = _create_names(application, nodes, publishers, roots) if selection.entities == "binary" else None
-    streams = _streams(application, selection, by_name, roots, creates, diagnostics)
+    create = _create_size(application, selection, nodes, publishers, roots)
+    streams = _streams(application, selection, by_name, roots, create, diagnostics)
     _check_budget(application, streams, diagnostics)
     runtime = RuntimePlan(
         plan_id="",
@@ -100,6 +101,8 @@ def plan_project(
         serial_device=application.transport.device if selection.transport == "serial" else "",
         serial_baud=application.transport.baud,
         framing=_FRAMING[application.transport.framing],
+        type_name_size=0 if nodes else _longest_type(roots) + 1,
+        creation_size=streams.creation_size,
     )
     plan_id = _plan_id(runtime, selection, types)
     return Project(
@@ -144,17 +147,17 @@ def _streams(
     selection: Selection,
     types: Mapping[TypeName, TypePlan],
     roots: tuple[TypeName, ...],
-    creates: CreateNames | None,
+    create: int,
     diagnostics: Diagnostics,
 ) -> StreamPlan:
     if not selection.has("publish"):
-        return plan_streams(application, selection.transport, (), creates, diagnostics)
+        return plan_streams(application, selection.transport, (), create, diagnostics)
     if application.nodes:
         declarations = publisher_declarations(application)
         written = tuple(_written(node, endpoint, types) for _, node, endpoint in declarations)
     else:
         written = tuple(Written(str(r), types[r].max_encoded_size, True, True) for r in roots)
-    return plan_streams(application, selection.transport, written, creates, diagnostics)
+    return plan_streams(application, selection.transport, written, create, diagnostics)
 
 
 def _written(node: NodeDecl, endpoint: EndpointDecl, types: Mapping[TypeName, TypePlan]) -> Written:
@@ -164,21 +167,34 @@ def _written(node: NodeDecl, endpoint: EndpointDecl, types: Mapping[TypeName, Ty
     return Written(label, plan.max_encoded_size, reliable, not reliable, endpoint.type_span or endpoint.span)
 
 
-def _create_names(
+def _create_size(
     application: Application,
+    selection: Selection,
     nodes: tuple[NodePlan, ...],
     publishers: tuple[PublisherPlan, ...],
     roots: tuple[TypeName, ...],
-) -> CreateNames:
-    longest_type = max((len(dds_type(r)) for r in roots), default=0)
+) -> int:
+    """Return the size of the largest CREATE; 0: the client creates nothing."""
+    if selection.entities == "preconfigured":
+        return 0
+    longest_type = _longest_type(roots)
     if not nodes:
         size = application.pools.get("name_size", DEFAULT_NAME_SIZE) - 1
-        return CreateNames(2 * size + 1, size + len("rt"), longest_type)
-    return CreateNames(
-        max(len(n.participant_name) for n in nodes),
-        max((len(p.dds_topic) for p in publishers), default=0),
-        max((len(p.dds_type) for p in publishers), default=0),
-    )
+        # A namespace takes `size` with its slash in front, which its reference does not have.
+        reference = participant_reference("x" * 2 * size, application.pools.get("nodes", 1))
+        names = CreateNames(2 * size + 1, size + len("rt"), longest_type, len(reference))
+    else:
+        names = CreateNames(
+            max(len(n.participant_name) for n in nodes),
+            max((len(p.dds_topic) for p in publishers), default=len("rt/")),
+            max((len(p.dds_type) for p in publishers), default=0),
+            max(len(participant_reference(n.participant_name, len(nodes))) for n in nodes),
+        )
+    return create_size(names, selection.entities)
+
+
+def _longest_type(roots: tuple[TypeName, ...]) -> int:
+    return max((len(dds_type(r)) for r in roots), default=0)
 
 
 def _pool(application: Application, key: str, default: int, diagnostics: Diagnostics) -> int:

@@ -12,9 +12,8 @@ from dataclasses import dataclass
 
 from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.model.application import Application
+from microros_gen.plan.creation import MESSAGE_HEADER, SUBMESSAGE_HEADER
 
-MESSAGE_HEADER = 4
-SUBMESSAGE_HEADER = 4
 OBJECT_PREFIX = 4  # request id and object id
 WRITE_DATA_OVERHEAD = MESSAGE_HEADER + SUBMESSAGE_HEADER + OBJECT_PREFIX
 # The largest message of the agent to a client that only writes is INFO with two locators (52 bytes).
@@ -40,65 +39,58 @@ class Written:
 
 @dataclass(frozen=True)
 class StreamPlan:
-    """Bytes of each stream's storage; 0 or no slots where a stream is not needed."""
+    """Bytes of each stream's storage; 0 or no slots where a stream is not needed.
+
+    `creation_size`: of a request to create on the reliable stream.
+    """
 
     mtu: int
     best_effort_size: int
     reliable_slots: int
     reliable_slot_size: int
     input_size: int
+    creation_size: int = 0
 
     @property
     def ram(self) -> int:
         """Bytes of all buffers together."""
-        return self.best_effort_size + self.reliable_slots * self.reliable_slot_size + self.input_size
-
-
-@dataclass(frozen=True)
-class CreateNames:
-    """Longest names that a CREATE carries, in characters."""
-
-    participant: int
-    topic: int
-    type: int
-
-
-def create_size(names: CreateNames) -> int:
-    """Return the size of the largest CREATE datagram with binary representation (OMG DDS-XRCE 1.0, 8.3.5)."""
-    fixed = 12  # request id, object id, kind, format, padding, length
-    participant = 8 + names.participant + 1
-    topic = _align4(4 + names.topic + 1 + 2) + 4 + names.type + 1
-    data_writer = 14
-    blob = max(participant, topic, data_writer)
-    return _align4(MESSAGE_HEADER + SUBMESSAGE_HEADER + fixed + blob + 1 + 2)
+        reliable = self.reliable_slots * self.reliable_slot_size
+        return self.best_effort_size + reliable + self.input_size + self.creation_size
 
 
 def plan_streams(
     application: Application,
     transport: str,
     written: Iterable[Written],
-    creates: CreateNames | None,
+    create: int,
     diagnostics: Diagnostics,
 ) -> StreamPlan:
     """Size the streams; a message that cannot fit its stream is an error with the number that would do.
 
-    `transport` is the selected one. `creates` is None where the client creates nothing (entities: preconfigured).
+    `transport` is the selected one. `create` is the size of the largest CREATE (plan/creation.py), 0 where the client
+    creates nothing (entities: preconfigured). With `creation: reliable` it has storage of its own, and the reliable stream
+    is there for it.
     """
     messages = tuple(written)
     ceiling = application.transport.mtu or DEFAULT_MTU[transport]
     for message in messages:
         _check_fits(message, ceiling, application, diagnostics)
-    create = create_size(creates) if creates else 0
     if create > ceiling:
         diagnostics.error(
             f"the longest CREATE message takes {create} bytes and transport.mtu is {ceiling}",
             application.transport.mtu_span or application.transport.span,
             f"Set transport.mtu: {create}, or shorten the longest topic name",
         )
-    best_effort = max([create, *(_datagram(m) for m in messages if m.best_effort)], default=0)
+    best_effort = max((_datagram(m) for m in messages if m.best_effort), default=0)
     reliable = max((_datagram(m) for m in messages if m.reliable), default=0)
     slots = application.pools.get("history", DEFAULT_HISTORY) if reliable else 0
-    return StreamPlan(max(best_effort, reliable), best_effort, slots, reliable, WRITE_SIDE_INPUT)
+    creation = create if application.creation and application.creation.name == "reliable" else 0
+    if not creation:
+        best_effort = max(best_effort, create)
+    elif not reliable:
+        slots, reliable = 1, WRITE_DATA_OVERHEAD
+    mtu = max(best_effort, reliable, create)
+    return StreamPlan(mtu, best_effort, slots, reliable, WRITE_SIDE_INPUT, creation)
 
 
 def _check_fits(message: Written, ceiling: int, application: Application, diagnostics: Diagnostics) -> None:

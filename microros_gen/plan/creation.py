@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: Apache-2.0
+"""CREATE: the names under which an agent finds descriptions, and the size of the largest message.
+
+Sources: OMG DDS-XRCE 1.0, 7.7.3 and 8.3.5; reference names as the rmw of micro-ROS builds them (with its option for
+references), so that reference files made for it serve here too.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+MESSAGE_HEADER = 4
+SUBMESSAGE_HEADER = 4
+_BEFORE_DESCRIPTION = 12  # request id, object id, kind, format, padding, length
+_OWNER = 2  # the parent's id, or the domain
+_LONGEST_DEPTH = len("65535")
+_XML_PARTICIPANT = len("<dds><participant><rtps><name></name></rtps></participant></dds>")
+_XML_TOPIC = len("<dds><topic><name></name><dataType></dataType></topic></dds>")
+_XML_WRITER = len(
+    "<dds><data_writer><topic><kind>NO_KEY</kind><name></name><dataType></dataType><historyQos><kind>KEEP_LAST</kind>"
+    "<depth></depth></historyQos></topic><qos><durability><kind>TRANSIENT_LOCAL</kind></durability><reliability><kind>"
+    "BEST_EFFORT</kind></reliability></qos></data_writer></dds>"
+)
+_NUL = 1
+
+
+@dataclass(frozen=True)
+class CreateNames:
+    """Longest names that a CREATE carries, in characters: on the wire, and of references."""
+
+    participant: int
+    topic: int
+    type: int
+    participant_reference: int = 0
+
+
+def create_size(names: CreateNames, entities: str = "binary") -> int:
+    """Return the size of the largest datagram with a CREATE, bytes; `entities` is how objects are described."""
+    participant, *others = _DESCRIPTIONS[entities](names)
+    longest = max(participant + participant % 2, *others)
+    return MESSAGE_HEADER + SUBMESSAGE_HEADER + _BEFORE_DESCRIPTION + longest + _OWNER
+
+
+def participant_reference(name: str, nodes: int) -> str:
+    """Return the reference of a node's participant; `name` is what it carries, `nodes` how many the plan has.
+
+    micro-ROS has one name for every participant; among several each has its own here, so that nodes differ.
+    """
+    return "participant_profile" if nodes <= 1 else f"{name.removeprefix('/')}__p"
+
+
+def topic_reference(topic: str) -> str:
+    """Return the reference of a fully qualified topic: `/imu/data` → `imu/data__t`."""
+    return f"{topic[1:]}__t"
+
+
+def writer_reference(topic: str) -> str:
+    """Return the reference of a topic's data writer: `/imu/data` → `imu/data__dw`."""
+    return f"{topic[1:]}__dw"
+
+
+def _binary(names: CreateNames) -> tuple[int, int, int]:
+    topic = _align4(4 + names.topic + _NUL + 2) + 4 + names.type + _NUL
+    return 8 + names.participant + _NUL, topic, 14
+
+
+def _xml(names: CreateNames) -> tuple[int, int, int]:
+    both = names.topic + names.type + _NUL
+    return (
+        _XML_PARTICIPANT + names.participant + _NUL,
+        _XML_TOPIC + both,
+        _XML_WRITER + _LONGEST_DEPTH + both,
+    )
+
+
+def _reference(names: CreateNames) -> tuple[int, int, int]:
+    topic = names.topic - len("rt/")
+    return names.participant_reference + _NUL, topic + len("__t") + _NUL, topic + len("__dw") + _NUL
+
+
+_DESCRIPTIONS = {"binary": _binary, "xml": _xml, "reference": _reference}
+
+
+def _align4(size: int) -> int:
+    return (size + 3) & ~3
