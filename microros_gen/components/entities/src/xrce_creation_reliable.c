@@ -14,7 +14,7 @@ bool xrce_creation_begin(xrce_client_t * client, uint32_t now)
   xrce_stream_reliable_t * stream = &client->reliable;
 
   if (!stream->held) {
-    if (stream->count != 0u) {
+    if (!xrce_stream_reliable_is_idle(stream)) {
       return false; /* the agent has to acknowledge these first */
     }
     stream->held = true;
