@@ -1,0 +1,249 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Gives every byte of an image an owner: symbol → input section → object → source file → component.
+
+What a section holds and nobody owns (gaps between input sections) is padding, so that the pieces of a kind add up
+to what `size` prints.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from microros_gen.build.compile import LIBRARY, object_name
+from microros_gen.build.elf import Elf, Section, Symbol
+from microros_gen.build.folder import Folder
+from microros_gen.build.linker_map import Placed, parse_map
+from microros_gen.diagnostics import Diagnostic, UserError
+
+GROUPS = (
+    "component",
+    "type support",
+    "application",
+    "start-up",
+    "compiler",
+    "C library",
+    "linker",
+    "padding",
+)
+"""Kinds of owners, in the order of tables. `linker`: tables that it makes (PLT, GOT, dynamic linking)."""
+
+_MEMBER = re.compile(r"^(?P<archive>.*)\((?P<member>[^()]*)\)$")
+_START_UP = re.compile(r"(^|/)([SgM]?crt[1in]|crt(begin|end)[ST]?|rcrt1)\.o$")
+_COMPILER = re.compile(r"(^|/)lib(gcc\w*|clang_rt[\w.-]*)\.a$")
+_LINKER_MADE = re.compile(
+    r"^\.(interp|dyn\w*|hash|gnu\.(hash|version\w*)|rela?\.?\w*(\..*)?|plt(\..*)?|iplt|got(\..*)?|eh_frame_hdr"
+    r"|note\.gnu\.(build-id|property)|glue_7t?|vfp11_veneer|v4_bx|relr\.\w+)$"
+)
+_MERGED_TEXT = re.compile(r"\.str1\.\d+$|^\.rodata$")
+_SHOWN_TEXT = 40
+
+
+@dataclass(frozen=True)
+class Owner:
+    """Whose bytes they are: a group of GROUPS, and a name in it (component, type, archive)."""
+
+    group: str
+    name: str
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Neighbouring bytes of one owner. `kind` is text, data or bss; `symbol` is None for what has no name.
+
+    `source` is a C file below the output folder, or the linker's name of an object that was not made from one.
+    """
+
+    kind: str
+    section: str
+    input: str
+    address: int
+    size: int
+    owner: Owner
+    source: str | None = None
+    symbol: str | None = None
+    function: bool = False
+    aliases: tuple[str, ...] = ()
+
+    @property
+    def flash(self) -> int:
+        """Bytes of read-only memory: code, constants, initial values."""
+        return self.size if self.kind != "bss" else 0
+
+    @property
+    def ram(self) -> int:
+        """Bytes of static memory that the program may change."""
+        return self.size if self.kind != "text" else 0
+
+
+PADDING = Owner("padding", "alignment")
+LINKER = Owner("linker", "tables of the linker")
+
+
+def attribute(folder: Folder, image: Elf) -> tuple[Piece, ...]:
+    """Return the pieces of a linked image, by section and address. UserError where the linker left no map."""
+    placed = parse_map(folder.map_text)
+    if not placed:
+        raise UserError(
+            [Diagnostic(f"{folder.path} holds no map of its image", hint="Build it again: microros-gen build")]
+        )
+    owners = Owners(folder)
+    texts = _texts(folder, placed)
+    by_output: dict[str, list[Placed]] = {}
+    for item in placed:
+        by_output.setdefault(item.output, []).append(item)
+    pieces: list[Piece] = []
+    for section in image.loaded:
+        symbols = _sized(s for s in image.symbols if s.section == section.index)
+        parts = _cover(section, by_output.get(section.name, ()), owners)
+        for part in parts:
+            pieces += _split(part, symbols, image, section, texts)
+    return tuple(pieces)
+
+
+def attribute_library(folder: Folder) -> tuple[Piece, ...]:
+    """Return the pieces of every object of the library: what there is before a linker drops what is not used."""
+    owners = Owners(folder)
+    pieces: list[Piece] = []
+    for source in folder.sources:
+        item = Elf(folder.path / object_name(source))
+        owner, name = owners.of_source(source), source
+        for section in item.loaded:
+            symbols = _sized(s for s in item.symbols if s.section == section.index)
+            whole = Piece(
+                str(section.kind), section.name, section.name, section.address, section.size, owner, name
+            )
+            pieces += _by_symbol(whole, symbols)
+    return tuple(pieces)
+
+
+class Owners:
+    """Whose an object is, by the name that the linker gives it."""
+
+    def __init__(self, folder: Folder) -> None:
+        self._folder = folder
+        self._components = frozenset(folder.components)
+
+    def of_source(self, source: str) -> Owner:
+        """Return the owner of a C file of the library."""
+        name = source.split("/")[1]
+        if source in self._folder.types:
+            return Owner("type support", self._folder.types[source])
+        return Owner("component" if name in self._components else "type support", name)
+
+    def of(self, placed: Placed) -> tuple[Owner, str | None]:
+        """Return the owner of an input section and its source."""
+        if _LINKER_MADE.match(placed.section) or placed.object in ("<internal>", "linker stubs"):
+            return LINKER, None
+        match = _MEMBER.match(placed.object)
+        if match:
+            archive, member = match["archive"], match["member"]
+            if archive.endswith(LIBRARY) and member in self._folder.objects:
+                source = self._folder.objects[member]
+                return self.of_source(source), source
+            group = "compiler" if _COMPILER.search(archive) else "C library"
+            return Owner(group, archive.rsplit("/", 1)[-1]), f"{archive.rsplit('/', 1)[-1]}({member})"
+        short = placed.object.rsplit("/", 1)[-1]
+        if _START_UP.search(placed.object):
+            return Owner("start-up", short), short
+        if placed.object.startswith(".build/"):
+            source = placed.object.removeprefix(".build/").removesuffix(".o") + ".c"
+            return Owner("application", source), source
+        return Owner("application", short), short
+
+
+def _cover(section: Section, placed: Iterable[Placed], owners: Owners) -> Iterator[Piece]:
+    """Yield pieces that cover `section` without gap or overlap."""
+    kind, at = str(section.kind), section.address
+    for item in placed:
+        begin, end = max(item.address, at), min(item.address + item.size, section.end)
+        if begin >= end:
+            continue
+        if begin > at:
+            yield Piece(kind, section.name, "", at, begin - at, PADDING)
+        owner, source = owners.of(item)
+        yield Piece(kind, section.name, item.section, begin, end - begin, owner, source)
+        at = end
+    if at < section.end:
+        owner = PADDING if at > section.address else LINKER
+        yield Piece(kind, section.name, "", at, section.end - at, owner)
+
+
+def _split(
+    piece: Piece, symbols: Sequence[Symbol], image: Elf, section: Section, texts: Mapping[bytes, Piece]
+) -> Iterator[Piece]:
+    if piece.kind == "text" and _MERGED_TEXT.search(piece.input) and texts:
+        begin = piece.address - section.address
+        content = image.content(section)[begin : begin + piece.size]
+        named = any(piece.address <= s.address < piece.address + piece.size for s in symbols)
+        if not named:
+            yield from _by_text(piece, content, texts)
+            return
+    yield from _by_symbol(piece, symbols)
+
+
+def _by_symbol(piece: Piece, symbols: Sequence[Symbol]) -> Iterator[Piece]:
+    at, end = piece.address, piece.address + piece.size
+    for symbol in symbols:
+        begin, stop = max(symbol.address, at), min(symbol.address + symbol.size, end)
+        if begin >= stop:
+            continue
+        if begin > at:
+            yield replace(piece, address=at, size=begin - at)
+        same = tuple(
+            s.name
+            for s in symbols
+            if (s.address, s.size) == (symbol.address, symbol.size) and s.name != symbol.name
+        )
+        yield replace(
+            piece,
+            address=begin,
+            size=stop - begin,
+            symbol=symbol.name,
+            function=symbol.function,
+            aliases=same,
+        )
+        at = stop
+    if at < end:
+        yield replace(piece, address=at, size=end - at)
+
+
+def _by_text(piece: Piece, content: bytes, texts: Mapping[bytes, Piece]) -> Iterator[Piece]:
+    """Split strings that the linker merged, each to the first source file that has it.
+
+    What is no string of any source (a rest that begins in a neighbouring section) stays with its section.
+    """
+    at, end = piece.address, piece.address + piece.size
+    for text in content.split(b"\0"):
+        size = min(len(text) + 1, end - at)
+        if size <= 0:
+            return
+        found = texts.get(text) if text else None
+        shown = text.decode("utf-8", "replace")
+        shown = shown if len(shown) <= _SHOWN_TEXT else f"{shown[: _SHOWN_TEXT - 1]}…"
+        name = f'"{shown}"' if found else None
+        owner, source = (found.owner, found.source) if found else (piece.owner, piece.source)
+        yield replace(piece, address=at, size=size, owner=owner, source=source, symbol=name)
+        at += size
+
+
+def _texts(folder: Folder, placed: Iterable[Placed]) -> Mapping[bytes, Piece]:
+    """Return each string constant of the objects in the image, with the owner that comes first."""
+    owners = Owners(folder)
+    found: dict[bytes, Piece] = {}
+    for item in sorted({p.object: p for p in placed if p.section.startswith(".text")}.values(), key=lambda p: p.object):
+        owner, source = owners.of(item)
+        path = folder.path / (object_name(source) if source else "")
+        if source is None or not path.is_file():
+            continue
+        elf = Elf(path)
+        for section in elf.sections:
+            if section.strings and section.kind:
+                for text in elf.content(section).split(b"\0"):
+                    found.setdefault(text, Piece("text", "", "", 0, 0, owner, source))
+    return found
+
+
+def _sized(symbols: Iterable[Symbol]) -> tuple[Symbol, ...]:
+    return tuple(s for s in symbols if s.size)
