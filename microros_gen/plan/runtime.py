@@ -53,6 +53,8 @@ class RuntimePlan:
     `entities` is preconfigured, reference, xml or binary; `creation` the stream of CREATE (best_effort, reliable).
     `transport` is udp, tcp, serial or custom; `framing` of a custom one on, off or either (chosen at run time).
     `fragments`: some reliable message is larger than the MTU, `reliable_slot_size` holds it whole.
+    `reliable_input_slots`: messages of the agent's reliable stream that the client holds at a time, the one that is
+    being handled among them; 0: there is no such stream.
     `error_text_size` 0: codes only. `best_effort_size` 0 or `reliable_slots` 0: there is no such stream.
     """
 
@@ -91,8 +93,20 @@ class RuntimePlan:
     serial_baud: int = 115_200
     framing: str = "either"
     fragments: bool = False
+    reliable_input_slots: int = 0
+    reliable_input_slot_size: int = 0
     type_name_size: int = 0
     creation_size: int = 0
+
+    @property
+    def reliable_front(self) -> int:
+        """Bytes of a reliable slot before the first submessage: a message header, with fragments also FRAGMENT's."""
+        return 8 if self.fragments else 4
+
+    @property
+    def reliable_input_mode(self) -> str:
+        """`ordered` or `held`: what becomes of a reliable message of the agent that comes before its turn."""
+        return "held" if self.reliable_input_slots > 1 else "ordered"
 
     @property
     def error_mode(self) -> str:

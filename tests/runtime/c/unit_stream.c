@@ -106,11 +106,11 @@ static void test_other_streams_and_short_payloads(void)
 static void test_drop_oldest(void)
 {
   begin_at(0xffff);
-  CHECK(!xrce_stream_reliable_drop_oldest(&stream, 0));
+  CHECK(!xrce_stream_reliable_drop_oldest(&stream, &session, 0));
   for (int i = 0; i < 4; ++i) {
     write_one();
   }
-  CHECK(xrce_stream_reliable_drop_oldest(&stream, 5));
+  CHECK(xrce_stream_reliable_drop_oldest(&stream, &session, 5));
   CHECK(stream.first == 0u && stream.count == 3u && stream.heartbeat_ms == 5u);
   CHECK(xrce_stream_reliable_reserve(&stream) == &stream.message[0][XRCE_MESSAGE_HEADER]);
 }
@@ -140,7 +140,7 @@ static void test_what_is_held_is_numbered_behind_the_requests(void)
   write_one();
   xrce_stream_reliable_hold(&stream, 0);
   stream.first = 3;
-  CHECK(xrce_stream_reliable_drop_oldest(&stream, 0) && stream.first == 3u && stream.count == 2u);
+  CHECK(xrce_stream_reliable_drop_oldest(&stream, &session, 0) && stream.first == 3u && stream.count == 2u);
   xrce_stream_reliable_step(&stream, &session, true, 1);
   CHECK(session.statistics.sent == 5u && stream.first == 3u);
   CHECK(xrce_get_le16(&stream.message[1][2]) == 3u && xrce_get_le16(&stream.message[2][2]) == 4u);

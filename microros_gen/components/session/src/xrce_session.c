@@ -19,6 +19,7 @@ void xrce_session_open(xrce_client_t * client, uint32_t key)
 {
   xrce_session_t * session = &client->session;
 
+  memset(client, 0, sizeof(*client));
   session->key = key;
   session->request = XRCE_REQUEST_FIRST;
   session->retry_ms = MICROROS_RETRY_FIRST_MS;
@@ -125,19 +126,12 @@ void xrce_session_on_status_agent(xrce_client_t * client, const uint8_t * payloa
   xrce_route_connected(client, now);
 }
 
-/* Hands on the submessages of one message; false where the message is not what it should be. */
-static bool session_take_message(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
+bool xrce_session_take_submessages(
+  xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
 {
+  const bool in_session = message[0] == XRCE_SESSION_ID;
   size_t at = XRCE_MESSAGE_HEADER;
-  bool in_session;
 
-  if (size < XRCE_MESSAGE_HEADER || (message[0] != XRCE_SESSION_ID && message[0] != XRCE_SESSION_NONE)) {
-    return false;
-  }
-  in_session = message[0] == XRCE_SESSION_ID;
-  if (in_session) {
-    client->session.heard_ms = now;
-  }
   while (at < size) {
     size_t length;
 
@@ -153,6 +147,18 @@ static bool session_take_message(xrce_client_t * client, const uint8_t * message
     at = (at + XRCE_SUBMESSAGE_HEADER + length + 3u) & ~(size_t)3u;
   }
   return true;
+}
+
+/* Hands a message to its stream; false where it is not what it should be. */
+static bool session_take_message(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
+{
+  if (size < XRCE_MESSAGE_HEADER || (message[0] != XRCE_SESSION_ID && message[0] != XRCE_SESSION_NONE)) {
+    return false;
+  }
+  if (message[0] == XRCE_SESSION_ID) {
+    client->session.heard_ms = now;
+  }
+  return xrce_route_message(client, message, size, now);
 }
 
 static void session_receive(xrce_client_t * client, uint32_t now)

@@ -15,6 +15,10 @@
 extern "C" {
 #endif
 
+/* Hands a received message to its stream, which hands on its submessages when it is their turn. `size` is at least a
+ * header's. False: it is not what it should be. */
+bool xrce_route_message(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now);
+
 /* Hands a received submessage to the part that understands it; the others are ignored. `in_session` is false
  * for one that came outside of a session. */
 void xrce_route_submessage(

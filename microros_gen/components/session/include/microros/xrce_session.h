@@ -35,12 +35,10 @@ typedef struct xrce_statistics_t {
 
 typedef struct xrce_session_t {
   xrce_transport_t transport;
-  const char * host; /* the caller's, or the plan's */
   uint32_t key;
   uint32_t now_ms;   /* when the last pump began */
   uint32_t due_ms;   /* when to send the next CREATE_CLIENT */
   uint32_t heard_ms; /* when the agent was heard last */
-  uint16_t port;
   uint16_t retry_ms;
   uint16_t request; /* the next request id */
   uint8_t state;    /* xrce_state_t */
@@ -50,8 +48,9 @@ typedef struct xrce_session_t {
   xrce_statistics_t statistics;
 } xrce_session_t;
 
-/* Starts connecting; `host` must live until the session is closed. Clears everything that the client had. */
-void xrce_session_open(xrce_client_t * client, const char * host, uint16_t port, uint32_t key);
+/* Starts connecting. Clears everything that the client had; before the first pump, say in session.transport where
+ * the agent is. */
+void xrce_session_open(xrce_client_t * client, uint32_t key);
 
 /* Waits at most `timeout_ms` for the session. False: session.refusal says whether the agent refused. */
 bool xrce_session_await(xrce_client_t * client, uint32_t timeout_ms);
@@ -71,7 +70,10 @@ bool xrce_session_send(xrce_session_t * session, const uint8_t * message, size_t
 /* Returns a request id that no outstanding request has. */
 uint16_t xrce_session_next_request(xrce_session_t * session);
 
-/* What xrce_routes.c calls. */
+/* What xrce_routes.c and the input stream call. The first hands on the submessages of a whole message; false where the
+ * message is not what it should be. */
+bool xrce_session_take_submessages(
+  xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now);
 void xrce_session_step(xrce_client_t * client, uint32_t now);
 void xrce_session_on_status_agent(xrce_client_t * client, const uint8_t * payload, size_t size, uint32_t now);
 

@@ -1,0 +1,283 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Some message is larger than a datagram: it goes in pieces (OMG DDS-XRCE 1.0, 8.3.5.14). A message lies in its slot
+ * once and whole. The eight bytes in front of a piece, message header and FRAGMENT header, are written over the end of
+ * the piece before it while this one is sent, and put back.
+ *
+ * An agent joins pieces until one says that it is the last, and some agents do so over a gap and over a session. So a
+ * message that is given up after a piece of it was sent is ended by an empty last piece (`ending`), and so is what an
+ * agent may have of the session before: the first number of a session is such a piece. What the agent has then is
+ * shorter than its submessage header says, and is thrown away.
+ */
+#include "microros/xrce_stream_reliable.h"
+
+#include "microros/xrce_wire.h"
+
+#include <string.h>
+
+enum {
+  PIECE_HEADER = XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER,
+  PIECE_SIZE = MICROROS_MTU - PIECE_HEADER,
+  WHOLE_SIZE = MICROROS_MTU - XRCE_MESSAGE_HEADER,
+  WINDOW = 16
+};
+
+/* Returns the slot of the i-th kept message; beyond them come the free ones. */
+static uint8_t stream_slot(const xrce_stream_reliable_t * stream, uint8_t i)
+{
+  return stream->order[i] ^ i;
+}
+
+/* Frees the slot of the i-th kept message. */
+static void stream_remove(xrce_stream_reliable_t * stream, uint8_t i)
+{
+  const uint8_t slot = stream_slot(stream, i);
+
+  for (--stream->count; i < stream->count; ++i) {
+    stream->order[i] = (uint8_t)(stream_slot(stream, (uint8_t)(i + 1u)) ^ i);
+  }
+  stream->order[i] = slot ^ i;
+}
+
+/* Returns in how many pieces the i-th kept message goes. */
+static uint16_t stream_pieces(const xrce_stream_reliable_t * stream, uint8_t i)
+{
+  const uint32_t size = stream->size[stream_slot(stream, i)];
+
+  return size <= WHOLE_SIZE ? 1u : (uint16_t)((size + PIECE_SIZE - 1u) / PIECE_SIZE);
+}
+
+uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream)
+{
+  if (stream->count == MICROROS_RELIABLE_SLOTS) {
+    return NULL;
+  }
+  return &stream->message[stream_slot(stream, stream->count)][MICROROS_RELIABLE_FRONT];
+}
+
+/* Sends `size` bytes behind the room for a piece's header. A piece that the transport does not take is one that was
+ * lost on the way: the agent asks for it. */
+static void stream_send_piece(
+  xrce_session_t * session, uint8_t * piece, uint16_t sequence, uint16_t size, bool last)
+{
+  const uint8_t flags = last ? XRCE_FLAG_LITTLE_ENDIAN | XRCE_FLAG_LAST_FRAGMENT : XRCE_FLAG_LITTLE_ENDIAN;
+
+  xrce_put_header(piece, XRCE_SESSION_ID, XRCE_STREAM_RELIABLE, sequence);
+  xrce_put_submessage(&piece[XRCE_MESSAGE_HEADER], XRCE_FRAGMENT, flags, size);
+  (void)xrce_session_send(session, piece, PIECE_HEADER + (size_t)size);
+}
+
+/* Sends a piece of the i-th kept message, or the whole where that fits. */
+static void stream_send_of(
+  xrce_stream_reliable_t * stream, xrce_session_t * session, uint8_t i, uint16_t piece, uint16_t sequence)
+{
+  const uint8_t slot = stream_slot(stream, i);
+  uint8_t * at = &stream->message[slot][(size_t)piece * PIECE_SIZE];
+  const size_t size = (size_t)stream->size[slot] - (size_t)piece * PIECE_SIZE;
+  uint8_t kept[PIECE_HEADER];
+
+  if (stream->size[slot] <= WHOLE_SIZE) {
+    at = &at[PIECE_HEADER - XRCE_MESSAGE_HEADER];
+    xrce_put_header(at, XRCE_SESSION_ID, XRCE_STREAM_RELIABLE, sequence);
+    (void)xrce_session_send(session, at, XRCE_MESSAGE_HEADER + size);
+    return;
+  }
+  memcpy(kept, at, sizeof(kept));
+  if (size > PIECE_SIZE) {
+    stream_send_piece(session, at, sequence, PIECE_SIZE, false);
+  } else {
+    stream_send_piece(session, at, sequence, (uint16_t)size, true);
+  }
+  memcpy(at, kept, sizeof(kept));
+}
+
+/* Sends what has the number first + place; false: there is nothing. */
+static bool stream_send_place(xrce_stream_reliable_t * stream, xrce_session_t * session, uint16_t place)
+{
+  const uint16_t sequence = (uint16_t)(stream->first + place);
+  uint32_t piece = (uint32_t)place + stream->done;
+
+  if (stream->ending) {
+    if (place == 0u) {
+      uint8_t message[PIECE_HEADER];
+
+      stream_send_piece(session, message, sequence, 0, true);
+      return true;
+    }
+    --piece;
+  }
+  for (uint8_t i = 0; i < stream->count; ++i) {
+    const uint16_t pieces = stream_pieces(stream, i);
+
+    if (piece < pieces) {
+      stream_send_of(stream, session, i, (uint16_t)piece, sequence);
+      return true;
+    }
+    piece -= pieces;
+  }
+  return false;
+}
+
+/* Sends as much as the window lets. */
+static void stream_flow(xrce_stream_reliable_t * stream, xrce_session_t * session, uint32_t now)
+{
+  if (session->state != XRCE_READY || stream->held) {
+    return;
+  }
+  if (stream->sent == 0u) {
+    stream->heartbeat_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
+  }
+  while (stream->sent < WINDOW && stream_send_place(stream, session, stream->sent)) {
+    ++stream->sent;
+  }
+}
+
+void xrce_stream_reliable_commit(
+  xrce_stream_reliable_t * stream, xrce_session_t * session, size_t size, uint32_t now)
+{
+  stream->size[stream_slot(stream, stream->count)] = (uint16_t)size;
+  ++stream->count;
+  stream_flow(stream, session, now);
+}
+
+/* The first `count` numbers are used no more. */
+static void stream_pass(xrce_stream_reliable_t * stream, uint8_t count)
+{
+  stream->first = (uint16_t)(stream->first + count);
+  stream->sent = (uint8_t)(stream->sent - count);
+  stream->again = (uint16_t)((uint32_t)stream->again >> count);
+}
+
+/* The agent has the first `count` numbers, which are not more than were sent. */
+static void stream_free(xrce_stream_reliable_t * stream, uint8_t count)
+{
+  stream_pass(stream, count);
+  if (stream->ending && count != 0u) {
+    stream->ending = false;
+    --count;
+  }
+  stream->done = (uint16_t)(stream->done + count);
+  while (stream->count != 0u && stream->done >= stream_pieces(stream, 0)) {
+    stream->done = (uint16_t)(stream->done - stream_pieces(stream, 0));
+    stream_remove(stream, 0);
+  }
+}
+
+/* Returns the first message of which nothing was sent; the count of all when there is none. */
+static uint8_t stream_first_unsent(const xrce_stream_reliable_t * stream)
+{
+  uint32_t used = (uint32_t)stream->sent + stream->done;
+  uint8_t i = 0;
+
+  if (stream->ending && stream->sent != 0u) {
+    --used;
+  }
+  while (i < stream->count && used != 0u) {
+    const uint16_t pieces = stream_pieces(stream, i);
+
+    used = used > pieces ? used - pieces : 0u;
+    ++i;
+  }
+  return i;
+}
+
+/* Gives up the oldest message, of which something was sent. Where the agent may have pieces of it, the number of its
+ * last piece becomes that of the ending, or else the next number. */
+static void stream_give_up(xrce_stream_reliable_t * stream)
+{
+  const uint16_t before = stream->ending ? 1u : 0u;
+  const uint16_t all = (uint16_t)(before + stream_pieces(stream, 0) - stream->done);
+
+  if (before != 0u || stream_pieces(stream, 0) > 1u) {
+    stream->ending = true;
+    stream_pass(stream, stream->sent < all ? stream->sent : (uint8_t)(all - 1u));
+  } else {
+    stream_pass(stream, 1);
+  }
+  stream->done = 0;
+  stream_remove(stream, 0);
+}
+
+bool xrce_stream_reliable_drop_oldest(
+  xrce_stream_reliable_t * stream, const xrce_session_t * session, uint32_t now)
+{
+  uint8_t unsent = 0; /* without a session nothing that was sent counts */
+
+  if (session->state == XRCE_READY) {
+    unsent = stream_first_unsent(stream);
+  }
+  if (stream->count == 0u) {
+    return false;
+  }
+  if (unsent < stream->count) {
+    stream->done = unsent == 0u ? 0u : stream->done;
+    stream_remove(stream, unsent);
+  } else {
+    stream_give_up(stream);
+    stream->heartbeat_ms = now;
+  }
+  return true;
+}
+
+void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now)
+{
+  stream->first = 0;
+  stream->sent = 0;
+  stream->done = 0;
+  stream->again = 0;
+  stream->ending = true;
+  stream->held = true;
+  stream->held_until_ms = now + MICROROS_CREATE_TIMEOUT_MS;
+}
+
+void xrce_stream_reliable_step(
+  xrce_stream_reliable_t * stream, xrce_session_t * session, bool settled, uint32_t now)
+{
+  if (session->state != XRCE_READY) {
+    return;
+  }
+  if (stream->held && (settled || xrce_is_due(now, stream->held_until_ms))) {
+    stream->held = false;
+    session->statistics.resent += stream->count;
+    stream_flow(stream, session, now);
+  }
+  if (stream->sent != 0u && !stream->held && xrce_is_due(now, stream->heartbeat_ms)) {
+    xrce_stream_reliable_heartbeat(session, stream->first, stream->sent);
+    stream->heartbeat_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
+    stream->again = 0;
+  }
+}
+
+bool xrce_stream_reliable_on_acknack(
+  xrce_stream_reliable_t * stream, xrce_session_t * session, const uint8_t * payload, size_t size,
+  uint8_t flags, uint32_t now)
+{
+  uint16_t place;
+  uint32_t missing;
+
+  if (size < XRCE_ACKNACK_SIZE) {
+    return false;
+  }
+  if (payload[4] != XRCE_STREAM_RELIABLE || session->state != XRCE_READY || stream->held) {
+    return true;
+  }
+  place = (uint16_t)(xrce_get_u16(&payload[0], flags) - stream->first);
+  missing = xrce_get_be16(&payload[2]);
+  if (place <= stream->sent) {
+    stream_free(stream, (uint8_t)place);
+    place = 0;
+  } else if (missing != 0u) {
+    stream->heartbeat_ms = now; /* it waits for what was dropped: tell it not to */
+  }
+  for (; missing != 0u; missing >>= 1) {
+    /* Every acknowledgement behind a gap names it, so each number is sent again once between two HEARTBEATs. */
+    if ((missing & 1u) != 0u && place < stream->sent && ((uint32_t)stream->again >> place & 1u) == 0u) {
+      stream->again = (uint16_t)(stream->again | 1u << place);
+      (void)stream_send_place(stream, session, place);
+      ++session->statistics.resent;
+    }
+    ++place;
+  }
+  stream_flow(stream, session, now);
+  return true;
+}
