@@ -68,8 +68,8 @@ def render_project(
 
 
 def library_sources(files: Iterable[str]) -> tuple[str, ...]:
-    """Return the C files of the library among `files`, sorted."""
-    return tuple(sorted(f for f in files if f.startswith("src/") and f.endswith(".c")))
+    """Return the C and assembly files of the library among `files`, sorted."""
+    return tuple(sorted(f for f in files if f.startswith("src/") and f.endswith((".c", ".S"))))
 
 
 def _component_files(
@@ -78,6 +78,8 @@ def _component_files(
     context = {
         "plan": project.runtime,
         "selection": project.selection,
+        "target": project.target,
+        "board": project.board,
         "headers": tuple(sorted(h for c in project.selection.components for h in c.component.headers)),
     }
     return {
@@ -93,9 +95,10 @@ def _unselected_headers(
 ) -> Iterable[tuple[str, bytes]]:
     template = environment.get_template("project/unselected.h.j2")
     for component in components:
+        transport = component.name.removeprefix("transport_")
+        key = f"components: [+{component.name}]" if transport == component.name else f"transport: {{type: {transport}}}"
         message = (
-            f"The component '{component.name}' is not selected: add `components: [+{component.name}]`"
-            " to microros.yaml and generate again"
+            f"The component '{component.name}' is not selected: add `{key}` to microros.yaml and generate again"
         )
         content = template.render(view=_UnselectedView(message)).encode()
         yield from ((f"include/{header}", content) for header in component.headers)

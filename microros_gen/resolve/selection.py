@@ -52,6 +52,8 @@ def resolve_selection(
     picker.close()
     for demand in stream_demands(application, frozenset(picker.causes), axes["entities"].value):
         picker.pick(demand.component, demand.text, demand.span)
+    if axes["transport"].value == "custom" and application.transport.framing is not False:
+        picker.pick("framing", "transport: {type: custom} without `framing: false`", application.transport.span)
     picker.close()
     _check(picker, application, profiles, axes, middleware)
     return _selection(picker, profiles, axes, middleware)

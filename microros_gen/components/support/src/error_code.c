@@ -31,6 +31,9 @@ const char microros_error_not_sent[] = "E23";
 const char microros_error_arena[] = "E24";
 const char microros_error_serialized[] = "E25";
 const char microros_error_domain[] = "E26";
+const char microros_error_device[] = "E27";
+const char microros_error_custom_unset[] = "E28";
+const char microros_error_framing[] = "E29";
 
 enum { CODE_SIZE = sizeof("E00") };
 

@@ -2,6 +2,7 @@
 /* errors: text. All words of the library are here. */
 #include "microros/error.h"
 #include "microros/error_state.h"
+#include "microros/xrce_transport.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -12,9 +13,9 @@
  */
 const char microros_error_argument[] = "%s: NULL or not initialized";
 const char microros_error_context_in_use[] = "a context is open already: there is one session";
-const char microros_error_transport[] = "no transport to %s:%n";
-const char microros_error_agent_silent[] = "no agent answers at %s:%n within %m ms";
-const char microros_error_agent_refused[] = "the agent at %s:%m refuses the session: %a";
+const char microros_error_transport[] = "no transport to " XRCE_PLACE_N;
+const char microros_error_agent_silent[] = "no agent answers at " XRCE_PLACE_N " within %m ms";
+const char microros_error_agent_refused[] = "the agent at " XRCE_PLACE_M " refuses the session: %a";
 const char microros_error_address[] = "address %s or port %d is not valid (host: up to %m bytes)";
 const char microros_error_name[] = "name '%s': %d";
 const char microros_error_name_long[] = "name '%s' takes %n bytes: set pools: {name_size: %m}%y";
@@ -38,6 +39,10 @@ const char microros_error_not_sent[] = "publisher %s: the transport takes nothin
 const char microros_error_arena[] = "no memory for %n bytes: raise memory: {arena: %m}%y";
 const char microros_error_serialized[] = "serialized message: not little endian CDR, or %n bytes above %m";
 const char microros_error_domain[] = "domain %n is above %m";
+const char microros_error_device[] = "serial device %s: more than %m bytes, or none";
+const char microros_error_custom_unset[] =
+  "rmw_uros_set_custom_transport was not called before, or refused its arguments";
+const char microros_error_framing[] = "custom transport: set transport: {framing: %d}%y";
 
 /* From status 0x80 on (OMG DDS-XRCE 1.0, 7.7.2). */
 static const char statuses[] =

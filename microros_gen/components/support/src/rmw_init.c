@@ -5,6 +5,7 @@
 #include "microros/port.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_open.h"
+#include "microros/rmw_transport.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_routes.h"
 #include "rmw/rmw.h"
@@ -32,17 +33,18 @@ rmw_context_t rmw_get_zero_initialized_context(void)
 static rmw_ret_t init_report(const xrce_client_t * client)
 {
   const xrce_session_t * session = &client->session;
+  const char * const name = xrce_transport_name(&session->transport);
+  const uint16_t port = xrce_transport_port(&session->transport);
 
   if (session->refusal != 0u) {
-    microros_error_set(microros_error_agent_refused, session->host, NULL, session->refusal, session->port);
+    microros_error_set(microros_error_agent_refused, name, NULL, session->refusal, port);
     return RMW_RET_ERROR;
   }
   if (!session->transport_open) {
-    microros_error_set(microros_error_transport, session->host, NULL, session->port, 0);
+    microros_error_set(microros_error_transport, name, NULL, port, 0);
     return RMW_RET_ERROR;
   }
-  microros_error_set(
-    microros_error_agent_silent, session->host, NULL, session->port, MICROROS_CONNECT_TIMEOUT_MS);
+  microros_error_set(microros_error_agent_silent, name, NULL, port, MICROROS_CONNECT_TIMEOUT_MS);
   return RMW_RET_TIMEOUT;
 }
 
@@ -66,9 +68,11 @@ rmw_ret_t rmw_open(const rmw_init_options_t * options, rmw_context_t * context)
     return microros_error_named(RMW_RET_ERROR, microros_error_context_in_use, NULL);
   }
   init_keep_options(options, context);
-  xrce_session_open(
-    client, rmw_client_host(params), rmw_client_port(params),
-    params->client_key != 0u ? params->client_key : MICROROS_CLIENT_KEY);
+  xrce_session_open(client, params->client_key != 0u ? params->client_key : MICROROS_CLIENT_KEY);
+  if (!rmw_transport_prepare(&client->session.transport, params)) {
+    xrce_session_close(client);
+    return RMW_RET_ERROR;
+  }
   if (!xrce_session_await(client, MICROROS_CONNECT_TIMEOUT_MS)) {
     const rmw_ret_t result = init_report(client);
 

@@ -39,6 +39,9 @@ extern const char microros_error_not_sent[];             /* 23 */
 extern const char microros_error_arena[];                /* 24 */
 extern const char microros_error_serialized[];           /* 25 */
 extern const char microros_error_domain[];               /* 26 */
+extern const char microros_error_device[];               /* 27 */
+extern const char microros_error_custom_unset[];         /* 28 */
+extern const char microros_error_framing[];              /* 29 */
 
 /*
  * Makes this the last error. What `name`, `detail`, `found` and `fits` mean is said beside the texts; the

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#define _POSIX_C_SOURCE 200809L
+#include "microros/port.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/types.h>
+#include <termios.h>
+#include <unistd.h>
+
+/* A line that takes nothing for so long is given up. */
+enum { WRITE_PATIENCE_MS = 100 };
+
+typedef struct serial_speed_t {
+  uint32_t baud;
+  speed_t speed;
+} serial_speed_t;
+
+/* POSIX names the speeds up to 38400; every system of today has the next three, Linux the others as well. */
+static const serial_speed_t speeds[] = {
+  {1200, B1200},
+  {2400, B2400},
+  {4800, B4800},
+  {9600, B9600},
+  {19200, B19200},
+  {38400, B38400},
+#ifdef B230400
+  {57600, B57600},
+  {115200, B115200},
+  {230400, B230400},
+#endif
+#ifdef B4000000
+  {460800, B460800},
+  {500000, B500000},
+  {576000, B576000},
+  {921600, B921600},
+  {1000000, B1000000},
+  {1152000, B1152000},
+  {1500000, B1500000},
+  {2000000, B2000000},
+  {2500000, B2500000},
+  {3000000, B3000000},
+  {3500000, B3500000},
+  {4000000, B4000000},
+#endif
+};
+
+static bool serial_find_speed(uint32_t baud, speed_t * speed)
+{
+  for (size_t i = 0; i < sizeof(speeds) / sizeof(speeds[0]); ++i) {
+    if (speeds[i].baud == baud) {
+      *speed = speeds[i].speed;
+      return true;
+    }
+  }
+  return false;
+}
+
+/* Eight data bits, no parity, one stop bit, no flow control, and no byte changed or waited for. */
+static bool serial_make_raw(int handle, uint32_t baud)
+{
+  struct termios settings;
+  speed_t speed = 0;
+
+  if (!serial_find_speed(baud, &speed) || tcgetattr(handle, &settings) != 0) {
+    return false;
+  }
+  settings.c_iflag &=
+    ~(tcflag_t)(BRKINT | ICRNL | IGNBRK | IGNCR | INLCR | INPCK | ISTRIP | IXANY | IXOFF | IXON | PARMRK);
+  settings.c_oflag &= ~(tcflag_t)OPOST;
+  settings.c_lflag &= ~(tcflag_t)(ECHO | ECHONL | ICANON | IEXTEN | ISIG);
+  settings.c_cflag &= ~(tcflag_t)(CSIZE | CSTOPB | PARENB);
+  settings.c_cflag |= (tcflag_t)(CLOCAL | CREAD | CS8);
+  settings.c_cc[VMIN] = 0;
+  settings.c_cc[VTIME] = 0;
+  return cfsetispeed(&settings, speed) == 0 && cfsetospeed(&settings, speed) == 0 &&
+         tcsetattr(handle, TCSANOW, &settings) == 0;
+}
+
+bool port_serial_open(port_serial_t * serial, const char * device, uint32_t baud)
+{
+  int handle = open(device, O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+
+  if (handle >= 0 && !serial_make_raw(handle, baud)) {
+    (void)close(handle);
+    handle = -1;
+  }
+  serial->handle = handle;
+  return handle >= 0;
+}
+
+void port_serial_close(port_serial_t * serial)
+{
+  (void)close((int)serial->handle);
+  serial->handle = -1;
+}
+
+static bool serial_wait_for_room(int handle)
+{
+  struct pollfd line = {handle, POLLOUT, 0};
+
+  return poll(&line, 1, WRITE_PATIENCE_MS) == 1 && line.revents == POLLOUT;
+}
+
+bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size)
+{
+  const int handle = (int)serial->handle;
+
+  while (size != 0u) {
+    const ssize_t taken = write(handle, data, size);
+
+    if (taken > 0) {
+      data += taken;
+      size -= (size_t)taken;
+    } else if ((taken < 0 && errno != EAGAIN && errno != EINTR) || !serial_wait_for_room(handle)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+size_t port_serial_read(port_serial_t * serial, uint8_t * buffer, size_t capacity)
+{
+  const ssize_t size = read((int)serial->handle, buffer, capacity);
+
+  return size > 0 ? (size_t)size : 0u; /* nothing there, or nobody at the other end */
+}

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What the options of a session say about a custom transport. */
+#ifndef MICROROS_RMW_TRANSPORT_PARAMS_H
+#define MICROROS_RMW_TRANSPORT_PARAMS_H
+
+#include <stdint.h>
+
+#include "uxr/client/transport.h"
+
+/* `client_key` 0: as the plan says. `custom.open` NULL: as rmw_uros_set_custom_transport said. */
+typedef struct rmw_uxrce_transport_params_t {
+  uint32_t client_key;
+  uxrCustomTransport custom;
+} rmw_uxrce_transport_params_t;
+
+#endif /* MICROROS_RMW_TRANSPORT_PARAMS_H */
