@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The profile's example application: which members of each message it fills, and with what."""
+"""The profile's example application: its names, which members of each message it fills, and with what."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from microros_gen.model.types import Field, Message, NamedType, Primitive, StringType, TypeName
+from microros_gen.plan.types_names import snake_case
 
 _TIME = TypeName("builtin_interfaces", "msg", "Time")
 # Enough to see every part of an Imu move, and still readable for a message of a hundred members.
@@ -28,6 +29,20 @@ class Filling:
     stamps: tuple[str, ...]
     values: tuple[MemberValue, ...]
     texts: tuple[MemberValue, ...]
+
+
+def example_node(project: str) -> str:
+    """Return the name of the example's node where the application file declares none."""
+    return project.replace("+", "_")
+
+
+def example_topics(roots: Sequence[TypeName]) -> tuple[tuple[TypeName, str], ...]:
+    """Return a topic for each of `roots`, by which the example without `nodes:` publishes it."""
+    topics = [snake_case(root.name) for root in roots]
+    return tuple(
+        (root, topic if topics.count(topic) == 1 else f"{root.package}/{topic}")
+        for root, topic in zip(roots, topics, strict=True)
+    )
 
 
 def plan_filling(message: Message, messages: Mapping[TypeName, Message], text: str) -> Filling:

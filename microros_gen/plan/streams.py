@@ -68,8 +68,8 @@ def plan_streams(
     """Size the streams; a message that cannot fit its stream is an error with the number that would do.
 
     `transport` is the selected one. `create` is the size of the largest CREATE (plan/creation.py), 0 where the client
-    creates nothing (entities: preconfigured). With `creation: reliable` it has storage of its own, and the reliable stream
-    is there for it.
+    creates nothing (entities: preconfigured). With `creation: reliable` it has storage of its own, and the reliable
+    stream is there for it.
     """
     messages = tuple(written)
     ceiling = application.transport.mtu or DEFAULT_MTU[transport]

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from microros_gen.model.application import Qos
 from microros_gen.model.types import TypeName
-from microros_gen.plan.example import MemberValue, plan_filling
+from microros_gen.plan.example import MemberValue, example_node, example_topics, plan_filling
 from microros_gen.plan.project import Project, publisher_declarations
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_names import include_path, snake_case
@@ -91,7 +91,7 @@ def _nodes(project: Project) -> tuple[NodeView, ...]:
             NodeView(f"node_{n.index}" if n.index else "node", n.name, _namespace(n.namespace))
             for n in project.runtime.nodes
         )
-    return (NodeView("node", project.name.replace("+", "_"), ""),) if project.runtime.nodes_max else ()
+    return (NodeView("node", example_node(project.name), ""),) if project.runtime.nodes_max else ()
 
 
 def _publishers(
@@ -107,17 +107,9 @@ def _publishers(
             for p in runtime.publishers
         ]
     roots = project.roots[: runtime.publishers_max] if project.selection.has("publish") else ()
-    topics = [snake_case(root.name) for root in roots]
     return [
-        _publisher(
-            project,
-            types[root],
-            nodes[0],
-            index,
-            topic if topics.count(topic) == 1 else f"{root.package}/{topic}",
-            Qos(),
-        )
-        for index, (root, topic) in enumerate(zip(roots, topics, strict=True))
+        _publisher(project, types[root], nodes[0], index, topic, Qos())
+        for index, (root, topic) in enumerate(example_topics(roots))
     ]
 
 
