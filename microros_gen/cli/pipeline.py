@@ -15,6 +15,7 @@ from microros_gen.model.selection import Selection
 from microros_gen.model.target import Target
 from microros_gen.model.types import TypeName
 from microros_gen.parse.application import parse_agent_address, parse_application
+from microros_gen.plan.agent_files import check_entities
 from microros_gen.plan.capacity import Capacities, Defaults, Root, plan_capacities
 from microros_gen.plan.project import Project, plan_project, publisher_declarations, type_name
 from microros_gen.plan.streams import DEFAULT_MTU, WRITE_DATA_OVERHEAD
@@ -110,6 +111,7 @@ def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Dia
     """Find the interfaces and plan sizes, names and entities. Raises UserError with all that is wrong."""
     application, selection = resolved.request.application, resolved.selection
     check_ready(selection, diagnostics)
+    check_entities(application, selection, diagnostics)
     finder = InterfaceFinder.from_environment(options.interface_paths)
     finder.check_paths(diagnostics)
     interfaces = resolve_interfaces(_requested(application), finder, diagnostics)

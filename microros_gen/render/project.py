@@ -11,6 +11,7 @@ from jinja2 import Environment
 
 from microros_gen.model.component import Component
 from microros_gen.plan.project import Project
+from microros_gen.render.agent_files import render_agent_files
 from microros_gen.render.example import example_view
 from microros_gen.render.types import render_types
 from microros_gen.sources.runtime import ComponentFile
@@ -36,6 +37,8 @@ class _ProjectView:
     sources: tuple[str, ...]
     components: tuple[_Row, ...]
     entities: tuple[str, ...]
+    agent: str
+    agent_file: str
     memory: tuple[_Bytes, ...]
 
 
@@ -57,6 +60,7 @@ def render_project(
     """
     rendered = _component_files(project, files, environment)
     rendered |= render_types(project.types, environment)
+    rendered |= render_agent_files(project)
     for path, content in _unselected_headers(unselected, environment):
         rendered.setdefault(path, content)
     template = environment.get_template("example/main.c.j2")
@@ -130,6 +134,8 @@ def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectVi
             for c in project.selection.components
         ),
         entities=tuple(declared or pools),
+        agent=project.selection.entities,
+        agent_file=next((path for path in rendered if path.startswith("agent/")), ""),
         memory=(
             _Bytes("reliable output", runtime.reliable_slots * runtime.reliable_slot_size),
             _Bytes("best-effort output", runtime.best_effort_size),
