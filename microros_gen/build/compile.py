@@ -6,6 +6,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -18,6 +19,10 @@ OBJECTS = ".build"
 LIBRARY = "lib/libmicroros.a"
 MAP = f"{OBJECTS}/image.map"
 TOOLS = f"{OBJECTS}/tools.json"
+SCRIPT_STAMP = f"{OBJECTS}/linker_script.sha256"
+# What programs that write flash take, beside the ELF file: endings and objcopy's names.
+_FLASH_FORMATS = {".hex": "ihex", ".bin": "binary"}
+_OVERFLOW = re.compile(r"region `?(\w+)'? overflowed by (\d+) bytes")
 # What gcc (10 and newer) says of each function: its frame, and whom it calls. Written beside the object, as .ci.
 CALL_GRAPH = "-fcallgraph-info=su"
 
@@ -40,17 +45,20 @@ class _Unit:
 
 
 def compile_tree(
-    out: Path, sources: Sequence[str], example: str | None, image: str, tools: Toolchain
+    out: Path, sources: Sequence[str], example: str, image: str | None, tools: Toolchain, script: str | None = None
 ) -> BuildReport:
     """Compile `sources` (relative paths) to lib/libmicroros.a, and `example` with it to bin/`image`.
+
+    `image` None: the example is compiled and not linked. `script` is the linker script of an image for a board,
+    which also gets bin/`image` as .hex and .bin.
 
     Raises UserError with status 1 and the compiler's own words when a step fails.
     """
     facts = _call_graph_flags(tools, out)
     library_units = [_unit(source, tools, facts) for source in sources]
-    example_units = [_unit(example, tools, facts)] if example else []
+    example_unit = _unit(example, tools, facts)
     stamps = _Stamps(out / OBJECTS / "stamps.json")
-    units = [*library_units, *example_units]
+    units = [*library_units, example_unit]
     stale = [unit for unit in units if not stamps.is_fresh(out, unit)]
     try:
         _compile(out, stale, stamps)
@@ -58,12 +66,10 @@ def compile_tree(
         stamps.save(units)
     if stale or not (out / LIBRARY).is_file():
         _archive(out, [u.object for u in library_units], tools)
-    linked = f"bin/{image}" if example else None
-    if linked and (stale or not (out / linked).is_file() or not (out / MAP).is_file()):
-        _link(out, example_units[0].object, linked, tools)
+    linked = _images(out, f"bin/{image}", example_unit.object, tools, script, bool(stale)) if image else ()
     _record(out, tools, call_graph=bool(facts))
-    _remove_others(out, {u.object for u in units}, {LIBRARY, linked or ""})
-    return BuildReport(LIBRARY, linked, len(stale), len(units) - len(stale))
+    _remove_others(out, {u.object for u in units}, {LIBRARY, *linked})
+    return BuildReport(LIBRARY, linked[0] if linked else None, len(stale), len(units) - len(stale))
 
 
 class _Stamps:
@@ -164,13 +170,63 @@ def _archive(out: Path, objects: Sequence[str], tools: Toolchain) -> None:
     (out / fresh).replace(out / LIBRARY)
 
 
-def _link(out: Path, main_object: str, image: str, tools: Toolchain) -> None:
+def _images(
+    out: Path, image: str, main_object: str, tools: Toolchain, script: str | None, stale: bool
+) -> tuple[str, ...]:
+    """Link what is not up to date; return the files below bin/, the one with symbols first."""
+    products = [image]
+    if script is not None and tools.objcopy is not None:
+        products += [str(PurePosixPath(image).with_suffix(suffix)) for suffix in _FLASH_FORMATS]
+    digest = _digest_of(out, script)
+    is_there = all((out / product).is_file() for product in (*products, MAP))
+    if stale or not is_there or _text(out / SCRIPT_STAMP) != digest:
+        _link(out, main_object, image, tools, script)
+        for product in products[1:]:
+            _convert(out, image, product, tools)
+        (out / SCRIPT_STAMP).write_text(digest, encoding="utf-8")
+    return tuple(products)
+
+
+def _link(out: Path, main_object: str, image: str, tools: Toolchain, script: str | None) -> None:
     (out / image).parent.mkdir(parents=True, exist_ok=True)
     fresh = f"{OBJECTS}/image"
     objects = [main_object, LIBRARY, *tools.libraries]
-    command = [tools.compiler, *tools.link_flags, f"-Wl,-Map={MAP}", *objects, "-o", fresh]
-    _must_succeed(command, out, "the example cannot be linked")
+    flags = [*tools.c_flags, *tools.link_flags, f"-Wl,-Map={MAP}", *((f"-Wl,-T,{script}",) if script else ())]
+    result = run([tools.compiler, *flags, *objects, "-o", fresh], out)
+    if result.returncode != 0:
+        hint = _too_large(result.stdout)
+        what = f"the example cannot be linked:\n{result.stdout.rstrip()}"
+        raise UserError([Diagnostic(what, hint=hint)], status=1)
     (out / fresh).replace(out / image)
+
+
+def _too_large(said: str) -> str | None:
+    """Return what to do where the linker says that a memory region is too small."""
+    match = _OVERFLOW.search(said)
+    if match is None:
+        return None
+    region, size = match.groups()
+    lower = "memory.stack, pools or limits" if region == "RAM" else "what is selected, or `errors: text` to `errors: code`"
+    return f"It takes {size} bytes more than the target's {region.lower()}: lower {lower}"
+
+
+def _convert(out: Path, image: str, product: str, tools: Toolchain) -> None:
+    assert tools.objcopy is not None
+    fresh = f"{OBJECTS}/image{PurePosixPath(product).suffix}"
+    kind = _FLASH_FORMATS[PurePosixPath(product).suffix]
+    _must_succeed([tools.objcopy, "-O", kind, image, fresh], out, "the image cannot be converted")
+    (out / fresh).replace(out / product)
+
+
+def _digest_of(out: Path, script: str | None) -> str:
+    return hashlib.sha256((out / script).read_bytes()).hexdigest() if script else "none"
+
+
+def _text(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8")
+    except OSError:
+        return ""
 
 
 def _must_succeed(command: Sequence[str], out: Path, what: str) -> None:

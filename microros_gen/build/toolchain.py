@@ -35,6 +35,7 @@ class Toolchain:
     c_flags: tuple[str, ...]
     link_flags: tuple[str, ...]
     libraries: tuple[str, ...]
+    objcopy: str | None = None
 
 
 def find_toolchain(target: Target, environ: Mapping[str, str]) -> Toolchain:
@@ -47,12 +48,14 @@ def find_toolchain(target: Target, environ: Mapping[str, str]) -> Toolchain:
     archivers = ((environ["AR"],) if is_host and environ.get("AR") else ()) or target.archivers
     extra = tuple(environ.get("CFLAGS", "").split()) if is_host else ()
     path = environ.get("PATH")
+    archiver = _first_of(archivers, "archiver", target, path)
     return Toolchain(
         _first_of(compilers, "C compiler", target, path),
-        _first_of(archivers, "archiver", target, path),
+        archiver,
         (*target.c_flags, *LIBRARY_FLAGS, *extra),
         (*target.link_flags, *extra),
         target.libraries,
+        None if target.hosted else sibling(archiver, "ar", "objcopy"),
     )
 
 

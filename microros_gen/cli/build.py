@@ -40,8 +40,9 @@ def command(output: Path | None, **options: Any) -> None:
 def _compile(planned: Planned, out: Path, tools: Toolchain) -> None:
     project = planned.project
     sources = (out / "sources.txt").read_text(encoding="utf-8").split("\n")[:-1]
-    built = compile_tree(out, sources, project.example, project.image, tools)
+    image = None if project.lacks_image else project.image
+    built = compile_tree(out, sources, project.example, image, tools, project.linker_script)
     usage = measure_library(out, tools)
-    click.echo(built_summary(out, built, usage), nl=False)
+    click.echo(built_summary(out, built, usage, project.lacks_image), nl=False)
     if usage is not None:
         check_budget(usage, project.application.memory)

@@ -28,7 +28,7 @@ from microros_gen.sources.components import load_catalogue
 from microros_gen.sources.interfaces import InterfaceFinder
 from microros_gen.sources.profiles import load_middleware, load_profiles
 from microros_gen.sources.runtime import ComponentFile, read_headers, read_sources
-from microros_gen.sources.targets import read_target
+from microros_gen.sources.targets import FoundTarget, read_target
 
 DEFAULT_INTERFACE = "std_msgs/msg/Int32"
 
@@ -46,8 +46,13 @@ class Request:
     config: Path | None
     near: Path
     profiles_near: Path
-    target: Target
+    found_target: FoundTarget
     inputs: Mapping[str, bytes]
+
+    @property
+    def target(self) -> Target:
+        """What the C compiler is told, and which port the image stands on."""
+        return self.found_target.target
 
 
 @dataclass(frozen=True)
@@ -99,8 +104,9 @@ def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
     profiles = load_profiles(request.application.profiles, request.profiles_near, diagnostics)
     resolved = resolve_profiles(profiles, diagnostics)
     diagnostics.check()
+    target = request.target
     selection = resolve_selection(
-        request.application, resolved, catalogue, load_middleware(), diagnostics, request.target.port
+        request.application, resolved, catalogue, load_middleware(), diagnostics, target.port, target.transport
     )
     diagnostics.check()
     own = tuple(p for p in profiles.profiles.values() if not p.builtin)
@@ -142,6 +148,9 @@ def render_request(planned: Planned) -> dict[str, bytes]:
     inputs = dict(planned.resolved.request.inputs)
     own = planned.resolved.own_profiles
     inputs |= {f"profile {p.name}": p.span.source.text.encode() for p in own if p.span}
+    inputs |= {
+        f"target {Path(s.name).name}": s.text.encode() for s in planned.resolved.request.found_target.own
+    }
     inputs |= {str(entry.name): entry.source.text.encode() for entry in planned.interfaces}
     files[MANIFEST] = manifest(planned.project, inputs, files)
     return files
@@ -157,6 +166,7 @@ def read_paths(planned: Planned) -> Iterator[Path]:
     yield from (Path(f"{path}{suffix}") for path in asked for suffix in ("", ".yaml", ".yml"))
     yield from (candidate for path in own for candidate in (path, path.with_suffix(".yaml")))
     yield near / request.application.target.name
+    yield from (Path(source.name) for source in request.found_target.own)
     yield from planned.searched
     for entry in planned.interfaces:
         folder = entry.place.folder / entry.name.kind
@@ -234,8 +244,16 @@ def _component_files(project: Project) -> tuple[ComponentFile, ...]:
         names = tuple(
             source.path
             for source in component.sources
-            if all(getattr(project.runtime, key) == value for key, value in source.when)
+            if all(_attribute(project, key) == value for key, value in source.when)
         )
         files += read_headers(component.name)
         files += read_sources(component.name, names)
     return tuple(files)
+
+
+def _attribute(project: Project, key: str) -> object:
+    """Return what a condition of a component's file compares: of the runtime, the board or the target."""
+    for place in (project.runtime, project.board, project.target):
+        if hasattr(place, key):
+            return getattr(place, key)
+    raise AssertionError(f"no plan has the attribute '{key}'")

@@ -29,8 +29,8 @@ def plan_summary(planned: Planned) -> str:
     return _table(lines)
 
 
-def built_summary(out: Path, report: BuildReport, usage: Usage | None) -> str:
-    """Return the lines that a compilation adds."""
+def built_summary(out: Path, report: BuildReport, usage: Usage | None, lacks_image: str = "") -> str:
+    """Return the lines that a compilation adds; `lacks_image` says why there is no image."""
     sizes = (
         f": {usage.flash} bytes of code and constants before unused parts are dropped, {usage.ram} of RAM"
         if usage
@@ -40,7 +40,7 @@ def built_summary(out: Path, report: BuildReport, usage: Usage | None) -> str:
         [
             ("compiled", f"{report.compiled} objects, {report.kept} were up to date"),
             ("library", f"{out / report.library}{sizes}"),
-            *([("image", f"{out / report.image}")] if report.image else []),
+            ("image", f"{out / report.image}" if report.image else f"none: {lacks_image}"),
         ]
     )
 

@@ -36,7 +36,7 @@ def command(name: str | None, kind: str) -> None:
     names = builtin_targets() if name is None else (name,)
     found = [read_target(n, Path(), None, diagnostics) for n in names]
     diagnostics.check()
-    targets = [target for target in found if target is not None]
+    targets = [f.target for f in found if f is not None]
     if kind == "json":
         click.echo(json.dumps([dataclasses.asdict(t) for t in targets], indent=2, sort_keys=True))
     elif name is None:

@@ -3,7 +3,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
+
+PORTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {"port_posix": (), "port_cortex_m": ("cmsdk", "nrf51"), "port_riscv": ("ns16550",)}
+)
+"""The components of layer `port`, and the drivers of serial lines that each has."""
+
+REGISTERS: Mapping[str, tuple[str, ...]] = MappingProxyType({"port_riscv": ("mtime", "mtimecmp", "plic")})
+"""Addresses that a port must know of a board besides those of its parts (RISC-V: ACLINT and PLIC)."""
+
+OPTIONAL_REGISTERS = ("finisher",)
+"""Further addresses that a board may have: a SiFive test device, which restarts it."""
 
 
 @dataclass(frozen=True)
@@ -16,11 +29,17 @@ class Region:
 
 @dataclass(frozen=True)
 class Uart:
-    """A serial interface of a board: `driver` names a source file of the port, `irq` is -1 where it is polled."""
+    """A serial interface of a board: `driver` names a source file of the port, `irq` its receive interrupt.
+
+    `clock_hz` divides down to the baud rate; 0: that of the target. Pins are where they can be chosen; -1: none.
+    """
 
     driver: str
     base: int
-    irq: int = -1
+    irq: int
+    clock_hz: int = 0
+    tx_pin: int = -1
+    rx_pin: int = -1
 
 
 @dataclass(frozen=True)
@@ -47,7 +66,8 @@ class Target:
     `c_flags` apply to every file, `link_flags` to the image; `port` is a component of layer `port`. `hosted`:
     an operating system with standard input and output is below. A target without an operating system that knows
     its board has `flash` and `ram`, and so an image; without them it has the library alone. `clock_hz` counts the
-    system timer. `data_model` is lp64 or ilp32. `transport` is what holds where neither application nor profile say.
+    system timer. `interrupts` are handlers of the application by their number, `registers` addresses by name
+    (REGISTERS). `data_model` is lp64 or ilp32. `transport` is what holds where neither application nor profile say.
     """
 
     name: str
@@ -69,11 +89,22 @@ class Target:
     uart: Uart | None = None
     unique_id: UniqueId | None = None
     emulator: Emulator | None = None
+    interrupts: tuple[tuple[int, str], ...] = ()
+    registers: tuple[tuple[str, int], ...] = ()
 
     @property
     def has_image(self) -> bool:
         """Whether an image can be linked, or the library alone."""
         return self.hosted or (self.flash is not None and self.ram is not None)
+
+    def has_register(self, name: str) -> bool:
+        """Whether the target says where `name` is."""
+        return any(known == name for known, _ in self.registers)
+
+    @property
+    def has_unique_id(self) -> bool:
+        """Whether `session: {key: device}` can be had."""
+        return self.hosted or self.unique_id is not None
 
     @property
     def uart_driver(self) -> str:

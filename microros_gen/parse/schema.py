@@ -21,6 +21,7 @@ Schema = dict[str, Any]
 
 APPLICATION_SCHEMA = "application.schema.json"
 PROFILE_SCHEMA = "profile.schema.json"
+TARGET_SCHEMA = "target.schema.json"
 
 
 def load_schema(name: str) -> Schema:

@@ -1,38 +1,159 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A target file → Target."""
+"""Target files → Target. A file may extend another one: `merge_target` lays it over what that one says."""
 
 from __future__ import annotations
 
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.model.target import Target
-from microros_gen.parse.tree_read import check_keys, expect_mapping, read_names, read_text
-from microros_gen.parse.tree_values import bool_of
-from microros_gen.parse.yaml_tree import MappingNode, parse_yaml
+from microros_gen.model.target import PORTS, REGISTERS, Emulator, Region, Target, Uart, UniqueId
+from microros_gen.parse.tree_values import bool_of, child, entries, int_of, items, size_of, text_of
+from microros_gen.parse.yaml_tree import Entry, MappingNode, SequenceNode, YamlNode, parse_yaml
 
 _REQUIRED = ("target", "summary", "port", "compilers", "archivers", "package")
-_OPTIONAL = ("c_flags", "link_flags", "libraries", "image_suffix", "hosted")
+_ADDED = ("c_flags", "link_flags", "libraries")
+_ADDRESS_SPACE = 1 << 32
 
 
-def parse_target(source: Source, diagnostics: Diagnostics) -> Target | None:
-    """Return the target that `source` describes; None and errors in `diagnostics` where it is not one."""
-    node = expect_mapping(parse_yaml(source, diagnostics), "a target file", diagnostics)
-    if node is None:
-        return None
-    check_keys(node, (*_REQUIRED, *_OPTIONAL), _REQUIRED, diagnostics)
+def parse_target(source: Source, diagnostics: Diagnostics, builtin: bool = False) -> MappingNode | None:
+    """Return what one target file says; None and errors in `diagnostics` where it does not hold.
+
+    A user's file is validated against its JSON Schema; `builtin` files are not, tests do that.
+    """
+    found = Diagnostics()
+    tree = parse_yaml(source, found)
+    if not found.has_errors() and not (builtin and isinstance(tree, MappingNode)):
+        from microros_gen.parse.schema import TARGET_SCHEMA, load_schema, validate
+
+        validate(tree, source, load_schema(TARGET_SCHEMA), found)
+    diagnostics.extend(found)
+    return tree if isinstance(tree, MappingNode) and not found.has_errors() else None
+
+
+def merge_target(node: MappingNode, base: MappingNode) -> MappingNode:
+    """Lay `node` over the target that it extends: lists of flags and libraries grow, all else is replaced."""
+    merged = {**base.entries, **node.entries}
+    for key in _ADDED:
+        own, below = node.entries.get(key), base.entries.get(key)
+        if own is not None and below is not None:
+            both = SequenceNode((*items(below.value), *items(own.value)), own.value.span)
+            merged[key] = Entry(key, own.key_span, both)
+    return MappingNode(merged, node.span)
+
+
+def target_of(node: MappingNode, diagnostics: Diagnostics) -> Target | None:
+    """Return the target that a (merged) tree describes; None and errors where something lacks or contradicts."""
+    for key in _REQUIRED:
+        if key not in node.entries:
+            hint = f"Add `{key}: …`, or `extends: cortex-m4` and its like, which have it"
+            diagnostics.error(f"the target lacks the key '{key}'", node.span, hint)
+    _check(node, diagnostics)
+    return None if diagnostics.has_errors() else _target(node)
+
+
+def _target(node: MappingNode) -> Target:
     return Target(
-        name=read_text(node, "target", diagnostics),
-        summary=read_text(node, "summary", diagnostics),
-        port=read_text(node, "port", diagnostics),
-        compilers=_list(node, "compilers", diagnostics),
-        archivers=_list(node, "archivers", diagnostics),
-        package=read_text(node, "package", diagnostics),
-        c_flags=_list(node, "c_flags", diagnostics),
-        link_flags=_list(node, "link_flags", diagnostics),
-        libraries=_list(node, "libraries", diagnostics),
-        image_suffix=read_text(node, "image_suffix", diagnostics),
+        name=_text(node, "target"),
+        summary=_text(node, "summary"),
+        port=_text(node, "port"),
+        compilers=_texts(node.get("compilers")),
+        archivers=_texts(node.get("archivers")),
+        package=_text(node, "package"),
+        c_flags=_texts(node.get("c_flags")),
+        link_flags=_texts(node.get("link_flags")),
+        libraries=_texts(node.get("libraries")),
+        image_suffix=_text(node, "image_suffix"),
         hosted=bool_of(node.get("hosted")) or False,
+        data_model=text_of(node.get("data_model")) or Target.data_model,
+        transport=text_of(node.get("transport")),
+        clock_hz=int_of(node.get("clock_hz")) or 0,
+        flash=_region(node.get("flash")),
+        ram=_region(node.get("ram")),
+        uart=_uart(node.get("uart")),
+        unique_id=_unique_id(node.get("unique_id")),
+        emulator=_emulator(node.get("emulator")),
+        interrupts=tuple(sorted((int(e.key), text_of(e.value) or "") for e in entries(node.get("interrupts")))),
+        registers=tuple(sorted((e.key, int_of(e.value) or 0) for e in entries(node.get("registers")))),
     )
 
 
-def _list(node: MappingNode, key: str, diagnostics: Diagnostics) -> tuple[str, ...]:
-    return tuple(item.name for item in read_names(node, key, diagnostics))
+def _region(node: YamlNode | None) -> Region | None:
+    if node is None:
+        return None
+    return Region(int_of(child(node, "origin")) or 0, size_of(child(node, "size")) or 0)
+
+
+def _uart(node: YamlNode | None) -> Uart | None:
+    if node is None:
+        return None
+    base, irq, clock_hz = (int_of(child(node, key)) or 0 for key in ("base", "irq", "clock_hz"))
+    pins = [int_of(child(node, key)) for key in ("tx_pin", "rx_pin")]
+    tx_pin, rx_pin = (-1 if pin is None else pin for pin in pins)
+    return Uart(text_of(child(node, "driver")) or "", base, irq, clock_hz, tx_pin, rx_pin)
+
+
+def _unique_id(node: YamlNode | None) -> UniqueId | None:
+    if node is None:
+        return None
+    return UniqueId(int_of(child(node, "address")) or 0, int_of(child(node, "words")) or 0)
+
+
+def _emulator(node: YamlNode | None) -> Emulator | None:
+    if node is None:
+        return None
+    program, package = (text_of(child(node, key)) or "" for key in ("program", "package"))
+    return Emulator(program, package, _texts(child(node, "arguments")))
+
+
+def _check(node: MappingNode, diagnostics: Diagnostics) -> None:
+    """Report what the schema cannot say: what belongs together, and what the port does not have."""
+    port = text_of(node.get("port")) or ""
+    _check_memory(node, diagnostics)
+    driver = child(node.get("uart"), "driver")
+    if driver is not None and text_of(driver) not in PORTS.get(port, ()):
+        has = ", ".join(PORTS.get(port, ())) or "none"
+        hint = f"Its drivers are: {has}. Without `uart:` the application provides port_serial_*"
+        diagnostics.error(f"{port} has no driver '{text_of(driver)}'", driver.span, hint)
+    _check_interrupts(node, diagnostics)
+    if node.get("flash") is None or bool_of(node.get("hosted")):
+        return
+    for name in REGISTERS.get(port, ()):
+        if child(node.get("registers"), name) is None:
+            hint = f"Add `registers: {{{name}: 0x…}}`"
+            diagnostics.error(f"{port} needs the address of {name}", node.span, hint)
+
+
+def _check_memory(node: MappingNode, diagnostics: Diagnostics) -> None:
+    flash, ram = node.get("flash"), node.get("ram")
+    for name, there, other, lacks in (("flash", flash, "ram", ram), ("ram", ram, "flash", flash)):
+        if there is not None and lacks is None:
+            hint = f"Add `{other}: {{origin: 0x20000000, size: 64 KiB}}`"
+            diagnostics.error(f"'{name}' without '{other}' makes no image", there.span, hint)
+    if flash is None or ram is None:
+        return
+    if node.get("clock_hz") is None:
+        hint = "Add `clock_hz: …`: what the system timer counts in a second"
+        diagnostics.error("an image needs the key 'clock_hz'", node.span, hint)
+    regions = {name: _region(node.get(name)) or Region(0, 0) for name in ("flash", "ram")}
+    for name, region in regions.items():
+        if region.origin + region.size > _ADDRESS_SPACE:
+            span = (node.get(name) or node).span
+            diagnostics.error(f"'{name}' ends beyond 32 bits of address", span, "Lower its size")
+    first, second = sorted(regions.values(), key=lambda region: region.origin)
+    if first.origin + first.size > second.origin:
+        hint = "Lower a size, or move an origin"
+        diagnostics.error("'flash' and 'ram' overlap", ram.span, hint)
+
+
+def _check_interrupts(node: MappingNode, diagnostics: Diagnostics) -> None:
+    irq = int_of(child(node.get("uart"), "irq"))
+    for entry in entries(node.get("interrupts")):
+        if irq is not None and int(entry.key) == irq:
+            hint = "Remove it here, or remove `uart:`"
+            diagnostics.error(f"interrupt {irq} is taken by 'uart'", entry.key_span, hint)
+
+
+def _text(node: MappingNode, key: str) -> str:
+    return text_of(node.get(key)) or ""
+
+
+def _texts(node: YamlNode | None) -> tuple[str, ...]:
+    return tuple(text_of(item) or "" for item in items(node))

@@ -15,6 +15,7 @@ from microros_gen.model.selection import Selection
 from microros_gen.model.target import Target
 from microros_gen.model.types import Message, TypeName
 from microros_gen.plan.creation import CreateNames, create_size, participant_reference
+from microros_gen.plan.board import BoardPlan, plan_board
 from microros_gen.plan.names import dds_topic, dds_type, participant_name
 from microros_gen.plan.runtime import NodePlan, PublisherPlan, RuntimePlan
 from microros_gen.plan.streams import StreamPlan, Written, plan_streams
@@ -40,6 +41,7 @@ class Project:
     roots: tuple[TypeName, ...]
     streams: StreamPlan
     runtime: RuntimePlan
+    board: BoardPlan = BoardPlan()
 
     @cached_property
     def messages(self) -> Mapping[TypeName, Message]:
@@ -47,9 +49,25 @@ class Project:
         return {plan.name: plan.message for plan in self.types}
 
     @property
+    def lacks_image(self) -> str:
+        """Why the example is not linked to an image; empty where it is."""
+        if not self.target.has_image:
+            return (
+                f"target {self.target.name} names a processor and no memory: link the library to your firmware,"
+                f" or write a target file that extends it with `flash` and `ram`"
+            )
+        functions = self.board.application_functions
+        return f"your application provides {', '.join(functions)} (microros/port.h)" if functions else ""
+
+    @property
     def image(self) -> str:
         """The file name of the image below bin/."""
         return f"{self.name}{self.target.image_suffix}"
+
+    @property
+    def linker_script(self) -> str | None:
+        """The path of the linker script below the output folder, where the target has a board."""
+        return None if self.target.hosted or not self.target.has_image else "src/port_bare/image.ld"
 
     @property
     def example(self) -> str:
@@ -104,10 +122,9 @@ def plan_project(
         type_name_size=0 if nodes else _longest_type(roots) + 1,
         creation_size=streams.creation_size,
     )
-    plan_id = _plan_id(runtime, selection, types)
-    return Project(
-        name, application, selection, target, types, roots, streams, replace(runtime, plan_id=plan_id)
-    )
+    board = plan_board(application, target, runtime, diagnostics)
+    runtime = replace(runtime, plan_id=_plan_id(runtime, selection, types))
+    return Project(name, application, selection, target, types, roots, streams, runtime, board)
 
 
 def publisher_declarations(application: Application) -> tuple[tuple[int, NodeDecl, EndpointDecl], ...]:

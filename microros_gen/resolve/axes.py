@@ -31,9 +31,11 @@ def choose_axes(
     profiles: tuple[ResolvedProfile, ...],
     middleware: Middleware,
     diagnostics: Diagnostics,
+    target_transport: str | None = None,
 ) -> dict[str, AxisChoice]:
     """Return the choice for each axis, in the order of the middleware table.
 
+    `target_transport` is what the target has where neither application nor profile choose (`Target.transport`).
     Profiles that disagree are an error that names both places, unless the application decides.
     """
     said = _application_axes(application)
@@ -45,6 +47,8 @@ def choose_axes(
             diagnostics.error(f"there is no {axis} '{own.name}'", own.span, hint)
             own = None
         default = AxisChoice(axis, middleware.defaults[axis], "default")
+        if axis == "transport" and target_transport is not None:
+            default = AxisChoice(axis, target_transport, f"target {application.target.name}")
         choices[axis] = _own(axis, own) or _of_profiles(axis, profiles, diagnostics) or default
     return choices
 

@@ -32,14 +32,15 @@ def resolve_selection(
     middleware: Middleware,
     diagnostics: Diagnostics,
     port: str | None = None,
+    transport: str | None = None,
 ) -> Selection:
     """Return everything that the application and its profiles select, each item with its reasons.
 
     `port` is the component of the target (`Target.port`); without it the host has `port_posix`, another
-    target none. Contradictions and unknown components go to `diagnostics`, each with both places; then the
+    target none. `transport` is what the target has where nobody else chooses (`Target.transport`). Contradictions and unknown components go to `diagnostics`, each with both places; then the
     selection is only good for showing. Planned components are selected like others: `check_ready` names them.
     """
-    axes = choose_axes(application, profiles, middleware, diagnostics)
+    axes = choose_axes(application, profiles, middleware, diagnostics, transport)
     picker = _Picker(catalogue, diagnostics)
     _pick_from_profiles(picker, application, profiles)
     if not picker.causes:

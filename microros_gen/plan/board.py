@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a board without an operating system needs as numbers and names: its vector table, stack, ring and UART."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.model.application import Application
+from microros_gen.model.target import Target, Uart
+from microros_gen.plan.runtime import RuntimePlan
+
+DEFAULT_STACK = 2048
+_STACK_ALIGNMENT = 16  # RISC-V; the Arm procedure call standard asks for 8
+_FREQUENCY_TOLERANCE = 0.025  # a frame of ten bits is sampled in the middle of its bits: each side may err by half of 5 %
+_LINE_USERS = ("serial", "custom")
+# OMG DDS-XRCE 1.0: a header of 4, a submessage of 4 and 5 (ACKNACK); and around each message a frame, stuffed at the worst.
+_ACKNACK = 13
+_FRAME = 6
+_SERIAL_FUNCTIONS = ("port_serial_open", "port_serial_close", "port_serial_write", "port_serial_read")
+_UDP_FUNCTIONS = ("port_udp_open", "port_udp_close", "port_udp_send", "port_udp_receive")
+
+
+@dataclass(frozen=True)
+class BoardPlan:
+    """Sizes are bytes. `vectors` are handlers by interrupt number, `handlers` those that the application provides.
+
+    `entry` is where the program begins, `first` what lies first in flash, in the section `first_section`.
+    `application_functions` are functions of microros/port.h that only the application can provide; then the
+    example is not linked. `serial_driver` is `none` where nothing uses the line, or the board has none.
+    """
+
+    stack_size: int = 0
+    ring_size: int = 0
+    ticks_per_ms: int = 0
+    serial_driver: str = "none"
+    uart_divisor: int = 0
+    tx_pin: int = 0
+    rx_pin: int = 0
+    has_fpu: bool = False
+    vectors: tuple[str, ...] = ()
+    handlers: tuple[str, ...] = ()
+    entry: str = ""
+    first: str = ""
+    first_section: str = ""
+    application_functions: tuple[str, ...] = ()
+
+    @property
+    def has_serial_driver(self) -> bool:
+        """Whether this project drives the serial line of the board."""
+        return self.serial_driver != "none"
+
+
+def plan_board(
+    application: Application, target: Target, runtime: RuntimePlan, diagnostics: Diagnostics
+) -> BoardPlan:
+    """Decide what start-up, linker script and drivers print; for a hosted target nothing of it matters."""
+    if target.hosted:
+        return BoardPlan()
+    _check_unique_id(application, target, diagnostics)
+    driver = target.uart_driver if target.has_image and runtime.transport in _LINE_USERS else "none"
+    functions = _application_functions(runtime.transport, driver)
+    if not target.has_image:
+        return BoardPlan(application_functions=functions)
+    uart = target.uart if driver != "none" else None
+    entry, first, section, handler, unused = _NAMES[target.port]
+    return BoardPlan(
+        stack_size=_stack_size(application, target, diagnostics),
+        ring_size=ring_size(runtime),
+        ticks_per_ms=target.clock_hz // 1000,
+        serial_driver=driver,
+        uart_divisor=_divisor(uart, target, application, diagnostics) if uart else 0,
+        tx_pin=uart.tx_pin & 0xFFFFFFFF if uart else 0,
+        rx_pin=uart.rx_pin & 0xFFFFFFFF if uart else 0,
+        has_fpu=any(flag in ("-mfloat-abi=hard", "-mfloat-abi=softfp") for flag in target.c_flags),
+        vectors=_vectors(target, uart, handler, unused),
+        handlers=tuple(sorted({name for _, name in target.interrupts})),
+        entry=entry,
+        first=first,
+        first_section=section,
+        application_functions=functions,
+    )
+
+
+def ring_size(runtime: RuntimePlan) -> int:
+    """Return the bytes that can arrive while the application does not read: a power of two, at most 32 KiB.
+
+    What an agent sends by itself answers what was sent to it: one message of the longest kind, and an ACKNACK for
+    each slot of the reliable stream. Each is framed, and every byte may be stuffed.
+    """
+    frames = [runtime.input_size, *([_ACKNACK] * runtime.reliable_slots)]
+    needed = sum(1 + 2 * (size + _FRAME) for size in frames)
+    return min(1 << (needed - 1).bit_length(), 1 << 15)
+
+
+# port → entry, what lies first in flash, its section, the UART's handler, what stands for an unused interrupt
+_NAMES = {
+    "port_cortex_m": (
+        "port_cortex_m_reset",
+        "port_cortex_m_vectors",
+        ".rodata.port_cortex_m_vectors",
+        "port_cortex_m_uart_interrupt",
+        "port_cortex_m_fault",
+    ),
+    "port_riscv": (
+        "port_riscv_reset",
+        "port_riscv_reset",
+        ".text.port_riscv_reset",
+        "port_riscv_uart_interrupt",
+        "",
+    ),
+}
+
+
+def _vectors(target: Target, uart: Uart | None, handler: str, unused: str) -> tuple[str, ...]:
+    named = dict(target.interrupts)
+    if uart is not None:
+        named[uart.irq] = handler
+    return tuple(named.get(number, unused) for number in range(max(named, default=0) + 1))
+
+
+def _application_functions(transport: str, driver: str) -> tuple[str, ...]:
+    if transport == "serial" and driver == "none":
+        return _SERIAL_FUNCTIONS
+    return _UDP_FUNCTIONS if transport == "udp" else ()
+
+
+def _check_unique_id(application: Application, target: Target, diagnostics: Diagnostics) -> None:
+    if isinstance(application.session_key, str) and not target.has_unique_id:
+        diagnostics.error(
+            f"session.key: device needs a number that no other device has, and the target {target.name} names none",
+            application.spans.get("session") or application.target.span,
+            "Write where it is into the target file: `unique_id: {address: 0x1FFF7A10, words: 3}`, or give each "
+            "device a `session: {key: N}` of its own",
+        )
+
+
+def _stack_size(application: Application, target: Target, diagnostics: Diagnostics) -> int:
+    asked = application.memory.stack
+    size = DEFAULT_STACK if asked is None else asked
+    size = (size + _STACK_ALIGNMENT - 1) // _STACK_ALIGNMENT * _STACK_ALIGNMENT
+    assert target.ram is not None
+    if size >= target.ram.size:
+        diagnostics.error(
+            f"a stack of {size} bytes leaves nothing of the {target.ram.size} bytes of RAM of {target.name}",
+            application.memory.stack_span or application.target.span,
+            "Lower memory.stack",
+        )
+    return size
+
+
+def _divisor(uart: Uart, target: Target, application: Application, diagnostics: Diagnostics) -> int:
+    """Return the value of the UART's baud register for the application's rate."""
+    clock, baud = uart.clock_hz or target.clock_hz, application.transport.baud
+    if uart.driver == "nrf51":
+        # nRF51 Reference Manual, BAUDRATE: 32 bits of fraction of 16 MHz, of which the upper 20 count.
+        return ((baud << 32) // 16_000_000 + 0x800) & 0xFFFFF000
+    step, lowest, largest = {"cmsdk": (1, 16, 0xFFFFF), "ns16550": (16, 1, 0xFFFF)}[uart.driver]
+    divisor = min(max(round(clock / (step * baud)), lowest), largest)
+    if abs(clock / (step * divisor) / baud - 1) > _FREQUENCY_TOLERANCE:
+        nearest = clock // (step * divisor)
+        diagnostics.error(
+            f"{baud} baud cannot be had from {clock} Hz by the UART of {target.name}",
+            application.transport.span or application.target.span,
+            f"The nearest rate is {nearest}: `transport: {{baud: {nearest}}}`",
+        )
+    return divisor
