@@ -39,6 +39,7 @@ class _ProjectView:
     entities: tuple[str, ...]
     agent: str
     agent_file: str
+    declared: bool
     memory: tuple[_Bytes, ...]
 
 
@@ -135,6 +136,7 @@ def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectVi
         ),
         entities=tuple(declared or pools),
         agent=project.selection.entities,
+        declared=runtime.declared,
         agent_file=next((path for path in rendered if path.startswith("agent/")), ""),
         memory=(
             _Bytes("reliable output", runtime.reliable_slots * runtime.reliable_slot_size),
