@@ -75,11 +75,12 @@ def pool_rows(planned: Planned) -> list[tuple[str, str, str]]:
 
 
 def _stream_rows(streams: StreamPlan) -> list[tuple[str, str, str]]:
+    in_pieces = f", sent in fragments of {streams.mtu} bytes" if streams.fragments else ""
     return [
         (
             "reliable output",
             f"{streams.reliable_slots} x {streams.reliable_slot_size} bytes",
-            "pools.history times the largest reliable message",
+            f"pools.history times the largest reliable message{in_pieces}",
         ),
         (
             "best-effort output",

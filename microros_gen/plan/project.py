@@ -121,6 +121,9 @@ def plan_project(
         framing=_FRAMING[application.transport.framing],
         type_name_size=0 if nodes else _longest_type(roots) + 1,
         creation_size=streams.creation_size,
+        fragments=streams.fragments,
+        reliable_input_slots=streams.reliable_input_slots,
+        reliable_input_slot_size=streams.input_size if streams.reliable_input_slots else 0,
     )
     board = plan_board(application, target, runtime, diagnostics)
     runtime = replace(runtime, plan_id=_plan_id(runtime, selection, types))
@@ -168,13 +171,14 @@ def _streams(
     diagnostics: Diagnostics,
 ) -> StreamPlan:
     if not selection.has("publish"):
-        return plan_streams(application, selection.transport, (), create, diagnostics)
-    if application.nodes:
+        written: tuple[Written, ...] = ()
+    elif application.nodes:
         declarations = publisher_declarations(application)
         written = tuple(_written(node, endpoint, types) for _, node, endpoint in declarations)
     else:
         written = tuple(Written(str(r), types[r].max_encoded_size, True, True) for r in roots)
-    return plan_streams(application, selection.transport, written, create, diagnostics)
+    reliable_input = selection.has("stream_reliable_input")
+    return plan_streams(application, selection.transport, written, create, diagnostics, reliable_input)
 
 
 def _written(node: NodeDecl, endpoint: EndpointDecl, types: Mapping[TypeName, TypePlan]) -> Written:

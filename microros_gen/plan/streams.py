@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sizes of the output streams: what the largest message of each needs, and no more.
+"""Sizes of the streams: what the largest message of each needs, and no more, unless the application asks for more.
 
 Sizes are bytes of a whole datagram for a session id of 0x80 and above (OMG DDS-XRCE 1.0, 8.3.2: a header of
 four bytes, each submessage aligned to four).
@@ -18,11 +18,15 @@ OBJECT_PREFIX = 4  # request id and object id
 WRITE_DATA_OVERHEAD = MESSAGE_HEADER + SUBMESSAGE_HEADER + OBJECT_PREFIX
 # The largest message of the agent to a client that only writes is INFO with two locators (52 bytes).
 WRITE_SIDE_INPUT = 64
-# One Ethernet frame: larger datagrams are fragmented by IP, which small stacks drop.
+# One Ethernet frame: larger datagrams are fragmented by IP, which small stacks drop. The sizes of serial and custom
+# transports are those that micro-ROS has.
 DEFAULT_MTU = {"udp": 1472, "tcp": 1460, "serial": 512, "custom": 512}
 DEFAULT_HISTORY = 4
-# OMG DDS-XRCE window of the public agent (xrce: RELIABLE_STREAM_DEPTH).
-LARGEST_HISTORY = 16
+DEFAULT_INPUT_HISTORY = 1
+# In front of a message that goes in fragments: FRAGMENT's header, beside that of the message.
+FRAGMENT_HEADER = 4
+# The length of a submessage has 16 bits (OMG DDS-XRCE 1.0, 8.3.4); the whole submessage is counted in as many here.
+LARGEST_BODY = 0xFFFF - SUBMESSAGE_HEADER - OBJECT_PREFIX
 
 
 @dataclass(frozen=True)
@@ -41,7 +45,9 @@ class Written:
 class StreamPlan:
     """Bytes of each stream's storage; 0 or no slots where a stream is not needed.
 
-    `creation_size`: of a request to create on the reliable stream.
+    `mtu`: the largest message that is sent. `fragments`: some reliable message is larger, and goes in pieces.
+    `creation_size`: of a request to create on the reliable stream. `reliable_input_slots`: messages of the agent's
+    reliable stream that are held at a time; the one that is being handled is in the input buffer.
     """
 
     mtu: int
@@ -50,12 +56,15 @@ class StreamPlan:
     reliable_slot_size: int
     input_size: int
     creation_size: int = 0
+    fragments: bool = False
+    reliable_input_slots: int = 0
 
     @property
     def ram(self) -> int:
         """Bytes of all buffers together."""
         reliable = self.reliable_slots * self.reliable_slot_size
-        return self.best_effort_size + reliable + self.input_size + self.creation_size
+        inputs = max(1, self.reliable_input_slots) * self.input_size
+        return self.best_effort_size + reliable + inputs + self.creation_size
 
 
 def plan_streams(
@@ -64,46 +73,88 @@ def plan_streams(
     written: Iterable[Written],
     create: int,
     diagnostics: Diagnostics,
+    reliable_input: bool = False,
 ) -> StreamPlan:
     """Size the streams; a message that cannot fit its stream is an error with the number that would do.
 
     `transport` is the selected one. `create` is the size of the largest CREATE (plan/creation.py), 0 where the client
-    creates nothing (entities: preconfigured). With `creation: reliable` it has storage of its own, and the reliable
-    stream is there for it.
+    creates nothing (entities: preconfigured). With `creation: reliable` it has storage of its own, and the reliable stream
+    is there for it. A reliable message above the MTU goes in fragments, a best-effort one and a CREATE cannot.
+    `reliable_input`: the agent's reliable stream is selected. `pools.slot_size` makes each buffer at least so large.
     """
     messages = tuple(written)
     ceiling = application.transport.mtu or DEFAULT_MTU[transport]
     for message in messages:
         _check_fits(message, ceiling, application, diagnostics)
-    if create > ceiling:
-        diagnostics.error(
-            f"the longest CREATE message takes {create} bytes and transport.mtu is {ceiling}",
-            application.transport.mtu_span or application.transport.span,
-            f"Set transport.mtu: {create}, or shorten the longest topic name",
-        )
+    _check_create(create, ceiling, application, diagnostics)
+    asked = application.pools.get("slot_size", 0)
+    least = min(asked, ceiling)
     best_effort = max((_datagram(m) for m in messages if m.best_effort), default=0)
     reliable = max((_datagram(m) for m in messages if m.reliable), default=0)
     slots = application.pools.get("history", DEFAULT_HISTORY) if reliable else 0
+    reliable = max(reliable, asked) if reliable else 0
+    fragments = reliable > ceiling
     creation = create if application.creation and application.creation.name == "reliable" else 0
     if not creation:
         best_effort = max(best_effort, create)
     elif not reliable:
         slots, reliable = 1, WRITE_DATA_OVERHEAD
-    mtu = max(best_effort, reliable, create)
-    return StreamPlan(mtu, best_effort, slots, reliable, WRITE_SIDE_INPUT, creation)
+    best_effort = max(best_effort, least) if best_effort else 0
+    return StreamPlan(
+        mtu=ceiling if fragments else max(best_effort, reliable, create),
+        best_effort_size=best_effort,
+        reliable_slots=slots,
+        reliable_slot_size=_align4(reliable + FRAGMENT_HEADER) if fragments else reliable,
+        input_size=max(WRITE_SIDE_INPUT, least),
+        creation_size=creation,
+        fragments=fragments,
+        reliable_input_slots=_input_slots(application, reliable_input, diagnostics),
+    )
+
+
+def _input_slots(application: Application, reliable_input: bool, diagnostics: Diagnostics) -> int:
+    asked = application.pools.get("input_history")
+    if reliable_input:
+        return asked or DEFAULT_INPUT_HISTORY
+    if asked is not None:
+        diagnostics.warning(
+            "'pools.input_history' has no effect: nothing that is selected comes on a reliable stream",
+            application.spans.get("pools.input_history"),
+            "Remove it",
+        )
+    return 0
+
+
+def _check_create(create: int, ceiling: int, application: Application, diagnostics: Diagnostics) -> None:
+    if create > ceiling:
+        diagnostics.error(
+            f"the longest CREATE message takes {create} bytes and {_mtu_is(application)} {ceiling}",
+            application.transport.mtu_span or application.transport.span,
+            f"Set transport.mtu: {create}, or shorten the longest topic name",
+        )
 
 
 def _check_fits(message: Written, ceiling: int, application: Application, diagnostics: Diagnostics) -> None:
     size = _datagram(message)
-    if size <= ceiling:
-        return
-    what = "transport.mtu is" if application.transport.mtu else "without transport.mtu a datagram holds"
-    raise_to = f"Set transport.mtu: {size}"
-    diagnostics.error(
-        f"{message.label} takes up to {size} bytes in its stream and {what} {ceiling}",
-        message.span or application.transport.mtu_span or application.transport.span,
-        f"{raise_to}, or lower its limits{message.hint}",
-    )
+    span = message.span or application.transport.mtu_span or application.transport.span
+    if message.max_encoded_size > LARGEST_BODY:
+        diagnostics.error(
+            f"{message.label} takes up to {message.max_encoded_size} bytes, and a message holds {LARGEST_BODY} at most",
+            span,
+            f"Lower its limits{message.hint}",
+        )
+    elif message.best_effort and size > ceiling:
+        reliable = "declare its publisher under `nodes:` as reliable" if message.reliable else "make it reliable"
+        diagnostics.error(
+            f"{message.label} takes up to {size} bytes in its stream and {_mtu_is(application)} {ceiling}",
+            span,
+            f"Set transport.mtu: {size}, or lower its limits{message.hint}, or {reliable}: reliable messages are sent in"
+            " fragments",
+        )
+
+
+def _mtu_is(application: Application) -> str:
+    return "transport.mtu is" if application.transport.mtu else "without transport.mtu a datagram holds"
 
 
 def _datagram(message: Written) -> int:

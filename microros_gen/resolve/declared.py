@@ -52,7 +52,7 @@ def stream_demands(application: Application, selected: frozenset[str], entities:
     may be created, reliable ones too: rclc_publisher_init_default and rclc_subscription_init_default are.
     """
     if entities != "preconfigured":
-        yield Demand(STREAM_BEST_EFFORT, f"entities: {entities} (CREATE goes on the best effort stream)")
+        yield from _creation_demands(application, entities)
     if application.nodes:
         for node in application.nodes:
             for endpoint in node.endpoints:
@@ -67,6 +67,16 @@ def stream_demands(application: Application, selected: frozenset[str], entities:
         text = "subscriptions without `nodes:` (rclc_subscription_init_default makes a reliable one)"
         yield Demand(STREAM_RELIABLE_INPUT, text, span)
         yield Demand(STREAM_BEST_EFFORT, "READ_DATA of subscriptions", span)
+
+
+def _creation_demands(application: Application, entities: str) -> Iterator[Demand]:
+    creation = application.creation
+    if creation is None or creation.name != "reliable":
+        yield Demand(STREAM_BEST_EFFORT, f"entities: {entities} (CREATE goes on the best effort stream)")
+        return
+    text = "creation: reliable ({})"
+    yield Demand(STREAM_RELIABLE, text.format("CREATE goes on the reliable stream"), creation.span)
+    yield Demand(STREAM_RELIABLE_INPUT, text.format("STATUS comes on the agent's reliable stream"), creation.span)
 
 
 def _endpoint_demands(node: NodeDecl, endpoint: EndpointDecl, selected: frozenset[str]) -> Iterator[Demand]:

@@ -281,9 +281,18 @@ _TOP = {
             "executors": "true",
             "parameters": "'4'",
             "history": 17,
+            "input_history": 0,
             "name_size": 7,
         }.items()
     },
+    "pools.slot_size": KeyCase(
+        "pools: {slot_size: 512}",
+        lambda a: a.pools["slot_size"],
+        512,
+        "pools: {slot_size: 63}",
+        "1:20",
+        "'pools.slot_size' must be a whole number between ",
+    ),
     "limits": KeyCase(
         'limits:\n  "*": {string: 32, sequence: 8}\n  a/msg/B: {c: 6, d: {sequence: 6, e: '
         "{string: 2}}, string: 3}\n",
