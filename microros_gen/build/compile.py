@@ -191,7 +191,7 @@ def _link(out: Path, main_object: str, image: str, tools: Toolchain, script: str
     (out / image).parent.mkdir(parents=True, exist_ok=True)
     fresh = f"{OBJECTS}/image"
     objects = [main_object, LIBRARY, *tools.libraries]
-    flags = [*tools.c_flags, *tools.link_flags, f"-Wl,-Map={MAP}", *((f"-Wl,-T,{script}",) if script else ())]
+    flags = [*tools.c_flags, *tools.link_flags, f"-Wl,-Map={MAP}", *(("-T", script) if script else ())]
     result = run([tools.compiler, *flags, *objects, "-o", fresh], out)
     if result.returncode != 0:
         hint = _too_large(result.stdout)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What comes before C, and around it: the first steps after a reset, and saving registers over a trap. Control and status
  * registers: The RISC-V Instruction Set Manual, Volume II, "Machine-Level ISA". */
+  .option arch, +zicsr
   .section .text.port_riscv_reset, "ax", @progbits
   .global port_riscv_reset
   .type port_riscv_reset, @function
