@@ -206,6 +206,7 @@ def _check(
     _check_axis_components(picker, axes, middleware)
     _check_liveliness(picker, axes["liveliness"])
     _check_discovery(picker, axes["transport"])
+    _check_creation(picker, application, axes["entities"])
 
 
 def _check_drop(picker: _Picker, name: str, span: Span | None, text: str) -> None:
@@ -265,6 +266,16 @@ def _check_liveliness(picker: _Picker, choice: AxisChoice) -> None:
             f"{choice.text} needs a reliable stream, and nothing that is selected has one",
             choice.span,
             "Make a publisher reliable, or write `liveliness: ping`",
+        )
+
+
+def _check_creation(picker: _Picker, application: Application, choice: AxisChoice) -> None:
+    creation = application.creation
+    if creation is not None and creation.name == "reliable" and choice.value == "preconfigured":
+        picker.diagnostics.error(
+            f"creation: reliable{at(creation.span)} contradicts {choice.text}: the client creates nothing",
+            creation.span,
+            "Remove `creation:`, or write `entities: reference`",
         )
 
 
