@@ -86,7 +86,11 @@ def attribute(folder: Folder, image: Elf) -> tuple[Piece, ...]:
     placed = parse_map(folder.map_text)
     if not placed:
         raise UserError(
-            [Diagnostic(f"{folder.path} holds no map of its image", hint="Build it again: microros-gen build")]
+            [
+                Diagnostic(
+                    f"{folder.path} holds no map of its image", hint="Build it again: microros-gen build"
+                )
+            ]
         )
     owners = Owners(folder)
     texts = _texts(folder, placed)
@@ -232,7 +236,9 @@ def _texts(folder: Folder, placed: Iterable[Placed]) -> Mapping[bytes, Piece]:
     """Return each string constant of the objects in the image, with the owner that comes first."""
     owners = Owners(folder)
     found: dict[bytes, Piece] = {}
-    for item in sorted({p.object: p for p in placed if p.section.startswith(".text")}.values(), key=lambda p: p.object):
+    for item in sorted(
+        {p.object: p for p in placed if p.section.startswith(".text")}.values(), key=lambda p: p.object
+    ):
         owner, source = owners.of(item)
         path = folder.path / (object_name(source) if source else "")
         if source is None or not path.is_file():

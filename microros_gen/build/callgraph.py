@@ -138,7 +138,9 @@ def _add_code(nodes: dict[int, Node], code: Code, external: bool) -> None:
     node = nodes.get(code.address)
     if external:
         name = code.name.split("@")[0]
-        nodes[code.address] = Node(name, code.address, None, "shared library", None, set(), {f"{name} (shared library)"})
+        nodes[code.address] = Node(
+            name, code.address, None, "shared library", None, set(), {f"{name} (shared library)"}
+        )
         return
     if node is None:
         node = nodes.setdefault(code.address, Node(code.name, code.address, None, "unknown", None))

@@ -27,8 +27,10 @@ class Code:
 _HEAD = re.compile(r"^([0-9a-f]+) <(.+)>:$")
 _LINE = re.compile(r"^\s+([0-9a-f]+):\t([\w.]+(?: [a-z]\w*)?)\s*(.*)$")
 _TARGET = re.compile(r"(?:^|[\s,])(?:0x)?([0-9a-f]+) <([^>+]+)(?:\+0x[0-9a-f]+)?>")
-_BRANCH = re.compile(r"^(b|bl|blx|b(eq|ne|cs|cc|mi|pl|vs|vc|hi|ls|ge|lt|gt|le|hs|lo|al)|cbn?z|call|j\w*|b(ltu|geu|\w*z)|tail)"
-                     r"(\.[nw])?[lq]?$")
+_BRANCH = re.compile(
+    r"^(b|bl|blx|b(eq|ne|cs|cc|mi|pl|vs|vc|hi|ls|ge|lt|gt|le|hs|lo|al)|cbn?z|b(ltu|geu|\w*z)|call|tail|j\w*)"
+    r"(\.[nw])?[lq]?$"
+)
 _CALL = re.compile(r"^(bl|blx|callq?|jal)$")
 
 
@@ -88,8 +90,10 @@ def _is_indirect(mnemonic: str, operands: str) -> bool:
 
 
 def _jumps_by_load(mnemonic: str, operands: str) -> bool:
-    return mnemonic in ("bx", "mov") and operands.startswith(("pc,", "r", "ip")) and (
-        mnemonic == "bx" or operands.startswith("pc,") and "lr" not in operands
+    return (
+        mnemonic in ("bx", "mov")
+        and operands.startswith(("pc,", "r", "ip"))
+        and (mnemonic == "bx" or (operands.startswith("pc,") and "lr" not in operands))
     )
 
 

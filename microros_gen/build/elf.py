@@ -58,17 +58,21 @@ class Elf:
         self.path = path
         try:
             self._stream = path.open("rb")
-            self._file = ELFFile(self._stream)
+            self.file: Any = ELFFile(self._stream)
         except (OSError, ELFError) as error:
             raise UserError(
-                [Diagnostic(f"{path} cannot be measured: {error}", hint="`size` and `explain` read ELF files")],
+                [
+                    Diagnostic(
+                        f"{path} cannot be measured: {error}", hint="`size` and `explain` read ELF files"
+                    )
+                ],
                 status=1,
             ) from error
-        self.machine = str(self._file["e_machine"])
-        self.entry = int(self._file["e_entry"])
-        self.little = bool(self._file.little_endian)
-        self.bits = int(self._file.elfclass)
-        self.flags = int(self._file["e_flags"])
+        self.machine = str(self.file["e_machine"])
+        self.entry = int(self.file["e_entry"])
+        self.little = bool(self.file.little_endian)
+        self.bits = int(self.file.elfclass)
+        self.flags = int(self.file["e_flags"])
 
     @property
     def arm(self) -> bool:
@@ -78,7 +82,9 @@ class Elf:
     @cached_property
     def sections(self) -> tuple[Section, ...]:
         """All sections in the order of the file, those of size 0 left out."""
-        return tuple(s for s in map(self._section, *zip(*enumerate(self._file.iter_sections()), strict=True)) if s.size)
+        return tuple(
+            s for s in map(self._section, *zip(*enumerate(self.file.iter_sections()), strict=True)) if s.size
+        )
 
     @cached_property
     def loaded(self) -> tuple[Section, ...]:
@@ -94,11 +100,11 @@ class Elf:
     @cached_property
     def dwarf(self) -> Any | None:
         """The debugging information of pyelftools, or None where the file has none."""
-        return self._file.get_dwarf_info() if self._file.has_dwarf_info() else None
+        return self.file.get_dwarf_info() if self.file.has_dwarf_info() else None
 
     def content(self, section: Section) -> bytes:
         """Return the bytes of a section; zeros for one that has none in the file."""
-        data = self._file.get_section(section.index).data()
+        data = self.file.get_section(section.index).data()
         return bytes(data) if data else bytes(section.size)
 
     def _section(self, index: int, section: Any) -> Section:
@@ -115,12 +121,14 @@ class Elf:
         return Section(index, section.name, int(section["sh_addr"]), int(section["sh_size"]), kind, strings)
 
     def _symbols(self) -> Iterator[Symbol]:
-        for section in self._file.iter_sections():
+        for section in self.file.iter_sections():
             if not isinstance(section, SymbolTableSection) or section.name == ".dynsym":
                 continue
             for symbol in section.iter_symbols():
                 kind, where = symbol["st_info"]["type"], symbol["st_shndx"]
-                if kind not in ("STT_FUNC", "STT_OBJECT", "STT_LOOS", "STT_NOTYPE") or not isinstance(where, int):
+                if kind not in ("STT_FUNC", "STT_OBJECT", "STT_LOOS", "STT_NOTYPE") or not isinstance(
+                    where, int
+                ):
                     continue
                 if not symbol.name or symbol.name.startswith("$"):
                     continue

@@ -129,7 +129,9 @@ def _use(manifest: Mapping[str, Any], piece: Piece, kind: str, path: str) -> str
         member = path.removeprefix(".").partition(".")[0].partition("[")[0]
         return _MEMBERS.get(member, member.replace("_", " ") or "client")
     if piece.owner.group == "component":
-        return {"error_state": "error text"}.get((piece.source or "").rpartition("/")[2][:-2], piece.owner.name)
+        return {"error_state": "error text"}.get(
+            (piece.source or "").rpartition("/")[2][:-2], piece.owner.name
+        )
     return piece.owner.group
 
 

@@ -77,7 +77,11 @@ def read_folder(path: Path) -> Folder:
         manifest["selection"]["reasons"], manifest["memory"], manifest["image"]
     except (OSError, ValueError, KeyError) as error:
         raise UserError(
-            [Diagnostic(f"{path} is no output folder of microros-gen", hint="Give the folder that `build` wrote")]
+            [
+                Diagnostic(
+                    f"{path} is no output folder of microros-gen", hint="Give the folder that `build` wrote"
+                )
+            ]
         ) from error
     try:
         tools = json.loads((path / TOOLS).read_text(encoding="utf-8"))
@@ -85,6 +89,10 @@ def read_folder(path: Path) -> Folder:
         tools = None
     if not isinstance(tools, dict) or not (path / LIBRARY).is_file():
         raise UserError(
-            [Diagnostic(f"{path} was not built yet", hint="Make it with `microros-gen build`, then measure it")]
+            [
+                Diagnostic(
+                    f"{path} was not built yet", hint="Make it with `microros-gen build`, then measure it"
+                )
+            ]
         )
     return Folder(path, manifest, sources, tools)

@@ -17,6 +17,8 @@ _COMMANDS = {
     "build": "Generate, compile to lib/libmicroros.a and link the profile's example.",
     "generate": "Write the C sources of a selection, without compiling.",
     "check": "Compare what would be generated with a golden copy.",
+    "size": "Show flash, RAM and stack of what was built, per component and entity.",
+    "explain": "Say why a symbol, file or component is in the image, and what would remove it.",
     "resolve": "Print components, XRCE profiles, pools and sizes, each with its reason.",
     "profiles": "List the profiles, or show what one of them selects.",
     "interfaces": "List packages and types, or show one of them.",

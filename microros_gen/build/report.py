@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Everything that `size` shows of an output folder, measured once."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from microros_gen.build.attribution import Piece, attribute, attribute_library
+from microros_gen.build.budget import BudgetLine, advice_text, budget_lines, exceeded_message
+from microros_gen.build.callgraph import CallGraph, build_call_graph
+from microros_gen.build.dwarf import NO_FACTS, Facts, read_facts
+from microros_gen.build.elf import Elf
+from microros_gen.build.entities import Entity, RamPart, entities, ram_parts
+from microros_gen.build.folder import Folder, read_folder
+from microros_gen.build.stack import StackReport, shown_name, stack_report
+from microros_gen.diagnostics import Diagnostic, Source, Span, UserError
+
+_CALL = re.compile(r"\b([a-z]\w*)\(")
+_PRIVATE = "microros"
+"""The folder of headers that applications need not include."""
+
+
+@dataclass(frozen=True)
+class SizeReport:
+    """What an output folder takes. Without an image the pieces are those of every object of the library."""
+
+    folder: Folder
+    pieces: tuple[Piece, ...]
+    facts: Facts
+    ram: tuple[RamPart, ...]
+    entities: tuple[Entity, ...]
+    graph: CallGraph | None
+    stack: StackReport
+    budgets: tuple[BudgetLine, ...]
+
+    @property
+    def totals(self) -> Mapping[str, int]:
+        """Bytes of text, data and bss, as `size` counts them."""
+        return {kind: sum(p.size for p in self.pieces if p.kind == kind) for kind in ("text", "data", "bss")}
+
+
+def measure(path: Path) -> SizeReport:
+    """Measure an output folder. UserError where it was not built, or holds no ELF files."""
+    folder = read_folder(path)
+    if folder.image is None:
+        return _measure_library(folder)
+    image = Elf(folder.image)
+    pieces = attribute(folder, image)
+    facts = read_facts(image)
+    parts = ram_parts(folder, pieces, facts)
+    graph = build_call_graph(folder, image, pieces)
+    stack = stack_report(graph, image, public_functions(folder, pieces))
+    budgets = budget_lines(folder, pieces, parts, stack)
+    return SizeReport(folder, pieces, facts, parts, entities(folder, pieces, parts), graph, stack, budgets)
+
+
+def public_functions(folder: Folder, pieces: Iterable[Piece]) -> frozenset[str]:
+    """Return the functions of the library in the image that a public header declares."""
+    declared: set[str] = set()
+    for path in sorted((folder.path / "include").rglob("*.h")):
+        if path.relative_to(folder.path / "include").parts[0] != _PRIVATE:
+            declared.update(_CALL.findall(path.read_text(encoding="utf-8", errors="replace")))
+    mine = (p.symbol for p in pieces if p.function and p.symbol and p.owner.group == "component")
+    return frozenset(name for name in mine if shown_name(name) in declared)
+
+
+def check_budgets(budgets: Iterable[BudgetLine], places: Mapping[str, Span | None]) -> None:
+    """Raise UserError with status 1 when a budget is exceeded. `places` are where the application sets them."""
+    found = [
+        Diagnostic(
+            exceeded_message(line),
+            places.get(line.key) or _span(line),
+            advice_text(line),
+        )
+        for line in budgets
+        if line.exceeded
+    ]
+    if found:
+        raise UserError(found, status=1)
+
+
+def _measure_library(folder: Folder) -> SizeReport:
+    pieces = attribute_library(folder)
+    parts = ram_parts(folder, pieces, NO_FACTS)
+    stack = StackReport(False, "there is no image: calls are not linked yet", 0, None, (), (), 0)
+    budgets = budget_lines(folder, pieces, parts, stack)
+    return SizeReport(folder, pieces, NO_FACTS, parts, entities(folder, pieces, parts), None, stack, budgets)
+
+
+def _span(line: BudgetLine) -> Span | None:
+    """Return the place that the manifest names; the application file itself is not at hand."""
+    if not line.place:
+        return None
+    name, _, number = line.place.rpartition(":")
+    return Span(Source(name, ""), int(number), 1)

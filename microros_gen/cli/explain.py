@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`microros-gen explain`: why something is in the image."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import click
+
+from microros_gen.build.explain import Explainer, Explanation
+from microros_gen.build.report import measure
+from microros_gen.sources.components import components_folder, load_catalogue
+
+
+@click.command()
+@click.argument("out", type=click.Path(path_type=Path))
+@click.argument("what", metavar="SYMBOL|FILE|COMPONENT")
+@click.option(
+    "--format",
+    "kind",
+    type=click.Choice(("table", "json")),
+    default="table",
+    show_default=True,
+    help="Lines for people, or JSON for programs.",
+)
+def command(out: Path, what: str, kind: str) -> None:
+    """Say where SYMBOL, FILE or COMPONENT of OUT (made by `build`) comes from, and why it is there.
+
+    A symbol may be given by a unique beginning, a file by its name alone; a type (pkg/msg/Type) works as well. For
+    what is not in the image the answer says what would bring it.
+
+    \b
+    microros-gen explain build/pure_sender rcl_publish
+    microros-gen explain build/pure_sender xrce_stream_reliable.c
+    microros-gen explain build/pure_sender ping
+    microros-gen explain build/pure_sender rcl/timer.h
+    """
+    explanation = Explainer(measure(out), load_catalogue(), _sources_of).explain(what)
+    if kind == "json":
+        data = dataclasses.asdict(explanation)
+        data["holds"] = [{"name": name, "bytes": size} for name, size in explanation.holds]
+        click.echo(json.dumps({"version": 1, **data}, indent=2, sort_keys=True, ensure_ascii=False))
+    else:
+        click.echo(_text(explanation), nl=False)
+
+
+def _sources_of(component: str) -> Iterator[bytes]:
+    for path in sorted((components_folder() / component / "src").glob("*.c*")):
+        yield path.read_bytes()
+
+
+def _text(found: Explanation) -> str:
+    sizes = (
+        f"{found.flash} bytes of flash, {found.ram} of RAM" if found.present else "nothing of it in the image"
+    )
+    lines = [(found.kind, found.name)]
+    lines += [("of", found.of)] if found.of and found.of != found.name else []
+    lines += [("place", found.place)] if found.place and found.place != found.name else []
+    lines += [("size", sizes)]
+    lines += [("note", found.note)] if found.note else []
+    for title, texts in (
+        ("selected", found.reasons),
+        ("needed for", found.entities),
+        ("removed by" if len(found.removes) < 2 else "removed by all of", found.removes),
+        ("or by", found.choices),
+    ):
+        lines += [(title if i == 0 else "", text) for i, text in enumerate(texts)]
+    if len(found.chain) > 1:
+        lines.append(("reached", " → ".join(found.chain)))
+    lines += [("holds" if i == 0 else "", f"{size:>6}  {name}") for i, (name, size) in enumerate(found.holds)]
+    return "".join(f"{title:<17} {text}".rstrip() + "\n" for title, text in lines)
