@@ -153,14 +153,47 @@ def test_a_preconfigured_client_creates_and_deletes_nothing(
         assert {o.name for o in outcome.selection.objects} <= {"client"}
 
 
-@pytest.mark.xfail(
-    strict=True, reason="the component session closes with DELETE; entities_preconfigured is planned"
-)
+@pytest.mark.parametrize("profiles", SETS, ids="+".join)
 def test_the_runtime_can_leave_delete_out(
-    middleware: Middleware, real_catalogue: Catalogue, resolve_with: ResolveWith
+    profiles: tuple[str, ...], middleware: Middleware, real_catalogue: Catalogue, resolve_with: ResolveWith
 ) -> None:
-    outcome = resolve_with(real_catalogue, "pure_sender", text=axes_text("preconfigured", "udp", "none"))
-    assert not forbidden(outcome, middleware)
+    for liveliness in ("ping", "none"):
+        outcome = resolve_with(real_catalogue, *profiles, text=axes_text("preconfigured", "udp", liveliness))
+        assert not forbidden(outcome, middleware)
+        assert not {"CREATE", "DELETE"} & {c.name for c in outcome.selection.sends}
+        reads = {"subscribe", "services", "discovery"} & set(outcome.names())
+        assert reads or "STATUS" not in {c.name for c in outcome.selection.receives}
+        assert not {"session_close", "entities"} & set(outcome.names())
+
+
+@pytest.mark.parametrize("entities", ENTITIES)
+@pytest.mark.parametrize("creation", ["best_effort", "reliable"])
+def test_each_way_to_create_shows_its_xrce_profiles(
+    entities: str, creation: str, middleware: Middleware, real_catalogue: Catalogue, resolve_with: ResolveWith
+) -> None:
+    text = f"entities: {entities}\ncreation: {creation}\nliveliness: none\ninterfaces: []\n"
+    outcome = resolve_with(real_catalogue, "pure_sender", text=text)
+    assert not forbidden(outcome, middleware) - {"ACKNACK", "HEARTBEAT"}
+    selection = outcome.selection
+    assert [x.name for x in selection.xrce_profiles] == ["write", "configure_entities", "udp"]
+    assert [x.name for x in selection.agent_profiles] == (
+        ["file_configuration"] if entities == "reference" else []
+    )
+    assert [s.name for s in selection.sends][:3] == ["CREATE_CLIENT", "CREATE", "DELETE"]
+    ways = {name for name in outcome.names() if name.startswith("entities_")}
+    assert ways == {f"entities_{entities}"}
+    assert ("stream_reliable_input" in outcome.names()) == (creation == "reliable")
+
+
+def test_a_stream_for_creation_where_nothing_is_created(
+    real_catalogue: Catalogue, resolve_with: ResolveWith
+) -> None:
+    outcome = resolve_with(
+        real_catalogue, "pure_sender", text="entities: preconfigured\ncreation: reliable\n"
+    )
+    (said,) = outcome.said
+    assert said.startswith("microros.yaml:") and ": error: creation: reliable (microros.yaml:" in said
+    assert "contradicts entities: preconfigured (microros.yaml:" in said and "Remove `creation:`" in said
 
 
 def test_a_preconfigured_pure_sender_only_writes(resolve_with: ResolveWith, catalogue: Catalogue) -> None:
