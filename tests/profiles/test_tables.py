@@ -192,8 +192,10 @@ def test_a_stream_for_creation_where_nothing_is_created(
         real_catalogue, "pure_sender", text="entities: preconfigured\ncreation: reliable\n"
     )
     (said,) = outcome.said
-    assert said.startswith("microros.yaml:") and ": error: creation: reliable (microros.yaml:" in said
-    assert "contradicts entities: preconfigured (microros.yaml:" in said and "Remove `creation:`" in said
+    assert said.startswith("microros.yaml:")
+    assert ": error: creation: reliable (microros.yaml:" in said
+    assert "contradicts entities: preconfigured (microros.yaml:" in said
+    assert "Remove `creation:`" in said
 
 
 def test_a_preconfigured_pure_sender_only_writes(resolve_with: ResolveWith, catalogue: Catalogue) -> None:
