@@ -25,6 +25,8 @@ class Client:
     probed: float = 0.0
     asleep: bool = False
     """Not heard for `timeout_s`: its entities are not in the ROS graph, and return when it is heard."""
+    adopted: bool = False
+    """It did not open its session with this agent (see `preconfigured`)."""
     unacknowledged: set[int] = field(default_factory=set)
     """Reliable input streams whose ACKNACK is still to be sent."""
     ready: deque[tuple[bytes, int, int, bool]] = field(default_factory=deque)

@@ -13,9 +13,10 @@ from pathlib import Path
 
 from microros_gen.agent.clients import Client, ClientTable
 from microros_gen.agent.limits import PROBES, Limits
-from microros_gen.agent.lobby import Lobby
+from microros_gen.agent.lobby import Held, Lobby
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.operations import Operations
+from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.representation import References
 from microros_gen.agent.ros.bridge import Bridge, BridgeError
 from microros_gen.agent.transport.base import Transport
@@ -45,6 +46,7 @@ class Agent:
         log: EventLog,
         limits: Limits,
         references: References | None = None,
+        preconfigured: Preconfigured | None = None,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._bridge = bridge
@@ -53,7 +55,8 @@ class Agent:
         self._clock = clock
         self._to_acknowledge: set[Client] = set()
         self.clients = ClientTable()
-        self._lobby = Lobby(self.clients, bridge, log, limits, references or References())
+        held = Held(references or References(), preconfigured or Preconfigured())
+        self._lobby = Lobby(self.clients, bridge, log, limits, held)
         self._operations = Operations(log, limits)
         self.samples = 0
         """Samples that were handed to ROS 2."""
@@ -101,8 +104,9 @@ class Agent:
         session_id = data[0]
         client = self.clients.at(address) if start == 4 else self.clients.with_key(data[4:8])
         if client is None or session_id != client.session.link.session:
-            self._lobby.visit(data, start, client, address, transport, self._clock())
-            return
+            client = self._lobby.visit(data, start, client, address, transport, self._clock())
+            if client is None:
+                return
         client.heard = self._clock()
         if start == 8 and client.address != address:
             self._lobby.move(client, transport, address)
@@ -145,6 +149,11 @@ class Agent:
         """Carry out a submessage that is no sample; False when it took the client away."""
         if identifier == SubmessageId.DELETE and end - at >= 4 and data[at + 3] & 0x0F == ObjectKind.CLIENT:
             self._lobby.leave(client, data, at)
+            self._to_acknowledge.discard(client)
+            client.ready.clear()
+            return False
+        if client.adopted and identifier in (SubmessageId.GET_INFO, SubmessageId.CREATE):
+            self._lobby.send_away(client)
             self._to_acknowledge.discard(client)
             client.ready.clear()
             return False

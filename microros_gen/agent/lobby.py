@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
+from dataclasses import dataclass
 
 from microros_gen.agent.clients import Client, ClientTable
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.objects import ObjectTree
-from microros_gen.agent.operations import agent_info
+from microros_gen.agent.operations import agent_info, tell_outcome
+from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.representation import References
 from microros_gen.agent.ros.bridge import Bridge
 from microros_gen.agent.session import Session
@@ -23,8 +25,10 @@ from microros_gen.agent.wire.constants import (
     VERSION,
     ObjectKind,
     Status,
+    is_reliable,
 )
-from microros_gen.agent.wire.entity_messages import Delete, StatusReply
+from microros_gen.agent.wire.data_messages import WriteData
+from microros_gen.agent.wire.entity_messages import Delete, Heartbeat, StatusReply
 from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.message import Header, split
 from microros_gen.agent.wire.session_messages import CreateClient, GetInfo, StatusAgent
@@ -35,17 +39,26 @@ HARD_LIVELINESS = "uxr_hl"
 """Property by which a client asks for a time-out of its own, in ms."""
 
 
+@dataclass(frozen=True)
+class Held:
+    """What the agent's files say of objects: those that clients name, and those that they never speak of."""
+
+    references: References
+    preconfigured: Preconfigured
+
+
 class Lobby:
     """Lets clients in and out; keeps the client table."""
 
     def __init__(
-        self, clients: ClientTable, bridge: Bridge, log: EventLog, limits: Limits, references: References
+        self, clients: ClientTable, bridge: Bridge, log: EventLog, limits: Limits, held: Held
     ) -> None:
         self._clients = clients
         self._bridge = bridge
         self._log = log
         self._limits = limits
-        self._references = references
+        self._held = held
+        self._never_adopted: set[bytes] = set()
 
     def visit(
         self,
@@ -55,10 +68,11 @@ class Lobby:
         address: Hashable,
         transport: Transport,
         now: float,
-    ) -> None:
+    ) -> Client | None:
         """Answer a message outside of any session: CREATE_CLIENT, GET_INFO, and DELETE of a client long gone.
 
-        `client` is who is known at this address. Everything else is counted, and not answered.
+        `client` is who is known at this address. Everything else is counted, and not answered; but what comes from
+        a client that is to be adopted is not dealt with here, and that client returned.
         """
         header = Header.decode(data)
         for identifier, flags, at, end in split(data, start)[:1]:
@@ -74,8 +88,11 @@ class Lobby:
             elif isinstance(submessage, Delete) and submessage.object & 0x0F == ObjectKind.CLIENT:
                 status = StatusReply(submessage.request, submessage.object, Status.OK)
                 transport.send(header.encode() + encode(status), address)
+            elif isinstance(submessage, WriteData | Heartbeat) and client is None:
+                return self._adopt(header, submessage, address, transport, now)
             else:
                 raise MalformedError("no_session", f"{submessage.ID.name} without a session")
+        return None
 
     def move(self, client: Client, transport: Transport, address: Hashable) -> None:
         """Note that `client` sends from another address now."""
@@ -105,6 +122,11 @@ class Lobby:
         self._clients.remove(client)
         client.objects.clear()
         self._tell(client, "client_gone", "client {client} " + why)
+
+    def send_away(self, client: Client) -> None:
+        """Dismiss a client that was adopted and does what that one would not do; it is not adopted again."""
+        self._never_adopted.add(client.session.link.key)
+        self.dismiss(client, "sent away: it is not what its samples were taken for; it is not adopted again")
 
     def put_to_sleep(self, client: Client) -> None:
         """Take the entities of a client that is not heard out of the ROS graph; its session stays."""
@@ -157,18 +179,61 @@ class Lobby:
             return Status.OK
         if client is not None:
             self.dismiss(client, "replaced: it came with another session id")
-        if not self._has_room():
+        new = self._add(link, address, transport, self._timeout(wanted), now)
+        if new is None:
             return Status.RESOURCES
-        name = f"xrce_client_{wanted.key.hex().upper()}"
-        objects = ObjectTree(self._bridge, self._references, self._limits.objects, name)
-        session = Session(link, self._limits)
-        new = Client(session, objects, transport, address, self._timeout(wanted), heard=now)
-        self._clients.add(new)
         text = "client {client} connected from {peer} (session {session}, MTU {mtu})"
         self._tell(
             new, "client_connected", text, peer=new.place, session=f"{wanted.session:#04x}", mtu=wanted.mtu
         )
+        self._give(new)
         return Status.OK
+
+    def _add(
+        self, link: Link, address: Hashable, transport: Transport, timeout_s: float, now: float
+    ) -> Client | None:
+        if not self._has_room():
+            return None
+        name = f"xrce_client_{link.key.hex().upper()}"
+        objects = ObjectTree(self._bridge, self._held.references, self._limits.objects, name)
+        new = Client(Session(link, self._limits), objects, transport, address, timeout_s, heard=now)
+        self._clients.add(new)
+        return new
+
+    def _give(self, client: Client) -> None:
+        """Make the objects that files have for a client; those that it has stay."""
+        for given in self._held.preconfigured.objects(client.session.link.key):
+            outcome = client.objects.give(given.id, given.parent, given.description)
+            tell_outcome(self._log, client, given.id, outcome)
+
+    def _adopt(
+        self,
+        header: Header,
+        submessage: WriteData | Heartbeat,
+        address: Hashable,
+        transport: Transport,
+        now: float,
+    ) -> Client | None:
+        """Return the client that a message without a session is from (see `preconfigured`); MalformedError: none."""
+        if isinstance(submessage, Heartbeat):
+            writer, fits = None, is_reliable(submessage.stream)
+        else:
+            writer, fits = submessage.object, not is_reliable(header.stream)
+        known = [*self._never_adopted, *(client.session.link.key for client in self._clients)]
+        key = self._held.preconfigured.to_adopt(header.key, writer, known)
+        if key is None or not fits or self._clients.at(address) or header.session in OUT_OF_SESSION:
+            raise MalformedError("no_session", f"{submessage.ID.name} without a session")
+        link = Link(header.session, key, self._limits.minimum_mtu)
+        client = self._add(link, address, transport, self._limits.client_timeout_s, now)
+        if client is None:
+            raise MalformedError("no_session", "there is no room for the client")
+        client.adopted = True
+        if isinstance(submessage, Heartbeat):
+            client.session.begin(submessage.stream, submessage.first)
+        text = "client {client} adopted at {peer}: it goes on with a session that it opened before"
+        self._tell(client, "client_adopted", text, peer=client.place)
+        self._give(client)
+        return client
 
     def _welcome_back(
         self, client: Client, link: Link, address: Hashable, transport: Transport, now: float
@@ -176,11 +241,13 @@ class Lobby:
         client.session.reset(link)
         client.unacknowledged.clear()
         client.heard = now
+        client.adopted = False
         if client.address != address:
             self.move(client, transport, address)
         if client.asleep:
             self.wake(client)
         self._tell(client, "client_again", "client {client} connected again, its entities are kept")
+        self._give(client)
 
     def _has_room(self) -> bool:
         if len(self._clients) < self._limits.clients:

@@ -85,6 +85,17 @@ class Outcome:
     entity: Entity | None = None
 
 
+@dataclass(frozen=True)
+class _Wanted:
+    """An object that is to be made, and what is to happen when one with its id is there."""
+
+    id: int
+    parent: int
+    description: Description
+    reuse: bool
+    replace: bool
+
+
 class _RefusedError(Exception):
     def __init__(self, status: Status, reason: str) -> None:
         super().__init__(reason)
@@ -112,8 +123,16 @@ class ObjectTree:
 
     def create(self, create: Create) -> Outcome:
         """Carry out a CREATE by the table of creation modes (DDS-XRCE 1.0, table 7)."""
+        return self._guarded(lambda: self._create(create))
+
+    def give(self, object_id: int, parent: int, description: Description) -> Outcome:
+        """Make an object that the client does not create itself; one that is there and the same stays."""
+        wanted = _Wanted(object_id, parent, description, reuse=True, replace=True)
+        return self._guarded(lambda: self._place(wanted))
+
+    def _guarded(self, make: Callable[[], Outcome]) -> Outcome:
         try:
-            return self._create(create)
+            return make()
         except _RefusedError as error:
             return Outcome(error.status, str(error))
         except BridgeError as error:
@@ -168,11 +187,16 @@ class ObjectTree:
         if create.kind not in _SERVED:
             raise _RefusedError(Status.DENIED, f"objects of kind {_kind_name(create.kind)} are not served")
         description = describe(create, self._references)
-        entity = Entity(object_id, description, self._sources(create, description))
-        if present and create.reuse:
+        return self._place(_Wanted(object_id, create.parent, description, create.reuse, create.replace))
+
+    def _place(self, wanted: _Wanted) -> Outcome:
+        object_id = wanted.id
+        present = self._objects.get(object_id)
+        entity = Entity(object_id, wanted.description, self._sources(wanted))
+        if present and wanted.reuse:
             if (present.description, present.sources) == (entity.description, entity.sources):
                 return Outcome(Status.OK_MATCHED, entity=present)
-            if not create.replace:
+            if not wanted.replace:
                 return Outcome(Status.MISMATCH, "the object exists and differs")
         if present:
             self._remove([present, *self._made_from(present)])
@@ -183,10 +207,11 @@ class ObjectTree:
         self._gone_with_container.discard(object_id)
         return Outcome(Status.OK, entity=entity)
 
-    def _sources(self, create: Create, description: Description) -> tuple[Entity, ...]:
-        if create.kind == ObjectKind.PARTICIPANT:
+    def _sources(self, wanted: _Wanted) -> tuple[Entity, ...]:
+        kind, description = ObjectKind(wanted.id & 0x0F), wanted.description
+        if kind == ObjectKind.PARTICIPANT:
             return ()
-        container = self._find(create.parent, _CONTAINER[ObjectKind(create.kind)])
+        container = self._find(wanted.parent, _CONTAINER[kind])
         if isinstance(description, Endpoint) and description.topic is None:
             return container, self._find(description.topic_id, ObjectKind.TOPIC)
         return (container,)

@@ -75,32 +75,7 @@ class Operations:
         assert isinstance(submessage, Create)
         outcome = client.objects.create(submessage)
         self._answer(client, submessage.request, submessage.object, outcome.status, now)
-        self._tell(client, submessage, outcome)
-
-    def _tell(self, client: Client, create: Create, outcome: Outcome) -> None:
-        kind = ObjectKind(create.kind).name.lower()
-        if outcome.status >= Status.DDS_ERROR:
-            self._log.emit(
-                Level.WARNING,
-                "create_refused",
-                "client {client}: {kind} {object} refused ({status}): {reason}",
-                client=client.name,
-                kind=kind,
-                object=f"{create.object:#06x}",
-                status=outcome.status.name,
-                reason=outcome.reason,
-            )
-        elif outcome.entity and outcome.entity.label and outcome.status == Status.OK:
-            about = outcome.entity.description
-            self._log.emit(
-                Level.INFO,
-                "created",
-                "client {client}: {kind} {label}" + (" ({qos})" if isinstance(about, Endpoint) else ""),
-                client=client.name,
-                kind={"participant": "node", "datawriter": "publisher"}.get(kind, kind),
-                label=outcome.entity.label,
-                qos=str(about.qos) if isinstance(about, Endpoint) else "",
-            )
+        tell_outcome(self._log, client, submessage.object & 0xFFF0 | submessage.kind, outcome)
 
     def _delete(self, client: Client, submessage: Submessage, now: float) -> None:
         assert isinstance(submessage, Delete)
@@ -166,3 +141,30 @@ class Operations:
 def agent_info(question: GetInfo, in_session: bool) -> Info:
     """Return the answer to a GET_INFO; whatever object and mask it names, the agent tells about itself."""
     return Info(question.request, question.object, Status.OK, int(in_session), AgentConfig(), AgentActivity())
+
+
+def tell_outcome(log: EventLog, client: Client, object_id: int, outcome: Outcome) -> None:
+    """Tell of an object that was made, or why it was not."""
+    kind = ObjectKind(object_id & 0x0F).name.lower()
+    if outcome.status >= Status.DDS_ERROR:
+        log.emit(
+            Level.WARNING,
+            "create_refused",
+            "client {client}: {kind} {object} refused ({status}): {reason}",
+            client=client.name,
+            kind=kind,
+            object=f"{object_id:#06x}",
+            status=outcome.status.name,
+            reason=outcome.reason,
+        )
+    elif outcome.entity and outcome.entity.label and outcome.status == Status.OK:
+        about = outcome.entity.description
+        log.emit(
+            Level.INFO,
+            "created",
+            "client {client}: {kind} {label}" + (" ({qos})" if isinstance(about, Endpoint) else ""),
+            client=client.name,
+            kind={"participant": "node", "datawriter": "publisher"}.get(kind, kind),
+            label=outcome.entity.label,
+            qos=str(about.qos) if isinstance(about, Endpoint) else "",
+        )

@@ -58,6 +58,10 @@ class Session:
             self._reassembly[heartbeat.stream].drop()
         return ready
 
+    def begin(self, stream: int, first: int) -> None:
+        """Let reliable input stream `stream` begin at `first`: what was before, another agent had."""
+        self._open_reliable(stream).next = first
+
     def fragment(self, stream: int, fragment: Fragment) -> bytes | None:
         """Take a FRAGMENT that came on `stream`; return the submessages that it completes."""
         if not is_reliable(stream):

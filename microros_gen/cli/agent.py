@@ -16,12 +16,16 @@ import click
 from microros_gen.agent.core import Agent
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog, Level
+from microros_gen.agent.preconfigured import Preconfigured
+from microros_gen.agent.representation import References
+from microros_gen.agent.representation.reference_file import read_references
 from microros_gen.agent.ros.rclpy_bridge import MAXIMUM_DOMAIN, open_bridge
 from microros_gen.agent.server import Server, stopped_by_signals
 from microros_gen.agent.trace import TracedTransport
 from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.transport.udp4 import Udp4
-from microros_gen.diagnostics import Diagnostic, UserError
+from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, UserError
+from microros_gen.parse.preconfigured import parse_preconfigured
 
 _DEFAULTS = Limits()
 
@@ -39,6 +43,8 @@ def command() -> None:
     microros-gen agent udp4 --port 8888
     microros-gen agent serial --dev /dev/ttyUSB0 --baud 115200
     microros-gen agent pty --link /tmp/board
+    microros-gen agent udp4 --references build/x/agent/references.xml
+    microros-gen agent serial --dev /dev/ttyUSB0 --entities build/y/agent/entities.json
     """
 
 
@@ -65,6 +71,22 @@ _COMMON = (
         help="Further clients are refused.",
     ),
     click.option(
+        "--references",
+        multiple=True,
+        type=click.Path(path_type=Path),
+        metavar="FILE",
+        help="XML profiles that clients name instead of describing their entities, as the public agent takes them"
+        " with -r; `build` writes OUT/agent/references.xml. May be given several times.",
+    ),
+    click.option(
+        "--entities",
+        multiple=True,
+        type=click.Path(path_type=Path),
+        metavar="FILE",
+        help="Entities (JSON) to make for clients that create none, when they open their session; `build` writes"
+        " OUT/agent/entities.json. May be given several times.",
+    ),
+    click.option(
         "-v",
         "--verbose",
         count=True,
@@ -87,28 +109,58 @@ class _Common:
     domain: int | None
     client_timeout: float
     max_clients: int
+    references: tuple[Path, ...]
+    entities: tuple[Path, ...]
     verbose: int
     log_format: str
 
-    def log(self) -> EventLog:
-        """Return the log, on stderr."""
-        return EventLog(sys.stderr, self.log_format == "json", self.verbose)
-
-    def serve(self, transports: Sequence[Transport], log: EventLog) -> None:
-        """Serve until a signal comes; a ready line for each transport goes to stdout."""
+    def serve(self, open_transports: Callable[[EventLog], Sequence[Transport]]) -> None:
+        """Serve until a signal comes; a ready line for each transport goes to stdout. Files are read first."""
         limits = replace(_DEFAULTS, clients=self.max_clients, client_timeout_s=self.client_timeout)
+        references, preconfigured = self._files()
+        log = EventLog(sys.stderr, self.log_format == "json", self.verbose)
+        transports = open_transports(log)
         try:
-            agent = Agent(open_bridge(limits.domains, self.domain), log, limits)
+            bridge = open_bridge(limits.domains, self.domain)
         except UserError:
             for transport in transports:
                 transport.close()
             raise
+        agent = Agent(bridge, log, limits, references, preconfigured)
         if self.verbose:
             transports = [TracedTransport(transport, log) for transport in transports]
         server = Server(agent, transports, log)
         announcements = EventLog(sys.stdout, self.log_format == "json")
         with stopped_by_signals(server):
             server.run(lambda transport: _announce(announcements, transport), time.monotonic)
+
+    def _files(self) -> tuple[References, Preconfigured]:
+        """Return what the files say; UserError with the faults of all of them."""
+        diagnostics = Diagnostics()
+        references, preconfigured = References(), Preconfigured()
+        profiles, entities = (_read(paths, diagnostics) for paths in (self.references, self.entities))
+        try:
+            references = read_references(profiles)
+        except UserError as error:
+            diagnostics.extend(error.diagnostics)
+        try:
+            preconfigured = Preconfigured(parse_preconfigured(entities, diagnostics))
+        except UserError as error:
+            diagnostics.extend(error.diagnostics)
+        diagnostics.check()
+        return references, preconfigured
+
+
+def _read(paths: Sequence[Path], diagnostics: Diagnostics) -> list[Source]:
+    sources = []
+    for path in dict.fromkeys(paths):
+        try:
+            sources.append(Source(str(path), path.read_text(encoding="utf-8-sig")))
+        except OSError as error:
+            diagnostics.error(f"{path} cannot be read: {error.strerror}")
+        except UnicodeDecodeError as error:
+            diagnostics.error(f"{path} is not UTF-8 (byte {error.start})", hint="Save it as UTF-8")
+    return sources
 
 
 def _common(function: Callable[..., None]) -> Callable[..., None]:
@@ -141,8 +193,7 @@ def udp4(port: int, host: str, **common: Any) -> None:
     microros-gen agent udp4 --port 8888
     microros-gen agent udp4 --bind 0.0.0.0 --client-timeout 10 -v
     """
-    options = _Common(**common)
-    options.serve([Udp4(host, port)], options.log())
+    _Common(**common).serve(lambda _log: [Udp4(host, port)])
 
 
 @command.command()
@@ -177,18 +228,20 @@ def serial(devices: tuple[str, ...], baud: int, **common: Any) -> None:
     microros-gen agent serial --dev /dev/ttyUSB0
     microros-gen agent serial --dev /dev/ttyACM0 --dev /dev/ttyACM1 --baud 921600
     """
-    options = _Common(**common)
-    log = options.log()
     module = _serial_module()
-    lines: list[Transport] = []
-    try:
-        for device in dict.fromkeys(devices):
-            lines.append(module.serial_line(device, baud, log))
-    except UserError:
-        for line in lines:
-            line.close()
-        raise
-    options.serve(lines, log)
+
+    def open_lines(log: EventLog) -> Sequence[Transport]:
+        lines: list[Transport] = []
+        try:
+            for device in dict.fromkeys(devices):
+                lines.append(module.serial_line(device, baud, log))
+        except UserError:
+            for line in lines:
+                line.close()
+            raise
+        return lines
+
+    _Common(**common).serve(open_lines)
 
 
 @command.command()
@@ -209,9 +262,8 @@ def pty(link: Path | None, **common: Any) -> None:
     microros-gen agent pty
     microros-gen agent pty --link /tmp/board
     """
-    options = _Common(**common)
-    log = options.log()
-    options.serve([_serial_module().Pty(log, link)], log)
+    module = _serial_module()
+    _Common(**common).serve(lambda log: [module.Pty(log, link)])
 
 
 def _serial_module() -> Any:

@@ -4,9 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
-from microros_gen.agent.representation.description import Description
+from microros_gen.agent.representation.description import Description, Participant
+from microros_gen.agent.wire.constants import ObjectKind
+from microros_gen.diagnostics import nearest
+
+_LONGEST_COMPARED = 255
+"""Characters of a name for which a similar one is looked for; the time for that grows with its square."""
 
 
 class UnknownReferenceError(Exception):
@@ -15,7 +20,7 @@ class UnknownReferenceError(Exception):
 
 @dataclass(frozen=True)
 class References:
-    """Named descriptions, by object kind and name; empty unless a configuration gives some."""
+    """Named descriptions, by object kind and name; empty unless files give some (`reference_file`)."""
 
     known: Mapping[tuple[int, str], Description] = field(default_factory=dict)
 
@@ -26,5 +31,15 @@ class References:
         """
         found = self.known.get((kind, name))
         if found is None:
-            raise UnknownReferenceError(f"reference '{name}' is not known to this agent")
-        return found
+            raise UnknownReferenceError(self._explain(kind, name))
+        return replace(found, domain=domain) if isinstance(found, Participant) else found
+
+    def _explain(self, kind: int, name: str) -> str:
+        if not self.known:
+            return f"reference '{name}': this agent has none; start it with --references FILE"
+        names = [known for k, known in self.known if k == kind]
+        what = ObjectKind(kind).name.lower()
+        hint = nearest(name, names) if len(name) <= _LONGEST_COMPARED else None
+        return f"reference '{name}' is none of the {len(names)} of kind {what}" + (
+            f". {hint}" if hint else ""
+        )

@@ -29,6 +29,14 @@ Element = ElementTree.Element
 _MAXIMUM_DEPTH = 65_535
 
 
+class XmlError(MalformedError):
+    """An element that does not say what it should; `element` is it, or the one that lacks it."""
+
+    def __init__(self, element: Element, detail: str) -> None:
+        super().__init__("xml", detail)
+        self.element = element
+
+
 def from_xml(kind: int, text: str, domain: int) -> Description:
     """Return what `text` describes; MalformedError, or UnsupportedKindError for kinds without an XML form."""
     if kind not in _READERS:
@@ -40,6 +48,15 @@ def from_xml(kind: int, text: str, domain: int) -> Description:
         raise MalformedError("xml", "empty")
     element = _find(_parse(text), tag)
     return read(element, domain)
+
+
+def from_profile(element: Element) -> tuple[int, Description] | None:
+    """Return kind and description of a profile; None for profiles of other things; XmlError for a faulty one."""
+    tag = _OLDER_TAGS.get(element.tag, element.tag)
+    for kind, (name, read) in _READERS.items():
+        if name == tag and kind not in (ObjectKind.PUBLISHER, ObjectKind.SUBSCRIBER):
+            return kind, read(element, 0)
+    return None
 
 
 def _parse(text: str) -> Element:
@@ -57,7 +74,7 @@ def _parse(text: str) -> Element:
 def _find(root: Element, tag: str) -> Element:
     found = root if root.tag == tag else root.find(tag)
     if found is None:
-        raise MalformedError("xml", f"no element '{tag}'")
+        raise XmlError(root, f"no element '{tag}'")
     return found
 
 
@@ -68,7 +85,8 @@ def _text(element: Element, path: str, default: str = "") -> str:
 def _required(element: Element, path: str) -> str:
     value = _text(element, path)
     if not value:
-        raise MalformedError("xml", f"no text in '{path}'")
+        found = element.find(path)
+        raise XmlError(element if found is None else found, f"no text in '{path}'")
     return value
 
 
@@ -107,7 +125,10 @@ def _qos(element: Element, reliability: str, durability: Durability) -> Qos:
     history = _choice(element, "topic/historyQos/kind", "KEEP_LAST", ("KEEP_LAST", "KEEP_ALL"))
     depth = _text(element, "topic/historyQos/depth", "1")
     if not (depth.isascii() and depth.isdigit() and len(depth) < 9 and int(depth) <= _MAXIMUM_DEPTH):
-        raise MalformedError("xml", "a history depth that is no number from 0 to 65535")
+        place = element.find("topic/historyQos/depth")
+        raise XmlError(
+            element if place is None else place, "a history depth that is no number from 0 to 65535"
+        )
     return Qos(kind == "RELIABLE", Durability[lasting], history == "KEEP_LAST", int(depth))
 
 
@@ -116,13 +137,14 @@ def _choice(element: Element, path: str, default: str, choices: tuple[str, ...])
     for ending in ("", "_RELIABILITY_QOS", "_DURABILITY_QOS", "_HISTORY_QOS"):
         if value.removesuffix(ending) in choices:
             return value.removesuffix(ending)
-    raise MalformedError("xml", f"'{path}' is none of {', '.join(choices)}")
+    place = element.find(path)
+    raise XmlError(element if place is None else place, f"'{path}' is none of {', '.join(choices)}")
 
 
 def _service(element: Element, _domain: int) -> Service:
     names = [element.get(name, "") for name in ("service_name", "request_type", "reply_type")]
     if not all(names):
-        raise MalformedError("xml", "service_name, request_type or reply_type is missing")
+        raise XmlError(element, "service_name, request_type or reply_type is missing")
     topics = (_text(element, "request_topic_name"), _text(element, "reply_topic_name"))
     return Service(names[0], names[1], names[2], *topics)
 
@@ -139,3 +161,6 @@ _READERS: Mapping[int, tuple[str, Callable[[Element, int], Description]]] = Mapp
         ObjectKind.REPLIER: ("replier", _service),
     }
 )
+
+_OLDER_TAGS: Mapping[str, str] = MappingProxyType({"publisher": "data_writer", "subscriber": "data_reader"})
+"""In files of profiles the older names of writers and readers; in a CREATE they are groups."""

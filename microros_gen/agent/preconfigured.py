@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Clients that create nothing: the agent holds their objects, and makes them when they open their session.
+
+The objects are then like created ones: they sleep and wake with the client, a CREATE of the same finds them, a DELETE
+takes them away until the session is opened again, and they leave the ROS graph with the session.
+
+A client that is able to (its `liveliness` is ping or acknack) notices a new agent and opens its session again. One with
+`liveliness: none` never does, and its samples carry a session id that many clients use (0x81) and no key: they name
+their sender only by the address, which a new agent does not know. To take such a sample for that of the only
+client that is missing would publish the samples of any other client without a session under wrong names, and would keep
+that client from healing. So the agent does this (it adopts the client) only where the file says `adopt: true`, that is
+where whoever runs it knows that no other client comes, and only when
+
+- the message carries that client's key (session ids below 0x80), or exactly one client to adopt is not in session;
+- its first submessage is a WRITE_DATA to one of the client's data writers, or on a reliable stream the HEARTBEAT
+  that goes before: only that says where the stream goes on;
+- nobody is in session at its address.
+
+An adopted client that pings or creates something shows that it is another one: it is sent away, and heals.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from microros_gen.agent.representation import (
+    Description,
+    Durability,
+    Endpoint,
+    Group,
+    Participant,
+    Qos,
+    Topic,
+)
+from microros_gen.agent.ros.bridge import BridgeError
+from microros_gen.agent.ros.names import ros_node, ros_topic, ros_type
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.model.preconfigured import PreconfiguredClient, PreconfiguredObject
+
+
+@dataclass(frozen=True)
+class Given:
+    """An object that the agent makes: its id, what contains it, what it is."""
+
+    id: int
+    parent: int
+    description: Description
+
+
+class Preconfigured:
+    """Objects by the key of their client."""
+
+    def __init__(self, clients: Sequence[PreconfiguredClient] = ()) -> None:
+        """Take what a file says; UserError for names that ROS 2 does not have."""
+        diagnostics = Diagnostics()
+        for client in clients:
+            for item in client.objects:
+                _check_names(item, diagnostics)
+        diagnostics.check()
+        self._by_key = {c.key: tuple(_given(item) for item in c.objects) for c in clients}
+        self._adopted = {c.key for c in clients if c.adopt and c.key is not None}
+
+    def objects(self, key: bytes) -> tuple[Given, ...]:
+        """Return the objects of the client `key`, parents first."""
+        found = self._by_key.get(key)
+        return self._by_key.get(None, ()) if found is None else found
+
+    def to_adopt(self, key: bytes, writer: int | None, in_session: Iterable[bytes]) -> bytes | None:
+        """Return the key of the client that a message without a session is from, or None.
+
+        `key` is what its header says (may be empty), `writer` the data writer that it writes to (None: a HEARTBEAT).
+        """
+        missing = self._adopted.difference(in_session)
+        candidates = missing & {key} if key else missing
+        if len(candidates) != 1:
+            return None
+        (found,) = candidates
+        fits = writer is None or any(
+            isinstance(o.description, Endpoint) and o.id == writer for o in self._by_key[found]
+        )
+        return found if fits else None
+
+
+def _given(item: PreconfiguredObject) -> Given:
+    return Given(item.id, item.parent, _description(item))
+
+
+def _description(item: PreconfiguredObject) -> Description:
+    if item.kind == "participant":
+        return Participant(item.name, item.domain)
+    if item.kind == "topic":
+        return Topic(item.name, item.type)
+    if item.kind == "publisher":
+        return Group()
+    return Endpoint(
+        None, item.topic, Qos(item.reliable, Durability(item.durability), item.keep_last, item.depth)
+    )
+
+
+def _check_names(item: PreconfiguredObject, diagnostics: Diagnostics) -> None:
+    try:
+        if item.kind == "participant":
+            ros_node(item.name)
+        elif item.kind == "topic":
+            ros_topic(item.name)
+            ros_type(item.type)
+    except BridgeError as error:
+        diagnostics.error(
+            str(error), item.span, "Names are those of DDS: rt/topic, package::msg::dds_::Type_"
+        )

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Objects that an agent makes for clients that create none (`entities: preconfigured`)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from microros_gen.diagnostics import Span
+
+
+@dataclass(frozen=True)
+class PreconfiguredObject:
+    """One object; `id` is (index << 4) | kind as in DDS-XRCE, `parent` that of what contains it.
+
+    A participant has `name` and `domain`, a topic `name` and `type` (names of DDS), a data writer `topic` (an object
+    id) and its quality of service; depth 0 stands for the default of 1.
+    """
+
+    id: int
+    kind: str
+    parent: int = 0
+    name: str = ""
+    domain: int = 0
+    type: str = ""
+    topic: int = 0
+    reliable: bool = True
+    durability: str = "volatile"
+    keep_last: bool = True
+    depth: int = 0
+    span: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True)
+class PreconfiguredClient:
+    """A client by its key (4 bytes, None: every client without an entry of its own) and its objects, parents first.
+
+    `adopt`: the client never opens its session again, so its samples are taken when no session of it is known.
+    """
+
+    key: bytes | None
+    objects: tuple[PreconfiguredObject, ...]
+    adopt: bool = False
+    span: Span | None = field(default=None, compare=False, repr=False)
