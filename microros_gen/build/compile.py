@@ -45,7 +45,12 @@ class _Unit:
 
 
 def compile_tree(
-    out: Path, sources: Sequence[str], example: str, image: str | None, tools: Toolchain, script: str | None = None
+    out: Path,
+    sources: Sequence[str],
+    example: str,
+    image: str | None,
+    tools: Toolchain,
+    script: str | None = None,
 ) -> BuildReport:
     """Compile `sources` (relative paths) to lib/libmicroros.a, and `example` with it to bin/`image`.
 
@@ -206,7 +211,11 @@ def _too_large(said: str) -> str | None:
     if match is None:
         return None
     region, size = match.groups()
-    lower = "memory.stack, pools or limits" if region == "RAM" else "what is selected, or `errors: text` to `errors: code`"
+    lower = (
+        "memory.stack, pools or limits"
+        if region == "RAM"
+        else "what is selected, or `errors: text` to `errors: code`"
+    )
     return f"It takes {size} bytes more than the target's {region.lower()}: lower {lower}"
 
 

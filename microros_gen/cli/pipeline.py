@@ -106,7 +106,13 @@ def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
     diagnostics.check()
     target = request.target
     selection = resolve_selection(
-        request.application, resolved, catalogue, load_middleware(), diagnostics, target.port, target.transport
+        request.application,
+        resolved,
+        catalogue,
+        load_middleware(),
+        diagnostics,
+        target.port,
+        target.transport,
     )
     diagnostics.check()
     own = tuple(p for p in profiles.profiles.values() if not p.builtin)

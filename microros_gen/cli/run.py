@@ -3,16 +3,22 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
+import os
+import shlex
 import signal
 import subprocess
 import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
 from typing import Any
 
 import click
 
+from microros_gen.cli.emulator import Emulator, Machine
 from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.output.tree import MANIFEST
 
@@ -21,22 +27,94 @@ AGENT_READY = "agent ready"
 
 @click.command()
 @click.argument("out", type=click.Path(path_type=Path))
-@click.option("--no-agent", is_flag=True, help="Start the image alone: an agent runs already.")
+@click.option(
+    "--no-agent",
+    is_flag=True,
+    help="Start the image alone: an agent runs already, or you start one yourself.",
+)
 def command(out: Path, no_agent: bool) -> int:
     """Start the image of OUT (made by `build`) and an agent for it; Ctrl-C or SIGTERM ends both.
 
-    The exit status is the image's (128 and more: a signal ended it), or 0 after Ctrl-C.
+    An image for a board runs in the target's emulator, its serial line on a pseudo-terminal, whose path is printed:
+    an agent may leave it and come back, the image runs on. The exit status is the image's (128 and more: a signal
+    ended it), or 0 after Ctrl-C. When a board restarts itself, because main() returned or after a fault, the run
+    ends with 0; with --no-agent the board starts again, as on a desk.
 
     \b
     microros-gen run build/pure_sender
     microros-gen run build/pure_sender --no-agent
     """
-    image, port = _image_of(out)
+    image = _image_of(out)
     with _Parts() as parts:
-        if not no_agent:
-            _start_agent(parts, port)
-        status = parts.wait_for(parts.start([str(image)]))
+        start = _run_here if image.machine is None else _run_emulated
+        try:
+            status = start(parts, image, no_agent)
+        except UserError:
+            if not parts.stopped:
+                raise
+            status = 0
     return 0 if parts.stopped else status
+
+
+@dataclass(frozen=True)
+class _Image:
+    """A built image: `machine` is what emulates its board, `transport` what the manifest says of it."""
+
+    out: Path
+    path: Path
+    machine: Machine | None
+    transport: Mapping[str, Any]
+
+    @property
+    def agent_files(self) -> list[str]:
+        """The options that give an agent what it must hold for this image."""
+        options: list[str] = []
+        for option, name in (("--references", "references.xml"), ("--entities", "entities.json")):
+            path = self.out / "agent" / name
+            options += [option, str(path)] if path.is_file() else []
+        return options
+
+
+def _run_here(parts: _Parts, image: _Image, no_agent: bool) -> int:
+    if not no_agent:
+        _start_agent(parts, [*_agent_of_host(image), *image.agent_files])
+    return parts.wait_for(parts.start([str(image.path)]))
+
+
+def _run_emulated(parts: _Parts, image: _Image, no_agent: bool) -> int:
+    assert image.machine is not None
+    command = image.machine.command(image.path, restarts=no_agent)
+    process = parts.start(command, subprocess.PIPE, subprocess.PIPE)
+    emulator = Emulator(process)
+    device = emulator.device()
+    agent = [
+        "serial",
+        "--dev",
+        device,
+        "--baud",
+        str(image.transport.get("baud", 115_200)),
+        *image.agent_files,
+    ]
+    click.echo(f"emulator ready: serial {device} ({image.machine.program})")
+    if no_agent:
+        click.echo(f"its agent: microros-gen agent {shlex.join(agent)}")
+    else:
+        with _held_open(device):
+            _start_agent(parts, agent)
+    sys.stdout.flush()
+    emulator.go_on()
+    emulator.drain()
+    return parts.wait_for(process)
+
+
+@contextlib.contextmanager
+def _held_open(device: str) -> Iterator[None]:
+    """Hold a pseudo-terminal open: QEMU asks once a second whether anybody has it, and drops bytes until then."""
+    handle = os.open(device, os.O_RDWR | os.O_NOCTTY)
+    try:
+        yield
+    finally:
+        os.close(handle)
 
 
 class _Parts:
@@ -59,9 +137,11 @@ class _Parts:
         for number, handler in self._previous.items():
             signal.signal(number, handler)
 
-    def start(self, command: list[str], output: int | None = None) -> subprocess.Popen[str]:
-        """Start a process; a signal that came meanwhile ends it too."""
-        process = subprocess.Popen(command, stdout=output, text=True)
+    def start(
+        self, command: list[str], output: int | None = None, given: int | None = None
+    ) -> subprocess.Popen[str]:
+        """Start a process; a signal that came meanwhile ends it too. `output`, `given`: as subprocess has them."""
+        process = subprocess.Popen(command, stdin=given, stdout=output, text=True)
         self._processes.append(process)
         if self.stopped:
             process.terminate()
@@ -88,32 +168,50 @@ class _Parts:
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()
-        if process.stdout is not None:
-            process.stdout.close()
+        for pipe in (process.stdin, process.stdout):
+            if pipe is not None:
+                with contextlib.suppress(OSError):
+                    pipe.close()
 
 
-def _image_of(out: Path) -> tuple[Path, int]:
+def _image_of(out: Path) -> _Image:
     try:
         manifest = json.loads((out / MANIFEST).read_text(encoding="utf-8"))
-        name, transport = manifest["image"], manifest["transport"]
+        name, target, transport = manifest["image"], manifest["target"], manifest["transport"]
+        machine = Machine.of(manifest["emulator"]) if manifest["emulator"] else None
     except (OSError, ValueError, KeyError) as error:
+        message = f"{out} is no output folder of microros-gen"
+        raise UserError([Diagnostic(message, hint="Give the folder that `build` wrote")]) from error
+    if name is None:
+        message = f"{out} holds a library alone: target {target} has no image, or the application must provide a part"
+        raise UserError([Diagnostic(message, hint="`microros-gen build` says which")])
+    path = out / "bin" / name
+    if not path.is_file():
+        hint = "Make it with `microros-gen build`, then run it"
+        raise UserError([Diagnostic(f"{out} holds no image yet", hint=hint)])
+    if machine is None and target != "host":
+        message = f"the image is for {target}, which names no emulator"
         raise UserError(
-            [
-                Diagnostic(
-                    f"{out} is no output folder of microros-gen", hint="Give the folder that `build` wrote"
-                )
-            ]
-        ) from error
-    image = out / "bin" / name
-    if not image.is_file():
-        raise UserError(
-            [Diagnostic(f"{out} holds no image yet", hint="Make it with `microros-gen build`, then run it")]
+            [Diagnostic(message, hint="Add `emulator: {program: …, package: …}` to the target file")]
         )
-    return image.resolve(), int(transport["agent"].rsplit(":", 1)[1])
+    return _Image(out, path.resolve(), machine, transport)
 
 
-def _start_agent(parts: _Parts, port: int) -> None:
-    command = [sys.executable, "-m", "microros_gen", "agent", "udp4", "--port", str(port)]
+def _agent_of_host(image: _Image) -> list[str]:
+    """Return the agent's options for an image that runs on this machine."""
+    kind = image.transport["type"]
+    if kind in ("udp", "tcp"):
+        return [f"{kind}4", "--port", image.transport["agent"].rsplit(":", 1)[1]]
+    device = image.transport.get("device", "")
+    if kind == "serial" and not device.startswith("/dev/"):
+        return ["pty", "--link", device]
+    what = f"opens {device} itself" if kind == "serial" else "has a custom transport"
+    hint = "Start an agent at the other end (microros-gen agent --help), then run with --no-agent"
+    raise UserError([Diagnostic(f"the image {what}: there is no agent that would fit", hint=hint)])
+
+
+def _start_agent(parts: _Parts, options: list[str]) -> None:
+    command = [sys.executable, "-m", "microros_gen", "agent", *options]
     agent = parts.start(command, subprocess.PIPE)
     assert agent.stdout is not None
     for line in agent.stdout:

@@ -16,7 +16,7 @@ def plan_summary(planned: Planned) -> str:
     runtime = project.runtime
     lines = [
         ("profile", f"{project.name} for {project.target.name}: {_components(planned)}"),
-        ("agent", f"{project.selection.transport} {runtime.agent_host}:{runtime.agent_port}"),
+        ("agent", _agent(planned)),
         *(("publishes", line) for line in _entities(planned)),
         (
             "streams",
@@ -42,6 +42,19 @@ def built_summary(out: Path, report: BuildReport, usage: Usage | None, lacks_ima
             ("library", f"{out / report.library}{sizes}"),
             ("image", f"{out / report.image}" if report.image else f"none: {lacks_image}"),
         ]
+    )
+
+
+def _agent(planned: Planned) -> str:
+    project, runtime = planned.project, planned.project.runtime
+    transport = project.selection.transport
+    if transport == "serial":
+        line = runtime.serial_device if project.target.hosted else "the board's line"
+        return f"serial, {line}, {runtime.serial_baud} baud"
+    return (
+        "custom transport of the application"
+        if transport == "custom"
+        else (f"{transport} {runtime.agent_host}:{runtime.agent_port}")
     )
 
 

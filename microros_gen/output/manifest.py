@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import hashlib
 import json
 from collections.abc import Mapping
@@ -23,13 +24,10 @@ def manifest(project: Project, inputs: Mapping[str, bytes], outputs: Mapping[str
     """
     data = {
         "generator": {"name": "microros-gen", "version": __version__},
-        "image": project.image,
+        "image": None if project.lacks_image else project.image,
         "target": project.target.name,
-        "transport": {
-            "type": project.selection.transport,
-            "agent": f"{project.runtime.agent_host}:{project.runtime.agent_port}",
-            "mtu": project.runtime.mtu,
-        },
+        "emulator": dataclasses.asdict(project.target.emulator) if project.target.emulator else None,
+        "transport": _transport(project),
         "plan": project.runtime.plan_id,
         "selection": _selection(project),
         "entities": _entities(project),
@@ -47,6 +45,14 @@ def manifest(project: Project, inputs: Mapping[str, bytes], outputs: Mapping[str
         "outputs": {name: _sha256(content) for name, content in outputs.items()},
     }
     return (json.dumps(data, indent=2, sort_keys=True, ensure_ascii=False) + "\n").encode()
+
+
+def _transport(project: Project) -> dict[str, Any]:
+    runtime, kind = project.runtime, project.selection.transport
+    common = {"type": kind, "mtu": runtime.mtu}
+    if kind == "serial":
+        return {**common, "device": runtime.serial_device, "baud": runtime.serial_baud}
+    return common if kind == "custom" else {**common, "agent": f"{runtime.agent_host}:{runtime.agent_port}"}
 
 
 def _selection(project: Project) -> dict[str, Any]:

@@ -12,7 +12,9 @@ from microros_gen.plan.runtime import RuntimePlan
 
 DEFAULT_STACK = 2048
 _STACK_ALIGNMENT = 16  # RISC-V; the Arm procedure call standard asks for 8
-_FREQUENCY_TOLERANCE = 0.025  # a frame of ten bits is sampled in the middle of its bits: each side may err by half of 5 %
+_FREQUENCY_TOLERANCE = (
+    0.025  # a frame of ten bits is sampled in the middle of its bits: each side may err by half of 5 %
+)
 _LINE_USERS = ("serial", "custom")
 # OMG DDS-XRCE 1.0: a header of 4, a submessage of 4 and 5 (ACKNACK); and around each message a frame, stuffed at the worst.
 _ACKNACK = 13

@@ -14,8 +14,8 @@ from microros_gen.model.names import expand_topic_name
 from microros_gen.model.selection import Selection
 from microros_gen.model.target import Target
 from microros_gen.model.types import Message, TypeName
-from microros_gen.plan.creation import CreateNames, create_size, participant_reference
 from microros_gen.plan.board import BoardPlan, plan_board
+from microros_gen.plan.creation import CreateNames, create_size, participant_reference
 from microros_gen.plan.names import dds_topic, dds_type, participant_name
 from microros_gen.plan.runtime import NodePlan, PublisherPlan, RuntimePlan
 from microros_gen.plan.streams import StreamPlan, Written, plan_streams
@@ -41,7 +41,7 @@ class Project:
     roots: tuple[TypeName, ...]
     streams: StreamPlan
     runtime: RuntimePlan
-    board: BoardPlan = BoardPlan()
+    board: BoardPlan
 
     @cached_property
     def messages(self) -> Mapping[TypeName, Message]:
