@@ -20,7 +20,8 @@ class FakeAgent:
     """State of one agent; `receive` returns the datagrams that it answers with.
 
     `drop` is asked for each datagram that comes in: true loses it. `refuse` maps an object kind to the status
-    that its creation gets.
+    that its creation gets. `pieces` of fragments outlive a gap and a session, as in the public agent; `spoiled` counts
+    wholes that are none, `discarded` messages beyond the window.
     """
 
     silent: bool = False
@@ -35,6 +36,9 @@ class FakeAgent:
     last_handled: int = 0xFFFF
     last_announced: int = 0xFFFF
     waiting: dict[int, bytes] = field(default_factory=dict)
+    pieces: bytes = b""
+    discarded: int = 0
+    spoiled: int = 0
     answers: int = 0
 
     def restart(self) -> None:
@@ -85,15 +89,34 @@ class FakeAgent:
             self.waiting[sequence] = datagram
             if (sequence - self.last_announced) & 0xFFFF <= WINDOW:
                 self.last_announced = sequence
+        elif distance < 0x8000:
+            self.discarded += 1
         self._pop()
         return [self._acknack()]
 
     def _pop(self) -> None:
         while (following := (self.last_handled + 1) & 0xFFFF) in self.waiting:
             self.last_handled = following
-            for identifier, payload in _split(self.waiting.pop(following)):
-                assert identifier == 0x07
-                self._write(payload)
+            datagram = self.waiting.pop(following)
+            if datagram[4] == 0x0D:
+                self._join(datagram)
+            else:
+                self._handle_written(_split(datagram))
+
+    def _handle_written(self, submessages: list[tuple[int, bytes]]) -> None:
+        for identifier, payload in submessages:
+            assert identifier == 0x07
+            self._write(payload)
+
+    def _join(self, datagram: bytes) -> None:
+        ((_, payload),) = _split(datagram)
+        self.pieces += payload
+        if datagram[5] & 2:
+            whole, self.pieces = b"\x81\x80\0\0" + self.pieces, b""
+            if len(whole) > 4 and len(whole) < 8 + struct.unpack_from("<H", whole, 6)[0]:
+                self.spoiled += 1
+            else:
+                self._handle_written(_split(whole))
 
     def _acknack(self) -> bytes:
         first = (self.last_handled + 1) & 0xFFFF

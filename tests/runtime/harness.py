@@ -29,7 +29,6 @@ CORE = (
     "node",
     "publish",
     "cdr",
-    "transport_udp",
     "port_posix",
 )
 SANITIZE = ("-g", "-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
@@ -81,9 +80,11 @@ DECLARED = replace(
 
 def components(plan: RuntimePlan, liveliness: str = "ping") -> tuple[str, ...]:
     """Return the components that the resolver selects for `plan`."""
-    names = [*CORE, f"entities_{plan.entities}"]
+    names = [*CORE, f"entities_{plan.entities}", f"transport_{plan.transport}"]
+    framed = plan.transport == "serial" or (plan.transport == "custom" and plan.framing != "off")
+    names += ["framing"] if framed else []
     names += ["entities", "session_close"] if plan.entities != "preconfigured" else []
-    names += ["stream_reliable_input"] if plan.creation == "reliable" else []
+    names += ["stream_reliable_input"] if plan.reliable_input_slots else []
     names += ["stream_best_effort"] if plan.best_effort_size else []
     names += ["stream_reliable"] if plan.reliable_slots else []
     names += {"ping": ["ping"], "acknack": ["liveliness_acknack"], "none": []}[liveliness]
@@ -106,7 +107,7 @@ def render(out: Path, plan: RuntimePlan, names: Sequence[str]) -> Tree:
     """Write include/ and src/ of the components `names` below `out`."""
     catalogue = load_catalogue()
     chosen = tuple(ChosenComponent(catalogue[name], ("test",)) for name in names)
-    selection = Selection(("test",), chosen, plan.entities, "udp", "ping", (), (), (), (), ())
+    selection = Selection(("test",), chosen, plan.entities, plan.transport, "ping", (), (), (), (), ())
     headers = [header for c in chosen for header in c.component.headers]
     environment = make_environment()
     sources = []

@@ -118,6 +118,22 @@ static rcl_ret_t publish_raw(char ** word)
   return rcl_publish_serialized_message(&publishers[atoi(word[1])], &message, NULL);
 }
 
+/* large INDEX SIZE SEED: a serialized message whose bytes follow from the seed */
+static rcl_ret_t publish_large(char ** word)
+{
+  static uint8_t bytes[65536] = {0, 1, 0, 0};
+  const uint32_t seed = (uint32_t)strtoul(word[3], NULL, 10);
+  rcl_serialized_message_t message = rmw_get_zero_initialized_serialized_message();
+
+  message.buffer = bytes;
+  message.buffer_length = 4u + strtoul(word[2], NULL, 10);
+  message.buffer_capacity = sizeof(bytes);
+  for (uint32_t i = 4; i < message.buffer_length; ++i) {
+    bytes[i] = (uint8_t)((seed * 31u + (i - 4u) * 7u + (i - 4u) / 256u) & 0xffu);
+  }
+  return rcl_publish_serialized_message(&publishers[atoi(word[1])], &message, NULL);
+}
+
 static rcl_ret_t print_statistics(void)
 {
   rmw_uros_statistics_t s;
@@ -198,6 +214,9 @@ static rcl_ret_t call_entity(char ** word)
   }
   if (strcmp(word[0], "raw") == 0) {
     return publish_raw(word);
+  }
+  if (strcmp(word[0], "large") == 0) {
+    return publish_large(word);
   }
   if (strcmp(word[0], "acked") == 0) {
     return rcl_publisher_wait_for_all_acked(
