@@ -79,6 +79,10 @@ class Piece:
 
 PADDING = Owner("padding", "alignment")
 LINKER = Owner("linker", "tables of the linker")
+RESERVED = {
+    ".stack": Owner("start-up", "reserved for the stack"),
+    ".heap": Owner("start-up", "reserved for a heap"),
+}
 
 
 def attribute(folder: Folder, image: Elf) -> tuple[Piece, ...]:
@@ -170,7 +174,7 @@ def _cover(section: Section, placed: Iterable[Placed], owners: Owners) -> Iterat
         yield Piece(kind, section.name, item.section, begin, end - begin, owner, source)
         at = end
     if at < section.end:
-        owner = PADDING if at > section.address else LINKER
+        owner = PADDING if at > section.address else RESERVED.get(section.name, LINKER)
         yield Piece(kind, section.name, "", at, section.end - at, owner)
 
 

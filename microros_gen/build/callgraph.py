@@ -11,11 +11,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from typing import Literal
 
 from microros_gen.build.attribution import Piece
 from microros_gen.build.compile import object_name
 from microros_gen.build.disassembly import Code, parse_disassembly
-from microros_gen.build.elf import Elf
+from microros_gen.build.elf import THUMB, Elf
 from microros_gen.build.folder import Folder
 from microros_gen.build.toolchain import run, sibling
 
@@ -95,7 +96,7 @@ def build_call_graph(folder: Folder, image: Elf, pieces: Iterable[Piece]) -> Cal
     nodes = {address: _node(piece, frames) for address, piece in functions.items()}
     for code in _disassembled(folder, image):
         _add_code(nodes, code, _is_external(image, code))
-    _add_compiled(folder, nodes, functions, frames)
+    _add_compiled(folder, nodes, functions, frames, _constructors(image))
     return CallGraph(nodes, image.machine, bool(frames))
 
 
@@ -126,7 +127,8 @@ def _disassembled(folder: Folder, image: Elf) -> tuple[Code, ...]:
     if program is None:
         return ()
     result = run([program, "-d", "--no-show-raw-insn", str(image.path.resolve())], folder.path)
-    return parse_disassembly(result.stdout, image.machine) if result.returncode == 0 else ()
+    extents = {s.address: s.size for s in image.symbols if s.function and s.size}
+    return parse_disassembly(result.stdout, image.machine, extents) if result.returncode == 0 else ()
 
 
 def _is_external(image: Elf, code: Code) -> bool:
@@ -158,6 +160,7 @@ def _add_compiled(
     nodes: Mapping[int, Node],
     functions: Mapping[int, Piece],
     frames: Mapping[tuple[str, str], Frame],
+    constructors: frozenset[int],
 ) -> None:
     """Add what the compiler knows of calls: those through pointers; the others where there is no disassembly."""
     exported = {p.symbol: a for a, p in functions.items()}
@@ -173,10 +176,22 @@ def _add_compiled(
         for place in frame.pointers:
             member = _member(folder, place)
             targets = _targets(member, functions)
+            if member is None and (piece.source or "").startswith("src/port_"):
+                nodes[address].calls |= constructors
+                continue
             nodes[address].calls |= targets
             if not targets:
                 what = f"the callback {member}" if member else "a call through a pointer"
                 nodes[address].open.add(f"{piece.symbol}: {what} ({place.rpartition(':')[0]})")
+
+
+def _constructors(image: Elf) -> frozenset[int]:
+    """Return what runs before main: start-up code calls it through a table (.init_array)."""
+    size = image.bits // 8
+    order: Literal["little", "big"] = "little" if image.little else "big"
+    content = b"".join(image.content(s) for s in image.loaded if s.name in (".init_array", ".preinit_array"))
+    words = {int.from_bytes(content[at : at + size], order) for at in range(0, len(content), size)}
+    return frozenset(word & ~THUMB if image.arm else word for word in words)
 
 
 def _targets(member: str | None, functions: Mapping[int, Piece]) -> set[int]:

@@ -8,7 +8,7 @@ needs, as long as no loop pushes. What moves the stack pointer by a register is 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 
@@ -25,7 +25,7 @@ class Code:
 
 
 _HEAD = re.compile(r"^([0-9a-f]+) <(.+)>:$")
-_LINE = re.compile(r"^\s+([0-9a-f]+):\t([\w.]+(?: [a-z]\w*)?)\s*(.*)$")
+_LINE = re.compile(r"^\s*([0-9a-f]+):\t([\w.]+(?: [a-z]\w*)?)\s*(.*)$")
 _TARGET = re.compile(r"(?:^|[\s,])(?:0x)?([0-9a-f]+) <([^>+]+)(?:\+0x[0-9a-f]+)?>")
 _BRANCH = re.compile(
     r"^(b|bl|blx|b(eq|ne|cs|cc|mi|pl|vs|vc|hi|ls|ge|lt|gt|le|hs|lo|al)|cbn?z|b(ltu|geu|\w*z)|call|tail|j\w*)"
@@ -34,15 +34,23 @@ _BRANCH = re.compile(
 _CALL = re.compile(r"^(bl|blx|callq?|jal)$")
 
 
-def parse_disassembly(text: str, machine: str) -> tuple[Code, ...]:
-    """Return every function of the output of `objdump -d --no-show-raw-insn`, in its order."""
-    return tuple(_function(name, address, lines, machine) for name, address, lines in _functions(text))
+def parse_disassembly(text: str, machine: str, extents: Mapping[int, int]) -> tuple[Code, ...]:
+    """Return every function of the output of `objdump -d --no-show-raw-insn`, in its order.
+
+    `extents` are the sizes of functions by address: a label inside of one begins no function of its own.
+    """
+    found = _functions(text, extents)
+    return tuple(_function(name, address, lines, machine) for name, address, lines in found)
 
 
-def _functions(text: str) -> Iterator[tuple[str, int, list[tuple[int, str, str]]]]:
+def _functions(
+    text: str, extents: Mapping[int, int]
+) -> Iterator[tuple[str, int, list[tuple[int, str, str]]]]:
     name, address, lines = "", 0, list[tuple[int, str, str]]()
     for line in text.splitlines():
         head = _HEAD.match(line)
+        if head and name and int(head[1], 16) < address + extents.get(address, 0):
+            continue
         if head:
             if name:
                 yield name, address, lines
@@ -105,7 +113,7 @@ def _moved(mnemonic: str, operands: str, machine: str) -> int | None:
         return _moved_x86(mnemonic, operands, 8 if machine == "EM_X86_64" else 4)
     if machine == "EM_RISCV":
         match = re.match(r"sp,sp,-(\d+)", operands)
-        return int(match[1]) if mnemonic.endswith(("addi", "addi16sp")) and match else 0
+        return int(match[1]) if mnemonic.endswith(("add", "addi", "addi16sp")) and match else 0
     return None
 
 

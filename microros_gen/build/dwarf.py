@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import PurePosixPath
-from typing import Any
+from typing import Any, Literal
 
 from microros_gen.build.elf import THUMB, Elf
 
@@ -75,8 +75,8 @@ def _address(image: Elf, die: Any) -> int | None:
         location = die.attributes["DW_AT_location"].value
         if isinstance(location, list) and location and location[0] == _OP_ADDR:
             size = image.bits // 8
-            order = "little" if image.little else "big"
-            return int.from_bytes(bytes(location[1 : 1 + size]), order)  # type: ignore[arg-type]
+            order: Literal["little", "big"] = "little" if image.little else "big"
+            return int.from_bytes(bytes(location[1 : 1 + size]), order)
     return None
 
 

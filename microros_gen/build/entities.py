@@ -132,7 +132,7 @@ def _use(manifest: Mapping[str, Any], piece: Piece, kind: str, path: str) -> str
         return {"error_state": "error text"}.get(
             (piece.source or "").rpartition("/")[2][:-2], piece.owner.name
         )
-    return piece.owner.group
+    return piece.owner.name if piece.owner.group == "start-up" else piece.owner.group
 
 
 def _of_application(folder: Folder, kind: str) -> str:

@@ -13,7 +13,7 @@ from microros_gen.build.compile import object_name
 from microros_gen.build.elf import Elf
 from microros_gen.build.folder import Folder
 
-ROOTS = ("main", "Reset_Handler", "reset_handler", "_reset_handler")
+ROOTS = ("main",)
 Key = tuple[str, str]
 """Source file and symbol."""
 

@@ -12,12 +12,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from microros_gen.build.callgraph import CallGraph, Node
-from microros_gen.build.elf import Elf
+from microros_gen.build.elf import THUMB, Elf
 
 _API = re.compile(r"^(rclc?|rmw|rcutils|micro_ros_utilities)_")
 _PLAN = re.compile(r"__plan_[0-9a-f]{16}$")
-_HANDLER = re.compile(r"(_Handler|_IRQHandler|_handler|_isr|_ISR)$")
-_RESET = ("Reset_Handler", "reset_handler", "_reset_handler")
+_TRAP = re.compile(r"(trap_entry|trap_vector|_Handler|_handler|_isr|_ISR)$")
+_BARE = ("EM_ARM", "EM_RISCV")
 # What the hardware pushes when an interrupt comes: 8 words, with the floating-point unit 26, and one to align
 # (Armv7-M Architecture Reference Manual, B1.5.7). RISC-V pushes nothing itself.
 _ARM_EXCEPTION, _ARM_EXCEPTION_FLOAT = 36, 108
@@ -75,7 +75,7 @@ def stack_report(graph: CallGraph, image: Elf, public: Iterable[str]) -> StackRe
         why = "the compiler writes no stack usage (gcc 10 and newer do: -fcallgraph-info=su)"
         return StackReport(False, why, 0, None, (), (), 0)
     worst = _Worst(graph)
-    start = next((n for n in map(graph.named, (*_RESET, "main")) if n), None)
+    start = _start(graph, image)
     main = worst.bound(start, "start") if start else None
     handlers = tuple(worst.bound(n, "interrupt") for n in _handlers(graph, image))
     api = (n for n in map(graph.named, sorted(public)) if n and _API.match(n.name))
@@ -91,12 +91,35 @@ def shown_name(name: str) -> str:
     return _PLAN.sub("", name)
 
 
+def _start(graph: CallGraph, image: Elf) -> Node | None:
+    """Return where a bare-metal image begins; below an operating system, main: what comes before is not its own."""
+    reset = graph.nodes.get(image.entry & ~THUMB if image.arm else image.entry)
+    return reset if reset and image.machine in _BARE else graph.named("main")
+
+
 def _handlers(graph: CallGraph, image: Elf) -> Iterator[Node]:
-    if image.machine not in ("EM_ARM", "EM_RISCV") or not any(graph.named(n) for n in _RESET):
+    """Yield the interrupt and fault handlers: those of the vector table (Cortex-M), or known by their names."""
+    if image.machine not in _BARE or graph.nodes.get(image.entry & ~THUMB) is None:
         return
-    for node in sorted(graph.nodes.values(), key=lambda n: n.address):
-        if _HANDLER.search(node.name) and node.name not in _RESET:
+    vectors = _vectors(image)
+    for address, node in sorted(graph.nodes.items()):
+        if address in vectors or (not vectors and _TRAP.search(node.name) and address != image.entry):
             yield node
+
+
+def _vectors(image: Elf) -> frozenset[int]:
+    """Return the handlers of a Cortex-M's vector table: an object whose second word is the reset handler."""
+    reset = image.entry & ~THUMB
+    for symbol in image.symbols if image.arm else ():
+        section = next((s for s in image.loaded if s.index == symbol.section), None)
+        if symbol.function or symbol.size < 8 or section is None or section.kind == "bss":
+            continue
+        begin = symbol.address - section.address
+        content = image.content(section)[begin : begin + symbol.size]
+        words = [int.from_bytes(content[at : at + 4], "little") for at in range(0, len(content) - 3, 4)]
+        if words[1] == reset | THUMB:
+            return frozenset(word & ~THUMB for word in words[2:] if word & THUMB) - {reset}
+    return frozenset()
 
 
 def _exception(image: Elf) -> int:
