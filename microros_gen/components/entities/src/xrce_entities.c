@@ -10,7 +10,15 @@
 enum { NO_PLACE = 0xffff, STATUS_SIZE = 6 };
 
 /* Submessage header, request id, object id; then kind, format, padding and the description's length. */
-enum { REQUEST_AT = 4, OBJECT_AT = 6, KIND_AT = 8, FORMAT_AT = 9, LENGTH_AT = 12, BLOB_AT = 16, DELETE_SIZE = 8 };
+enum {
+  REQUEST_AT = 4,
+  OBJECT_AT = 6,
+  KIND_AT = 8,
+  FORMAT_AT = 9,
+  LENGTH_AT = 12,
+  BLOB_AT = 16,
+  DELETE_SIZE = 8
+};
 
 static const uint8_t writer_kinds[] = {XRCE_KIND_TOPIC, XRCE_KIND_PUBLISHER, XRCE_KIND_DATAWRITER};
 
@@ -82,8 +90,9 @@ void xrce_entities_renew(xrce_client_t * client, uint32_t now)
   for (size_t place = 0; place < XRCE_PLACES; ++place) {
     xrce_object_state_t * state = &client->states[place];
 
-    if (state->wanted && !state->stale) {
+    if (state->wanted && (!state->stale || state->level == 0u)) {
       state->level = 0;
+      state->stale = false;
     }
   }
   client->entities.outstanding = false;
@@ -100,14 +109,17 @@ static void entities_refuse(xrce_client_t * client, uint8_t status, uint32_t now
   xrce_entities_t * entities = &client->entities;
 
   ++client->session.statistics.refused;
-  entities->refused_place = entities->cursor;
-  entities->refused_status = status;
+  if (!client->states[entities->cursor].stale) {
+    entities->refused_place = entities->cursor;
+    entities->refused_status = status;
+  }
   entities->due_ms = now + MICROROS_RETRY_FIRST_MS;
   entities_next_place(entities); /* others first */
 }
 
 /* Behind the description: a participant's domain, at an even place; the parent's id of other objects. */
-static uint8_t * entities_put_owner(const xrce_client_t * client, uint16_t place, uint8_t kind, uint8_t * end, bool odd)
+static uint8_t * entities_put_owner(
+  const xrce_client_t * client, uint16_t place, uint8_t kind, uint8_t * end, bool odd)
 {
   uint16_t parent;
 
@@ -126,7 +138,8 @@ static uint8_t * entities_put_owner(const xrce_client_t * client, uint16_t place
 }
 
 /* Writes what CREATE has behind the object's id; returns its end. */
-static uint8_t * entities_put_object(const xrce_client_t * client, uint16_t place, uint8_t kind, uint8_t * room)
+static uint8_t * entities_put_object(
+  const xrce_client_t * client, uint16_t place, uint8_t kind, uint8_t * room)
 {
   uint8_t * const blob = &room[BLOB_AT];
   uint8_t * end;
@@ -158,7 +171,8 @@ static void entities_send(xrce_client_t * client, uint32_t now)
   }
   xrce_put_submessage(
     room, entities->deleting ? XRCE_DELETE : XRCE_CREATE,
-    entities->deleting ? XRCE_FLAG_LITTLE_ENDIAN : CREATE_FLAGS, (uint16_t)(end - room - XRCE_SUBMESSAGE_HEADER));
+    entities->deleting ? XRCE_FLAG_LITTLE_ENDIAN : CREATE_FLAGS,
+    (uint16_t)(end - room - XRCE_SUBMESSAGE_HEADER));
   xrce_put_be16(&room[REQUEST_AT], entities->request);
   xrce_put_be16(&room[OBJECT_AT], xrce_object_id(index, kind));
   xrce_creation_send(client, (size_t)(end - room));
@@ -219,19 +233,21 @@ void xrce_entities_on_status(xrce_client_t * client, const uint8_t * payload, si
   entities->due_ms = now;
   if (entities->deleting) {
     --state->level; /* whatever the agent says: an unknown object is what we wanted */
-    state->stale = state->stale && state->level != 0u;
   } else if (payload[4] <= XRCE_STATUS_OK_MATCHED) {
     ++state->level;
   } else {
     entities_refuse(client, payload[4], now);
   }
+  state->stale = state->stale && state->level != 0u;
 }
 
 void xrce_entities_add(xrce_client_t * client, uint16_t place)
 {
+  const xrce_entities_t * entities = &client->entities;
   xrce_object_state_t * state = &client->states[place];
 
-  state->stale = state->level != 0u;
+  /* Also when the request of a former owner is still out: what comes of it is not what is wanted now. */
+  state->stale = state->level != 0u || (entities->outstanding && entities->cursor == place);
   state->wanted = true;
   entities_wake(&client->entities, client->session.now_ms);
 }
