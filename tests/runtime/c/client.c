@@ -67,6 +67,10 @@ static rcl_ret_t init_publisher(char ** word)
     qos = rmw_qos_profile_system_default;
   } else if (strcmp(word[5], "transient_local") == 0) {
     qos.durability = RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL;
+  } else if (strcmp(word[5], "longest") == 0) {
+    qos.durability = RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL;
+    qos.reliability = RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT;
+    qos.depth = 65535;
   } else if (strcmp(word[5], "keep_all") == 0) {
     qos.history = RMW_QOS_POLICY_HISTORY_KEEP_ALL;
   } else if (strcmp(word[5], "deadline") == 0) {
