@@ -4,7 +4,7 @@
 
 enum { RESTART_PAUSE_MS = 1000 };
 
-typedef void (* start_function_t)(void);
+typedef void (*start_function_t)(void);
 
 /* Of the linker script. */
 extern const uint32_t port_data_load[];

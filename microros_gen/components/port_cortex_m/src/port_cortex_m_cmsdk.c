@@ -3,7 +3,7 @@
 #include "microros/port.h"
 #include "microros/port_board.h"
 #include "microros/port_cortex_m.h"
-#include "microros/port_ring.h"
+#include "microros/port_uart.h"
 
 #define UART_DATA (PORT_BOARD_UART + 0x00u)
 #define UART_STATE (PORT_BOARD_UART + 0x04u)
@@ -11,12 +11,11 @@
 #define UART_INTCLEAR (PORT_BOARD_UART + 0x0cu)
 #define UART_BAUDDIV (PORT_BOARD_UART + 0x10u)
 
-enum { BYTE_TIMEOUT_MS = 10 };
-
 static const uint32_t state_tx_full = 1u << 0;
 static const uint32_t state_rx_full = 1u << 1;
 static const uint32_t state_rx_overrun = 1u << 3;
-static const uint32_t control_on = 0x2bu; /* transmitter, receiver, interrupts of receiving and of its overrun */
+static const uint32_t control_on =
+  0x2bu; /* transmitter, receiver, interrupts of receiving and of its overrun */
 static const uint32_t clear_receive = 0x0au;
 
 void port_cortex_m_uart_interrupt(void)
@@ -24,58 +23,34 @@ void port_cortex_m_uart_interrupt(void)
   PORT_CORTEX_M_REGISTER(UART_INTCLEAR) = clear_receive;
   if ((PORT_CORTEX_M_REGISTER(UART_STATE) & state_rx_overrun) != 0u) {
     PORT_CORTEX_M_REGISTER(UART_STATE) = state_rx_overrun;
-    port_ring_count_loss();
+    port_uart_lost();
   }
   while ((PORT_CORTEX_M_REGISTER(UART_STATE) & state_rx_full) != 0u) {
-    port_ring_put((uint8_t)(PORT_CORTEX_M_REGISTER(UART_DATA) & 0xffu));
+    port_uart_received((uint8_t)(PORT_CORTEX_M_REGISTER(UART_DATA) & 0xffu));
   }
 }
 
-bool port_serial_open(port_serial_t * serial, const char * device, uint32_t baud)
+void port_uart_start(void)
 {
-  (void)device; /* there is one */
-  serial->handle = 0;
-  if (baud != PORT_BOARD_UART_BAUD) {
-    return false;
-  }
   PORT_CORTEX_M_REGISTER(UART_BAUDDIV) = PORT_BOARD_UART_DIVISOR;
   PORT_CORTEX_M_REGISTER(UART_CTRL) = control_on;
   port_cortex_m_interrupt_enable(PORT_BOARD_UART_IRQ);
-  return true;
 }
 
-void port_serial_close(port_serial_t * serial)
+void port_uart_stop(void)
 {
-  serial->handle = 0;
   PORT_CORTEX_M_REGISTER(UART_CTRL) = 0;
 }
 
-static bool uart_put(uint8_t byte)
+bool port_uart_put(uint8_t byte)
 {
   const uint32_t start = port_time_ms();
 
   while ((PORT_CORTEX_M_REGISTER(UART_STATE) & state_tx_full) != 0u) {
-    if (port_time_ms() - start > BYTE_TIMEOUT_MS) {
+    if (port_time_ms() - start > PORT_UART_BYTE_TIMEOUT_MS) {
       return false;
     }
   }
   PORT_CORTEX_M_REGISTER(UART_DATA) = byte;
   return true;
-}
-
-bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size)
-{
-  bool taken = true;
-
-  (void)serial;
-  for (size_t i = 0; i < size && taken; ++i) {
-    taken = uart_put(data[i]);
-  }
-  return taken;
-}
-
-size_t port_serial_read(port_serial_t * serial, uint8_t * buffer, size_t capacity)
-{
-  (void)serial;
-  return port_ring_take(buffer, capacity);
 }

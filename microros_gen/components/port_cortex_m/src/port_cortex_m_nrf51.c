@@ -3,7 +3,7 @@
 #include "microros/port.h"
 #include "microros/port_board.h"
 #include "microros/port_cortex_m.h"
-#include "microros/port_ring.h"
+#include "microros/port_uart.h"
 
 #define UART_START_RX (PORT_BOARD_UART + 0x000u)
 #define UART_START_TX (PORT_BOARD_UART + 0x008u)
@@ -18,8 +18,7 @@
 #define UART_TX_DATA (PORT_BOARD_UART + 0x51cu)
 #define UART_BAUD (PORT_BOARD_UART + 0x524u)
 
-enum { BYTE_TIMEOUT_MS = 10, ENABLED = 4 };
-
+static const uint32_t enabled = 4;
 static const uint32_t interrupt_rx_ready = 1u << 2;
 static const uint32_t error_overrun = 1u << 0;
 
@@ -31,65 +30,41 @@ void port_cortex_m_uart_interrupt(void)
     PORT_CORTEX_M_REGISTER(UART_ERRORS) = errors;
   }
   if ((errors & error_overrun) != 0u) {
-    port_ring_count_loss();
+    port_uart_lost();
   }
   while (PORT_CORTEX_M_REGISTER(UART_RX_READY) != 0u) {
     PORT_CORTEX_M_REGISTER(UART_RX_READY) = 0;
-    port_ring_put((uint8_t)(PORT_CORTEX_M_REGISTER(UART_RX_DATA) & 0xffu));
+    port_uart_received((uint8_t)(PORT_CORTEX_M_REGISTER(UART_RX_DATA) & 0xffu));
   }
 }
 
-bool port_serial_open(port_serial_t * serial, const char * device, uint32_t baud)
+void port_uart_start(void)
 {
-  (void)device; /* there is one */
-  serial->handle = 0;
-  if (baud != PORT_BOARD_UART_BAUD) {
-    return false;
-  }
   PORT_CORTEX_M_REGISTER(UART_TX_PIN) = PORT_BOARD_UART_TX_PIN;
   PORT_CORTEX_M_REGISTER(UART_RX_PIN) = PORT_BOARD_UART_RX_PIN;
   PORT_CORTEX_M_REGISTER(UART_BAUD) = PORT_BOARD_UART_DIVISOR;
-  PORT_CORTEX_M_REGISTER(UART_ENABLE) = ENABLED;
+  PORT_CORTEX_M_REGISTER(UART_ENABLE) = enabled;
   PORT_CORTEX_M_REGISTER(UART_INTERRUPTS) = interrupt_rx_ready;
   PORT_CORTEX_M_REGISTER(UART_START_TX) = 1;
   PORT_CORTEX_M_REGISTER(UART_START_RX) = 1;
   port_cortex_m_interrupt_enable(PORT_BOARD_UART_IRQ);
-  return true;
 }
 
-void port_serial_close(port_serial_t * serial)
+void port_uart_stop(void)
 {
-  serial->handle = 0;
   PORT_CORTEX_M_REGISTER(UART_ENABLE) = 0;
 }
 
-static bool uart_put(uint8_t byte)
+bool port_uart_put(uint8_t byte)
 {
   const uint32_t start = port_time_ms();
 
   PORT_CORTEX_M_REGISTER(UART_TX_READY) = 0;
   PORT_CORTEX_M_REGISTER(UART_TX_DATA) = byte;
   while (PORT_CORTEX_M_REGISTER(UART_TX_READY) == 0u) {
-    if (port_time_ms() - start > BYTE_TIMEOUT_MS) {
+    if (port_time_ms() - start > PORT_UART_BYTE_TIMEOUT_MS) {
       return false;
     }
   }
   return true;
-}
-
-bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size)
-{
-  bool taken = true;
-
-  (void)serial;
-  for (size_t i = 0; i < size && taken; ++i) {
-    taken = uart_put(data[i]);
-  }
-  return taken;
-}
-
-size_t port_serial_read(port_serial_t * serial, uint8_t * buffer, size_t capacity)
-{
-  (void)serial;
-  return port_ring_take(buffer, capacity);
 }

@@ -2,8 +2,8 @@
 /* The UART 16550 with registers of one byte side by side (PC16550D data sheet). It holds 16 bytes of input. */
 #include "microros/port.h"
 #include "microros/port_board.h"
-#include "microros/port_ring.h"
 #include "microros/port_riscv.h"
+#include "microros/port_uart.h"
 
 #define UART_DATA (PORT_BOARD_UART + 0u)
 #define UART_DIVISOR_LOW (PORT_BOARD_UART + 0u)
@@ -12,8 +12,6 @@
 #define UART_FIFO (PORT_BOARD_UART + 2u)
 #define UART_LINE (PORT_BOARD_UART + 3u)
 #define UART_STATE (PORT_BOARD_UART + 5u)
-
-enum { BYTE_TIMEOUT_MS = 10 };
 
 static const uint8_t line_8n1 = 0x03;
 static const uint8_t line_divisor = 0x83;
@@ -29,20 +27,15 @@ void port_riscv_uart_interrupt(void)
 
   while ((state & state_ready) != 0u) {
     if ((state & state_overrun) != 0u) {
-      port_ring_count_loss();
+      port_uart_lost();
     }
-    port_ring_put(PORT_RISCV_REGISTER_8(UART_DATA));
+    port_uart_received(PORT_RISCV_REGISTER_8(UART_DATA));
     state = PORT_RISCV_REGISTER_8(UART_STATE);
   }
 }
 
-bool port_serial_open(port_serial_t * serial, const char * device, uint32_t baud)
+void port_uart_start(void)
 {
-  (void)device; /* there is one */
-  serial->handle = 0;
-  if (baud != PORT_BOARD_UART_BAUD) {
-    return false;
-  }
   PORT_RISCV_REGISTER_8(UART_LINE) = line_divisor;
   PORT_RISCV_REGISTER_8(UART_DIVISOR_LOW) = (uint8_t)(PORT_BOARD_UART_DIVISOR & 0xffu);
   PORT_RISCV_REGISTER_8(UART_DIVISOR_HIGH) = (uint8_t)(PORT_BOARD_UART_DIVISOR >> 8);
@@ -50,41 +43,22 @@ bool port_serial_open(port_serial_t * serial, const char * device, uint32_t baud
   PORT_RISCV_REGISTER_8(UART_FIFO) = fifo_on;
   PORT_RISCV_REGISTER_8(UART_INTERRUPTS) = interrupt_received;
   port_riscv_interrupt_enable(PORT_BOARD_UART_IRQ);
-  return true;
 }
 
-void port_serial_close(port_serial_t * serial)
+void port_uart_stop(void)
 {
-  serial->handle = 0;
   PORT_RISCV_REGISTER_8(UART_INTERRUPTS) = 0;
 }
 
-static bool uart_put(uint8_t byte)
+bool port_uart_put(uint8_t byte)
 {
   const uint32_t start = port_time_ms();
 
   while ((PORT_RISCV_REGISTER_8(UART_STATE) & state_room) == 0u) {
-    if (port_time_ms() - start > BYTE_TIMEOUT_MS) {
+    if (port_time_ms() - start > PORT_UART_BYTE_TIMEOUT_MS) {
       return false;
     }
   }
   PORT_RISCV_REGISTER_8(UART_DATA) = byte;
   return true;
-}
-
-bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size)
-{
-  bool taken = true;
-
-  (void)serial;
-  for (size_t i = 0; i < size && taken; ++i) {
-    taken = uart_put(data[i]);
-  }
-  return taken;
-}
-
-size_t port_serial_read(port_serial_t * serial, uint8_t * buffer, size_t capacity)
-{
-  (void)serial;
-  return port_ring_take(buffer, capacity);
 }
