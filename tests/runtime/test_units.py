@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from microros_gen.plan.runtime import RuntimePlan
-from runtime.harness import POOL, SANITIZE, build, components, render
+from runtime.harness import POOL, SANITIZE, Tree, build, compilers, components, render
 
 ARENA = replace(POOL, arena_size=1024)
 
@@ -30,5 +30,27 @@ def test_unit(unit: str, plan: RuntimePlan, flags: tuple[str, ...], tmp_path: Pa
     names = [name for name in components(plan) if name != "port_posix"]
     tree = render(tmp_path, plan, names)
     program = build(tree, ["port_fake.c", unit], "unit", flags=flags)
+    done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize(
+    ("slots", "compiler", "flags"),
+    [
+        (1, "gcc", SANITIZE),
+        (2, "clang", SANITIZE),
+        (4, "gcc", SANITIZE),
+        (16, "gcc", ("-m32", "-Os")),
+        (1, "clang", ("-m32", "-O1")),
+    ],
+)
+def test_reliable_input(slots: int, compiler: str, flags: tuple[str, ...], tmp_path: Path) -> None:
+    """The stream alone: what it hands on and what it answers goes to the unit."""
+    if compiler not in compilers():
+        pytest.skip(f"no {compiler}")
+    plan = replace(POOL, reliable_input_slots=slots, reliable_input_slot_size=64)
+    tree = render(tmp_path, plan, components(plan))
+    alone = Tree(tree.folder, tuple(s for s in tree.sources if s.parent.name == "stream_reliable_input"))
+    program = build(alone, ["unit_input.c"], "unit", compiler, flags)
     done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 0, done.stderr

@@ -30,6 +30,14 @@ static void input_acknowledge(xrce_client_t * client)
   (void)xrce_session_send(&client->session, message, sizeof(message)); /* the agent asks again */
 }
 
+/* There are `count` messages from the one on whose turn it is. */
+static void input_announce(xrce_stream_reliable_input_t * stream, uint16_t count)
+{
+  const uint32_t map = count < WINDOW ? ((uint32_t)1u << count) - 1u : 0xffffu;
+
+  stream->announced = (uint16_t)(stream->announced | map);
+}
+
 static void input_advance(xrce_stream_reliable_input_t * stream)
 {
   ++stream->next;
@@ -75,7 +83,7 @@ bool xrce_stream_reliable_input_take(
     input_hand_on(client, message, size, now);
     input_hand_on_kept(client, now);
   } else if (ahead < WINDOW) {
-    stream->announced = (uint16_t)(stream->announced | ((1u << (ahead + 1u)) - 1u));
+    input_announce(stream, (uint16_t)(ahead + 1u));
     xrce_stream_reliable_input_keep(stream, sequence, message, size);
   }
   input_acknowledge(client);
@@ -120,7 +128,7 @@ bool xrce_stream_reliable_input_on_heartbeat(
   }
   known = (uint16_t)(xrce_get_u16(&payload[2], flags) - stream->next + 1u);
   if (known < HALF) {
-    stream->announced = known < WINDOW ? (uint16_t)(stream->announced | ((1u << known) - 1u)) : (uint16_t)UINT16_MAX;
+    input_announce(stream, known);
   }
   input_acknowledge(client);
   return true;

@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The reliable input stream by itself, between an agent that is simulated here and a list of what it handed on. */
+#include "unit.h"
+
+#include "microros/xrce_client.h"
+#include "microros/xrce_wire.h"
+
+#include <string.h>
+
+enum { MESSAGES = 300, MESSAGE = 8, WINDOW = 16, ACKNACK_MESSAGE = 13 };
+
+static xrce_client_t client;
+static uint32_t random_state;
+static uint16_t handed_on[2 * MESSAGES]; /* the numbers that the messages carry, in the order of handing on */
+static size_t handed_on_count;
+static bool refuse_next;
+static uint16_t expected; /* of the last ACKNACK */
+static uint16_t missing;
+static uint32_t acknacks;
+
+/* Stands for the session: what is handed on carries its number behind the header. */
+bool xrce_session_take_submessages(
+  xrce_client_t * taker, const uint8_t * message, size_t size, uint32_t now)
+{
+  const bool taken = !refuse_next;
+
+  CHECK(taker == &client && now == 5u && size == MESSAGE && handed_on_count < 2 * MESSAGES);
+  refuse_next = false;
+  handed_on[handed_on_count] = xrce_get_le16(&message[4]);
+  ++handed_on_count;
+  return taken;
+}
+
+bool xrce_session_send(xrce_session_t * session, const uint8_t * message, size_t size)
+{
+  static const uint8_t begin[] = {0x81, 0, 0, 0, 0x0a, 1, 5, 0};
+
+  CHECK(session == &client.session && size == ACKNACK_MESSAGE);
+  CHECK(memcmp(message, begin, sizeof(begin)) == 0 && message[12] == 0x80u);
+  expected = xrce_get_le16(&message[8]);
+  missing = xrce_get_be16(&message[10]);
+  ++acknacks;
+  return true;
+}
+
+static uint32_t random_below(uint32_t limit)
+{
+  random_state = random_state * 1664525u + 1013904223u;
+  return (random_state >> 16) % limit;
+}
+
+static void begin_at(uint16_t next)
+{
+  memset(&client, 0, sizeof(client));
+  client.session.state = XRCE_READY;
+  client.reliable_input.next = next;
+  handed_on_count = 0;
+  acknacks = 0;
+}
+
+static bool take(uint16_t sequence, uint16_t number)
+{
+  uint8_t message[MESSAGE] = {0x81, 0x80};
+
+  xrce_put_le16(&message[2], sequence);
+  xrce_put_le16(&message[4], number);
+  return xrce_stream_reliable_input_take(&client, message, sizeof(message), 5);
+}
+
+static bool heartbeat(uint16_t first, uint16_t last)
+{
+  uint8_t payload[5];
+
+  xrce_put_le16(&payload[0], first);
+  xrce_put_le16(&payload[2], last);
+  payload[4] = 0x80;
+  return xrce_stream_reliable_input_on_heartbeat(&client, payload, sizeof(payload), 1, 5);
+}
+
+static void test_in_order_and_twice(void)
+{
+  begin_at(0xffff);
+  CHECK(take(0xffff, 1) && acknacks == 1u && expected == 0u && missing == 0u);
+  CHECK(take(0, 2) && acknacks == 2u && expected == 1u);
+  CHECK(take(0xffff, 1) && acknacks == 3u && expected == 1u && missing == 0u); /* acknowledged, handed on no more */
+  CHECK(handed_on_count == 2u && handed_on[0] == 1u && handed_on[1] == 2u);
+}
+
+static void test_a_gap(void)
+{
+  begin_at(10);
+  CHECK(take(12, 12) && expected == 10u && handed_on_count == 0u);
+  CHECK(missing == (MICROROS_RELIABLE_INPUT_SLOTS > 1u ? 0x0003u : 0x0007u));
+  CHECK(take(10, 10) && expected == 11u);
+  CHECK(missing == (MICROROS_RELIABLE_INPUT_SLOTS > 1u ? 0x0001u : 0x0003u));
+  CHECK(take(11, 11) && missing == (MICROROS_RELIABLE_INPUT_SLOTS > 1u ? 0u : 1u));
+  CHECK(expected == (MICROROS_RELIABLE_INPUT_SLOTS > 1u ? 13u : 12u));
+  CHECK(handed_on_count == (MICROROS_RELIABLE_INPUT_SLOTS > 1u ? 3u : 2u));
+}
+
+static void test_heartbeats(void)
+{
+  begin_at(0xfffe);
+  CHECK(heartbeat(0xfffe, 0) && acknacks == 1u && expected == 0xfffeu && missing == 0x0007u);
+  CHECK(heartbeat(0xfffe, 0xfffd) && missing == 0x0007u); /* an older one changes nothing */
+  CHECK(heartbeat(0xfffe, 0x7000) && missing == 0xffffu); /* more than the bitmap has */
+  CHECK(take(0xffff, 7) && handed_on_count == 0u);
+  CHECK(heartbeat(2, 3) && expected == 2u && (missing & 3u) == 3u);
+  CHECK(handed_on_count == (MICROROS_RELIABLE_INPUT_SLOTS > 1u ? 1u : 0u)); /* what is here is not lost */
+  CHECK(heartbeat(1, 3) && expected == 2u); /* no way back */
+  CHECK(heartbeat(0x7000, 0x6fff) && expected == 0x7000u && missing == 0u);
+  CHECK(take(2, 2) && take(0x7010, 3) && expected == 0x7000u && missing == 0u); /* old, and beyond the window */
+  CHECK(handed_on_count == (MICROROS_RELIABLE_INPUT_SLOTS > 1u ? 1u : 0u));
+}
+
+static void test_what_is_not_for_it(void)
+{
+  uint8_t payload[5] = {9, 0, 9, 0, 0x81};
+  uint8_t other[MESSAGE] = {0x81, 0x81};
+
+  begin_at(0);
+  CHECK(!xrce_stream_reliable_input_take(&client, other, sizeof(other), 5) && acknacks == 0u);
+  CHECK(xrce_stream_reliable_input_on_heartbeat(&client, payload, 5, 1, 5) && acknacks == 0u);
+  CHECK(!xrce_stream_reliable_input_on_heartbeat(&client, payload, 4, 1, 5));
+  payload[4] = 0x80;
+  client.session.state = XRCE_CONNECTING;
+  CHECK(xrce_stream_reliable_input_on_heartbeat(&client, payload, 5, 1, 5) && take(0, 0));
+  CHECK(acknacks == 0u && client.reliable_input.next == 0u);
+  client.session.state = XRCE_READY;
+  CHECK(xrce_stream_reliable_input_on_heartbeat(&client, payload, 5, 0, 5) && expected == 0x0900u); /* big endian */
+}
+
+static void test_a_malformed_one_is_counted_and_done_with(void)
+{
+  begin_at(0);
+  refuse_next = true;
+  CHECK(take(0, 1) && expected == 1u && client.session.statistics.malformed == 1u);
+  xrce_stream_reliable_input_reset(&client.reliable_input);
+  CHECK(client.reliable_input.next == 0u && client.reliable_input.announced == 0u);
+}
+
+/* A sender with a window of 16 and a network that loses, doubles and reorders: what it sends is handed on in order. */
+static void test_rough_network(uint32_t seed)
+{
+  const uint16_t start = (uint16_t)(0xff80u + seed);
+  uint16_t acknowledged = 0; /* messages, as the sender knows */
+
+  random_state = seed;
+  begin_at(start);
+  for (uint32_t round = 0; acknowledged < MESSAGES; ++round) {
+    const uint16_t ahead = (uint16_t)random_below(WINDOW);
+    const uint16_t number = (uint16_t)(acknowledged + ahead);
+
+    CHECK(round < 100u * MESSAGES);
+    if (number < MESSAGES && random_below(5) != 0u) {
+      CHECK(take((uint16_t)(start + number), number));
+    }
+    if (random_below(8) == 0u) {
+      const uint16_t end = acknowledged + WINDOW < MESSAGES ? (uint16_t)(acknowledged + WINDOW) : (uint16_t)MESSAGES;
+
+      CHECK(heartbeat((uint16_t)(start + acknowledged), (uint16_t)(start + end - 1u)));
+      if ((missing & 1u) != 0u) {
+        CHECK(take(expected, (uint16_t)(expected - start)));
+      }
+    }
+    if (random_below(3) != 0u) { /* else the ACKNACK is lost */
+      acknowledged = (uint16_t)(client.reliable_input.next - start);
+    }
+  }
+  CHECK(handed_on_count == MESSAGES);
+  for (size_t i = 0; i < MESSAGES; ++i) {
+    CHECK(handed_on[i] == i);
+  }
+}
+
+int main(void)
+{
+  test_in_order_and_twice();
+  test_a_gap();
+  test_heartbeats();
+  test_what_is_not_for_it();
+  test_a_malformed_one_is_counted_and_done_with();
+  for (uint32_t seed = 0; seed < 200u; ++seed) {
+    test_rough_network(seed);
+  }
+  return 0;
+}
