@@ -202,8 +202,10 @@ class Explainer:
             return ()
         if self._references is None:
             self._references = read_references(self._folder, self._report.pieces)
+        stack = self._report.stack
+        roots = ("main", *(b.name for b in (stack.main, *stack.handlers) if b))
         chains = [
-            self._references.chain((p.source, p.symbol))
+            self._references.chain((p.source, p.symbol), roots)
             for p in sorted(pieces, key=lambda p: (-p.size, p.address))
             if p.symbol and p.source and not p.symbol.startswith('"')
         ]

@@ -47,7 +47,7 @@ def read_references(folder: Folder, pieces: Iterable[Piece]) -> References:
     mine: dict[Key, Piece] = {}
     for piece in pieces:
         for name in (piece.symbol, *piece.aliases):
-            if name and piece.source and piece.source.endswith(".c"):
+            if name and piece.source and piece.source.endswith((".c", ".S")):
                 mine[piece.source, name] = piece
     exported: dict[str, Key] = {}
     for key in mine:
