@@ -37,6 +37,8 @@ class FakeAgent:
     last_announced: int = 0xFFFF
     waiting: dict[int, bytes] = field(default_factory=dict)
     pieces: bytes = b""
+    unacknowledged: dict[int, bytes] = field(default_factory=dict)
+    statuses: int = 0
     discarded: int = 0
     spoiled: int = 0
     answers: int = 0
@@ -45,7 +47,12 @@ class FakeAgent:
         """Forget every session and entity, as a new process has none."""
         self.connected = False
         self.objects.clear()
+        self._begin_streams()
+
+    def _begin_streams(self) -> None:
         self.waiting.clear()
+        self.unacknowledged.clear()
+        self.statuses = 0
         self.last_handled = self.last_announced = 0xFFFF
 
     def receive(self, datagram: bytes) -> list[bytes]:
@@ -71,8 +78,7 @@ class FakeAgent:
         assert identifier == 0x00
         if self.session_status <= 1:
             self.connected = True
-            self.waiting.clear()
-            self.last_handled = self.last_announced = 0xFFFF
+            self._begin_streams()
         status = bytes([self.session_status, 0])
         return bytes([0x81, 0, 0, 0, 4, 1, 11, 0]) + status + LOGIN_TAIL + b"\0"
 
@@ -91,17 +97,42 @@ class FakeAgent:
                 self.last_announced = sequence
         elif distance < 0x8000:
             self.discarded += 1
-        self._pop()
-        return [self._acknack()]
+        answers = self._pop()
+        return [self._acknack(), *answers]
 
-    def _pop(self) -> None:
+    def _pop(self) -> list[bytes]:
+        answers = []
         while (following := (self.last_handled + 1) & 0xFFFF) in self.waiting:
             self.last_handled = following
             datagram = self.waiting.pop(following)
             if datagram[4] == 0x0D:
                 self._join(datagram)
-            else:
+            elif datagram[4] == 0x07:
                 self._handle_written(_split(datagram))
+            else:
+                ((identifier, payload),) = _split(datagram)
+                assert identifier in (0x01, 0x03)
+                answers.append(self._reliably(self._handle(identifier, payload)[0]))
+        return answers
+
+    def _reliably(self, status: bytes) -> bytes:
+        """Return a STATUS as a message of the reliable stream, which is kept until it is acknowledged."""
+        message = bytes([0x81, 0x80]) + struct.pack("<H", self.statuses) + status[4:]
+        self.unacknowledged[self.statuses] = message
+        self.statuses += 1
+        return message
+
+    def announce(self) -> list[bytes]:
+        """Return the HEARTBEAT that is due while something is unacknowledged."""
+        if not self.unacknowledged:
+            return []
+        first, last = min(self.unacknowledged), max(self.unacknowledged)
+        return [b"\x81\0\0\0\x0b\x01\x05\0" + struct.pack("<HH", first, last) + b"\x80"]
+
+    def _acknowledged(self, payload: bytes) -> list[bytes]:
+        first, missing = struct.unpack_from("<H", payload)[0], struct.unpack_from(">H", payload, 2)[0]
+        self.unacknowledged = {n: m for n, m in self.unacknowledged.items() if n >= first}
+        return [m for n, m in self.unacknowledged.items() if missing >> (n - first) & 1]
 
     def _handle_written(self, submessages: list[tuple[int, bytes]]) -> None:
         for identifier, payload in submessages:
@@ -139,6 +170,8 @@ class FakeAgent:
         if identifier == 0x07:
             self._write(payload)
             return []
+        if identifier == 0x0A:
+            return self._acknowledged(payload)
         assert identifier == 0x0B, identifier
         first, last = struct.unpack_from("<HH", payload)
         if 0 < (first - 1 - self.last_handled) & 0xFFFF < 0x8000:
@@ -146,8 +179,8 @@ class FakeAgent:
             self.waiting = {k: v for k, v in self.waiting.items() if (k - first) & 0xFFFF < 0x8000}
         if (last - self.last_handled) & 0xFFFF < 0x8000:
             self.last_announced = last
-        self._pop()
-        return [self._acknack()]
+        answers = self._pop()
+        return [self._acknack(), *answers]
 
     def _create(self, payload: bytes) -> bytes:
         request, identity, kind = payload[:2], payload[2:4], KINDS[payload[4]]
