@@ -12,6 +12,7 @@ from jinja2 import Environment
 from microros_gen.model.component import Component
 from microros_gen.plan.project import Project
 from microros_gen.render.agent_files import render_agent_files
+from microros_gen.render.board import BoardView, board_view
 from microros_gen.render.example import example_view
 from microros_gen.render.types import render_types
 from microros_gen.sources.runtime import ComponentFile
@@ -41,6 +42,8 @@ class _ProjectView:
     agent_file: str
     declared: bool
     memory: tuple[_Bytes, ...]
+    board: BoardView | None
+    has_image: bool
 
 
 @dataclass(frozen=True)
@@ -69,6 +72,9 @@ def render_project(
     view = _project_view(project, rendered)
     for name in ("CMakeLists.txt", "sources.txt", "README.md"):
         rendered[name] = environment.get_template(f"project/{name}.j2").render(view=view).encode()
+    if view.board is not None:
+        toolchain = environment.get_template("project/toolchain.cmake.j2")
+        rendered["toolchain.cmake"] = toolchain.render(board=view.board).encode()
     return rendered
 
 
@@ -100,13 +106,21 @@ def _unselected_headers(
 ) -> Iterable[tuple[str, bytes]]:
     template = environment.get_template("project/unselected.h.j2")
     for component in components:
-        transport = component.name.removeprefix("transport_")
-        key = f"components: [+{component.name}]" if transport == component.name else f"transport: {{type: {transport}}}"
         message = (
-            f"The component '{component.name}' is not selected: add `{key}` to microros.yaml and generate again"
+            f"The component '{component.name}' is not selected: add `{_key(component)}` to microros.yaml and generate"
+            " again"
         )
         content = template.render(view=_UnselectedView(message)).encode()
         yield from ((f"include/{header}", content) for header in component.headers)
+
+
+def _key(component: Component) -> str:
+    """Return what selects a component in the application file."""
+    if component.layer == "port":
+        return "target: {name: …}"
+    transport = component.name.removeprefix("transport_")
+    is_transport = transport != component.name
+    return f"transport: {{type: {transport}}}" if is_transport else f"components: [+{component.name}]"
 
 
 def without_folder(reason: str) -> str:
@@ -135,6 +149,8 @@ def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectVi
             for c in project.selection.components
         ),
         entities=tuple(declared or pools),
+        board=board_view(project),
+        has_image=not project.lacks_image,
         agent=project.selection.entities,
         declared=runtime.declared,
         agent_file=next((path for path in rendered if path.startswith("agent/")), ""),

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Prepared view of a board: what README.md, CMakeLists.txt and toolchain.cmake print about it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from microros_gen.plan.project import Project
+
+
+@dataclass(frozen=True)
+class BoardView:
+    """Flags are one text each. `script` is the linker script below the output folder, empty without an image.
+
+    `functions` are those of microros/port.h that the application provides, as they are printed.
+    """
+
+    target: str
+    suffix: str
+    compiler: str
+    c_flags: str
+    link_flags: str
+    script: str
+    stack: int
+    functions: str
+    is_arm: bool
+
+
+def board_view(project: Project) -> BoardView | None:
+    """Return the view of a target without an operating system; None for others."""
+    target = project.target
+    if target.hosted:
+        return None
+    return BoardView(
+        target=target.name,
+        suffix=target.image_suffix,
+        compiler=target.compilers[0],
+        c_flags=" ".join(target.c_flags),
+        link_flags=" ".join((*target.link_flags, *target.libraries)),
+        script=project.linker_script or "",
+        stack=project.board.stack_size,
+        functions=", ".join(f"`{name}`" for name in project.board.application_functions),
+        is_arm=target.port == "port_cortex_m",
+    )
