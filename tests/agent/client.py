@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A small XRCE client over UDP: blocking, for tests of the agent and of whatever talks through it."""
+"""A small XRCE client over UDP or a serial line: blocking, for tests of the agent and of whatever talks through it."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from collections import deque
 from types import TracebackType
 from typing import Any, Protocol
 
+from agent.serial_link import SerialLink
 from microros_gen.agent.wire.cdr import Writer
 from microros_gen.agent.wire.constants import OBJECT_AGENT, OBJECT_CLIENT, Format, ObjectKind
 from microros_gen.agent.wire.data_messages import WriteData
@@ -45,14 +46,18 @@ class XrceClient:
     """One client with one best-effort and one reliable stream each way."""
 
     def __init__(
-        self, port: int, key: int = 0xA1B2C3D4, session: int = 0x81, mtu: int = 512, timeout_s: float = 3.0
+        self,
+        port: int | SerialLink,
+        key: int = 0xA1B2C3D4,
+        session: int = 0x81,
+        mtu: int = 512,
+        timeout_s: float = 3.0,
     ) -> None:
         self.key = key.to_bytes(4, "big")
         self.session = session
         self.mtu = mtu
         self.timeout_s = timeout_s
-        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self.socket.connect(("127.0.0.1", port))
+        self.socket = connected(port) if isinstance(port, int) else port
         self._request = 9
         self._reset_streams()
 
@@ -272,6 +277,13 @@ class XrceClient:
     def _next_request(self) -> int:
         self._request = self._request + 1 & 0xFFFF
         return self._request
+
+
+def connected(port: int) -> socket.socket:
+    """Return a UDP socket whose peer is a port of this machine."""
+    made = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    made.connect(("127.0.0.1", port))
+    return made
 
 
 def dds_type(ros_name: str) -> str:

@@ -13,7 +13,7 @@ import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
-READY = "agent ready: udp4 "
+READY = "agent ready: "
 
 
 class AgentProcess:
@@ -22,6 +22,7 @@ class AgentProcess:
     def __init__(self, process: subprocess.Popen[str]) -> None:
         self.process = process
         self.port = 0
+        self.device = ""
         self.log: list[str] = []
         self._lines: queue.Queue[str | None] = queue.Queue()
         for stream in (process.stdout, process.stderr):
@@ -67,12 +68,17 @@ def environment(domain: int) -> dict[str, str]:
     }
 
 
+UDP = ("udp4", "--port", "0")
+
+
 @contextmanager
-def running_agent(domain: int, *options: str, command: Sequence[str] = ()) -> Iterator[AgentProcess]:
-    """Start `microros-gen agent udp4 --port 0 OPTIONS`, wait until it is ready, end it afterwards."""
+def running_agent(
+    domain: int, *options: str, command: Sequence[str] = (), transport: Sequence[str] = UDP
+) -> Iterator[AgentProcess]:
+    """Start `microros-gen agent TRANSPORT OPTIONS`, wait until it is ready, end it afterwards."""
     start = list(command) or [sys.executable, "-m", "microros_gen"]
     process = subprocess.Popen(
-        [*start, "agent", "udp4", "--port", "0", *options],
+        [*start, "agent", *transport, *options],
         env=environment(domain),
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
@@ -80,7 +86,10 @@ def running_agent(domain: int, *options: str, command: Sequence[str] = ()) -> It
     )
     agent = AgentProcess(process)
     try:
-        agent.port = int(agent.wait_for(READY).rpartition(":")[2].rstrip('"}'))
+        place = agent.wait_for(READY).rpartition(" ")[2].rstrip('"}')
+        if transport[0] == "udp4":
+            agent.port = int(place.rpartition(":")[2])
+        agent.device = place
         yield agent
     finally:
         if process.poll() is None:
