@@ -4,10 +4,10 @@
  * once and whole. The eight bytes in front of a piece, message header and FRAGMENT header, are written over the end of
  * the piece before it while this one is sent, and put back.
  *
- * An agent joins pieces until one says that it is the last, and some agents do so over a gap and over a session. So a
- * message that is given up after a piece of it was sent is ended by an empty last piece (`ending`), and so is what an
- * agent may have of the session before: the first number of a session is such a piece. What the agent has then is
- * shorter than its submessage header says, and is thrown away.
+ * An agent joins pieces until one says that it is the last; over a gap and over a session some go on joining, others
+ * refuse what comes up to the next last piece. So a message that is given up after it was sent, or a part of it, leaves an
+ * empty last piece in its place (`ending`), and the first number of a session is such a piece. What the agent has by then
+ * is shorter than its submessage header says, and is thrown away.
  */
 #include "microros/xrce_stream_reliable.h"
 
@@ -181,19 +181,15 @@ static uint8_t stream_first_unsent(const xrce_stream_reliable_t * stream)
   return i;
 }
 
-/* Gives up the oldest message, of which something was sent. Where the agent may have pieces of it, the number of its
- * last piece becomes that of the ending, or else the next number. */
+/* Gives up the oldest message, of which something was sent. The number of its last piece becomes that of the ending, or
+ * the next number where that was not sent yet. */
 static void stream_give_up(xrce_stream_reliable_t * stream)
 {
-  const uint16_t before = stream->ending ? 1u : 0u;
-  const uint16_t all = (uint16_t)(before + stream_pieces(stream, 0) - stream->done);
+  const uint32_t before = stream->ending ? 1u : 0u;
+  const uint32_t all = before + stream_pieces(stream, 0) - stream->done;
 
-  if (before != 0u || stream_pieces(stream, 0) > 1u) {
-    stream->ending = true;
-    stream_pass(stream, stream->sent < all ? stream->sent : (uint8_t)(all - 1u));
-  } else {
-    stream_pass(stream, 1);
-  }
+  stream_pass(stream, stream->sent < all ? stream->sent : (uint8_t)(all - 1u));
+  stream->ending = true;
   stream->done = 0;
   stream_remove(stream, 0);
 }
