@@ -57,18 +57,18 @@ class Emulator:
     def __init__(self, process: subprocess.Popen[str]) -> None:
         """Greet it. Raises UserError with its own words when it ends at once."""
         self._process = process
-        self._call("qmp_capabilities")
+        self.call("qmp_capabilities")
 
     def device(self) -> str:
         """Return the path of the pseudo-terminal that is the board's serial line."""
-        for chardev in self._call("query-chardev"):
+        for chardev in self.call("query-chardev"):
             if chardev["label"] == _LINE:
                 return str(chardev["filename"]).removeprefix("pty:")
         raise AssertionError("the emulator does not know its own line")
 
     def go_on(self) -> None:
         """Let the processor run."""
-        self._call("cont")
+        self.call("cont")
 
     def drain(self) -> None:
         """Read events until the emulator ends."""
@@ -76,11 +76,12 @@ class Emulator:
         for _ in self._process.stdout:
             pass
 
-    def _call(self, name: str) -> Any:
+    def call(self, name: str, **arguments: Any) -> Any:
+        """Give a command of the machine protocol; return what it returns. Raises UserError when it is refused."""
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         try:
-            self._process.stdin.write(json.dumps({"execute": name}) + "\n")
+            self._process.stdin.write(json.dumps({"execute": name, "arguments": arguments}) + "\n")
             self._process.stdin.flush()
         except OSError:
             pass  # it has ended; what it said is read below
