@@ -130,6 +130,7 @@ class _Objects:
 
     def __init__(self, diagnostics: Diagnostics) -> None:
         self._diagnostics = diagnostics
+        self._unsure = False  # an id or a kind was wrong: what names that object is not at fault
         self.found: dict[int, PreconfiguredObject] = {}
 
     def read(self, item: YamlNode) -> None:
@@ -139,6 +140,7 @@ class _Objects:
             return
         kind = read_choice(node, "kind", tuple(KINDS), self._diagnostics)
         if kind is None:
+            self._unsure = True
             if "kind" not in node.entries:
                 self._diagnostics.error("the key 'kind' is missing", node.span, 'Add "kind": …')
             return
@@ -169,8 +171,10 @@ class _Objects:
         identifier = self._id(node, "id")
         entry = node.get("id")
         if entry is None or identifier is None:
+            self._unsure = True
             return 0
         if identifier & 0x0F != KINDS[kind]:
+            self._unsure = True
             wanted = identifier & 0xFFF0 | KINDS[kind]
             self._diagnostics.error(
                 f"the last digit of a {kind}'s id is {KINDS[kind]}", entry.span, f'Perhaps "{wanted:#06x}"'
@@ -204,7 +208,7 @@ class _Objects:
         if identifier is None or value is None or not kind:
             return 0
         there = self.found.get(identifier)
-        if there is None or there.kind != kind:
+        if not self._unsure and (there is None or there.kind != kind):
             known = [f"{o.id:#06x}" for o in self.found.values() if o.kind == kind]
             hint = nearest(f"{identifier:#06x}", known) or f"Put the {kind} before what names it"
             self._diagnostics.error(

@@ -10,7 +10,8 @@ from dataclasses import dataclass, field
 from microros_gen.agent.core import Agent
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog
-from microros_gen.agent.representation import Qos, Topic
+from microros_gen.agent.preconfigured import Preconfigured
+from microros_gen.agent.representation import Qos, References, Topic
 from microros_gen.agent.ros.bridge import BridgeError
 from microros_gen.agent.ros.names import ros_node, ros_topic, ros_type
 from microros_gen.agent.transport.base import Receive
@@ -90,13 +91,21 @@ class FakeTransport:
 class Bench:
     """An agent with its fakes; `say` sends bytes to it and returns what comes back."""
 
-    def __init__(self, limits: Limits | None = None, verbosity: int = 0) -> None:
+    def __init__(
+        self,
+        limits: Limits | None = None,
+        verbosity: int = 0,
+        references: References | None = None,
+        preconfigured: Preconfigured | None = None,
+    ) -> None:
         self.now = 1000.0
         self.bridge = FakeBridge()
         self.transport = FakeTransport()
         self.text = io.StringIO()
         self.log = EventLog(self.text, verbosity=verbosity)
-        self.agent = Agent(self.bridge, self.log, limits or Limits(), clock=lambda: self.now)
+        self.agent = Agent(
+            self.bridge, self.log, limits or Limits(), references, preconfigured, clock=lambda: self.now
+        )
 
     def say(self, data: bytes | str, address: Hashable = "a") -> list[str]:
         """Send a message (bytes, or hexadecimal text); return the answers to that address in hexadecimal."""

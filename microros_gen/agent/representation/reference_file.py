@@ -93,7 +93,9 @@ class _Tree:
         self._builder.end(tag.rpartition("}")[2])
 
     def _doctype(self, *_: object) -> None:
-        self._doctypes.append(self._here())
+        before = self._source.text[: self._source.text.find("<!DOCTYPE")]
+        lines = before.split("\n")
+        self._doctypes.append(Span(self._source, len(lines), len(lines[-1]) + 1))
 
 
 class _Gathered:

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Files of references: what they hold, what is wrong with them, and what clients get of them."""
+
+from __future__ import annotations
+
+import pytest
+
+from agent.captured import CREATE_CLIENT
+from agent.client import int32_body
+from agent.fakes import Bench
+from agent.test_core import message
+from microros_gen.agent.representation import Durability, Endpoint, Participant, Qos, References, Topic
+from microros_gen.agent.representation.reference_file import read_references
+from microros_gen.agent.wire.constants import Format, Status
+from microros_gen.agent.wire.data_messages import WriteData
+from microros_gen.agent.wire.entity_messages import Create
+from microros_gen.diagnostics import Source, UserError
+
+INT32 = "std_msgs::msg::dds_::Int32_"
+PROFILES = f"""<?xml version="1.0" encoding="UTF-8"?>
+<profiles>
+  <participant profile_name="participant_profile"><rtps><name>counter</name></rtps></participant>
+  <topic profile_name="count__t"><kind>NO_KEY</kind><name>rt/count</name><dataType>{INT32}</dataType></topic>
+  <data_writer profile_name="count__dw">
+    <topic><kind>NO_KEY</kind><name>rt/count</name><dataType>{INT32}</dataType>
+      <historyQos><kind>KEEP_LAST</kind><depth>10</depth></historyQos></topic>
+    <qos><durability><kind>VOLATILE</kind></durability><reliability><kind>RELIABLE</kind></reliability></qos>
+  </data_writer>
+</profiles>
+"""
+WRITER = Endpoint(Topic("rt/count", INT32), 0, Qos(True, Durability.VOLATILE, True, 10))
+
+
+def read(text: str) -> References:
+    return read_references([Source("refs.xml", text)])
+
+
+def faults(*texts: str) -> list[str]:
+    with pytest.raises(UserError) as caught:
+        read_references([Source(f"refs{i}.xml", text) for i, text in enumerate(texts)])
+    return [d.headline() for d in caught.value.diagnostics]
+
+
+def wrapped(text: str) -> str:
+    return text.replace("<profiles>", "<dds xmlns='http://www.eprosima.com'><profiles>").replace(
+        "</profiles>", "</profiles></dds>"
+    )
+
+
+@pytest.mark.parametrize("text", [PROFILES, wrapped(PROFILES), "\n".join(PROFILES.split("\n")[1:])])
+def test_profiles(text: str) -> None:
+    known = read(text).known
+    assert known == {
+        (1, "participant_profile"): Participant("counter", 0),
+        (2, "count__t"): WRITER.topic,
+        (5, "count__dw"): WRITER,
+    }
+
+
+def test_the_public_agents_other_kinds_and_older_names() -> None:
+    """As in the file that comes with it: services, both kinds of endpoint, elements that are not for an agent."""
+    topic = "<topic><kind>WITH_KEY</kind><name>Square</name><dataType>ShapeType</dataType></topic>"
+    known = read(
+        "<dds><log/><types/><profiles><transport_descriptors/>"
+        f"<publisher profile_name='w'>{topic}</publisher><subscriber profile_name='r'>{topic}</subscriber>"
+        "<requester profile_name='q' service_name='s' request_type='a' reply_type='b'></requester>"
+        "<replier profile_name='q' service_name='s' request_type='a' reply_type='b'></replier>"
+        "</profiles></dds>"
+    ).known
+    assert sorted(known) == [(5, "w"), (6, "r"), (7, "q"), (8, "q")]
+
+
+def test_several_files_join() -> None:
+    other = PROFILES.replace("count__", "other__")
+    assert len(read_references([Source("a", PROFILES), Source("b", other)]).known) == 5
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("", "refs0.xml:1:1: error: this is no XML: no element found"),
+        ("<profiles>\n  <topic></profiles>", "refs0.xml:2:12: error: this is no XML: mismatched tag"),
+        ("<profile/>", "refs0.xml:1:1: error: <profile> holds no references. The root"),
+        ("<dds>\n <topic/></dds>", "refs0.xml:2:2: error: <topic> cannot stand in <dds>. Put profiles into"),
+        ("<!DOCTYPE x>\n<profiles/>", "refs0.xml:1:1: error: document types and entities are not taken"),
+        (
+            PROFILES.replace("<topic prof", "<tpoic prof").replace(
+                "</dataType></topic>\n  <", "</dataType></tpoic>\n  <"
+            ),
+            "refs0.xml:4:3: error: there are no profiles of kind 'tpoic'. Did you mean 'topic'?",
+        ),
+        (
+            PROFILES.replace(' profile_name="count__t"', ""),
+            "refs0.xml:4:3: error: this topic has no profile_name",
+        ),
+        (
+            PROFILES.replace("<name>rt/count</name>", "", 1),
+            "refs0.xml:4:3: error: topic 'count__t': no text in 'name'",
+        ),
+        (
+            PROFILES.replace(">RELIABLE<", ">RELIABEL<"),
+            "refs0.xml:8:69: error: data_writer 'count__dw': 'qos/reliability/kind' is none of RELIABLE, BEST_EFFORT",
+        ),
+        (
+            PROFILES.replace(">10<", ">many<"),
+            "refs0.xml:7:41: error: data_writer 'count__dw': a history depth",
+        ),
+    ],
+)
+def test_faults(text: str, wanted: str) -> None:
+    found = faults(text)
+    assert found[0].startswith(wanted), found
+
+
+def test_all_faults_in_one_run_and_across_files() -> None:
+    bad = PROFILES.replace(' profile_name="count__t"', "").replace(">10<", ">many<")
+    other = PROFILES.replace(INT32, "std_msgs::msg::dds_::String_")
+    found = faults(bad, PROFILES, other)
+    assert [line.split(" ")[0] for line in found] == [
+        "refs0.xml:4:3:",
+        "refs0.xml:7:41:",
+        "refs2.xml:4:3:",
+        "refs2.xml:5:3:",
+    ]
+    assert "'count__t' is another one already, in refs1.xml:4:3. Give one" in found[2]
+
+
+def creates() -> list[Create]:
+    names = {0x11: b"participant_profile", 0x12: b"count__t", 0x15: b"count__dw"}
+    wanted = [
+        Create(
+            10 + i, object_id, object_id & 15, Format.REFERENCE, name, 0x13 if object_id == 0x15 else 0x11, 7
+        )
+        for i, (object_id, name) in enumerate(names.items())
+    ]
+    publisher = Create(20, 0x13, 3, Format.XML, b"", 0x11)
+    return [*wanted[:2], publisher, wanted[2]]
+
+
+def test_a_client_that_names_its_entities() -> None:
+    bench = Bench(references=read(PROFILES))
+    bench.say(CREATE_CLIENT)
+    for sequence, create in enumerate(creates()):
+        (answer,) = bench.say(message(create, sequence=sequence))
+        assert answer.endswith("00 00"), answer
+    assert bench.bridge.graph == ["7:/counter", "/count [std_msgs/msg/Int32]"]  # the domain is the client's
+    bench.say(message(WriteData(1, 0x15, int32_body(5)), sequence=9))
+    assert bench.bridge.published == [("/count [std_msgs/msg/Int32]", b"\0\1\0\0" + int32_body(5))]
+
+
+@pytest.mark.parametrize(
+    ("references", "name", "wanted"),
+    [
+        (
+            PROFILES,
+            "count_dw",
+            "reference 'count_dw' is none of the 1 of kind datawriter. Did you mean 'count__dw'?",
+        ),
+        (PROFILES, "zzz", "reference 'zzz' is none of the 1 of kind datawriter\n"),
+        ("<profiles/>", "x", "reference 'x': this agent has none; start it with --references FILE"),
+        (PROFILES, "y" * 20_000, "is none of the 1 of kind datawriter\n"),
+    ],
+)
+def test_an_unknown_reference(references: str, name: str, wanted: str) -> None:
+    bench = Bench(references=read(references))
+    bench.say(CREATE_CLIENT)
+    (answer,) = bench.say(message(Create(10, 0x15, 5, Format.REFERENCE, name.encode(), 0x13)))
+    assert answer.endswith(f"{Status.DDS_ERROR:02x} 00")  # as the public agent does
+    assert wanted in bench.text.getvalue()
