@@ -86,6 +86,12 @@ def stack_report(graph: CallGraph, image: Elf, public: Iterable[str]) -> StackRe
     return StackReport(True, "", total, main, handlers, tuple(functions), hardware)
 
 
+def bound_of(graph: CallGraph, name: str) -> Bound | None:
+    """Return the bound of one function of the image, or None where there is none of that name."""
+    node = graph.named(name)
+    return _Worst(graph).bound(node, "function") if node else None
+
+
 def shown_name(name: str) -> str:
     """Return a function's name as the application writes it: without the suffix that ties it to its plan."""
     return _PLAN.sub("", name)

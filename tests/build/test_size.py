@@ -1,0 +1,301 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Sizes against independent oracles: `size` and `nm` of the tool chain, C's sizeof, a painted stack."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+import pytest
+from matrix import has
+from size_images import APPLICATION, BOARDS, PROBE, build, tool
+
+from microros_gen.build.attribution import attribute, attribute_library
+from microros_gen.build.callgraph import parse_call_graph
+from microros_gen.build.compile import CALL_GRAPH, MAP, compile_tree
+from microros_gen.build.disassembly import parse_disassembly
+from microros_gen.build.elf import Elf
+from microros_gen.build.folder import read_folder
+from microros_gen.build.linker_map import parse_map
+from microros_gen.build.report import SizeReport, measure
+from microros_gen.build.stack import bound_of, shown_name
+from microros_gen.build.toolchain import Toolchain
+
+pytestmark = pytest.mark.skipif(not has("gcc") or not has("size"), reason="no gcc or no size")
+Measured = Callable[[str], SizeReport]
+
+
+@pytest.fixture(scope="session")
+def measured(tmp_path_factory: pytest.TempPathFactory) -> Measured:
+    base = tmp_path_factory.mktemp("sizes")
+
+    @cache
+    def get(target: str) -> SizeReport:
+        if not has(f"{BOARDS[target]}gcc"):
+            pytest.skip(f"no compiler for {target}")
+        with pytest.MonkeyPatch.context() as patch:
+            for name in ("CC", "AR", "CFLAGS"):
+                patch.delenv(name, raising=False)
+            return measure(build(base / target, APPLICATION, target))
+
+    return get
+
+
+def berkeley(program: str, *files: Path) -> dict[str, int]:
+    last = tool(program, "-B", *files).splitlines()[-1].split()
+    return dict(zip(("text", "data", "bss"), map(int, last[:3]), strict=True))
+
+
+@pytest.mark.parametrize("target", BOARDS)
+def test_the_sums_are_those_of_size(measured: Measured, target: str) -> None:
+    report = measured(target)
+    assert report.folder.image is not None
+    said = berkeley(f"{BOARDS[target]}size", report.folder.image)
+    assert report.totals == said
+    assert sum(p.size for p in report.ram) == said["data"] + said["bss"]
+    assert all(p.size > 0 for p in report.pieces)
+    for one, next_one in zip(report.pieces, report.pieces[1:], strict=False):
+        assert one.section != next_one.section or one.address + one.size == next_one.address
+
+
+@pytest.mark.parametrize("target", BOARDS)
+def test_every_symbol_of_nm_has_its_size(measured: Measured, target: str) -> None:
+    report = measured(target)
+    said: dict[str, int] = {}
+    for line in tool(f"{BOARDS[target]}nm", "-S", "-P", report.folder.image or "").splitlines():
+        parts = line.split()
+        if len(parts) == 4 and parts[1] in "TtBbDdRr":
+            said[parts[0]] = said.get(parts[0], 0) + int(parts[3], 16)
+    mine: dict[str, int] = {}
+    for piece in report.pieces:
+        for name in (piece.symbol, *piece.aliases):
+            if name:
+                mine[name] = mine.get(name, 0) + piece.size
+    assert {name: size for name, size in mine.items() if not name.startswith('"')} == said
+
+
+@pytest.mark.parametrize("target", BOARDS)
+def test_an_owner_is_the_object_that_defines_a_symbol(measured: Measured, target: str) -> None:
+    """`nm -A` of the library is the oracle: which member defines an exported function."""
+    report = measured(target)
+    said = tool(f"{BOARDS[target]}nm", "-A", "-P", "--defined-only", report.folder.path / "lib/libmicroros.a")
+    members = dict(re.findall(r"\[([^]]+)\]: (\w+) T ", said))
+    by_name = {name: member for member, name in re.findall(r"\[([^]]+)\]: (\w+) T ", said)}
+    assert members
+    checked = 0
+    for piece in report.pieces:
+        if piece.symbol in by_name and piece.owner.group in ("component", "type support"):
+            folder, _, name = by_name[piece.symbol].removesuffix(".o").partition("__")
+            assert re.fullmatch(rf"src/{folder}/{re.escape(name)}\.[cS]", piece.source or "")
+            checked += 1
+    assert checked > 50
+
+
+def test_members_of_the_library_have_names_of_their_own(measured: Measured) -> None:
+    report = measured("host")
+    members = tool("ar", "t", report.folder.path / "lib/libmicroros.a").split()
+    assert len(members) == len(set(members)) == len(report.folder.sources)
+    assert {"std_msgs__string__functions.o", "example_interfaces__string__functions.o"} <= set(members)
+
+
+def test_the_library_alone_adds_up(measured: Measured) -> None:
+    folder = measured("host").folder
+    last = tool("size", "-t", folder.path / "lib/libmicroros.a").splitlines()[-1].split()
+    pieces = attribute_library(folder)
+    kinds = {k: sum(p.size for p in pieces if p.kind == k) for k in ("text", "data", "bss")}
+    assert list(kinds.values()) == [int(n) for n in last[:3]]
+
+
+@pytest.mark.skipif(not has("clang") or not has("ld.lld"), reason="no clang or no lld")
+def test_the_map_of_lld(measured: Measured, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    shutil.copytree(measured("host").folder.path, out)
+    main = ".build/examples/pure_sender/main.o"
+    flags = ["-fuse-ld=lld", "-Wl,--gc-sections", f"-Wl,-Map={MAP}", "-o", "bin/pure_sender"]
+    subprocess.run(["clang", main, "lib/libmicroros.a", *flags], cwd=out, check=True)
+    folder = read_folder(out)
+    pieces = attribute(folder, Elf(out / "bin/pure_sender"))
+    kinds = {k: sum(p.size for p in pieces if p.kind == k) for k in ("text", "data", "bss")}
+    assert kinds == berkeley("size", out / "bin/pure_sender")
+    mine = [p for p in pieces if p.symbol == "rcl_publish"]
+    assert [(p.owner.name, p.source) for p in mine] == [("publish", "src/publish/rcl_publisher.c")]
+
+
+def test_string_constants_belong_to_who_wrote_them(measured: Measured) -> None:
+    """Linkers merge strings into one section; the topic is in main.c alone, the type's name in its support."""
+    pieces = {p.symbol: p for p in measured("host").pieces if p.symbol and p.symbol.startswith('"')}
+    assert pieces['"imu/data"'].source == "examples/pure_sender/main.c"
+    assert pieces['"sensor_msgs::msg::dds_::Imu_"'].source == "src/sensor_msgs/imu__type_support.c"
+
+
+def sizeof(out: Path, *expressions: str) -> list[int]:
+    """Ask the compiler for sizes."""
+    lines = "".join(f'(void)printf("%zu\\n", (size_t)({e}));' for e in expressions)
+    head = "#include <stdio.h>\n#include <microros/xrce_client.h>\n#include <sensor_msgs/msg/detail/imu__storage.h>\n"
+    source = f"{head}int main(void){{{lines}return 0;}}"
+    program = out / ".build" / "sizeof"
+    subprocess.run(
+        ["gcc", "-std=c99", "-Iinclude", "-x", "c", "-", "-o", program],
+        cwd=out,
+        input=source,
+        text=True,
+        check=True,
+    )
+    return [int(n) for n in tool(program).split()]
+
+
+def test_ram_is_split_as_the_compiler_lays_it_out(measured: Measured) -> None:
+    report = measured("host")
+    client, reliable, writer, message, storage = sizeof(
+        report.folder.path,
+        "sizeof(struct xrce_client_t)",
+        "sizeof(((struct xrce_client_t *)0)->reliable)",
+        "sizeof(xrce_writer_t)",
+        "sizeof(sensor_msgs__msg__Imu)",
+        "sizeof(sensor_msgs__msg__Imu__Storage)",
+    )
+    parts = [p for p in report.ram if p.symbol == "instance"]
+    assert sum(p.size for p in parts) >= client
+    slots = {p.path: p.size for p in parts if re.fullmatch(r"reliable stream, slot \d", p.use)}
+    pools = report.folder.manifest["pools"]
+    assert len(slots) == pools["reliable_slots"]
+    assert set(slots.values()) == {pools["reliable_slot_size"]}
+    assert reliable >= sum(slots.values())
+    mine = [p for p in parts if ".writers[1]" in p.path]
+    assert 0 < sum(p.size for p in mine) <= writer
+    assert {p.use for p in mine} == {"publisher 1"}
+    entities = {e.name: e for e in report.entities}
+    assert entities["/imu/data"].message == 2 * (message + storage), (
+        "two publishers of one type, two messages"
+    )
+    assert entities["/imu/data"].type_users == 2
+    assert entities["/imu/data"].flash == entities["/imu/raw"].flash > entities["/count"].flash > 0
+    assert [(s.what, s.users) for s in entities["/count"].shares] == [("reliable stream", 3)]
+
+
+def test_the_stack_of_a_painted_run_is_below_the_bound(tmp_path: Path) -> None:
+    """The same calls on a painted stack, port functions included: what was used is no more than what was bounded."""
+    out = build(tmp_path, PROBE)
+    probe = out / "examples" / "probe" / "main.c"
+    probe.parent.mkdir()
+    shutil.copy(Path(__file__).parent / "c" / "stack_probe.c", probe)
+    sources = (out / "sources.txt").read_text().split()
+    flags = ("-O2", "-g", "-ffunction-sections", "-fdata-sections")
+    tools = Toolchain("gcc", "ar", flags, ("-Wl,--gc-sections", "-Wl,-z,now"), ())
+    compile_tree(out, sources, "examples/probe/main.c", "pure_sender", tools)
+    said = subprocess.run([out / "bin/pure_sender"], capture_output=True, text=True, check=True).stdout
+    failed, used = map(int, said.split())
+    assert failed == 0
+    report = measure(out)
+    assert report.graph is not None
+    bound = bound_of(report.graph, "work")
+    assert bound is not None
+    assert bound.open == ("memcpy (shared library)",), "nothing else is left out"
+    assert used <= bound.bytes + report.stack.hardware
+    assert used > bound.bytes // 2, "the run came near the bound, so the comparison means something"
+    assert "rcl_publisher_open" in {link.name for link in bound.chain}
+
+
+def test_the_bound_follows_pointers_of_the_type_support(measured: Measured) -> None:
+    report = measured("qemu-mps2-an385")
+    assert report.graph is not None
+    nodes = {n.name: n for n in report.graph.nodes.values()}
+    called = {report.graph.nodes[a].name for a in nodes["xrce_write_message"].calls}
+    assert {"sensor_msgs__msg__Imu__encode", "std_msgs__msg__Int32__encoded_size"} <= called
+
+
+def test_a_board_starts_at_reset_and_counts_its_interrupts(measured: Measured) -> None:
+    stack = measured("qemu-mps2-an385").stack
+    assert stack.known
+    assert stack.open == (), "nothing of an image for a board is left out"
+    assert stack.main is not None
+    names = [link.name for link in stack.main.chain]
+    assert names[0].endswith("reset")
+    assert "main" in names
+    assert stack.handlers
+    assert stack.total == stack.main.bytes + sum(h.bytes for h in stack.handlers) + stack.hardware
+    assert stack.hardware == 36 * len(stack.handlers), "nine words each: Armv7-M B1.5.7"
+
+
+def test_every_frame_of_the_chain_is_what_gcc_says(measured: Measured) -> None:
+    report = measured("qemu-mps2-an385")
+    assert report.stack.main is not None
+    said: dict[str, int] = {}
+    for path in report.folder.path.rglob("*.ci"):
+        said.update({shown_name(n): f.size for n, f in parse_call_graph(path.read_text()).items()})
+    compiled = [link for link in report.stack.main.chain if link.origin == "compiler"]
+    assert len(compiled) > 10
+    assert all(said[link.name] == link.frame for link in compiled)
+
+
+def test_clang_gives_no_bound_and_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    if not has("clang"):
+        pytest.skip("no clang")
+    monkeypatch.setenv("CC", "clang")
+    report = measure(build(tmp_path, PROBE + "memory: {stack: 16}\n"))
+    assert not report.stack.known
+    assert CALL_GRAPH in report.stack.why
+    assert report.budgets == ()
+    assert report.totals == berkeley("size", report.folder.path / "bin/pure_sender")
+
+
+ARM = """\
+00000000 <start>:
+   0:\tpush\t{r4, r5, r6, lr}
+   2:\tsub\tsp, #40\t@ 0x28
+   4:\tvpush\t{d8-d9}
+   8:\tbl\t20 <other>
+   c:\tb.n\t10 <start+0x10>
+  10:\tpop\t{r4, r5, r6, pc}
+
+00000020 <other>:
+  20:\tsub.w\tsp, sp, #1024\t@ 0x400
+  24:\tblx\tr3
+  26:\tsub.w\tsp, sp, r2
+  28:\tb.w\t0 <start>
+"""
+
+
+def test_frames_and_calls_of_a_disassembly() -> None:
+    start, other = parse_disassembly(ARM, "EM_ARM", {})
+    assert (start.frame, start.calls, start.indirect, start.dynamic) == (16 + 40 + 16, {0x20}, False, False)
+    assert (other.frame, other.calls, other.indirect, other.dynamic) == (1024, {0}, True, True)
+
+
+def test_recursion_and_frames_of_variable_size_are_named(tmp_path: Path) -> None:
+    source = (
+        "int f(int n, char * s);\nint f(int n, char * s)\n{\n  char b[n + 1];\n\n  b[n] = s[0];\n"
+        "  return n > 0 ? f(n - 1, b) + b[n] : s[n];\n}\nint main(void)\n{\n  return f(3, (char *)main);\n}\n"
+    )
+    out = build(tmp_path, PROBE)
+    probe = out / "examples" / "probe" / "main.c"
+    probe.parent.mkdir()
+    probe.write_text(source)
+    sources = (out / "sources.txt").read_text().split()
+    tools = Toolchain("gcc", "ar", ("-O0", "-g"), ("-Wl,--gc-sections",), ())
+    compile_tree(out, sources, "examples/probe/main.c", "pure_sender", tools)
+    report = measure(out)
+    assert report.stack.main is not None
+    assert "f: recursion" in report.stack.main.open
+    assert "f: a frame of variable size" in report.stack.main.open
+
+
+def test_a_text_that_is_no_map_has_no_sections() -> None:
+    assert parse_map("") == parse_map("Archive member included\nLOAD x.o\n") == ()
+
+
+def test_what_was_not_built_is_refused(tmp_path: Path) -> None:
+    from microros_gen.diagnostics import UserError
+
+    with pytest.raises(UserError, match="no output folder"):
+        measure(tmp_path)
+    out = build(tmp_path, PROBE)
+    shutil.rmtree(out / "lib")
+    with pytest.raises(UserError, match="was not built"):
+        measure(out)
+    assert os.path.isdir(out)
