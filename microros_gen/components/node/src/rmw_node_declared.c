@@ -11,7 +11,7 @@
 uint16_t rmw_node_take(xrce_client_t * client, const char * name, const char * namespace_)
 {
   const rmw_name_t wanted = rmw_name_of_namespace(namespace_);
-  const char * error = microros_error_node_undeclared;
+  microros_error_t error = microros_error_node_undeclared;
 
   for (uint16_t i = 0; i < MICROROS_NODES_MAX; ++i) {
     const microros_declared_node_t * declared = &microros_declared_nodes[i];

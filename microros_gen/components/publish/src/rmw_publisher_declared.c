@@ -10,7 +10,7 @@
 bool rmw_publisher_take(xrce_writer_t * writer, const rmw_name_t * topic, const char * given)
 {
   const char * type = writer->type->dds_type_name;
-  const char * error = microros_error_publisher_undeclared;
+  microros_error_t error = microros_error_publisher_undeclared;
 
   for (uint16_t i = 0; i < MICROROS_PUBLISHERS_MAX; ++i) {
     const microros_declared_publisher_t * declared = &microros_declared_publishers[i];

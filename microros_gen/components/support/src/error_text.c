@@ -131,7 +131,7 @@ static text_t error_begin(const char * file, size_t line_number)
 }
 
 void microros_error_set(
-  const char * error, const char * name, const char * detail, uint32_t found, uint32_t fits)
+  microros_error_t error, const char * name, const char * detail, uint32_t found, uint32_t fits)
 {
   text_t text = error_begin(NULL, 0);
 
@@ -177,4 +177,15 @@ void rcutils_set_error_state(const char * error_string, const char * file, size_
 
   text_put_string(&text, error_string);
   *text.at = '\0';
+}
+
+int32_t microros_error_named(int32_t result, microros_error_t error, const char * name)
+{
+  microros_error_set(error, name, NULL, 0, 0);
+  return result;
+}
+
+int32_t microros_error_refuse(int32_t result, const char * argument)
+{
+  return microros_error_named(result, microros_error_argument, argument);
 }

@@ -10,6 +10,7 @@
 #include "microros/xrce_routes.h"
 #include "rmw/rmw.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 const char * rmw_get_implementation_identifier(void)
@@ -48,34 +49,29 @@ static rmw_ret_t init_report(const xrce_client_t * client)
   return RMW_RET_TIMEOUT;
 }
 
-/* The options must live as long as the session, so the context keeps them. */
-static void init_keep_options(const rmw_init_options_t * options, rmw_context_t * context)
+/* There is one client, so one session. */
+static bool init_is_free(void)
 {
-  if (options != NULL) {
-    context->options = *options;
-  } else {
-    memset(&context->options, 0, sizeof(context->options));
-    context->options.domain_id = RMW_DEFAULT_DOMAIN_ID;
+  const bool is_free = rmw_client_instance()->session.state == XRCE_CLOSED;
+
+  if (!is_free) {
+    microros_error_set(microros_error_context_in_use, NULL, NULL, 0, 0);
   }
+  return is_free;
 }
 
-rmw_ret_t rmw_open(const rmw_init_options_t * options, rmw_context_t * context)
+/* Opens a session as context->options say. */
+static rmw_ret_t init_open(rmw_context_t * context)
 {
   xrce_client_t * client = rmw_client_instance();
   const rmw_uxrce_transport_params_t * params = &context->options.transport_params;
+  rmw_ret_t result = RMW_RET_ERROR;
 
-  if (client->session.state != XRCE_CLOSED) {
-    return microros_error_named(RMW_RET_ERROR, microros_error_context_in_use, NULL);
-  }
-  init_keep_options(options, context);
   xrce_session_open(client, params->client_key != 0u ? params->client_key : MICROROS_CLIENT_KEY);
-  if (!rmw_transport_prepare(&client->session.transport, params)) {
-    xrce_session_close(client);
-    return RMW_RET_ERROR;
+  if (rmw_transport_prepare(&client->session.transport, params)) {
+    result = xrce_session_await(client, MICROROS_CONNECT_TIMEOUT_MS) ? RMW_RET_OK : init_report(client);
   }
-  if (!xrce_session_await(client, MICROROS_CONNECT_TIMEOUT_MS)) {
-    const rmw_ret_t result = init_report(client);
-
+  if (result != RMW_RET_OK) {
     xrce_session_close(client);
     return result;
   }
@@ -87,12 +83,26 @@ rmw_ret_t rmw_open(const rmw_init_options_t * options, rmw_context_t * context)
   return RMW_RET_OK;
 }
 
+rmw_ret_t rmw_open_as_planned(rmw_context_t * context)
+{
+  if (!init_is_free()) {
+    return RMW_RET_ERROR;
+  }
+  memset(&context->options, 0, sizeof(context->options));
+  context->options.domain_id = RMW_DEFAULT_DOMAIN_ID;
+  return init_open(context);
+}
+
 rmw_ret_t rmw_init(const rmw_init_options_t * options, rmw_context_t * context)
 {
   if (options == NULL || context == NULL || options->implementation_identifier == NULL) {
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "options or context");
   }
-  return rmw_open(options, context);
+  if (!init_is_free()) {
+    return RMW_RET_ERROR;
+  }
+  context->options = *options; /* they must live as long as the session, so the context keeps them */
+  return init_open(context);
 }
 
 rmw_ret_t rmw_shutdown(rmw_context_t * context)
