@@ -34,8 +34,9 @@ XML_WRITER = (
 )
 
 
-def plan_of(entities: str, creation: str, base: RuntimePlan = POOL) -> RuntimePlan:
-    """Return `base` with the storage that its largest CREATE takes."""
+def plan_of(entities: str, creation: str) -> RuntimePlan:
+    """Return a plan with the storage that its largest CREATE takes; one with references has one node."""
+    base = replace(POOL, nodes_max=1) if (entities, creation) == ("reference", "best_effort") else POOL
     name = base.name_size - 1
     names = CreateNames(
         2 * name + 1, name + 2, 28, len(participant_reference("x" * 2 * name, base.nodes_max))
@@ -212,9 +213,8 @@ def lossy(seed: int) -> Iterator[bool]:
 
 
 @pytest.mark.parametrize("seed", range(6))
-@pytest.mark.parametrize("way", ["binary", "reference"])
-def test_reliable_creation_with_losses_acts_once(bench: Bench, way: str, seed: int) -> None:
-    plan = replace(plan_of(way, "reliable"), create_timeout_ms=4000, connect_timeout_ms=4000)
+def test_reliable_creation_with_losses_acts_once(bench: Bench, seed: int) -> None:
+    plan = replace(plan_of("binary", "reliable"), create_timeout_ms=4000, connect_timeout_ms=4000)
     losses = lossy(seed)
     agent = CreatingAgent(drop=lambda datagram: next(losses), drop_answer=lambda answer: next(losses))
     client = bench.start(plan, "none", agent)
@@ -236,8 +236,7 @@ def test_reliable_creation_with_losses_acts_once(bench: Bench, way: str, seed: i
 
 @pytest.mark.parametrize("creation", STREAMS)
 def test_the_request_of_a_former_owner_does_not_count_for_the_next(bench: Bench, creation: str) -> None:
-    plan = replace(plan_of("binary", creation), publishers_max=1)
-    client, agent = started(bench, plan)
+    client, agent = started(bench, plan_of("binary", creation))
     client.ok("publisher_fini 0 0")
     # The agent acts on the topic, but its answer does not come while the caller waits.
     agent.drop_answer = lambda answer: answer[4] in (0x05, 0x0B)
@@ -250,10 +249,8 @@ def test_the_request_of_a_former_owner_does_not_count_for_the_next(bench: Bench,
     assert agent.values() == [3]
 
 
-@pytest.mark.parametrize("creation", STREAMS)
-def test_acknack_notices_an_agent_that_is_lost_while_it_creates(bench: Bench, creation: str) -> None:
-    plan = plan_of("binary", creation)
-    client, agent = started(bench, plan, "acknack")
+def test_acknack_notices_an_agent_that_is_lost_while_it_creates(bench: Bench) -> None:
+    client, agent = started(bench, plan_of("binary", "reliable"), "acknack")
     agent.restart()
     client.call("publisher 1 0 Int32 other reliable")
     client.call("say 0 a")
@@ -279,7 +276,7 @@ def test_xml_as_captured(bench: Bench) -> None:
 
 
 def test_references_as_the_rmw_of_micro_ros_names_them(bench: Bench) -> None:
-    client, _ = started(bench, plan_of("reference", "best_effort", replace(POOL, nodes_max=1)))
+    client, _ = started(bench, plan_of("reference", "best_effort"))
     assert [d[12:] for d in requests_of(client.sent)] == [
         _string_body(1, 1, b"participant_profile\0", b"\0\0"),
         _string_body(2, 1, b"chatter__t\0", b"\0\1"),
@@ -289,7 +286,7 @@ def test_references_as_the_rmw_of_micro_ros_names_them(bench: Bench) -> None:
 
 
 def test_nodes_among_several_have_references_of_their_own(bench: Bench) -> None:
-    client = bench.start(plan_of("reference", "best_effort"), "ping", CreatingAgent())
+    client = bench.start(plan_of("reference", "reliable"), "ping", CreatingAgent())
     for call in ("init", "node 0 my_node -", "node 1 imu /arm/left"):
         client.ok(call)
     assert [d[20:] for d in requests_of(client.sent)] == [
@@ -330,19 +327,20 @@ def test_the_largest_create_fits_to_the_byte(bench: Bench, plan: RuntimePlan) ->
     assert largest == room
 
 
-PRECONFIGURED = replace(DECLARED, entities="preconfigured")
-TWO_NODES = replace(
-    PRECONFIGURED,
+PRECONFIGURED = replace(
+    DECLARED,
+    entities="preconfigured",
     nodes_max=2,
+    publishers_max=3,
     nodes=(*DECLARED.nodes, NodePlan(1, "leg", "/", "leg", 0)),
-    publishers=(*DECLARED.publishers[:1], PublisherPlan(1, 1, "/walk", "rt/walk", INT32, False)),
+    publishers=(*DECLARED.publishers, PublisherPlan(2, 1, "/walk", "rt/walk", INT32, False)),
 )
 
 
-def preconfigured(bench: Bench, plan: RuntimePlan = PRECONFIGURED) -> tuple[Client, CreatingAgent]:
-    """Return a client and an agent that has both writers."""
-    agent = CreatingAgent(objects={b"\0\5": b"", b"\0\x15": b""})
-    client = bench.start(plan, "ping", agent)
+def preconfigured(bench: Bench) -> tuple[Client, CreatingAgent]:
+    """Return a client and an agent that has its writers."""
+    agent = CreatingAgent(objects={b"\0\5": b"", b"\0\x15": b"", b"\0\x25": b""})
+    client = bench.start(PRECONFIGURED, "ping", agent)
     client.ok("init")
     return client, agent
 
@@ -389,7 +387,7 @@ def test_a_preconfigured_client_finds_its_way_back(bench: Bench) -> None:
 
 
 def test_a_preconfigured_node_takes_its_publishers_with_it(bench: Bench) -> None:
-    client, agent = preconfigured(bench, TWO_NODES)
+    client, agent = preconfigured(bench)
     for call in (
         "node 0 imu arm",
         "node 1 leg -",
@@ -400,6 +398,6 @@ def test_a_preconfigured_node_takes_its_publishers_with_it(bench: Bench) -> None
         client.ok(call)
     assert client.call("publish 0 1").code == 300
     client.ok("publish 1 2")
-    assert agent.values(1) == [2]
+    assert agent.values(2) == [2]
     client.ok("node 0 imu arm")
     client.ok("publisher 0 0 Int32 chatter reliable")
