@@ -7,11 +7,12 @@ import hashlib
 import json
 import os
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
+from microros_gen.build.stamps import Stamps
 from microros_gen.build.toolchain import WARNINGS, Toolchain, run
 from microros_gen.diagnostics import Diagnostic, UserError
 
@@ -62,60 +63,19 @@ def compile_tree(
     facts = _call_graph_flags(tools, out)
     library_units = [_unit(source, tools, facts) for source in sources]
     example_unit = _unit(example, tools, facts)
-    stamps = _Stamps(out / OBJECTS / "stamps.json")
+    stamps = Stamps(out, out / OBJECTS / "stamps.json")
     units = [*library_units, example_unit]
-    stale = [unit for unit in units if not stamps.is_fresh(out, unit)]
+    stale = [unit for unit in units if not stamps.is_fresh(unit.object, unit.command)]
     try:
         _compile(out, stale, stamps)
     finally:
-        stamps.save(units)
+        stamps.save(unit.object for unit in units)
     if stale or not (out / LIBRARY).is_file():
         _archive(out, [u.object for u in library_units], tools)
     linked = _images(out, f"bin/{image}", example_unit.object, tools, script, bool(stale)) if image else ()
     _record(out, tools, call_graph=bool(facts))
     _remove_others(out, {u.object for u in units}, {LIBRARY, *linked})
     return BuildReport(LIBRARY, linked[0] if linked else None, len(stale), len(units) - len(stale))
-
-
-class _Stamps:
-    """For each object, a digest of the command and of every file that it was made from."""
-
-    def __init__(self, path: Path) -> None:
-        self._path = path
-        self._stamps: dict[str, dict[str, object]] = {}
-        self._digests: dict[str, str] = {}
-        try:
-            self._stamps = json.loads(path.read_text(encoding="utf-8"))
-        except (OSError, ValueError):
-            self._stamps = {}
-
-    def is_fresh(self, out: Path, unit: _Unit) -> bool:
-        stamp = self._stamps.get(unit.object)
-        if not isinstance(stamp, dict) or not (out / unit.object).is_file():
-            return False
-        files = stamp.get("files")
-        return isinstance(files, list) and stamp.get("digest") == self._digest(out, unit, files)
-
-    def record(self, out: Path, unit: _Unit, files: list[str]) -> None:
-        self._stamps[unit.object] = {"digest": self._digest(out, unit, files), "files": files}
-
-    def save(self, units: Iterable[_Unit]) -> None:
-        kept = {u.object: self._stamps[u.object] for u in units if u.object in self._stamps}
-        self._path.parent.mkdir(parents=True, exist_ok=True)
-        self._path.write_text(json.dumps(kept, sort_keys=True), encoding="utf-8")
-
-    def _digest(self, out: Path, unit: _Unit, files: Iterable[str]) -> str:
-        parts = [*unit.command, *(self._file_digest(out / f) for f in files)]
-        return hashlib.sha256("\0".join(parts).encode()).hexdigest()
-
-    def _file_digest(self, path: Path) -> str:
-        key = str(path)
-        if key not in self._digests:
-            try:
-                self._digests[key] = hashlib.sha256(path.read_bytes()).hexdigest()
-            except OSError:
-                self._digests[key] = "missing"
-        return self._digests[key]
 
 
 def object_name(source: str) -> str:
@@ -146,7 +106,7 @@ def _record(out: Path, tools: Toolchain, call_graph: bool) -> None:
     (out / TOOLS).write_text(json.dumps(data, sort_keys=True), encoding="utf-8")
 
 
-def _compile(out: Path, units: Sequence[_Unit], stamps: _Stamps) -> None:
+def _compile(out: Path, units: Sequence[_Unit], stamps: Stamps) -> None:
     for unit in units:
         (out / unit.object).parent.mkdir(parents=True, exist_ok=True)
     with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
@@ -154,7 +114,7 @@ def _compile(out: Path, units: Sequence[_Unit], stamps: _Stamps) -> None:
     failed = []
     for unit, result in zip(units, results, strict=True):
         if result.returncode == 0:
-            stamps.record(out, unit, _dependencies(out / unit.object))
+            stamps.record(unit.object, unit.command, _dependencies(out / unit.object))
         else:
             failed.append(Diagnostic(f"{unit.source} does not compile:\n{result.stdout.rstrip()}"))
     if failed:
