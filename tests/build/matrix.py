@@ -61,13 +61,15 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         "pool-none-drop-code-arena-device": _POOL_LARGE
         + "liveliness: none\non_full: drop_oldest\nerrors: code\nmemory: {arena: 1024}\n"
         + "session: {key: device}\n",
-        "pool-acknack-block": _POOL + "liveliness: acknack\non_full: block 20 ms\n",
-        "declared-acknack-drop-arena": _NODES
-        + "liveliness: acknack\non_full: drop_oldest\nmemory: {arena: 1024}\n",
-        "declared-ping-block-code-device": _NODES
-        + "on_full: block 20 ms\nerrors: code\nsession: {key: device}\n",
-        "best-effort-none-code": _BEST_EFFORT + "liveliness: none\nerrors: code\n",
+        "pool-acknack-block-xml-reliable": _POOL
+        + "liveliness: acknack\non_full: block 20 ms\nentities: xml\ncreation: reliable\n",
+        "declared-acknack-drop-arena-reference": _NODES
+        + "liveliness: acknack\non_full: drop_oldest\nmemory: {arena: 1024}\nentities: reference\n",
+        "declared-ping-block-code-device-preconfigured": _NODES
+        + "on_full: block 20 ms\nerrors: code\nsession: {key: device}\nentities: preconfigured\n",
+        "best-effort-none-code": _BEST_EFFORT + "liveliness: none\nerrors: code\nentities: preconfigured\n",
         "best-effort-ping-drop": _BEST_EFFORT + "on_full: drop_oldest\nsession: {key: 7}\n",
+        "best-effort-reference-reliable": _BEST_EFFORT + "entities: reference\ncreation: reliable\n",
     }
 )
 """Application files by name. Together they select every alternative file of the components that are ready."""

@@ -110,8 +110,9 @@ def test_symbols(tree_of: TreeOf, symbols: Callable[[str], Symbols], name: str) 
     _gives_what_its_sources_say(tree, found)
     assert not found.all_defined & unselected(tree)
     _has_known_prefixes(tree, found)
-    _has_no_read_side(found)
+    _has_no_read_side(found, "creation: reliable" in VARIANTS[name])
     _has_what_the_axes_say(VARIANTS[name], found.everything)
+    _creates_as_the_application_says(VARIANTS[name], found.everything)
 
 
 def _needs_nothing_but_memory_functions(found: Symbols) -> None:
@@ -136,21 +137,51 @@ def _has_known_prefixes(tree: Tree, found: Symbols) -> None:
     assert not [n for n in found.all_defined if not n.startswith(mine)]
 
 
-def _has_no_read_side(found: Symbols) -> None:
-    """Nothing of a pure sender decodes a message, reads, or takes."""
-    read = re.compile(
-        r"decode|deserialize|_take_message|datareader|subscri|read_data|cdr_get|stream_.*_input"
-    )
+def _has_no_read_side(found: Symbols, reliable_answers: bool) -> None:
+    """Nothing of a pure sender decodes a message, reads, or takes; STATUS alone may come reliably."""
+    read = re.compile(r"decode|deserialize|_take_message|datareader|subscri|read_data|cdr_get")
     assert not [n for n in found.everything if read.search(n)]
+    assert any("reliable_input" in n for n in found.everything) == reliable_answers
+
+
+def _creates_as_the_application_says(application: str, names: frozenset[str]) -> None:
+    """A preconfigured client has no code for CREATE, DELETE and STATUS; the others have one way to describe."""
+    creates = "entities: preconfigured" not in application
+    wanted = {"xrce_creation_send", "xrce_describe", "xrce_entities_on_status", "xrce_session_leave"}
+    assert names & wanted == (wanted if creates else set())
+    of_creation = re.compile(r"creation|describe|create(?!_client)|delete|on_status$|session_leave")
+    assert bool([n for n in names if of_creation.search(n) and not n.startswith("rmw_uros")]) == creates
 
 
 def _has_what_the_axes_say(application: str, names: frozenset[str]) -> None:
     has_reliable = "best_effort" not in application or "Int32" in application
+    has_reliable = has_reliable or "creation: reliable" in application
     assert any("ping" in n for n in names) == ("liveliness" not in application)
     assert any("liveliness_acknack" in n for n in names) == ("acknack" in application)
     assert any("stream_reliable" in n for n in names) == has_reliable
     assert ("microros_error_state" in names) or "errors: code" in application
     assert any("error_text" in n for n in names) <= ("errors: code" not in application)
+
+
+_WORDS_OF = {"xml": {b"<dds>", b"KEEP_", b"</"}, "reference": {b"participant_profile", b"__dw"}}
+
+
+def test_words_of_other_ways_to_create_are_not_in_an_image(tree_of: TreeOf, tmp_path: Path) -> None:
+    """`strings` of a linked image, not only of the library."""
+    for name, application in VARIANTS.items():
+        if name in ("pool", "demo") or "entities:" in application:
+            tree = tree_of(name)
+            compiled = compile_tree(
+                tree, "gcc", ("-Os", "-ffunction-sections"), (*tree.sources, tree.example), tmp_path / name
+            )
+            image = tmp_path / f"{name}.elf"
+            objects = map(str, compiled.objects.values())
+            check(["gcc", "-Wl,--gc-sections", *objects, "-o", str(image)], tmp_path)
+            there = {word for words in _WORDS_OF.values() for word in words if word in image.read_bytes()}
+            wanted = next(
+                (words for way, words in _WORDS_OF.items() if f"entities: {way}" in application), set()
+            )
+            assert there == wanted, name
 
 
 @pytest.mark.parametrize("name", VARIANTS)
