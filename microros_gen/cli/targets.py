@@ -5,14 +5,18 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import shutil
 from pathlib import Path
+from typing import Any
 
 import click
 
 from microros_gen.cli.resolve_format import format_table
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.model.target import Target
+from microros_gen.model.target import Emulator, Region, Target, Uart, UniqueId
 from microros_gen.sources.targets import builtin_targets, read_target
+
+_COLUMNS = ("target", "what", "image", "needs")
 
 
 @click.command()
@@ -28,9 +32,13 @@ from microros_gen.sources.targets import builtin_targets, read_target
 def command(name: str | None, kind: str) -> None:
     """List the targets, or show target NAME (built-in, or the path of a target file).
 
+    The list tells for each target what the example becomes (an image, or nothing: the library alone), and the
+    Debian packages that it needs and this machine lacks.
+
     \b
     microros-gen targets
-    microros-gen targets host
+    microros-gen targets qemu-mps2-an386
+    microros-gen targets boards/mine.yaml
     """
     diagnostics = Diagnostics()
     names = builtin_targets() if name is None else (name,)
@@ -38,13 +46,60 @@ def command(name: str | None, kind: str) -> None:
     diagnostics.check()
     targets = [f.target for f in found if f is not None]
     if kind == "json":
-        click.echo(json.dumps([dataclasses.asdict(t) for t in targets], indent=2, sort_keys=True))
+        click.echo(json.dumps([_data(t) for t in targets], indent=2, sort_keys=True))
     elif name is None:
-        click.echo(format_table(("target", "what"), [(t.name, t.summary) for t in targets]), nl=False)
+        click.echo(format_table(_COLUMNS, [_line(t) for t in targets]), nl=False)
     else:
         click.echo(format_table(("key", "value"), _rows(targets[0])), nl=False)
 
 
+def missing_packages(target: Target) -> tuple[str, ...]:
+    """Return the Debian packages of the tool chain and of the emulator that are not installed here."""
+    missing: list[str] = []
+    if not all(any(shutil.which(p) for p in names) for names in (target.compilers, target.archivers)):
+        missing += target.package.split()
+    emulator = target.emulator
+    if emulator is not None and shutil.which(emulator.program) is None:
+        missing.append(emulator.package)
+    return tuple(missing)
+
+
+def _line(target: Target) -> tuple[str, str, str, str]:
+    image = "library alone" if not target.has_image else "runs here" if target.hosted else "on the board"
+    if target.emulator is not None:
+        image = f"in {target.emulator.program}"
+    missing = missing_packages(target)
+    return (
+        target.name,
+        target.summary,
+        image,
+        f"apt-get install {' '.join(missing)}" if missing else "nothing more",
+    )
+
+
+def _data(target: Target) -> dict[str, Any]:
+    return {**dataclasses.asdict(target), "missing_packages": missing_packages(target)}
+
+
 def _rows(target: Target) -> list[tuple[str, str]]:
-    values = dataclasses.asdict(target).items()
-    return [(k, " ".join(v) if isinstance(v, (tuple, list)) else str(v)) for k, v in values]
+    rows = [(field.name, _text(getattr(target, field.name))) for field in dataclasses.fields(target)]
+    return [*rows, ("missing packages", _text(missing_packages(target)))]
+
+
+def _text(value: object) -> str:
+    if isinstance(value, Region):
+        return f"{value.origin:#010x}, {value.size} bytes"
+    if isinstance(value, Uart):
+        return f"{value.driver} at {value.base:#010x}, interrupt {value.irq}"
+    if isinstance(value, UniqueId):
+        return f"{value.words} words at {value.address:#010x}"
+    if isinstance(value, Emulator):
+        return " ".join((value.program, *value.arguments))
+    if isinstance(value, tuple):
+        pairs = [f"{a} {b:#010x}" if isinstance(b, int) else f"{a} {b}" for a, b in _pairs(value)]
+        return " ".join(map(str, value)) if not pairs else ", ".join(pairs)
+    return "-" if value is None else str(value)
+
+
+def _pairs(values: tuple[object, ...]) -> list[tuple[object, object]]:
+    return [(v[0], v[1]) for v in values if isinstance(v, tuple)]
