@@ -242,7 +242,7 @@ def one(client: str) -> str:
         (one('"key": "0x0", "objects": []'), '"0x0"', "a client key is a hexadecimal number"),
         (one('"key": "*", "adopt": true, "objects": []'), "true", "a client of any key cannot be adopted"),
         (one('"key": "0x1", "adopt": 1, "objects": []'), "1, ", "'adopt' must be true or false"),
-        (changed(0, id="0x0002"), '"0x0002"', 'the last digit of a participant\'s id is 1. Perhaps "0x0001"'),
+        (changed(0, id="0x0012"), '"0x0012"', 'the last digit of a participant\'s id is 1. Perhaps "0x0011"'),
         (changed(0, id="1"), '"1"', "'id' must be an object id"),
         (changed(0, domain=233), "233", "'domain' must be a number from 0 to 232, or 255"),
         (changed(0, name=""), '""', "'name' is empty"),

@@ -189,13 +189,23 @@ def test_a_client_that_does_not_read(cable: Cable) -> None:
 
 def test_noise_in_front_of_the_whole_agent(cable: Cable) -> None:
     """Never raises, keeps its memory, tells each kind of fault once, and serves the next client."""
-    chance = random.Random(7)
+    drown(cable, pieces=400, seed=7)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(10))
+def test_noise_in_front_of_the_whole_agent_at_length(cable: Cable, seed: int) -> None:
+    drown(cable, pieces=20_000, seed=seed)
+
+
+def drown(cable: Cable, pieces: int, seed: int) -> None:
+    chance = random.Random(seed)
     bench = Bench()
     link = SerialLink(cable.end)
     with Served(serial_line(cable.device, 115_200, bench.log), bench=bench) as served:
         tracemalloc.start()
         try:
-            for _ in range(400):
+            for _ in range(pieces):
                 link.send_raw(noise(chance))
             assert tracemalloc.get_traced_memory()[0] < 3_000_000
         finally:

@@ -7,6 +7,7 @@ import random
 
 import pytest
 
+from agent.test_core import GRAPH, publishing
 from microros_gen.agent.streams_in import BestEffortIn, Reassembly, ReliableIn
 from microros_gen.agent.streams_out import HEARTBEAT_PERIOD_S, BestEffortOut, Link, ReliableOut
 from microros_gen.agent.wire.entity_messages import Fragment
@@ -227,3 +228,42 @@ def test_everything_arrives_once_and_in_order_over_a_bad_line(seed: int, link: L
         if chance.random() < 0.5:
             put(sender.acknowledge(*receiver.missing(), now))
     assert got == wanted
+
+
+def fragments_of(body: bytes, mtu: int, first: int) -> list[bytes]:
+    """Return the messages of one WRITE_DATA to writer 0x0015, cut as the public client cuts them."""
+    size = len(body) + 4
+    whole = bytes((7, 1, size & 0xFF, size >> 8, 0, 0x12, 0, 0x15)) + body
+    room = mtu - 8
+    pieces = [whole[at : at + room] for at in range(0, len(whole), room)]
+    return [
+        bytes((0x81, 0x80, (first + i) & 0xFF, (first + i) >> 8 & 0xFF))
+        + bytes((13, 3 if i == len(pieces) - 1 else 1, len(piece) & 0xFF, len(piece) >> 8))
+        + piece
+        for i, piece in enumerate(pieces)
+    ]
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("mtu", [64, 512, 2048])
+def test_20_kib_in_fragments_through_a_window_of_16(mtu: int, seed: int) -> None:
+    """More fragments than the window holds, lost and out of order: each sample arrives whole, once, in order."""
+    chance = random.Random(seed)
+    bench = publishing()
+    samples = [chance.randbytes(20_480), b"short", chance.randbytes(20_480 + 3), chance.randbytes(20_000)]
+    messages: list[bytes] = []
+    for body in samples:
+        messages += fragments_of(body, mtu, len(messages))
+    done = rounds = 0
+    while done < len(messages):
+        rounds += 1
+        assert rounds < 50 * len(messages), "it does not come to an end"
+        window = messages[done : done + 16]
+        chance.shuffle(window)
+        answers = [a for m in window if chance.random() < 0.8 for a in bench.say(m)]
+        last = min(done + 16, len(messages)) - 1
+        beat = bytes((0x81, 0, 0, 0, 11, 1, 5, 0, done & 0xFF, done >> 8, last & 0xFF, last >> 8, 0x80))
+        answers += bench.say(beat)
+        done = max(int.from_bytes(bytes.fromhex(a)[8:10], "little") for a in answers)
+    assert bench.bridge.published == [(GRAPH[1], b"\0\1\0\0" + body) for body in samples]
+    assert not bench.log.counters
