@@ -149,8 +149,8 @@ def _creates_as_the_application_says(application: str, names: frozenset[str]) ->
     creates = "entities: preconfigured" not in application
     wanted = {"xrce_creation_send", "xrce_describe", "xrce_entities_on_status", "xrce_session_leave"}
     assert names & wanted == (wanted if creates else set())
-    of_creation = re.compile(r"creation|describe|create(?!_client)|delete|on_status$|session_leave")
-    assert bool([n for n in names if of_creation.search(n) and not n.startswith("rmw_uros")]) == creates
+    statics = re.compile(r"^(xrce_creation_|entities_(put|send|begin|refuse|renew)|leave_|session_leave)")
+    assert bool([n for n in names if statics.search(n)]) == creates
 
 
 def _has_what_the_axes_say(application: str, names: frozenset[str]) -> None:
@@ -163,25 +163,26 @@ def _has_what_the_axes_say(application: str, names: frozenset[str]) -> None:
     assert any("error_text" in n for n in names) <= ("errors: code" not in application)
 
 
-_WORDS_OF = {"xml": {b"<dds>", b"KEEP_", b"</"}, "reference": {b"participant_profile", b"__dw"}}
+_WORDS_OF = {"xml": {b"<dds>", b"KEEP_", b"</name>"}, "reference": {b"participant_profile", b"__dw"}}
 
 
 def test_words_of_other_ways_to_create_are_not_in_an_image(tree_of: TreeOf, tmp_path: Path) -> None:
     """`strings` of a linked image, not only of the library."""
-    for name, application in VARIANTS.items():
-        if name in ("pool", "demo") or "entities:" in application:
-            tree = tree_of(name)
-            compiled = compile_tree(
-                tree, "gcc", ("-Os", "-ffunction-sections"), (*tree.sources, tree.example), tmp_path / name
-            )
-            image = tmp_path / f"{name}.elf"
-            objects = map(str, compiled.objects.values())
-            check(["gcc", "-Wl,--gc-sections", *objects, "-o", str(image)], tmp_path)
-            there = {word for words in _WORDS_OF.values() for word in words if word in image.read_bytes()}
-            wanted = next(
-                (words for way, words in _WORDS_OF.items() if f"entities: {way}" in application), set()
-            )
-            assert there == wanted, name
+    for name in (
+        "pool",
+        "pool-acknack-block-xml-reliable",
+        "best-effort-reference-reliable",
+        "best-effort-none-code",
+    ):
+        tree, application = tree_of(name), VARIANTS[name]
+        sources = (*tree.sources, tree.example)
+        compiled = compile_tree(tree, "gcc", ("-Os", "-ffunction-sections"), sources, tmp_path / name)
+        image = tmp_path / f"{name}.elf"
+        objects = map(str, compiled.objects.values())
+        check(["gcc", "-Wl,--gc-sections", *objects, "-o", str(image)], tmp_path)
+        there = {word for words in _WORDS_OF.values() for word in words if word in image.read_bytes()}
+        wanted = next((words for way, words in _WORDS_OF.items() if f"entities: {way}" in application), set())
+        assert there == wanted, name
 
 
 @pytest.mark.parametrize("name", VARIANTS)
