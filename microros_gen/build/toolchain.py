@@ -48,9 +48,10 @@ def find_toolchain(target: Target, environ: Mapping[str, str]) -> Toolchain:
     archivers = ((environ["AR"],) if is_host and environ.get("AR") else ()) or target.archivers
     extra = tuple(environ.get("CFLAGS", "").split()) if is_host else ()
     path = environ.get("PATH")
-    archiver = _first_of(archivers, "archiver", target, path)
+    compiler = _first_of(compilers, "a C compiler", target, path)
+    archiver = _first_of(archivers, "an archiver", target, path)
     return Toolchain(
-        _first_of(compilers, "C compiler", target, path),
+        compiler,
         archiver,
         (*target.c_flags, *LIBRARY_FLAGS, *extra),
         (*target.link_flags, *extra),
@@ -74,7 +75,7 @@ def _first_of(names: Sequence[str], what: str, target: Target, path: str | None)
     raise UserError(
         [
             Diagnostic(
-                f"target {target.name} needs a {what} and none of {', '.join(names)} is on the PATH",
+                f"target {target.name} needs {what} and none of {', '.join(names)} is on the PATH",
                 hint=f"Install it (Debian, Ubuntu: apt-get install {target.package}), or generate without "
                 "compiling: microros-gen generate",
             )

@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Target files: built-in ones hold to the schema, a user's extends them, and each wrong key or value has a place."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import yaml
+from jsonschema import Draft202012Validator
+
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.model.target import OPTIONAL_REGISTERS, PORTS, REGISTERS, Region
+from microros_gen.parse.schema import TARGET_SCHEMA, load_schema
+from microros_gen.sources.components import load_catalogue
+from microros_gen.sources.runtime import TARGETS
+from microros_gen.sources.targets import FoundTarget, builtin_targets, read_target
+
+SCHEMA = load_schema(TARGET_SCHEMA)
+BOARD = """\
+target: mine
+extends: cortex-m3
+clock_hz: 48000000
+flash: {origin: 0x08000000, size: 256 KiB}
+ram: {origin: 0x20000000, size: 32 KiB}
+"""
+
+
+def read(folder: Path, text: str) -> tuple[FoundTarget | None, list[str]]:
+    (folder / "mine.yaml").write_text(text)
+    diagnostics = Diagnostics()
+    found = read_target("mine.yaml", folder, None, diagnostics)
+    return found, [d.headline().replace(f"{folder}/", "") for d in diagnostics]
+
+
+@pytest.mark.parametrize("path", sorted(TARGETS.glob("*.yaml")), ids=lambda path: path.stem)
+def test_built_in_targets_hold_to_the_schema(path: Path) -> None:
+    data = yaml.safe_load(path.read_text())
+    assert not list(Draft202012Validator(SCHEMA).iter_errors(data))
+    assert data["target"] == path.stem
+
+
+@pytest.mark.parametrize("name", builtin_targets())
+def test_every_built_in_target_reads(name: str) -> None:
+    diagnostics = Diagnostics()
+    found = read_target(name, Path(), None, diagnostics)
+    assert found is not None, list(diagnostics)
+    assert found.own == ()
+    assert found.target.port in PORTS
+
+
+def test_ports_drivers_and_registers_are_the_same_everywhere() -> None:
+    catalogue = load_catalogue()
+    ports = {name for name, component in catalogue.items() if component.layer == "port"} - {"port_bare"}
+    assert ports == set(PORTS) == set(SCHEMA["properties"]["port"]["enum"])
+    for port, drivers in PORTS.items():
+        when = [dict(source.when) for source in catalogue[port].sources]
+        assert {w["serial_driver"] for w in when if "serial_driver" in w} == set(drivers)
+    known = SCHEMA["properties"]["uart"]["properties"]["driver"]["enum"]
+    assert set(known) == {driver for drivers in PORTS.values() for driver in drivers}
+    registers = {name for names in REGISTERS.values() for name in names} | set(OPTIONAL_REGISTERS)
+    assert set(SCHEMA["properties"]["registers"]["properties"]) == registers
+
+
+def test_a_file_adds_a_board_to_a_cpu(tmp_path: Path) -> None:
+    found, said = read(tmp_path, BOARD + "c_flags: [-DBOARD=1]\n")
+    assert found is not None, said
+    target = found.target
+    assert target.name == "mine"
+    assert target.compilers == ("arm-none-eabi-gcc",)
+    assert target.c_flags[-2:] == ("-mcpu=cortex-m3", "-DBOARD=1")
+    assert (target.flash, target.ram) == (Region(0x08000000, 256 * 1024), Region(0x20000000, 32 * 1024))
+    assert target.has_image
+    assert (target.data_model, target.transport) == ("ilp32", "serial")
+    assert [source.name for source in found.own] == [str(tmp_path / "mine.yaml")]
+
+
+def test_extends_is_relative_to_the_file_that_says_it(tmp_path: Path) -> None:
+    (tmp_path / "boards").mkdir()
+    (tmp_path / "boards" / "base.yaml").write_text(BOARD)
+    found, said = read(
+        tmp_path, "target: top\nextends: boards/base.yaml\nram: {origin: 0x20000000, size: 8 KiB}\n"
+    )
+    assert found is not None, said
+    assert found.target.ram == Region(0x20000000, 8 * 1024)
+    assert len(found.own) == 2
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("target: mine\n", "mine.yaml:1:1: error: the target lacks the key 'summary'"),
+        (BOARD + "flahs: 1\n", "mine.yaml:6:1: error: the file has no key 'flahs'. Did you mean 'flash'?"),
+        (
+            BOARD + "transport: seriel\n",
+            "mine.yaml:6:12: error: 'transport' must be udp, tcp, serial or custom",
+        ),
+        (BOARD.replace("256 KiB", "256 KB"), "mine.yaml:4:37: error: 'flash.size' must be a number of bytes"),
+        (
+            BOARD.replace("clock_hz: 48000000\n", ""),
+            "mine.yaml:1:1: error: an image needs the key 'clock_hz'",
+        ),
+        (BOARD.replace("ram:", "#ram:"), "mine.yaml:4:8: error: 'flash' without 'ram' makes no image"),
+        (BOARD.replace("0x20000000", "0x08000000"), "mine.yaml:5:6: error: 'flash' and 'ram' overlap"),
+        (BOARD.replace("0x20000000", "0xFFFFF000"), "mine.yaml:5:6: error: 'ram' ends beyond 32 bits"),
+        (
+            BOARD + "uart: {driver: cmsdk, base: 0x40004000}\n",
+            "error: 'uart' lacks the key 'irq'. Add `irq: …`",
+        ),
+        (
+            BOARD + "uart: {driver: ns16550, base: 0, irq: 0}\n",
+            "6:16: error: port_cortex_m has no driver 'ns16550'",
+        ),
+        (
+            BOARD + "uart: {driver: cmsdk, base: 0, irq: 3}\ninterrupts: {3: usart}\n",
+            "7:14: error: interrupt 3 is taken by 'uart'",
+        ),
+        (
+            BOARD + "interrupts: {480: a}\n",
+            "6:14: error: the keys of 'interrupts' must be numbers of interrupts",
+        ),
+        (
+            BOARD + "interrupts: {4: a-b}\n",
+            "6:17: error: 'interrupts[\"4\"]' must be the name of a C function",
+        ),
+        (BOARD.replace("cortex-m3", "riscv32"), "mine.yaml:1:1: error: port_riscv needs the address of plic"),
+        (BOARD.replace("cortex-m3", "cortex-m9"), "mine.yaml:2:10: error: there is no target 'cortex-m9'"),
+        (BOARD.replace("cortex-m3", "mine.yaml"), "mine.yaml:2:10: error: 'mine.yaml' extends itself"),
+        (
+            BOARD.replace("cortex-m3", "lost.yaml"),
+            "mine.yaml:2:10: error: cannot read the target file 'lost.yaml'",
+        ),
+    ],
+)
+def test_what_is_wrong_has_a_place_and_a_hint(tmp_path: Path, text: str, expected: str) -> None:
+    found, said = read(tmp_path, text)
+    assert found is None
+    assert any(expected in line for line in said), said
+
+
+def test_all_errors_of_a_file_come_at_once(tmp_path: Path) -> None:
+    _, said = read(tmp_path, BOARD + "hosted: 5\nemulator: {}\nunique_id: {address: 2, words: 9}\n")
+    assert [line.split(":")[1] for line in said] == ["6", "7", "7", "8", "8"]
