@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Serial and custom transports over real lines: pseudo-terminals and sockets, with a fake agent in a thread."""
+
+from __future__ import annotations
+
+import os
+import random
+import select
+import subprocess
+import threading
+import tty
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from microros_gen.plan.runtime import RuntimePlan
+from runtime.fake_agent import FakeAgent
+from runtime.frames import AGENT, CLIENT, events, frame
+from runtime.harness import POOL, build, components, render
+from runtime.test_udp import UdpAgent
+
+PLAN = replace(POOL, connect_timeout_ms=3000, create_timeout_ms=3000, liveliness_period_ms=50)
+SERIAL = replace(PLAN, transport="serial", serial_device="/dev/null")
+CUSTOM = {way: replace(PLAN, transport="custom", framing=way) for way in ("on", "off", "either")}
+
+
+class LineAgent(threading.Thread):
+    """An agent at the other end of a pseudo-terminal; `spoil` changes what comes in and what goes out."""
+
+    def __init__(self, spoil: Callable[[bytes], bytes] = bytes) -> None:
+        super().__init__(daemon=True)
+        self.agent = FakeAgent()
+        self._spoil = spoil
+        self._master, self._slave = (
+            os.openpty()
+        )  # the other end stays open, or reading fails between two clients
+        tty.setraw(self._slave)
+        self.path = os.ttyname(self._slave)
+        self._ended = threading.Event()
+
+    def run(self) -> None:
+        stream, known = b"", 0
+        while not self._ended.is_set():
+            if not select.select([self._master], [], [], 0.05)[0]:
+                continue
+            stream += self._spoil(os.read(self._master, 4096))
+            found = events(stream, source=CLIENT, destination=AGENT)
+            for event in found[known:]:
+                if event.message is not None:
+                    for answer in self.agent.receive(event.message):
+                        os.write(self._master, self._spoil(frame(answer)))
+            known = len(found)
+            if stream.rfind(b"\x7e") > 2000:  # what is behind the last flag is still to come
+                stream = stream[stream.rfind(b"\x7e") :]
+                known = len(events(stream, source=CLIENT, destination=AGENT))
+
+    def stop(self) -> None:
+        self._ended.set()
+        self.join(5)
+        os.close(self._master)
+        os.close(self._slave)
+
+
+def _program(tmp_path: Path, plan: RuntimePlan, source: str) -> Path:
+    return build(render(tmp_path, plan, components(plan)), ["types.c", source], "program")
+
+
+def _run(program: Path, arguments: Sequence[str] = ()) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([program, *arguments], capture_output=True, text=True, timeout=60, check=False)
+
+
+def _noise(seed: int) -> Callable[[bytes], bytes]:
+    """Return a line that hurts one byte of 300: changed, lost, or another one before it."""
+    source = random.Random(seed)
+
+    def spoil(data: bytes) -> bytes:
+        out = bytearray()
+        for byte in data:
+            if source.random() < 1 / 300:
+                out += source.choice([b"", b"\x7e", bytes([byte, 0x7D]), bytes([byte ^ 0x10])])
+            else:
+                out.append(byte)
+        return bytes(out)
+
+    return spoil
+
+
+@pytest.mark.parametrize("noisy", [False, True])
+def test_serial_over_a_pseudo_terminal(noisy: bool, tmp_path: Path) -> None:
+    agent = LineAgent(_noise(7) if noisy else bytes)
+    agent.start()
+    done = _run(_program(tmp_path, replace(SERIAL, serial_device=agent.path), "udp.c"))
+    agent.stop()
+    assert done.returncode == 0, done.stdout + done.stderr
+    values = agent.agent.values()
+    assert values == sorted(set(values))
+    assert values == list(range(100)) or noisy
+    assert values[-1] == 99
+
+
+@pytest.mark.parametrize(
+    ("device", "baud", "words"),
+    [
+        ("/dev/null", 115200, "no transport to /dev/null\n"),  # no terminal
+        ("/nowhere/tty", 115200, "no transport to /nowhere/tty\n"),
+    ],
+)
+def test_no_such_line(device: str, baud: int, words: str, tmp_path: Path) -> None:
+    plan = replace(SERIAL, serial_device=device, serial_baud=baud, connect_timeout_ms=100)
+    done = _run(_program(tmp_path, plan, "udp.c"))
+    assert (done.returncode, done.stdout) == (2, words)
+
+
+@pytest.mark.parametrize(("baud", "code"), [(9600, 0), (921600, 0), (123456, 2)])
+def test_speeds(baud: int, code: int, tmp_path: Path) -> None:
+    agent = LineAgent()
+    agent.start()
+    plan = replace(SERIAL, serial_device=agent.path, serial_baud=baud, connect_timeout_ms=500)
+    done = _run(_program(tmp_path, plan, "udp.c"))
+    agent.stop()
+    assert done.returncode == code, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("way", ["on", "off", "either"])
+def test_custom_over_udp(way: str, tmp_path: Path) -> None:
+    agent = UdpAgent()
+    agent.start()
+    done = _run(_program(tmp_path, CUSTOM[way], "custom.c"), ["udp", str(agent.port)])
+    agent.socket.close()
+    if way == "on":
+        assert (done.returncode, done.stdout) == (
+            7,
+            "custom transport: set transport: {framing: false} in microros.yaml\n",
+        )
+    else:
+        assert done.returncode == 0, done.stdout + done.stderr
+        assert agent.agent.values() == list(range(100))
+
+
+@pytest.mark.parametrize("way", ["on", "off", "either"])
+def test_custom_over_a_line(way: str, tmp_path: Path) -> None:
+    agent = LineAgent()
+    agent.start()
+    done = _run(_program(tmp_path, CUSTOM[way], "custom.c"), ["line", agent.path])
+    agent.stop()
+    if way == "off":
+        assert (done.returncode, done.stdout) == (
+            7,
+            "custom transport: set transport: {framing: true} in microros.yaml\n",
+        )
+    else:
+        assert done.returncode == 0, done.stdout + done.stderr
+        assert agent.agent.values() == list(range(100))
+
+
+def test_custom_that_was_never_set(tmp_path: Path) -> None:
+    done = _run(_program(tmp_path, CUSTOM["either"], "custom.c"))
+    assert done.returncode == 2
+    assert done.stdout == "rmw_uros_set_custom_transport was not called before, or refused its arguments\n"
