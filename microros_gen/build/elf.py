@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -57,8 +58,7 @@ class Elf:
     def __init__(self, path: Path) -> None:
         self.path = path
         try:
-            self._stream = path.open("rb")
-            self.file: Any = ELFFile(self._stream)
+            self.file: Any = ELFFile(BytesIO(path.read_bytes()))
         except (OSError, ELFError) as error:
             raise UserError(
                 [
