@@ -78,8 +78,8 @@ def plan_streams(
     """Size the streams; a message that cannot fit its stream is an error with the number that would do.
 
     `transport` is the selected one. `create` is the size of the largest CREATE (plan/creation.py), 0 where the client
-    creates nothing (entities: preconfigured). With `creation: reliable` it has storage of its own, and the reliable stream
-    is there for it. A reliable message above the MTU goes in fragments, a best-effort one and a CREATE cannot.
+    creates nothing (entities: preconfigured). With `creation: reliable` it has storage of its own, and the reliable
+    stream is there for it. A reliable message above the MTU goes in fragments, a best-effort one and a CREATE cannot.
     `reliable_input`: the agent's reliable stream is selected. `pools.slot_size` makes each buffer at least so large.
     """
     messages = tuple(written)
@@ -144,12 +144,13 @@ def _check_fits(message: Written, ceiling: int, application: Application, diagno
             f"Lower its limits{message.hint}",
         )
     elif message.best_effort and size > ceiling:
-        reliable = "declare its publisher under `nodes:` as reliable" if message.reliable else "make it reliable"
+        declare = "declare its publisher under `nodes:` as reliable"
+        reliable = declare if message.reliable else "make it reliable"
         diagnostics.error(
             f"{message.label} takes up to {size} bytes in its stream and {_mtu_is(application)} {ceiling}",
             span,
-            f"Set transport.mtu: {size}, or lower its limits{message.hint}, or {reliable}: reliable messages are sent in"
-            " fragments",
+            f"Set transport.mtu: {size}, or lower its limits{message.hint}, or {reliable}: reliable messages"
+            " are sent in fragments",
         )
 
 

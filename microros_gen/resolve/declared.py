@@ -74,9 +74,10 @@ def _creation_demands(application: Application, entities: str) -> Iterator[Deman
     if creation is None or creation.name != "reliable":
         yield Demand(STREAM_BEST_EFFORT, f"entities: {entities} (CREATE goes on the best effort stream)")
         return
-    text = "creation: reliable ({})"
-    yield Demand(STREAM_RELIABLE, text.format("CREATE goes on the reliable stream"), creation.span)
-    yield Demand(STREAM_RELIABLE_INPUT, text.format("STATUS comes on the agent's reliable stream"), creation.span)
+    create = "creation: reliable (CREATE goes on the reliable stream)"
+    status = "creation: reliable (STATUS comes on the agent's reliable stream)"
+    yield Demand(STREAM_RELIABLE, create, creation.span)
+    yield Demand(STREAM_RELIABLE_INPUT, status, creation.span)
 
 
 def _endpoint_demands(node: NodeDecl, endpoint: EndpointDecl, selected: frozenset[str]) -> Iterator[Demand]:

@@ -46,7 +46,11 @@ def lossy() -> Fault:
 
 @pytest.mark.parametrize(
     ("name", "mtu", "fault", "pieces"),
-    [("large", 1472, no_fault, 14), ("large_small_mtu", 512, no_fault, 41), ("large_lossy", 1472, lossy(), 14)],
+    [
+        ("large", 1472, no_fault, 14),
+        ("large_small_mtu", 512, no_fault, 41),
+        ("large_lossy", 1472, lossy(), 14),
+    ],
 )
 def test_large_messages_arrive_whole(
     images: Images,
@@ -71,7 +75,7 @@ def test_large_messages_arrive_whole(
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
     )
-    assert running.stdin is not None and running.stdout is not None
+    assert running.stdin is not None
     found: list[str] = []
     end = time.monotonic() + 30
     while len(found) < SAMPLES and time.monotonic() < end and running.poll() is None:

@@ -28,11 +28,34 @@ BEST_EFFORT_ONLY = replace(
     DECLARED, reliable_slots=0, reliable_slot_size=0, error_text_size=0, arena_size=512, on_full="drop_oldest"
 )
 BLOCKING = replace(POOL, on_full="block", on_full_block_ms=5, client_key=None)
+FRAGMENTS = replace(POOL, mtu=64, fragments=True, reliable_slot_size=70000, on_full="drop_oldest")
+CREATION = replace(
+    DECLARED,
+    best_effort_size=0,
+    publishers=DECLARED.publishers[:1],
+    publishers_max=1,
+    creation="reliable",
+    creation_size=128,
+    reliable_input_slots=3,
+    reliable_input_slot_size=64,
+)
+RELIABLE = {
+    "creation": "reliable",
+    "creation_size": 128,
+    "reliable_input_slots": 1,
+    "reliable_input_slot_size": 64,
+}
 VARIANTS = {
+    "xml-reliable-acknack": (replace(POOL, entities="xml", **{**RELIABLE, "creation_size": 400}), "acknack"),
+    "reference-none": (replace(DECLARED, entities="reference"), "none"),
+    "reference-reliable-ping": (replace(POOL, entities="reference", best_effort_size=0, **RELIABLE), "ping"),
+    "preconfigured-none": (replace(DECLARED, entities="preconfigured"), "none"),
     "pool-ping": (POOL, "ping"),
     "declared-acknack": (DECLARED, "acknack"),
     "best-effort-none": (BEST_EFFORT_ONLY, "none"),
     "block-none": (BLOCKING, "none"),
+    "fragments-acknack": (FRAGMENTS, "acknack"),
+    "creation-none": (CREATION, "none"),
 }
 FORBIDDEN = re.compile(
     r"\b(malloc|calloc|realloc|free|\w*printf|puts|fputs|fwrite|strtol|strdup|abort|exit|__assert\w*)$"
@@ -48,6 +71,10 @@ COMPILATIONS = [
     ("best-effort-none", "clang", ("-Os",)),
     ("block-none", "gcc", ("-m32", "-Os")),
     ("block-none", "clang", ("-m32", "-O1")),
+    ("fragments-acknack", "gcc", ("-m32", "-Os")),
+    ("fragments-acknack", "clang", ("-Os",)),
+    ("creation-none", "gcc", ("-Os",)),
+    ("creation-none", "clang", ("-m32", "-O1")),
 ]
 
 
@@ -115,6 +142,11 @@ def _defined(objects: tuple[Path, ...]) -> set[str]:
     return {line.split()[-1] for line in out.splitlines() if len(line.split()) == 3}
 
 
+def _local(objects: tuple[Path, ...]) -> set[str]:
+    out = subprocess.run(["nm", *map(str, objects)], capture_output=True, text=True, check=True).stdout
+    return {line.split()[-1] for line in out.splitlines() if " t " in line}
+
+
 @pytest.mark.parametrize(("plan", "liveliness"), VARIANTS.values(), ids=VARIANTS.keys())
 def test_no_symbol_that_is_not_selected(plan: RuntimePlan, liveliness: str, tmp_path: Path) -> None:
     tree = render(tmp_path, plan, components(plan, liveliness))
@@ -127,8 +159,29 @@ def test_no_symbol_that_is_not_selected(plan: RuntimePlan, liveliness: str, tmp_
     assert any("ping" in name for name in names) == (liveliness == "ping")
     assert any("acknack" in name for name in names) == (liveliness == "acknack" or plan.reliable_slots > 0)
     assert any("stream_reliable" in name for name in names) == (plan.reliable_slots > 0)
+    assert any("reliable_input" in name for name in names) == (plan.reliable_input_slots > 0)
+    assert any("best_effort" in name for name in names if "xrce" in name) == (plan.best_effort_size > 0)
+    assert any("pieces" in name for name in _local(objects)) == plan.fragments
+    _creates_as_the_plan_says(plan, names, b"".join(o.read_bytes() for o in objects))
     prefixes = ("rcl", "rclc", "rmw", "rcutils", "rosidl", "xrce", "port", "microros")
     assert all(name.startswith(prefixes) for name in names), "no name of ours can meet an application's"
+
+
+def _creates_as_the_plan_says(plan: RuntimePlan, names: set[str], content: bytes) -> None:
+    """No way to describe entities but the selected one, and none at all where they are preconfigured."""
+    creation = {"xrce_creation_send", "xrce_describe", "xrce_entities_on_status", "xrce_session_leave"}
+    assert names & creation == (set() if plan.entities == "preconfigured" else creation)
+    assert any("reliable_input" in name for name in names) == (plan.creation == "reliable")
+    for word, way in (
+        (b"<dds>", "xml"),
+        (b"</", "xml"),
+        (b"participant_profile", "reference"),
+        (b"__dw", "reference"),
+    ):
+        if way == plan.entities:
+            assert (word in content) == (word != b"participant_profile" or plan.nodes_max == 1)
+        else:
+            assert word not in content
 
 
 def test_objects_of_another_plan_do_not_link(tree: Tree, tmp_path: Path) -> None:

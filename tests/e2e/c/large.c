@@ -33,8 +33,8 @@ static rcl_ret_t set_up(const char * port)
   qos.durability = RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL;
   result = rcl_init_options_init(&options, allocator);
   if (result == RCL_RET_OK) {
-    result = rmw_uros_options_set_udp_address(
-      "127.0.0.1", port, rcl_init_options_get_rmw_init_options(&options));
+    result =
+      rmw_uros_options_set_udp_address("127.0.0.1", port, rcl_init_options_get_rmw_init_options(&options));
   }
   if (result == RCL_RET_OK) {
     result = rclc_support_init_with_options(&support, 0, NULL, &options, &allocator);
@@ -43,8 +43,8 @@ static rcl_ret_t set_up(const char * port)
     result = rclc_node_init_default(&node, "big", LARGE_NAMESPACE, &support);
   }
   if (result == RCL_RET_OK) {
-    result =
-      rclc_publisher_init(&publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, String), "blob", &qos);
+    result = rclc_publisher_init(
+      &publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, String), "blob", &qos);
   }
   return result;
 }

@@ -19,8 +19,7 @@ static uint16_t missing;
 static uint32_t acknacks;
 
 /* Stands for the session: what is handed on carries its number behind the header. */
-bool xrce_session_take_submessages(
-  xrce_client_t * taker, const uint8_t * message, size_t size, uint32_t now)
+bool xrce_session_take_submessages(xrce_client_t * taker, const uint8_t * message, size_t size, uint32_t now)
 {
   const bool taken = !refuse_next;
 
@@ -82,7 +81,9 @@ static void test_in_order_and_twice(void)
   begin_at(0xffff);
   CHECK(take(0xffff, 1) && acknacks == 1u && expected == 0u && missing == 0u);
   CHECK(take(0, 2) && acknacks == 2u && expected == 1u);
-  CHECK(take(0xffff, 1) && acknacks == 3u && expected == 1u && missing == 0u); /* acknowledged, handed on no more */
+  CHECK(
+    take(0xffff, 1) && acknacks == 3u && expected == 1u &&
+    missing == 0u); /* acknowledged, handed on no more */
   CHECK(handed_on_count == 2u && handed_on[0] == 1u && handed_on[1] == 2u);
 }
 
@@ -107,9 +108,10 @@ static void test_heartbeats(void)
   CHECK(take(0xffff, 7) && handed_on_count == 0u);
   CHECK(heartbeat(2, 3) && expected == 2u && (missing & 3u) == 3u);
   CHECK(handed_on_count == (MICROROS_RELIABLE_INPUT_SLOTS > 1u ? 1u : 0u)); /* what is here is not lost */
-  CHECK(heartbeat(1, 3) && expected == 2u); /* no way back */
+  CHECK(heartbeat(1, 3) && expected == 2u);                                 /* no way back */
   CHECK(heartbeat(0x7000, 0x6fff) && expected == 0x7000u && missing == 0u);
-  CHECK(take(2, 2) && take(0x7010, 3) && expected == 0x7000u && missing == 0u); /* old, and beyond the window */
+  CHECK(
+    take(2, 2) && take(0x7010, 3) && expected == 0x7000u && missing == 0u); /* old, and beyond the window */
   CHECK(handed_on_count == (MICROROS_RELIABLE_INPUT_SLOTS > 1u ? 1u : 0u));
 }
 
@@ -127,7 +129,9 @@ static void test_what_is_not_for_it(void)
   CHECK(xrce_stream_reliable_input_on_heartbeat(&client, payload, 5, 1, 5) && take(0, 0));
   CHECK(acknacks == 0u && client.reliable_input.next == 0u);
   client.session.state = XRCE_READY;
-  CHECK(xrce_stream_reliable_input_on_heartbeat(&client, payload, 5, 0, 5) && expected == 0x0900u); /* big endian */
+  CHECK(
+    xrce_stream_reliable_input_on_heartbeat(&client, payload, 5, 0, 5) &&
+    expected == 0x0900u); /* big endian */
 }
 
 static void test_a_malformed_one_is_counted_and_done_with(void)
@@ -156,7 +160,8 @@ static void test_rough_network(uint32_t seed)
       CHECK(take((uint16_t)(start + number), number));
     }
     if (random_below(8) == 0u) {
-      const uint16_t end = acknowledged + WINDOW < MESSAGES ? (uint16_t)(acknowledged + WINDOW) : (uint16_t)MESSAGES;
+      const uint16_t end =
+        acknowledged + WINDOW < MESSAGES ? (uint16_t)(acknowledged + WINDOW) : (uint16_t)MESSAGES;
 
       CHECK(heartbeat((uint16_t)(start + acknowledged), (uint16_t)(start + end - 1u)));
       if ((missing & 1u) != 0u) {

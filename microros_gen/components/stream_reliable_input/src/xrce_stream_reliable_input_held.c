@@ -9,8 +9,8 @@ static uint8_t input_slot(const xrce_stream_reliable_input_t * stream, uint16_t 
 {
   uint8_t slot = 0;
 
-  while (
-    slot < XRCE_RELIABLE_INPUT_HELD && (stream->size[slot] == 0u || stream->sequence[slot] != sequence)) {
+  while (slot < XRCE_RELIABLE_INPUT_HELD &&
+         (stream->size[slot] == 0u || stream->sequence[slot] != sequence)) {
     ++slot;
   }
   return slot;

@@ -18,7 +18,7 @@ extern "C" {
 enum {
   XRCE_MESSAGE_HEADER = 4,
   XRCE_SUBMESSAGE_HEADER = 4,
-  XRCE_OBJECT_PREFIX = 4, /* request id and object id */
+  XRCE_OBJECT_PREFIX = 4,                                         /* request id and object id */
   XRCE_WRITE_PREFIX = XRCE_SUBMESSAGE_HEADER + XRCE_OBJECT_PREFIX /* before the body of WRITE_DATA */
 };
 
@@ -45,8 +45,8 @@ enum { XRCE_ACKNACK_SIZE = 5, XRCE_HEARTBEAT_SIZE = 5 };
 
 enum {
   XRCE_FLAG_LITTLE_ENDIAN = 0x01,
-  XRCE_FLAG_REUSE = 0x02,         /* of CREATE */
-  XRCE_FLAG_REPLACE = 0x04,       /* of CREATE */
+  XRCE_FLAG_REUSE = 0x02,        /* of CREATE */
+  XRCE_FLAG_REPLACE = 0x04,      /* of CREATE */
   XRCE_FLAG_LAST_FRAGMENT = 0x02 /* of FRAGMENT */
 };
 
