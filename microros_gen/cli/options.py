@@ -61,7 +61,9 @@ def selection_options(function: F) -> F:
                 "--target", metavar="NAME", help="Target, see `microros-gen targets`. Default: host."
             ),
             click.option(
-                "--agent", metavar="HOST:PORT", help="Where the agent listens. Default: 127.0.0.1:8888."
+                "--agent",
+                metavar="HOST:PORT|DEVICE",
+                help="Where the agent is: an address (default: 127.0.0.1:8888) or a serial device (/dev/ttyACM0).",
             ),
         ]
     ):

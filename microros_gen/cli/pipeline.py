@@ -9,7 +9,7 @@ from pathlib import Path
 
 from microros_gen.cli.options import SelectionOptions
 from microros_gen.diagnostics import Diagnostics, Source, Span
-from microros_gen.model.application import Application, Named
+from microros_gen.model.application import Application, Named, Transport
 from microros_gen.model.component import Catalogue, Profile
 from microros_gen.model.selection import Selection
 from microros_gen.model.target import Target
@@ -198,11 +198,23 @@ def _with_options(
         application = replace(application, target=target)
     if options.agent:
         (named,) = _named((options.agent,), "--agent")
-        address = parse_agent_address(named.name, named.span, diagnostics)
-        if address:
-            transport = replace(application.transport, host=address[0], port=address[1])
-            application = replace(application, transport=transport)
+        application = replace(application, transport=_with_agent(application.transport, named, diagnostics))
     return application
+
+
+def _with_agent(transport: Transport, agent: Named, diagnostics: Diagnostics) -> Transport:
+    """Return the transport to an agent at `HOST:PORT`, or at the other end of a device named by its path."""
+    is_device = agent.name.startswith("/")
+    chosen = transport.type if transport.type_span else None
+    if is_device and chosen in (None, "serial"):
+        return replace(transport, type="serial", type_span=transport.type_span or agent.span, device=agent.name)
+    if is_device or chosen in ("serial", "custom"):
+        what = "device" if is_device else "agent address"
+        hint = "Give the path of a device, as in /dev/ttyUSB0" if chosen == "serial" else "Leave it out"
+        diagnostics.error(f"transport: {chosen} has no {what}", agent.span, hint)
+        return transport
+    address = parse_agent_address(agent.name, agent.span, diagnostics)
+    return replace(transport, host=address[0], port=address[1]) if address else transport
 
 
 def _named(values: Iterable[str], option: str) -> tuple[Named, ...]:

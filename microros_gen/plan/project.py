@@ -116,7 +116,9 @@ def plan_project(
         entities=selection.entities,
         creation=application.creation.name if application.creation else "best_effort",
         transport=selection.transport,
-        serial_device=application.transport.device if selection.transport == "serial" else "",
+        serial_device=application.transport.device
+        if selection.transport == "serial" and target.hosted
+        else "",
         serial_baud=application.transport.baud,
         framing=_FRAMING[application.transport.framing],
         type_name_size=0 if nodes else _longest_type(roots) + 1,
