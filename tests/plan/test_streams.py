@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Sizes of the streams: the smallest that do, fragments, what the application asks for, what cannot be."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.model.application import Application, Named, Transport
+from microros_gen.plan.streams import DEFAULT_MTU, LARGEST_BODY, StreamPlan, Written, plan_streams
+from microros_gen.resolve.declared import STREAM_BEST_EFFORT, STREAM_RELIABLE_INPUT, stream_demands
+
+INT32 = Written("std_msgs/msg/Int32 on /count", 4, True, False)
+RELIABLE = Application(creation=Named("reliable"))
+
+
+def plan(
+    *written: Written,
+    application: Application | None = None,
+    create: int = 92,
+    transport: str = "udp",
+    reliable_input: bool = False,
+) -> tuple[StreamPlan, list[str]]:
+    found = Diagnostics()
+    streams = plan_streams(
+        application or Application(), transport, written, create, found, reliable_input=reliable_input
+    )
+    return streams, [d.headline() for d in found]
+
+
+def large(size: int, reliable: bool = True) -> Written:
+    return Written("a/msg/B on /b", size, reliable, not reliable)
+
+
+def test_no_buffer_is_larger_than_it_must_be() -> None:
+    streams, said = plan(INT32)
+    assert streams == StreamPlan(92, 92, 4, 16, 64)
+    assert streams.ram == 92 + 4 * 16 + 64
+    assert said == []
+
+
+def test_reliable_creation_alone_needs_no_best_effort_stream() -> None:
+    streams, _ = plan(INT32, application=RELIABLE, reliable_input=True)
+    assert streams == StreamPlan(92, 0, 4, 16, 64, creation_size=92, reliable_input_slots=1)
+    demands = list(stream_demands(RELIABLE, frozenset(), "binary"))
+    assert [d.component for d in demands] == ["stream_reliable", STREAM_RELIABLE_INPUT]
+    assert all(d.text.startswith("creation: reliable (") for d in demands)
+    assert [d.component for d in stream_demands(Application(), frozenset(), "binary")] == [STREAM_BEST_EFFORT]
+    assert list(stream_demands(RELIABLE, frozenset(), "preconfigured")) == []
+
+
+def test_reliable_creation_beside_best_effort_messages() -> None:
+    streams, _ = plan(large(20, reliable=False), application=RELIABLE, reliable_input=True)
+    assert (streams.best_effort_size, streams.reliable_slots, streams.creation_size) == (32, 1, 92)
+
+
+@pytest.mark.parametrize("transport", DEFAULT_MTU)
+def test_fragments_begin_one_byte_above_the_mtu(transport: str) -> None:
+    mtu = DEFAULT_MTU[transport]
+    fits, _ = plan(large(mtu - 12), transport=transport)
+    assert (fits.fragments, fits.reliable_slot_size, fits.mtu) == (False, mtu, mtu)
+    above, said = plan(large(mtu - 11), transport=transport)
+    assert (above.fragments, above.mtu, said) == (True, mtu, [])
+    assert above.reliable_slot_size == mtu + 4 + 4, "the message, and FRAGMENT's header in front of it"
+
+
+@given(size=st.integers(1, LARGEST_BODY), mtu=st.integers(64, 65507))
+def test_a_slot_holds_the_whole_message(size: int, mtu: int) -> None:
+    application = Application(transport=Transport(mtu=mtu))
+    streams, said = plan(large(size), application=application, create=0)
+    front = 8 if streams.fragments else 4
+    assert said == []
+    assert streams.fragments == (-(-(12 + size) // 4) * 4 > mtu)
+    assert 0 <= streams.reliable_slot_size - (front + 8 + size) < 4
+    assert streams.mtu <= mtu
+
+
+def test_the_largest_message_is_told() -> None:
+    assert plan(large(LARGEST_BODY))[1] == []
+    _, said = plan(large(LARGEST_BODY + 1))
+    (line,) = said
+    assert "a/msg/B on /b takes up to 65528 bytes, and a message holds 65527 at most" in line
+
+
+def test_a_best_effort_message_above_the_mtu_has_three_ways_out() -> None:
+    (line,) = plan(large(1461, reliable=False))[1]
+    assert "takes up to 1476 bytes in its stream and without transport.mtu a datagram holds 1472" in line
+    assert (
+        "Set transport.mtu: 1476, or lower its limits, or make it reliable: reliable messages are sent in"
+        in line
+    )
+    (line,) = plan(replace(large(1461), best_effort=True))[1]
+    assert "or declare its publisher under `nodes:` as reliable" in line
+
+
+def test_the_settings_of_another_stack() -> None:
+    """MTU 512, output history 4, input history 1, slots of the MTU."""
+    asked = Application(
+        transport=Transport(mtu=512), pools={"history": 4, "input_history": 1, "slot_size": 512}
+    )
+    streams, said = plan(INT32, application=asked, reliable_input=True)
+    assert streams == StreamPlan(512, 512, 4, 512, 512, reliable_input_slots=1)
+    assert streams.ram == 6 * 512
+    assert said == []
+
+
+def test_slots_above_the_mtu_are_for_reliable_streams_alone() -> None:
+    asked = Application(transport=Transport(mtu=512), pools={"slot_size": 2000, "input_history": 3})
+    streams, _ = plan(INT32, application=asked, reliable_input=True)
+    assert (streams.best_effort_size, streams.input_size, streams.mtu) == (512, 512, 512)
+    assert (streams.fragments, streams.reliable_slot_size, streams.reliable_input_slots) == (True, 2004, 3)
+    nothing, _ = plan(application=asked, create=0, reliable_input=True)
+    assert (nothing.best_effort_size, nothing.reliable_slots, nothing.reliable_slot_size) == (0, 0, 0)
+
+
+def test_an_input_history_without_a_reliable_input_stream_has_no_effect() -> None:
+    streams, said = plan(INT32, application=Application(pools={"input_history": 2}))
+    (line,) = said
+    assert "'pools.input_history' has no effect" in line
+    assert streams.reliable_input_slots == 0
