@@ -174,7 +174,7 @@ def _creates_as_the_plan_says(plan: RuntimePlan, names: set[str], content: bytes
     assert any("reliable_input" in name for name in names) == (plan.creation == "reliable")
     for word, way in (
         (b"<dds>", "xml"),
-        (b"</", "xml"),
+        (b"</name>", "xml"),
         (b"participant_profile", "reference"),
         (b"__dw", "reference"),
     ):
