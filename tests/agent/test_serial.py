@@ -207,7 +207,7 @@ def drown(cable: Cable, pieces: int, seed: int) -> None:
         try:
             for _ in range(pieces):
                 link.send_raw(noise(chance))
-            assert tracemalloc.get_traced_memory()[0] < 3_000_000
+            assert tracemalloc.get_traced_memory()[0] < 1_500_000
         finally:
             tracemalloc.stop()
         link.send_raw(b"\x7e")
