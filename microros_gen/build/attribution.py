@@ -111,9 +111,13 @@ def attribute(folder: Folder, image: Elf) -> tuple[Piece, ...]:
 
 
 def attribute_library(folder: Folder) -> tuple[Piece, ...]:
-    """Return the pieces of every object of the library: what there is before a linker drops what is not used."""
+    """Return the pieces of every object of the library: what there is before a linker drops what is not used.
+
+    Nothing has an address yet: the sections are laid one behind the other, so that each piece has its own.
+    """
     owners = Owners(folder)
     pieces: list[Piece] = []
+    base = 0
     for source in folder.sources:
         item = Elf(folder.path / object_name(source))
         owner, name = owners.of_source(source), source
@@ -122,7 +126,8 @@ def attribute_library(folder: Folder) -> tuple[Piece, ...]:
             whole = Piece(
                 str(section.kind), section.name, section.name, section.address, section.size, owner, name
             )
-            pieces += _by_symbol(whole, symbols)
+            pieces += (replace(p, address=base + p.address) for p in _by_symbol(whole, symbols))
+            base += section.address + section.size
     return tuple(pieces)
 
 

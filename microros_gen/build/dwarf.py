@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from pathlib import PurePosixPath
 from typing import Any, Literal
 
+from elftools.common.exceptions import DWARFError, ELFError
+
 from microros_gen.build.elf import THUMB, Elf
 
 _QUALIFIERS = ("DW_TAG_typedef", "DW_TAG_const_type", "DW_TAG_volatile_type")
@@ -65,6 +67,25 @@ def read_facts(image: Elf) -> Facts:
                 types.setdefault(address, _type_name(kind))
                 parts.setdefault(address, tuple(_parts(kind, "", 0, 0)))
     return Facts(types, parts, places)
+
+
+def read_variables(item: Elf) -> Mapping[str, tuple[str, tuple[Part, ...]]]:
+    """Return type and parts of each static variable of an object by name: it has no addresses yet.
+
+    Empty without `-g`, and where pyelftools cannot relocate what the object says.
+    """
+    found: dict[str, tuple[str, tuple[Part, ...]]] = {}
+    try:
+        for unit in item.dwarf.iter_CUs() if item.dwarf else ():
+            for die in unit.iter_DIEs():
+                if die.tag == "DW_TAG_variable" and _address(item, die) is not None:
+                    origin = _origin(die)
+                    kind = _target(origin)
+                    if kind is not None:
+                        found.setdefault(_name(origin), (_type_name(kind), tuple(_parts(kind, "", 0, 0))))
+    except (ELFError, DWARFError):
+        return {}
+    return found
 
 
 def _address(image: Elf, die: Any) -> int | None:

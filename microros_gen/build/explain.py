@@ -25,7 +25,8 @@ class Explanation:
     """What is known of one thing. `kind` is symbol, file, component or type.
 
     `chain` is a way of references from the program's start to it; `reasons` are the manifest's; `removes` says what
-    in the application file would take it away, all of it together; each of `choices` does so alone; `holds` lists what it is made of, with bytes.
+    in the application file would take it away, all of it together; each of `choices` does so alone; `holds` lists
+    what it is made of, with bytes.
     """
 
     kind: str

@@ -11,7 +11,8 @@ from pathlib import Path
 from microros_gen.build.attribution import Piece, attribute, attribute_library
 from microros_gen.build.budget import BudgetLine, advice_text, budget_lines, exceeded_message
 from microros_gen.build.callgraph import CallGraph, build_call_graph
-from microros_gen.build.dwarf import NO_FACTS, Facts, read_facts
+from microros_gen.build.compile import object_name
+from microros_gen.build.dwarf import Facts, Part, read_facts, read_variables
 from microros_gen.build.elf import Elf
 from microros_gen.build.entities import Entity, RamPart, entities, ram_parts
 from microros_gen.build.folder import Folder, read_folder
@@ -84,10 +85,26 @@ def check_budgets(budgets: Iterable[BudgetLine], places: Mapping[str, Span | Non
 
 def _measure_library(folder: Folder) -> SizeReport:
     pieces = attribute_library(folder)
-    parts = ram_parts(folder, pieces, NO_FACTS)
+    facts = _library_facts(folder, pieces)
+    parts = ram_parts(folder, pieces, facts)
     stack = StackReport(False, "there is no image: calls are not linked yet", 0, None, (), (), 0)
     budgets = budget_lines(folder, pieces, parts, stack)
-    return SizeReport(folder, pieces, NO_FACTS, parts, entities(folder, pieces, parts), None, stack, budgets)
+    return SizeReport(folder, pieces, facts, parts, entities(folder, pieces, parts), None, stack, budgets)
+
+
+def _library_facts(folder: Folder, pieces: Iterable[Piece]) -> Facts:
+    """Return types and parts of the variables of the library's objects."""
+    types: dict[int, str] = {}
+    parts: dict[int, tuple[Part, ...]] = {}
+    known: dict[str, Mapping[str, tuple[str, tuple[Part, ...]]]] = {}
+    for piece in pieces:
+        if piece.ram and piece.symbol and piece.source:
+            if piece.source not in known:
+                known[piece.source] = read_variables(Elf(folder.path / object_name(piece.source)))
+            found = known[piece.source].get(piece.symbol.partition(".")[0])
+            if found:
+                types[piece.address], parts[piece.address] = found
+    return Facts(types, parts, {})
 
 
 def _span(line: BudgetLine) -> Span | None:

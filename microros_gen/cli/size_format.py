@@ -124,14 +124,12 @@ def budget_data(line: BudgetLine) -> dict[str, Any]:
 
 def _headline(report: SizeReport) -> str:
     manifest, totals = report.folder.manifest, report.totals
-    what = (
-        f"Image bin/{manifest['image']}"
-        if report.folder.image
-        else "Library alone (the target has no image), before unused parts are dropped"
-    )
+    what = f"Image bin/{manifest['image']} for {manifest['target']}"
+    if not report.folder.image:
+        what = f"Library for {manifest['target']}, before unused parts are dropped (the target has no image)"
     flash, ram = totals["text"] + totals["data"], totals["data"] + totals["bss"]
     sizes = f"text {totals['text']}, data {totals['data']}, bss {totals['bss']}"
-    return f"{what} for {manifest['target']}: {flash} bytes of flash, {ram} of RAM ({sizes})\n"
+    return f"{what}: {flash} bytes of flash, {ram} of RAM ({sizes})\n"
 
 
 def _owner_rows(report: SizeReport) -> list[tuple[str, str, str, str]]:

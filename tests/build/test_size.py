@@ -26,6 +26,7 @@ from microros_gen.build.linker_map import parse_map
 from microros_gen.build.report import SizeReport, measure
 from microros_gen.build.stack import bound_of, shown_name
 from microros_gen.build.toolchain import find_toolchain
+from microros_gen.cli.size_format import size_table
 from microros_gen.diagnostics import Diagnostics, UserError
 from microros_gen.sources.targets import read_target
 
@@ -118,6 +119,22 @@ def test_the_library_alone_adds_up(measured: Measured) -> None:
     pieces = attribute_library(folder)
     kinds = {k: sum(p.size for p in pieces if p.kind == k) for k in ("text", "data", "bss")}
     assert list(kinds.values()) == [int(n) for n in last[:3]]
+
+
+@pytest.mark.skipif(not has("arm-none-eabi-gcc"), reason="no compiler for Cortex-M")
+def test_a_target_without_an_image_is_measured_by_its_library(tmp_path: Path) -> None:
+    text = PROBE.replace("nodes:", "transport: {type: custom}\nnodes:")
+    report = measure(build(tmp_path, text + "memory: {ram_budget: 4 KiB}\n", "cortex-m4"))
+    assert report.folder.image is None
+    last = tool("arm-none-eabi-size", "-t", report.folder.path / "lib/libmicroros.a").splitlines()[-1].split()
+    assert list(report.totals.values()) == [int(n) for n in last[:3]]
+    assert not report.stack.known
+    assert "no image" in report.stack.why
+    assert [(b.key, b.exceeded) for b in report.budgets] == [("ram_budget", False)]
+    assert all(e.ram for e in report.entities), "the objects' own DWARF splits the pools"
+    assert size_table(report, every=False).startswith(
+        "Library for cortex-m4, before unused parts are dropped"
+    )
 
 
 @pytest.mark.skipif(not has("clang") or not has("ld.lld"), reason="no clang or no lld")
