@@ -130,7 +130,8 @@ int main(int argc, char ** argv)
   int tries = 0;
 
   if (
-    rmw_uros_set_custom_transport(true, NULL, NULL, my_close, my_write, my_read) != RMW_RET_INVALID_ARGUMENT) {
+    rmw_uros_set_custom_transport(true, NULL, NULL, my_close, my_write, my_read) !=
+    RMW_RET_INVALID_ARGUMENT) {
     return fail(6);
   }
   if (set_transport(argc, argv) != RMW_RET_OK) {

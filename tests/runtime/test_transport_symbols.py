@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a transport brings into the library, what it leaves out, and what it takes on a Cortex-M4."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from microros_gen.plan.runtime import RuntimePlan
+from runtime.harness import DECLARED, FIXTURES, POOL, compile_objects, components, link, render
+
+PLANS = {
+    "udp": POOL,
+    "serial": replace(POOL, transport="serial", serial_device="/dev/ttyUSB0"),
+    "serial-board": replace(POOL, transport="serial"),
+    "custom-on": replace(POOL, transport="custom", framing="on"),
+    "custom-off": replace(POOL, transport="custom", framing="off"),
+    "custom-either": replace(POOL, transport="custom", framing="either"),
+}
+OWN = {
+    "udp": re.compile("udp"),
+    "serial": re.compile("serial(?!iz)|framing"),
+    "custom": re.compile("custom|framing|uxr_"),
+}
+
+
+@pytest.mark.parametrize("name", PLANS)
+def test_one_transport_and_no_other(name: str, tmp_path: Path) -> None:
+    plan = PLANS[name]
+    tree = render(tmp_path, plan, components(plan))
+    objects = compile_objects(tree, tree.sources, "gcc", ("-Os",))
+    out = subprocess.run(["nm", *map(str, objects)], capture_output=True, text=True, check=True).stdout
+    names = {line.split()[-1] for line in out.splitlines() if len(line.split()) >= 2}
+    names = {n for n in names if not n.startswith("microros_error_")}  # texts: each an object of its own
+    for transport, pattern in OWN.items():
+        found = {n for n in names if pattern.search(n)}
+        if transport == plan.transport:
+            assert found
+        else:
+            assert {n for n in found if "framing" not in n} == set()
+    framed = name in ("serial", "serial-board", "custom-on", "custom-either")
+    assert any("framing" in n for n in names) == framed
+    assert ("rmw_uros_options_set_serial_device" in names) == (name == "serial")
+    strings = b"".join(o.read_bytes() for o in objects)
+    assert (b"127.0.0.1" in strings) == (name == "udp")
+    assert (b"/dev/ttyUSB0" in strings) == (name == "serial")
+
+
+@pytest.mark.parametrize("name", ["serial", "custom-on"])
+def test_functions_of_other_transports_say_what_to_set(name: str, tmp_path: Path) -> None:
+    tree = render(tmp_path, PLANS[name], components(PLANS[name]))
+    application = tmp_path / "application.c"
+    application.write_text(
+        "#include <rmw_microros/rmw_microros.h>\nrmw_ret_t set(rmw_init_options_t * o);\n"
+        'rmw_ret_t set(rmw_init_options_t * o) { return rmw_uros_options_set_udp_address("h", "1", o); }\n'
+    )
+    with pytest.raises(AssertionError, match="rmw_uros_options_set_udp_address__needs__transport_type_udp"):
+        compile_objects(tree, [application], "gcc", ("-Werror=implicit-function-declaration",))
+
+
+ARM = ("-mcpu=cortex-m4", "-mthumb", "-Os")
+
+
+def _text(plan: RuntimePlan, folder: Path) -> int:
+    """Return the bytes of the library in a pure sender; the port is left open."""
+    tree = render(folder, plan, [n for n in components(plan) if n != "port_posix"])
+    sources = [*tree.sources, FIXTURES / "types.c", FIXTURES / "sender.c"]
+    objects = compile_objects(tree, sources, "arm-none-eabi-gcc", ARM)
+    flags = ("-nostartfiles", "-Wl,-e,main", "--specs=nano.specs", "-Wl,--unresolved-symbols=ignore-all")
+    program = link(objects, "arm-none-eabi-gcc", (*ARM, *flags), folder / "a")
+    out = subprocess.run(["arm-none-eabi-size", program], capture_output=True, text=True, check=True).stdout
+    return int(out.splitlines()[1].split()[0])
+
+
+@pytest.mark.skipif(not shutil.which("arm-none-eabi-gcc"), reason="no cross compiler")
+@pytest.mark.parametrize(
+    ("transport", "framing", "most"),
+    [("serial", "either", 520), ("custom", "on", 760), ("custom", "off", 200)],
+)
+def test_size_beside_udp(transport: str, framing: str, most: int, tmp_path: Path) -> None:
+    udp = replace(DECLARED, best_effort_size=92, reliable_slot_size=16)
+    other = replace(udp, transport=transport, framing=framing)
+    assert _text(other, tmp_path / "other") - _text(udp, tmp_path / "udp") <= most
