@@ -72,9 +72,9 @@ IN_THE_FILE = {
         r"microros\.yaml:6:\d+: error: .*header\.frame_id.*limits.*\d+",
     ),
     "a message larger than its stream": (
-        "profiles: [pure_sender]",
-        "profiles: [pure_sender]\ntransport: {type: udp, mtu: 256}",
-        r"microros\.yaml:7:\d+: error: .*takes up to \d+ bytes .*256\. Set transport\.mtu: \d+",
+        "type: sensor_msgs/msg/Imu}",
+        "type: sensor_msgs/msg/Imu, qos: {reliability: best_effort}}\ntransport: {type: udp, mtu: 256}",
+        r"microros\.yaml:6:\d+: error: .*takes up to \d+ bytes .*256\. Set transport\.mtu: \d+.* in fragments",
     ),
     "a budget that the streams exceed": (
         "profiles: [pure_sender]",

@@ -51,7 +51,7 @@ uint16_t xrce_stream_reliable_input_map(const xrce_stream_reliable_input_t * str
 {
   uint32_t map = 0;
 
-  for (uint8_t slot = 0; slot < XRCE_RELIABLE_INPUT_HELD; ++slot) {
+  for (uint32_t slot = 0; slot < XRCE_RELIABLE_INPUT_HELD; ++slot) {
     if (stream->size[slot] != 0u) {
       map |= (uint32_t)1u << ((uint32_t)(stream->sequence[slot] - stream->next) & 0x0fu);
     }
