@@ -160,9 +160,14 @@ class Board:
 
     def words(self, symbol: str, count: int = 1) -> list[int]:
         """Return words of memory, from `symbol` on."""
-        command = f"xp /{count}xw {self._symbols[symbol]:#x}"
+        data = self.memory(self._symbols[symbol], 4 * count)
+        return [int.from_bytes(data[at : at + 4], "little") for at in range(0, len(data), 4)]
+
+    def memory(self, address: int, size: int) -> bytes:
+        """Return bytes of memory as the processor sees it."""
+        command = f"xp /{size}xb {address:#x}"
         text = self._emulator.call("human-monitor-command", **{"command-line": command})
-        return [int(word, 16) for word in re.findall(r"(?<=\s)0x[0-9a-f]{8}", text)]
+        return bytes(int(byte, 16) for byte in re.findall(r"(?<= )0x([0-9a-f]{2})\b", text))
 
     def wait_for(self, seen: Callable[[], object], timeout_s: float = 20.0) -> None:
         """Wait until `seen` is true."""

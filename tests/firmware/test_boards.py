@@ -3,12 +3,27 @@
 
 from __future__ import annotations
 
+import os
+import time
+
 import pytest
 from runtime.fake_agent import FakeAgent
 
 from firmware.board import BOARDS, Board, Builds, board
-from firmware.line import Relay, noisy, scripted_agent
+from firmware.line import Relay, noisy, open_raw, scripted_agent
 
+FAULTS = {
+    "qemu-microbit": ("0x90000000", 3),
+    "qemu-mps2-an386": ("0xa0000000", 3),
+    "qemu-riscv32-virt": ("0x00000800", 7),
+}
+"""For a board an address where nothing is, and the number of the exception that a write to it raises."""
+DEVICE_KEY = """\
+version: 1
+profiles: [pure_sender]
+interfaces: [std_msgs/msg/Int32]
+session: {key: device}
+"""
 REPORT = (
     "done",
     "published",
@@ -54,3 +69,73 @@ def test_over_a_bad_line_every_reliable_sample_arrives_once_and_in_order(builds:
     assert said["resent"] > 0, said
     assert said["fault"] == 0
     assert 0 < said["stack"] < 2048
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_a_fault_restarts_the_board_and_leaves_its_cause(builds: Builds, name: str) -> None:
+    built = builds.build(name)
+    address, cause = FAULTS[name]
+    image = builds.application(built, "fault.c", f"-DFAULT_ADDRESS={address}u")
+    with board(built, image, restarts=True) as running:
+        running.go_on()
+        running.wait_for(lambda: running.words("fault_report")[0])
+        _, number, status, place, pc, where = running.words("fault_report", 6)
+    assert number == cause
+    assert 0 <= pc - (where & ~1) < 32
+    if name != "qemu-microbit":
+        assert place == int(address, 16)
+    if name == "qemu-mps2-an386":
+        assert status == 0x8200  # BFARVALID, PRECISERR
+
+
+@pytest.mark.parametrize("name", ["qemu-microbit", "qemu-mps2-an385"])
+def test_a_stack_that_overflows_meets_the_end_of_ram_and_leaves_a_cause(builds: Builds, name: str) -> None:
+    built = builds.build(name)
+    image = builds.application(built, "fault.c", "-DFAULT_STACK")
+    with board(built, image, restarts=True) as running:
+        running.go_on()
+        running.wait_for(lambda: running.words("fault_report")[0])
+        _, number, _, _, pc, _ = running.words("fault_report", 6)
+    assert number == 3
+    assert pc == 0
+
+
+def test_a_main_that_returns_restarts_the_board_until_there_is_an_agent(builds: Builds) -> None:
+    built = builds.build("qemu-mps2-an386")
+    with board(built, restarts=True) as running:
+        running.go_on()
+        time.sleep(2.5)  # a second of waiting for the agent, a second of pause
+        with scripted_agent(running.device, FakeAgent()) as agent:
+            running.wait_for(lambda: agent.values())
+    with board(built) as running:
+        running.go_on()
+        assert running.process.wait(timeout=20) == 0
+
+
+def test_bytes_that_nobody_reads_in_time_are_counted_and_the_line_recovers(builds: Builds) -> None:
+    built = builds.build("qemu-mps2-an385")
+    image = builds.application(built, "counter.c", "-DCOUNTER_LAST=20", "-DCOUNTER_PERIOD_MS=100u")
+    agent = FakeAgent()
+    with board(built, image) as running, scripted_agent(running.device, agent):
+        running.go_on()
+        running.wait_for(lambda: len(agent.values()) > 2)
+        flood = open_raw(running.device)
+        for _ in range(16):
+            os.write(flood, b"\x7e" * 3 + bytes(range(64)) * 4)
+        os.close(flood)
+        running.wait_for(lambda: report(running)["done"])
+        said = report(running)
+    assert said["lost"] > 0
+    assert agent.values() == list(range(1, 21))
+
+
+def test_a_device_with_a_number_of_its_own_is_known_by_it(builds: Builds) -> None:
+    built = builds.build("qemu-microbit", DEVICE_KEY)
+    with board(built) as running, scripted_agent(running.device, FakeAgent()) as agent:
+        running.go_on()
+        running.wait_for(lambda: agent.values())
+        number = running.memory(0x10000060, 8)
+    key = 2166136261
+    for byte in number:
+        key = (key ^ byte) * 16777619 % 2**32
+    assert agent.log[0][16:20] == key.to_bytes(4, "big")

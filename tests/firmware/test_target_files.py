@@ -95,7 +95,7 @@ def test_extends_is_relative_to_the_file_that_says_it(tmp_path: Path) -> None:
             BOARD + "transport: seriel\n",
             "mine.yaml:6:12: error: 'transport' must be udp, tcp, serial or custom",
         ),
-        (BOARD.replace("256 KiB", "256 KB"), "mine.yaml:4:37: error: 'flash.size' must be a number of bytes"),
+        (BOARD.replace("256 KiB", "256 KB"), "mine.yaml:4:35: error: 'flash.size' must be a number of bytes"),
         (
             BOARD.replace("clock_hz: 48000000\n", ""),
             "mine.yaml:1:1: error: an image needs the key 'clock_hz'",
@@ -121,7 +121,7 @@ def test_extends_is_relative_to_the_file_that_says_it(tmp_path: Path) -> None:
         ),
         (
             BOARD + "interrupts: {4: a-b}\n",
-            "6:17: error: 'interrupts[\"4\"]' must be the name of a C function",
+            "6:17: error: 'interrupts.4' must be the name of a C function",
         ),
         (BOARD.replace("cortex-m3", "riscv32"), "mine.yaml:1:1: error: port_riscv needs the address of plic"),
         (BOARD.replace("cortex-m3", "cortex-m9"), "mine.yaml:2:10: error: there is no target 'cortex-m9'"),

@@ -9,7 +9,11 @@
 #include <rmw_microros/rmw_microros.h>
 #include <std_msgs/msg/int32.h>
 
-enum { PERIOD_MS = 5, FLUSH_MS = 10000 };
+#ifndef COUNTER_PERIOD_MS
+#define COUNTER_PERIOD_MS 5u
+#endif
+
+enum { FLUSH_MS = 10000 };
 
 typedef struct counter_report_t {
   uint32_t done; /* 1: everything was published and acknowledged */
@@ -63,7 +67,7 @@ static void publish(int32_t value)
   while (rcl_publish(&publisher, &message, NULL) != RCL_RET_OK) {
     rcl_reset_error();
     counter_report.refused = counter_report.refused + 1u;
-    rclc_sleep_ms(PERIOD_MS);
+    rclc_sleep_ms(COUNTER_PERIOD_MS);
   }
   counter_report.published = (uint32_t)value;
 }
@@ -81,7 +85,7 @@ int main(void)
   for (int32_t value = 1; value <= COUNTER_LAST; ++value) {
     publish(value);
     report();
-    rclc_sleep_ms(PERIOD_MS);
+    rclc_sleep_ms(COUNTER_PERIOD_MS);
   }
   if (rmw_uros_flush(rcl_context_get_rmw_context(&support.context), FLUSH_MS) == RMW_RET_OK) {
     counter_report.done = 1;
@@ -89,6 +93,6 @@ int main(void)
   for (;;) {
     (void)rmw_uros_spin_once(rcl_context_get_rmw_context(&support.context));
     report();
-    rclc_sleep_ms(PERIOD_MS);
+    rclc_sleep_ms(COUNTER_PERIOD_MS);
   }
 }

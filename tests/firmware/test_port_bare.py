@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The parts of the ports for boards that need no board, on the host: counters that wrap, full rings, numbers."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from firmware.board import C_FILES, check
+from microros_gen.build.toolchain import WARNINGS
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.model.application import Application, Transport
+from microros_gen.model.target import Uart
+from microros_gen.plan.board import plan_board, ring_size
+from microros_gen.plan.runtime import RuntimePlan
+from microros_gen.sources.components import components_folder
+from microros_gen.sources.targets import read_target
+
+COMPONENTS = components_folder()
+BOARD = "#define PORT_BOARD_RING_SIZE 64u\n#define PORT_BOARD_UART_BAUD 115200u\n"
+SANITIZE = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+
+
+def test_time_sleep_epoch_and_ring(tmp_path: Path) -> None:
+    (tmp_path / "microros").mkdir()
+    (tmp_path / "microros" / "port_board.h").write_text(BOARD)
+    bare, support = COMPONENTS / "port_bare", COMPONENTS / "support"
+    includes = [f"-I{path}" for path in (tmp_path, bare / "src", bare / "include", support / "include")]
+    program = tmp_path / "unit"
+    check(["gcc", *WARNINGS, *SANITIZE, *includes, str(C_FILES / "unit_bare.c"), "-o", str(program)])
+    check([str(program)])
+
+
+def plan(reliable_slots: int, input_size: int) -> RuntimePlan:
+    return RuntimePlan(
+        plan_id="", error_text_size=0, agent_host="", agent_port=0, mtu=0, input_size=input_size, client_key=1,
+        session_id=0x81, best_effort_size=0, reliable_slots=reliable_slots, reliable_slot_size=16, declared=False,
+        nodes_max=1, publishers_max=1, name_size=8, nodes=(), publishers=(), arena_size=0, on_full="error",
+        on_full_block_ms=0, transport="serial",
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(("slots", "size"), [(0, 64), (4, 64), (16, 64), (0, 512), (16, 4096)])
+def test_the_ring_holds_the_longest_message_and_an_answer_for_each_slot(slots: int, size: int) -> None:
+    """At the worst every byte of a frame is stuffed: 7E, then twice source, destination, length, payload, CRC."""
+    worst = 1 + 2 * (4 + size + 2) + slots * (1 + 2 * (4 + 13 + 2))
+    ring = ring_size(plan(slots, size))
+    assert worst <= ring < 2 * worst
+    assert ring & (ring - 1) == 0
+
+
+@pytest.mark.parametrize(
+    ("driver", "clock_hz", "baud", "divisor"),
+    [
+        ("cmsdk", 25_000_000, 115_200, 217),
+        ("cmsdk", 25_000_000, 1200, 20833),
+        ("cmsdk", 25_000_000, 921_600, 27),
+        ("nrf51", 16_000_000, 115_200, 0x01D7E000),  # the value of Nordic's table
+        ("nrf51", 16_000_000, 9600, 0x00275000),
+        ("ns16550", 3_686_400, 115_200, 2),
+        ("ns16550", 48_000_000, 115_200, 26),
+        ("cmsdk", 1_000_000, 115_200, None),
+        ("ns16550", 1_843_200, 921_600, None),
+    ],
+)
+def test_the_divisor_of_a_uart_is_within_what_its_receiver_bears(
+    driver: str, clock_hz: int, baud: int, divisor: int | None
+) -> None:
+    found = read_target("qemu-mps2-an385", Path(), None, Diagnostics())
+    assert found is not None
+    target = replace(found.target, uart=Uart(driver, 0x40004000, 1, clock_hz))
+    diagnostics = Diagnostics()
+    application = Application(transport=Transport("serial", baud=baud))
+    board = plan_board(application, target, plan(4, 64), diagnostics)
+    assert diagnostics.has_errors() == (divisor is None)
+    assert divisor is None or board.uart_divisor == divisor
