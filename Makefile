@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-# make demo | test | lint | bench | golden. Each sets up its own virtual environment in .venv first.
+# make demo | test | lint | misra | bench | golden. Each sets up its own virtual environment in .venv first.
 
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint bench golden clean
+.PHONY: demo test lint misra bench golden clean
 
 demo: $(VENV)/ros.stamp
 	@$(BIN)/python examples/demo/demo.py
@@ -16,6 +16,9 @@ test: $(VENV)/dev.stamp
 
 lint: $(VENV)/dev.stamp
 	@$(BIN)/python -m pytest -q tests/house
+
+misra: $(VENV)/dev.stamp
+	@$(BIN)/python tests/tools/misra.py
 
 bench: $(VENV)/dev.stamp
 	@$(PYTHON) tests/tools/system_packages.py

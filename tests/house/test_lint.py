@@ -3,41 +3,15 @@
 
 from __future__ import annotations
 
-import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from microros_gen.cli.generate import plan, write
-from microros_gen.cli.options import SelectionOptions
-from microros_gen.sources.interfaces import shipped_folder
-
 ROOT = Path(__file__).resolve().parents[2]
 PYTHON_FOLDERS = ["microros_gen", "tests", "examples"]
 SUPPRESSIONS = ROOT / "tests" / "house" / "cppcheck-suppressions.txt"
-
-# With the pure sender these select every alternative file of the runtime, and types with every kind of field.
-APPLICATIONS = {
-    "pure_sender": "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\n",
-    "declared": """\
-version: 1
-profiles: [pure_sender]
-nodes:
-  - name: imu
-    publishers:
-      - {topic: imu/data, type: sensor_msgs/msg/Imu, qos: {reliability: best_effort}}
-      - {topic: diagnostics, type: diagnostic_msgs/msg/DiagnosticArray}
-limits: {"*": {string: 16, sequence: 4}}
-liveliness: acknack
-on_full: drop_oldest
-errors: code
-memory: {arena: 1024}
-session: {key: device}
-""",
-    "blocking": "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\non_full: block 20 ms\n",
-}
 
 
 def run(*command: str) -> None:
@@ -64,50 +38,6 @@ def test_mypy_strict() -> None:
 
 def test_clang_format() -> None:
     run("clang-format", "--dry-run", "--Werror", *c_files())
-
-
-@pytest.fixture(scope="module")
-def trees(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
-    """The output folder of each application."""
-    found = []
-    for name, text in APPLICATIONS.items():
-        folder = tmp_path_factory.mktemp(name)
-        (folder / "microros.yaml").write_text(text)
-        options = SelectionOptions(folder / "microros.yaml", (), (), (shipped_folder(),), None, None)
-        planned, out = plan(options, folder / "out")
-        write(planned, out)
-        found.append(out)
-    return found
-
-
-def sources_once(trees: list[Path]) -> dict[Path, list[str]]:
-    """The C files of each tree that no tree before it has, relative to the tree."""
-    seen: set[str] = set()
-    found = {}
-    for tree in trees:
-        names = sorted(p.relative_to(tree).as_posix() for p in tree.rglob("*.c"))
-        found[tree] = [name for name in names if name not in seen]
-        seen.update(names)
-    return found
-
-
-@pytest.mark.skipif(not shutil.which("clang-tidy"), reason="no clang-tidy")
-def test_clang_tidy(trees: list[Path]) -> None:
-    """What is off, and why, stands in .clang-tidy."""
-    for tree, names in sources_once(trees).items():
-        files = [str(tree / name) for name in names]
-        configuration = f"--config-file={ROOT / '.clang-tidy'}"
-        run("clang-tidy", "--quiet", configuration, *files, "--", "-std=c99", f"-I{tree / 'include'}")
-
-
-@pytest.mark.skipif(not shutil.which("cppcheck"), reason="no cppcheck")
-def test_cppcheck(trees: list[Path]) -> None:
-    """What is suppressed, and why, stands in cppcheck-suppressions.txt."""
-    for tree in trees:
-        checks = ["--enable=warning,style,performance,portability", "--inline-suppr", "--error-exitcode=1"]
-        suppressed = f"--suppressions-list={SUPPRESSIONS}"
-        folders = [str(tree / "src"), str(tree / "examples")]
-        run("cppcheck", "-q", "--std=c99", *checks, suppressed, f"-I{tree / 'include'}", *folders)
 
 
 def test_each_suppression_has_its_reason() -> None:

@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the checks of this folder read: generated trees that together hold every C file and every template.
+
+A tree is the output folder of one application. A file that is the same in several trees, with all that it includes,
+is analysed once.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import subprocess
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+
+from microros_gen.cli.generate import plan, write
+from microros_gen.cli.options import SelectionOptions
+from microros_gen.sources.components import components_folder, load_catalogue
+from microros_gen.sources.interfaces import shipped_folder
+
+ROOT = Path(__file__).resolve().parents[2]
+INTERFACES = Path(__file__).parent / "interfaces"
+CACHE = ROOT / "build" / "quality"
+WORKERS = 2
+
+_POOL = "version: 1\nprofiles: [pure_sender]\n"
+_INT32 = _POOL + "interfaces: [std_msgs/msg/Int32]\n"
+_NODES = _POOL + "nodes:\n  - name: probe\n    publishers:\n"
+_BEST = "      - {topic: fast, type: std_msgs/msg/Int32, qos: {reliability: best_effort}}\n"
+_SURE = "      - {topic: sure, type: std_msgs/msg/UInt8}\n"
+_LARGE = "      - {topic: large, type: std_msgs/msg/String}\nlimits: {'*': {string: 2000}}\n"
+_BOTH = _NODES + _BEST + _SURE
+_SERIAL = "transport: {type: serial, device: /dev/ttyACM0, baud: 115200}\n"
+
+APPLICATIONS: Mapping[str, str] = MappingProxyType(
+    {
+        "types": _POOL + "interfaces: [quality_msgs]\nlimits: {'*': {string: 12, sequence: 3}}\n",
+        "types_nodes": _NODES
+        + "      - {topic: tree, type: quality_msgs/msg/Tree}\n"
+        + "limits:\n  '*': {string: 12, sequence: 3}\n  quality_msgs/msg/Tree: {leaf: {string: 5}, runs: 2}\n",
+        "pool": _INT32,
+        "pool_block": _INT32 + "on_full: block 20 ms\n",
+        "declared": _BOTH
+        + "liveliness: acknack\non_full: drop_oldest\nerrors: code\nmemory: {arena: 1024}\nsession: {key: device}\n",
+        "best_effort": _NODES + _BEST + "liveliness: none\n",
+        "reliable_creation": _BOTH + "creation: reliable\n",
+        "large": _NODES + _LARGE,
+        "xml": _BOTH + "entities: xml\nliveliness: none\n",
+        "xml_pool": _INT32 + "entities: xml\n",
+        "reference": _BOTH + "entities: reference\n",
+        "preconfigured": _BOTH + "entities: preconfigured\nliveliness: ping\n",
+        "serial": _INT32 + _SERIAL,
+        "custom": _INT32 + "transport: {type: custom}\n",
+        "cortex_m": _BOTH + "target: {name: qemu-microbit}\nsession: {key: device}\n",
+        "cortex_m_cmsdk": _BOTH + "target: {name: qemu-mps2-an385}\n",
+        "riscv": _BOTH + "target: {name: qemu-riscv32-virt}\n",
+    }
+)
+"""Application files by name."""
+
+AWAITED: Mapping[str, frozenset[str]] = MappingProxyType(
+    {
+        "reliable_creation": frozenset({"stream_reliable_input", "entities"}),
+        "large": frozenset({"stream_reliable"}),
+        "xml": frozenset({"entities_xml"}),
+        "xml_pool": frozenset({"entities_xml"}),
+        "reference": frozenset({"entities_reference"}),
+        "preconfigured": frozenset({"entities_preconfigured"}),
+        "serial": frozenset({"transport_serial", "framing"}),
+        "custom": frozenset({"transport_custom", "framing"}),
+        "cortex_m": frozenset({"port_cortex_m", "transport_serial"}),
+        "cortex_m_cmsdk": frozenset({"port_cortex_m", "transport_serial"}),
+        "riscv": frozenset({"port_riscv", "transport_serial"}),
+    }
+)
+"""Components that an application needs; while one of them is planned, the application is left out."""
+
+
+def ready_components() -> frozenset[str]:
+    """Return the names of components that can be built."""
+    return frozenset(name for name, component in load_catalogue().items() if component.ready)
+
+
+@dataclass(frozen=True)
+class Tree:
+    """The output folder of one application, and the C files in it, relative to it."""
+
+    name: str
+    out: Path
+    sources: tuple[str, ...]
+
+
+def make_tree(name: str, folder: Path) -> Tree:
+    """Generate the application `name` below `folder`; raises UserError."""
+    place = folder / name
+    place.mkdir(parents=True)
+    (place / "microros.yaml").write_text(APPLICATIONS[name], encoding="utf-8")
+    options = SelectionOptions(
+        place / "microros.yaml", (), (), (INTERFACES / "quality_msgs", shipped_folder()), None, None
+    )
+    planned, out = plan(options, place / "out")
+    write(planned, out)
+    return Tree(name, out, tuple(sorted(p.relative_to(out).as_posix() for p in out.rglob("*.c"))))
+
+
+def make_trees(folder: Path) -> list[Tree]:
+    """Generate every application whose components are ready."""
+    ready = ready_components()
+    return [make_tree(name, folder) for name in APPLICATIONS if AWAITED.get(name, frozenset()) <= ready]
+
+
+def covered(trees: Sequence[Tree]) -> set[str]:
+    """Return the sources of components in `trees` as `component/file.c`."""
+    return {s.removeprefix("src/") for tree in trees for s in tree.sources if s.startswith("src/")}
+
+
+def run(command: Sequence[str], folder: Path) -> subprocess.CompletedProcess[str]:
+    """Run `command` in `folder`, whatever it returns."""
+    return subprocess.run(list(command), cwd=folder, text=True, capture_output=True, check=False)
+
+
+@dataclass(frozen=True)
+class Unit:
+    """One C file of a tree; `key` stands for what it is, with everything that it includes."""
+
+    tree: Tree
+    source: str
+    key: str
+
+
+def width_flags(unit: Unit) -> tuple[str, ...]:
+    """Return how a file of a microcontroller's port is compiled on a host: its registers have addresses of 32 bits."""
+    bare = ("src/port_bare/", "src/port_cortex_m/", "src/port_riscv/")
+    return ("-m32",) if unit.source.startswith(bare) else ()
+
+
+def units(trees: Sequence[Tree]) -> list[Unit]:
+    """Return every file of every tree; a file with the text of one in an earlier tree has the key of that one.
+
+    What is rendered from a template counts as another file where the headers that it includes differ.
+    """
+    rendered = {path.name.removesuffix(".j2") for path in components_folder().rglob("*.c.j2")}
+
+    def preprocess(tree: Tree, source: str) -> str:
+        done = run(["gcc", "-std=c99", "-E", "-P", "-Iinclude", source], tree.out)
+        assert done.returncode == 0, f"{tree.name}: {done.stderr}"
+        return hashlib.sha256((source + done.stdout).encode()).hexdigest()
+
+    first: dict[tuple[str, ...], tuple[Tree, str]] = {}
+    found: list[tuple[Tree, str, tuple[str, ...]]] = []
+    for tree in trees:
+        # Errors are texts or codes: the names of this header are objects in one tree and constants in another.
+        errors = tree.out / "include" / "microros" / "error.h"
+        names = errors.read_text(encoding="utf-8") if errors.is_file() else ""
+        for source in tree.sources:
+            same = (source, names, (tree.out / source).read_text(encoding="utf-8"))
+            identity = (*same, tree.name) if Path(source).name in rendered else same
+            first.setdefault(identity, (tree, source))
+            found.append((tree, source, identity))
+    with ThreadPoolExecutor(WORKERS) as pool:
+        keys = dict(zip(first, pool.map(lambda job: preprocess(*job), first.values()), strict=True))
+    return [Unit(tree, source, keys[identity]) for tree, source, identity in found]
+
+
+def analyse(tool: str, each: Sequence[Unit], check: Callable[[Unit], str]) -> dict[str, str]:
+    """Return what `check` says of each different unit, by key; answers are kept in build/quality.
+
+    `tool` names the check, its version and its rules: another name, another answer.
+    """
+    folder = CACHE / hashlib.sha256(tool.encode()).hexdigest()[:16]
+    folder.mkdir(parents=True, exist_ok=True)
+
+    def answer(unit: Unit) -> str:
+        kept = folder / unit.key
+        if kept.is_file():
+            return kept.read_text(encoding="utf-8")
+        text = check(unit)
+        fresh = kept.with_suffix(f".{unit.tree.name}")
+        fresh.write_text(text, encoding="utf-8")
+        fresh.replace(kept)
+        return text
+
+    different = {unit.key: unit for unit in reversed(each)}
+    with ThreadPoolExecutor(WORKERS) as pool:
+        texts = pool.map(answer, different.values())
+        return dict(zip(different, texts, strict=True))

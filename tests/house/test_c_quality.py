@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: Apache-2.0
+"""clang-tidy, cppcheck, MISRA's rules and every warning of gcc and clang over the corpus (docs/quality.md)."""
+
+from __future__ import annotations
+
+import shutil
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+from house import misra
+from house.corpus import ROOT, Tree, Unit, analyse, covered, ready_components, run, width_flags
+
+from microros_gen.sources.components import components_folder
+
+SUPPRESSIONS = ROOT / "tests" / "house" / "cppcheck-suppressions.txt"
+TIDY = ROOT / ".clang-tidy"
+COMMON = ("-std=c99", "-Iinclude", "-fsyntax-only")
+GCC = (
+    *(
+        "-Wall",
+        "-Wextra",
+        "-Wpedantic",
+        "-Wconversion",
+        "-Wsign-conversion",
+        "-Wshadow",
+        "-Wundef",
+        "-Wcast-qual",
+    ),
+    *(
+        "-Wstrict-prototypes",
+        "-Wmissing-prototypes",
+        "-Wold-style-definition",
+        "-Wredundant-decls",
+        "-Wwrite-strings",
+    ),
+    *(
+        "-Wduplicated-cond",
+        "-Wduplicated-branches",
+        "-Wlogical-op",
+        "-Wnull-dereference",
+        "-Wformat=2",
+        "-Wvla",
+    ),
+    *("-Walloca", "-Wdouble-promotion", "-Wbad-function-cast", "-Wswitch-enum", "-Wfloat-conversion"),
+)
+CLANG = (
+    "-Weverything",
+    "-Wno-padded",  # structs are ROS 2's, or ordered for reading; sizes are asserted
+    "-Wno-declaration-after-statement",  # C99: a variable is declared where its value is known
+    "-Wno-unsafe-buffer-usage",  # newer versions: wants C++'s containers
+    "-Wno-switch-default",  # newer versions: contradicts -Wcovered-switch-default
+    "-Wno-float-equal",  # are_equal of messages compares as ROS 2's does
+    "-Wno-reserved-identifier",  # ROS 2's names have a double underscore between package and type
+    "-Wno-reserved-macro-identifier",  # _POSIX_C_SOURCE, for POSIX to read
+    "-Wno-unused-macros",  # macros of one file that only some plans use
+    "-Wno-disabled-macro-expansion",  # macros of the C library that expand to their own name
+    "-Wno-documentation",  # comments of interface files are carried over as they are
+    "-Wno-documentation-unknown-command",
+)
+
+
+def test_corpus_holds_every_source(trees: list[Tree]) -> None:
+    """Every C file and every C template of a component that is ready is in some tree."""
+    wanted = set()
+    for name in ready_components():
+        folder = components_folder() / name / "src"
+        wanted |= {f"{name}/{path.name.removesuffix('.j2')}" for path in folder.glob("*.c*")}
+    # What no application can select yet; it goes from this list with the first that does.
+    unselected = ["stream_reliable_input/xrce_stream_reliable_input_held.c"]
+    assert sorted(wanted - covered(trees)) == unselected
+
+
+def test_corpus_holds_every_template_of_types(trees: list[Tree]) -> None:
+    sources = covered(trees)
+    for ending in ("functions", "type_support", "storage"):
+        assert f"quality_msgs/tree__{ending}.c" in sources
+
+
+def test_corpus_holds_one_unit_a_difference(all_units: list[Unit]) -> None:
+    assert len({unit.key for unit in all_units}) < len(all_units)
+
+
+def complaints(answers: dict[str, str]) -> str:
+    return "\n".join(text for text in answers.values() if text)
+
+
+@pytest.mark.skipif(not shutil.which("clang-tidy"), reason="no clang-tidy")
+def test_clang_tidy(all_units: list[Unit]) -> None:
+    """What is off, and why, stands in .clang-tidy."""
+    version = run(["clang-tidy", "--version"], ROOT).stdout
+
+    def check(unit: Unit) -> str:
+        command = [
+            "clang-tidy",
+            "--quiet",
+            f"--config-file={TIDY}",
+            unit.source,
+            "--",
+            "-std=c99",
+            "-Iinclude",
+        ]
+        done = run(command, unit.tree.out)
+        return done.stdout + done.stderr if done.returncode else ""
+
+    name = f"clang-tidy {version} {TIDY.read_text(encoding='utf-8')}"
+    assert complaints(analyse(name, all_units, check)) == ""
+
+
+@pytest.mark.skipif(not shutil.which("cppcheck"), reason="no cppcheck")
+def test_cppcheck(trees: list[Tree]) -> None:
+    """What is suppressed, and why, stands in cppcheck-suppressions.txt."""
+    for tree in trees:
+        checks = ["--enable=warning,style,performance,portability", "--inline-suppr", "--error-exitcode=1"]
+        options = ["-q", "--std=c99", *checks, f"--suppressions-list={SUPPRESSIONS}", "-Iinclude"]
+        done = run(["cppcheck", *options, "src", "examples"], tree.out)
+        assert done.returncode == 0, f"{tree.name}: {done.stdout}{done.stderr}"
+
+
+def compile_quietly(compiler: str, flags: Sequence[str], each: list[Unit]) -> str:
+    """Return what `compiler` says of each different file."""
+
+    def check(unit: Unit) -> str:
+        done = run([compiler, *flags, *width_flags(unit), unit.source], unit.tree.out)
+        return f"{unit.tree.name}: {done.stderr}" if done.stderr or done.returncode else ""
+
+    version = run([compiler, "--version"], ROOT).stdout.splitlines()[0]
+    return complaints(analyse(f"{version} {flags}", each, check))
+
+
+@pytest.mark.skipif(not shutil.which("gcc"), reason="no gcc")
+def test_gcc_warnings(all_units: list[Unit]) -> None:
+    assert compile_quietly("gcc", (*COMMON, *GCC), all_units) == ""
+
+
+@pytest.mark.skipif(not shutil.which("gcc"), reason="no gcc")
+@pytest.mark.parametrize("level", ["-O0", "-Os", "-O3"])
+def test_gcc_optimizing(all_units: list[Unit], level: str) -> None:
+    """Warnings that need the flow of data, at several levels; the analyzer once."""
+    flags = ("-std=c99", "-Iinclude", *GCC, level, "-c", "-o", "/dev/null")
+    assert compile_quietly("gcc", (*flags, "-fanalyzer") if level == "-Os" else flags, all_units) == ""
+
+
+@pytest.mark.skipif(not shutil.which("clang"), reason="no clang")
+def test_clang_everything(all_units: list[Unit]) -> None:
+    assert compile_quietly("clang", (*COMMON, *CLANG), all_units) == ""
+
+
+@pytest.fixture(scope="module")
+def places(trees: list[Tree]) -> misra.Places:
+    if misra.find_addon() is None:
+        pytest.skip("no cppcheck with its addons")
+    return misra.check(trees)
+
+
+def test_misra_finds_nothing_undocumented(places: misra.Places) -> None:
+    assert misra.undocumented(places, misra.load_deviations()) == []
+
+
+def test_misra_deviations_are_used(places: misra.Places) -> None:
+    assert misra.unused(places, misra.load_deviations()) == []
+
+
+def test_misra_page_is_current(places: misra.Places) -> None:
+    """docs/quality.md is as `make misra` writes it, with the version of cppcheck that it names."""
+    if misra.tool_version() not in misra.page_table():
+        pytest.skip(f"docs/quality.md was written with another cppcheck than {misra.tool_version()}")
+    assert misra.page_table() == misra.table(places, misra.load_deviations()), "run: make misra"
+
+
+def test_misra_deviations_name_no_mandatory_rule() -> None:
+    rules = [d.rule for d in misra.load_deviations()]
+    assert not misra.MANDATORY.intersection(rules)
+    assert [rule for rule, count in Counter(rules).items() if count > 1] == []
+    assert all(d.why and d.risk and d.where for d in misra.load_deviations())
+
+
+def test_misra_sees_a_finding_without_deviation() -> None:
+    """The comparison itself: a new rule, a known rule elsewhere, and a deviation without a finding."""
+    deviation = misra.Deviation("17.7", ("src/a/*",), "why", "risk")
+    assert misra.undocumented({("17.7", "src/a/x.c"): 1}, [deviation]) == []
+    assert misra.undocumented({("17.7", "src/b/x.c"): 2}, [deviation]) == ["17.7 src/b/x.c: 2"]
+    assert misra.undocumented({("17.2", "src/a/x.c"): 1}, [deviation]) == ["17.2 src/a/x.c: 1"]
+    assert misra.unused({("17.2", "src/a/x.c"): 1}, [deviation]) == ["17.7 src/a/*"]
+
+
+@pytest.mark.skipif(misra.find_addon() is None, reason="no cppcheck with its addons")
+def test_misra_addon_runs(tmp_path: Path) -> None:
+    """A file that breaks a rule is told: the tool chain of the report works."""
+    (tmp_path / "bad.c").write_text("int f(int a) { if (a) { goto end; } end: return 0; }\n")
+    answer = misra.check([Tree("bad", tmp_path, ("bad.c",))])
+    assert ("15.1", "bad.c") in answer
