@@ -32,7 +32,12 @@ AGENT_READY = "agent ready"
     is_flag=True,
     help="Start the image alone: an agent runs already, or you start one yourself.",
 )
-def command(out: Path, no_agent: bool) -> int:
+@click.option(
+    "--domain",
+    type=click.IntRange(0, 232),
+    help="ROS domain that the agent puts the image into. Default: the one that the image asks for.",
+)
+def command(out: Path, no_agent: bool, domain: int | None) -> int:
     """Start the image of OUT (made by `build`) and an agent for it; Ctrl-C or SIGTERM ends both.
 
     An image for a board runs in the target's emulator, its serial line on a pseudo-terminal, whose path is printed:
@@ -44,7 +49,7 @@ def command(out: Path, no_agent: bool) -> int:
     microros-gen run build/pure_sender
     microros-gen run build/pure_sender --no-agent
     """
-    image = _image_of(out)
+    image = _image_of(out, domain)
     with _Parts() as parts:
         start = _run_here if image.machine is None else _run_emulated
         try:
@@ -64,11 +69,12 @@ class _Image:
     path: Path
     machine: Machine | None
     transport: Mapping[str, Any]
+    domain: int | None
 
     @property
-    def agent_files(self) -> list[str]:
-        """The options that give an agent what it must hold for this image."""
-        options: list[str] = []
+    def agent_options(self) -> list[str]:
+        """The options that give an agent what it must hold for this image, and its ROS domain."""
+        options = [] if self.domain is None else ["--domain", str(self.domain)]
         for option, name in (("--references", "references.xml"), ("--entities", "entities.json")):
             path = self.out / "agent" / name
             options += [option, str(path)] if path.is_file() else []
@@ -77,7 +83,7 @@ class _Image:
 
 def _run_here(parts: _Parts, image: _Image, no_agent: bool) -> int:
     if not no_agent:
-        _start_agent(parts, [*_agent_of_host(image), *image.agent_files])
+        _start_agent(parts, [*_agent_of_host(image), *image.agent_options])
     return parts.wait_for(parts.start([str(image.path)]))
 
 
@@ -93,7 +99,7 @@ def _run_emulated(parts: _Parts, image: _Image, no_agent: bool) -> int:
         device,
         "--baud",
         str(image.transport.get("baud", 115_200)),
-        *image.agent_files,
+        *image.agent_options,
     ]
     click.echo(f"emulator ready: serial {device} ({image.machine.program})")
     if no_agent:
@@ -174,7 +180,7 @@ class _Parts:
                     pipe.close()
 
 
-def _image_of(out: Path) -> _Image:
+def _image_of(out: Path, domain: int | None) -> _Image:
     try:
         manifest = json.loads((out / MANIFEST).read_text(encoding="utf-8"))
         name, target, transport = manifest["image"], manifest["target"], manifest["transport"]
@@ -194,7 +200,7 @@ def _image_of(out: Path) -> _Image:
         raise UserError(
             [Diagnostic(message, hint="Add `emulator: {program: …, package: …}` to the target file")]
         )
-    return _Image(out, path.resolve(), machine, transport)
+    return _Image(out, path.resolve(), machine, transport, domain)
 
 
 def _agent_of_host(image: _Image) -> list[str]:

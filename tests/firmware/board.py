@@ -27,6 +27,18 @@ from microros_gen.sources.targets import builtin_targets, read_target
 
 C_FILES = Path(__file__).parent / "c"
 BOARDS = tuple(name for name in builtin_targets() if name.startswith("qemu-"))
+REPORT = (
+    "done",
+    "published",
+    "refused",
+    "resent",
+    "malformed",
+    "dropped",
+    "reconnects",
+    "lost",
+    "stack",
+    "fault",
+)
 CPUS = tuple(name for name in builtin_targets() if name not in (*BOARDS, "host"))
 
 
@@ -193,3 +205,8 @@ def board(built: Built, image: Path | None = None, restarts: bool = False) -> It
         yield running
     finally:
         running.end()
+
+
+def report(running: Board) -> dict[str, int]:
+    """Return what the application of c/counter.c says of itself."""
+    return dict(zip(REPORT, running.words("counter_report", len(REPORT)), strict=True))

@@ -9,7 +9,7 @@ import time
 import pytest
 from runtime.fake_agent import FakeAgent
 
-from firmware.board import BOARDS, Board, Builds, board
+from firmware.board import BOARDS, Builds, board, report
 from firmware.line import Relay, noisy, open_raw, scripted_agent
 
 FAULTS = {
@@ -24,23 +24,6 @@ profiles: [pure_sender]
 interfaces: [std_msgs/msg/Int32]
 session: {key: device}
 """
-REPORT = (
-    "done",
-    "published",
-    "refused",
-    "resent",
-    "malformed",
-    "dropped",
-    "reconnects",
-    "lost",
-    "stack",
-    "fault",
-)
-
-
-def report(running: Board) -> dict[str, int]:
-    """Return what the application of c/counter.c says of itself."""
-    return dict(zip(REPORT, running.words("counter_report", len(REPORT)), strict=True))
 
 
 @pytest.mark.parametrize("name", BOARDS)
