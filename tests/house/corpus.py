@@ -45,7 +45,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "declared": _BOTH
         + "liveliness: acknack\non_full: drop_oldest\nerrors: code\nmemory: {arena: 1024}\nsession: {key: device}\n",
         "best_effort": _NODES + _BEST + "liveliness: none\n",
-        "reliable_creation": _BOTH + "creation: reliable\n",
+        "reliable_creation": _BOTH + "creation: reliable\npools: {input_history: 2}\n",
         "large": _NODES + _LARGE,
         "xml": _BOTH + "entities: xml\nliveliness: none\n",
         "xml_pool": _INT32 + "entities: xml\n",

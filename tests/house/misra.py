@@ -20,8 +20,6 @@ from pathlib import Path
 import yaml
 from house.corpus import ROOT, Tree, Unit, analyse, run, units
 
-from microros_gen.sources.components import components_folder
-
 DEVIATIONS = Path(__file__).parent / "misra-deviations.yaml"
 PAGE = ROOT / "docs" / "quality.md"
 OPTIONS = ("--std=c99", "--platform=unix32", "-U__cplusplus", "-Iinclude")
@@ -121,12 +119,14 @@ def _findings(text: str) -> set[tuple[str, str, int, int]]:
 
 
 def _same_place(summaries: Sequence[str]) -> Iterator[str]:
-    """Yield the summaries with one line for all of a rendered header, whose lines differ from tree to tree."""
-    rendered = {path.name.removesuffix(".j2") for path in components_folder().rglob("*.h.j2")}
+    """Yield the summaries with one line for all of a header.
+
+    A header's lines differ from tree to tree where it is rendered, and from answer to answer where a comment grew.
+    """
     for line in "".join(summaries).splitlines():
         summary = json.loads(line)
         for item in summary["data"]:
-            if isinstance(item, dict) and Path(str(item.get("file"))).name in rendered:
+            if isinstance(item, dict) and str(item.get("file")).startswith("include/"):
                 item["line"] = 1
         yield json.dumps(summary) + "\n"
 
