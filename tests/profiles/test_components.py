@@ -10,7 +10,9 @@ import pytest
 
 from microros_gen.diagnostics import UserError
 from microros_gen.model.component import Catalogue, Middleware, SourceFile
+from microros_gen.model.target import Target
 from microros_gen.model.xrce import MICRO_ROS_COMPONENTS
+from microros_gen.plan.board import BoardPlan
 from microros_gen.plan.runtime import RuntimePlan
 from microros_gen.sources.components import components_folder, load_catalogue
 
@@ -126,7 +128,8 @@ def test_the_eleven_components_are_there(real_catalogue: Catalogue) -> None:
 
 
 def test_files_of_components_are_there(real_catalogue: Catalogue) -> None:
-    attributes = {field.name for field in fields(RuntimePlan)} | set(dir(RuntimePlan))
+    plans = (RuntimePlan, BoardPlan, Target)
+    attributes = {name for plan in plans for name in (*(field.name for field in fields(plan)), *dir(plan))}
     for component in real_catalogue.values():
         folder = components_folder() / component.name
         if component.ready:

@@ -18,6 +18,12 @@ NEEDED = {
     "cppcheck": "cppcheck",
     "cmake": "cmake",
     "g++": "g++",
+    "arm-none-eabi-gcc": "gcc-arm-none-eabi",
+    "/usr/lib/arm-none-eabi/newlib/nano.specs": "libnewlib-arm-none-eabi",
+    "qemu-system-arm": "qemu-system-arm",
+    "qemu-system-riscv32": "qemu-system-misc",
+    "riscv64-unknown-elf-gcc": "gcc-riscv64-unknown-elf",
+    "/usr/lib/picolibc/riscv64-unknown-elf/picolibc.specs": "picolibc-riscv64-unknown-elf",
     "make": "make",
     "nm": "binutils",
     "valgrind": "valgrind",
@@ -27,10 +33,16 @@ MULTILIB = "gcc-multilib"
 
 def missing_packages() -> list[str]:
     """Return the Debian packages to install, sorted."""
-    missing = {package for program, package in NEEDED.items() if shutil.which(program) is None}
+    missing = {package for program, package in NEEDED.items() if not _is_there(program)}
     if shutil.which("gcc") is None or not _links_32_bit():
         missing |= {MULTILIB, "g++-multilib"}
     return sorted(missing)
+
+
+def _is_there(name: str) -> bool:
+    if name.startswith("/"):  # where Debian puts it; others know best
+        return Path(name).exists() or not Path("/etc/debian_version").exists()
+    return shutil.which(name) is not None
 
 
 def _links_32_bit() -> bool:
