@@ -146,7 +146,7 @@ static int32_t reader_take_raw(xrce_framing_t * framing, uint8_t byte, uint8_t *
 int32_t xrce_framing_receive(
   xrce_framing_t * framing, struct xrce_transport_t * line, uint8_t * buffer, size_t capacity)
 {
-  for (uint8_t i = 0; i < CHUNKS_PER_CALL; ++i) {
+  for (int i = 0; i < CHUNKS_PER_CALL; ++i) {
     while (framing->used < framing->held) {
       const int32_t size = reader_take_raw(framing, framing->chunk[framing->used++], buffer, capacity);
 
