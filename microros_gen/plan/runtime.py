@@ -104,6 +104,11 @@ class RuntimePlan:
         return 8 if self.fragments else 4
 
     @property
+    def reliable_begun(self) -> int:
+        """How many messages may be on their way at a time. With drop_oldest one is left that can be dropped."""
+        return self.reliable_slots - (1 if self.on_full == "drop_oldest" and self.reliable_slots > 1 else 0)
+
+    @property
     def reliable_input_mode(self) -> str:
         """`ordered` or `held`: what becomes of a reliable message of the agent that comes before its turn."""
         return "held" if self.reliable_input_slots > 1 else "ordered"

@@ -94,6 +94,12 @@ def plan_streams(
     slots = application.pools.get("history", DEFAULT_HISTORY) if reliable else 0
     reliable = max(reliable, asked) if reliable else 0
     fragments = reliable > ceiling
+    if fragments and slots == 1 and application.on_full == "drop_oldest":
+        diagnostics.error(
+            "'on_full: drop_oldest' with fragments needs a history of 2: a message that is on its way is not dropped",
+            application.spans.get("pools.history"),
+            "Set `pools: {history: 2}`",
+        )
     creation = create if application.creation and application.creation.name == "reliable" else 0
     if not creation:
         best_effort = max(best_effort, create)

@@ -122,3 +122,10 @@ def test_an_input_history_without_a_reliable_input_stream_has_no_effect() -> Non
     (line,) = said
     assert "'pools.input_history' has no effect" in line
     assert streams.reliable_input_slots == 0
+
+
+def test_drop_oldest_with_fragments_needs_two_slots() -> None:
+    one = Application(on_full="drop_oldest", pools={"history": 1})
+    (line,) = plan(large(5000), application=one)[1]
+    assert "needs a history of 2" in line
+    assert plan(INT32, application=one)[1] == []

@@ -5,9 +5,9 @@
  * the piece before it while this one is sent, and put back.
  *
  * An agent joins pieces until one says that it is the last; over a gap and over a session some go on joining, others
- * refuse what comes up to the next last piece. So a message that is given up after it was sent, or a part of it, leaves an
- * empty last piece in its place (`ending`), and the first number of a session is such a piece. What the agent has by then
- * is shorter than its submessage header says, and is thrown away.
+ * refuse what comes up to the next last piece. So no message is given up of which a piece was sent, and the first number
+ * of a session is an empty last piece (`ending`): what the agent may have of the session before is then shorter than its
+ * submessage header says, and is thrown away.
  */
 #include "microros/xrce_stream_reliable.h"
 
@@ -106,7 +106,7 @@ static bool stream_send_place(xrce_stream_reliable_t * stream, xrce_session_t * 
     }
     --piece;
   }
-  for (uint8_t i = 0; i < stream->count; ++i) {
+  for (uint8_t i = 0; i < stream->count && i < MICROROS_RELIABLE_BEGUN; ++i) {
     const uint16_t pieces = stream_pieces(stream, i);
 
     if (piece < pieces) {
@@ -181,37 +181,19 @@ static uint8_t stream_first_unsent(const xrce_stream_reliable_t * stream)
   return i;
 }
 
-/* Gives up the oldest message, of which something was sent. The number of its last piece becomes that of the ending, or
- * the next number where that was not sent yet. */
-static void stream_give_up(xrce_stream_reliable_t * stream)
-{
-  const uint32_t before = stream->ending ? 1u : 0u;
-  const uint32_t all = before + stream_pieces(stream, 0) - stream->done;
-
-  stream_pass(stream, stream->sent < all ? stream->sent : (uint8_t)(all - 1u));
-  stream->ending = true;
-  stream->done = 0;
-  stream_remove(stream, 0);
-}
-
 bool xrce_stream_reliable_drop_oldest(
   xrce_stream_reliable_t * stream, const xrce_session_t * session, uint32_t now)
 {
   uint8_t unsent = 0; /* without a session nothing that was sent counts */
 
+  (void)now;
   if (session->state == XRCE_READY) {
     unsent = stream_first_unsent(stream);
   }
-  if (stream->count == 0u) {
+  if (unsent == stream->count) {
     return false;
   }
-  if (unsent < stream->count) {
-    stream->done = unsent == 0u ? 0u : stream->done;
-    stream_remove(stream, unsent);
-  } else {
-    stream_give_up(stream);
-    stream->heartbeat_ms = now;
-  }
+  stream_remove(stream, unsent);
   return true;
 }
 
