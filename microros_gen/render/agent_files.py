@@ -47,8 +47,9 @@ def entities_json(files: AgentFiles) -> str:
             if writer.node == node.index:
                 objects += _writer_objects(writer, participant)
     key = "*" if files.key is None else f"0x{files.key:08X}"
-    content = {"version": 1, "clients": [{"key": key, "objects": objects}]}
-    return json.dumps(content, indent=2, ensure_ascii=False) + "\n"
+    lines = ",\n".join(f"        {json.dumps(entry, ensure_ascii=False)}" for entry in objects)
+    client = f'    {{"key": "{key}", "objects": [\n{lines}\n    ]}}'
+    return f'{{"version": 1, "clients": [\n{client}\n]}}\n'
 
 
 def _participant(reference: str, name: str) -> str:

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: Apache-2.0
+"""OUT/agent/: what the agent must hold, and what the application file cannot ask of it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from microros_gen.cli.generate import plan
+from microros_gen.cli.options import SelectionOptions
+from microros_gen.cli.pipeline import render_request
+from microros_gen.diagnostics import UserError
+from microros_gen.plan.creation import CreateNames, create_size
+from microros_gen.sources.interfaces import shipped_folder
+
+NODES = """\
+version: 1
+profiles: [pure_sender]
+nodes:
+  - name: imu
+    namespace: /arm
+    domain_id: 7
+    publishers:
+      - {topic: data, type: std_msgs/msg/Int32, qos: {reliability: best_effort, depth: 1}}
+      - {topic: /state, type: std_msgs/msg/String, qos: {durability: transient_local, history: keep_all}}
+limits: {"*": {string: 16}}
+"""
+SECOND = """\
+  - name: leg
+    publishers: [{topic: /state, type: std_msgs/msg/String, qos: {durability: transient_local, history: keep_all}}]
+"""
+
+
+def two_nodes() -> str:
+    return NODES.replace("limits:", SECOND + "limits:")
+
+
+def rendered(folder: Path, text: str) -> dict[str, bytes]:
+    """Return the files of an application by their paths; UserError where it is refused."""
+    config = folder / "microros.yaml"
+    config.write_text(text, encoding="utf-8")
+    planned, _ = plan(SelectionOptions(config, (), (), (shipped_folder(),), None, None), folder / "out")
+    return render_request(planned)
+
+
+def refused(folder: Path, text: str) -> str:
+    with pytest.raises(UserError) as caught:
+        rendered(folder, text)
+    (diagnostic,) = caught.value.diagnostics
+    return diagnostic.headline()
+
+
+def profiles(files: dict[str, bytes]) -> dict[tuple[str, str], ElementTree.Element]:
+    root = ElementTree.fromstring(files["agent/references.xml"])
+    assert root.tag == "profiles"
+    return {(element.tag, element.attrib["profile_name"]): element for element in root}
+
+
+def test_references_have_the_names_of_micro_ros(tmp_path: Path) -> None:
+    found = profiles(rendered(tmp_path, NODES + "entities: reference\n"))
+    assert set(found) == {
+        ("participant", "participant_profile"),
+        ("topic", "arm/data__t"),
+        ("data_writer", "arm/data__dw"),
+        ("topic", "state__t"),
+        ("data_writer", "state__dw"),
+    }
+    assert found["participant", "participant_profile"].findtext("rtps/name") == "/arm/imu"
+    assert found["topic", "arm/data__t"].findtext("name") == "rt/arm/data"
+    assert found["topic", "state__t"].findtext("dataType") == "std_msgs::msg::dds_::String_"
+    writer = found["data_writer", "state__dw"]
+    assert [writer.findtext(path) for path in ("topic/name", "topic/historyQos/kind")] == [
+        "rt/state",
+        "KEEP_ALL",
+    ]
+    assert writer.findtext("qos/durability/kind") == "TRANSIENT_LOCAL"
+    assert writer.findtext("qos/reliability/kind") == "RELIABLE"
+    best_effort = found["data_writer", "arm/data__dw"]
+    assert best_effort.findtext("topic/historyQos/depth") == "1"
+    assert best_effort.findtext("qos/reliability/kind") == "BEST_EFFORT"
+
+
+def test_several_nodes_have_references_of_their_own_and_share_what_is_alike(tmp_path: Path) -> None:
+    found = profiles(rendered(tmp_path, two_nodes() + "entities: reference\n"))
+    assert [name for tag, name in found if tag == "participant"] == ["arm/imu__p", "leg__p"]
+    assert [name for tag, name in found if tag == "data_writer"] == ["arm/data__dw", "state__dw"]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        ("keep_all}}]", "keep_last}}]"),
+        ("[{topic: /state, type: std_msgs/msg/String", "[{topic: /state, type: std_msgs/msg/Int32"),
+    ],
+)
+def test_one_reference_for_two_is_refused(tmp_path: Path, change: tuple[str, str]) -> None:
+    text = two_nodes().replace(*change)
+    assert text != two_nodes()
+    said = refused(tmp_path, text + "entities: reference\n")
+    assert said.partition("microros.yaml:")[2].startswith("11:")
+    assert (
+        "two publishers of /state differ in type or QoS and would get one reference name, 'state__dw'" in said
+    )
+    assert "microros.yaml:9:" in said
+    rendered(tmp_path, text)
+
+
+def test_pools_get_what_the_example_creates(tmp_path: Path) -> None:
+    files = rendered(
+        tmp_path, "version: 1\nprofiles: [static_configured_sender]\ninterfaces: [std_msgs/msg/Int32]\n"
+    )
+    assert set(profiles(files)) == {
+        ("participant", "participant_profile"),
+        ("topic", "int32__t"),
+        ("data_writer", "int32__dw"),
+    }
+    readme = files["README.md"].decode()
+    assert "`-r agent/references.xml`" in readme
+    assert "`a/b__t`" in readme
+
+
+def test_entities_are_the_objects_of_the_client(tmp_path: Path) -> None:
+    files = rendered(tmp_path, two_nodes() + "entities: preconfigured\nsession: {key: 0xA1B2C3D4}\n")
+    content = json.loads(files["agent/entities.json"])
+    assert content["version"] == 1
+    (client,) = content["clients"]
+    assert client["key"] == "0xA1B2C3D4"
+    ids = [(entry["id"], entry["kind"], entry.get("parent")) for entry in client["objects"]]
+    assert ids == [
+        ("0x0001", "participant", None),
+        ("0x0002", "topic", "0x0001"),
+        ("0x0003", "publisher", "0x0001"),
+        ("0x0005", "data_writer", "0x0003"),
+        ("0x0012", "topic", "0x0001"),
+        ("0x0013", "publisher", "0x0001"),
+        ("0x0015", "data_writer", "0x0013"),
+        ("0x0011", "participant", None),
+        ("0x0022", "topic", "0x0011"),
+        ("0x0023", "publisher", "0x0011"),
+        ("0x0025", "data_writer", "0x0023"),
+    ]
+    assert client["objects"][0] == {"id": "0x0001", "kind": "participant", "name": "/arm/imu", "domain": 7}
+    assert client["objects"][6]["topic"] == "0x0012"
+    assert client["objects"][6]["history"] == "keep_all"
+    assert client["objects"][3]["reliability"] == "best_effort"
+    assert "--entities\nagent/entities.json`" in files["README.md"].decode()
+
+
+def test_a_device_s_own_key_is_any(tmp_path: Path) -> None:
+    files = rendered(tmp_path, NODES + "entities: preconfigured\nsession: {key: device}\n")
+    assert json.loads(files["agent/entities.json"])["clients"][0]["key"] == "*"
+
+
+@pytest.mark.parametrize("entities", ["binary", "xml"])
+def test_an_agent_that_is_told_everything_needs_no_file(tmp_path: Path, entities: str) -> None:
+    files = rendered(tmp_path, NODES + f"entities: {entities}\n")
+    assert not [path for path in files if path.startswith("agent/")]
+    assert f"({entities})" in files["README.md"].decode()
+
+
+def test_the_files_are_in_the_manifest(tmp_path: Path) -> None:
+    files = rendered(tmp_path, NODES + "entities: reference\n")
+    assert "agent/references.xml" in json.loads(files["manifest.json"])["outputs"]
+
+
+def test_preconfigured_needs_nodes(tmp_path: Path) -> None:
+    said = refused(
+        tmp_path,
+        "version: 1\nprofiles: [pure_sender]\nentities: preconfigured\ninterfaces: [std_msgs/msg/Int32]\n",
+    )
+    assert "microros.yaml:3:11: error: entities: preconfigured" in said
+    assert "needs `nodes:`" in said
+    assert said.endswith("Declare the nodes and their publishers, or write `entities: reference`")
+
+
+@pytest.mark.parametrize("entities", ["binary", "xml", "reference"])
+def test_sizes_of_create(entities: str) -> None:
+    """Counted by hand from the captured messages: rt/chatter of String in my_node."""
+    names = CreateNames(len("my_node"), len("rt/chatter"), len("std_msgs::msg::dds_::String_"), 19)
+    captured = {
+        "binary": 4 + 4 + 0x43,
+        "xml": 20
+        + len(
+            "<dds><data_writer><topic><kind>NO_KEY</kind><name>rt/chatter</name><dataType>std_msgs::msg::dds_::String_"
+        )
+        + len(
+            "</dataType><historyQos><kind>KEEP_LAST</kind><depth>65535</depth></historyQos></topic><qos><durability>"
+        )
+        + len(
+            "<kind>TRANSIENT_LOCAL</kind></durability><reliability><kind>BEST_EFFORT</kind></reliability></qos>"
+        )
+        + len("</data_writer></dds>")
+        + 1
+        + 2,
+        "reference": 20 + len("participant_profile") + 1 + 2,
+    }
+    assert create_size(names, entities) == captured[entities]
