@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`make bench`: times of generate and build, instructions of publish and encode, each with its method.
+"""`make bench`: times of generate and build, instructions of publish and encode, footprint of firmware.
 
 Times depend on the machine; so each stands beside a peer that ran in the same minutes. Instruction counts come
 from callgrind and repeat exactly with one compiler.
@@ -18,6 +18,7 @@ import tempfile
 import time
 from pathlib import Path
 
+from footprint import bench_footprint
 from instructions import bench_instructions
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -40,7 +41,7 @@ COMMON_INTERFACES = (
 def main() -> int:
     """Run the selected parts and print one table each."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("parts", nargs="*", default=["generate", "build", "instructions"])
+    parser.add_argument("parts", nargs="*", default=["generate", "build", "instructions", "footprint"])
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         work = Path(folder)
@@ -50,6 +51,8 @@ def main() -> int:
             bench_build(work)
         if "instructions" in options.parts:
             bench_instructions(work)
+        if "footprint" in options.parts:
+            bench_footprint(work / "footprint")
     return 0
 
 

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The footprint that was promised and the one that was reached: growth is seen in the change that causes it."""
+
+from __future__ import annotations
+
+import pytest
+
+from firmware.board import Builds, need
+from firmware.ceilings import CORTEX_M4, OTHER_COMPILER, cases, compiler_of, load, measure
+from firmware.footprint import LIKE_FOR_LIKE, Sender, bounded_stack, buffers, painted_stack, sections
+
+CEILINGS = load()
+
+
+@pytest.mark.parametrize(("name", "sender"), [pytest.param(n, s, id=f"{n} {s.label}") for n, s in cases()])
+def test_nothing_grows_unseen(builds: Builds, name: str, sender: Sender) -> None:
+    """A figure above its ceiling, or far below: then `make footprint` shall write the new one down."""
+    need(name, emulator=True)
+    kept = CEILINGS[name]
+    same = compiler_of(name) == kept["compiler"]
+    measured = measure(builds, name, sender)
+    for what, ceiling in kept["senders"][sender.label].items():
+        assert measured[what] <= ceiling * (1 if same else OTHER_COMPILER), f"{what} of {measured}"
+        if same:
+            assert measured[what] >= ceiling * 0.98, f"{what} shrank: run `make footprint`"
+
+
+def test_the_promise_for_the_cortex_m4(builds: Builds) -> None:
+    """The mission's goals for the reliable sender of Int32, `errors: code`, streams as planned."""
+    need(CORTEX_M4, emulator=True)
+    built = builds.build(CORTEX_M4, Sender().application)
+    size, figures = sections(built), measure(builds, CORTEX_M4, Sender())
+    assert size.text + size.data <= 9000
+    assert size.ram <= 1500
+    assert figures["ready"] <= 12000
+    assert figures["publish"] <= 600
+    best_effort = measure(builds, CORTEX_M4, Sender(reliability="best_effort"))
+    assert best_effort["publish"] <= 350
+
+
+def test_the_painted_stack_is_within_what_is_proven(builds: Builds) -> None:
+    """What an image used in the emulator, against the bound over its call graph and the goal of 700 bytes."""
+    need(CORTEX_M4, emulator=True)
+    built = builds.build(CORTEX_M4, Sender().application)
+    painted = painted_stack(built)
+    assert 100 < painted <= min(bounded_stack(built), 700)
+
+
+def test_with_the_buffers_of_the_existing_stack(builds: Builds) -> None:
+    """MTU 512 and a history of four: at most 1,500 bytes of RAM above the buffers."""
+    need(CORTEX_M4)
+    built = builds.build(CORTEX_M4, LIKE_FOR_LIKE.application)
+    of_buffers = buffers(built)
+    assert of_buffers >= 4 * 512 + 2 * 512
+    assert sections(built).ram - of_buffers <= 1500
