@@ -21,7 +21,10 @@ class _PrimitiveFacts:
 
 
 class Primitive(Enum):
-    """A primitive type of fixed size; the value is its name in a .msg file (`byte` and `char` are their own)."""
+    """A primitive type of fixed size; the value is its name in a .msg file (`byte` and `char` are their own).
+
+    The last three exist in .idl files alone: a character of IDL, a wide one, and `long double`.
+    """
 
     BOOL = "bool"
     BYTE = "byte"
@@ -36,6 +39,9 @@ class Primitive(Enum):
     UINT32 = "uint32"
     INT64 = "int64"
     UINT64 = "uint64"
+    IDL_CHAR = "idl char"
+    WCHAR = "wchar"
+    LONG_DOUBLE = "long double"
 
     @property
     def size(self) -> int:
@@ -68,6 +74,9 @@ _FACTS: Mapping[Primitive, _PrimitiveFacts] = {
     Primitive.UINT32: _PrimitiveFacts(4, "uint32_t", 7),
     Primitive.INT64: _PrimitiveFacts(8, "int64_t", 8),
     Primitive.UINT64: _PrimitiveFacts(8, "uint64_t", 9),
+    Primitive.IDL_CHAR: _PrimitiveFacts(1, "signed char", 13),
+    Primitive.WCHAR: _PrimitiveFacts(2, "uint16_t", 14),
+    Primitive.LONG_DOUBLE: _PrimitiveFacts(16, "long double", 12),
 }
 
 
@@ -153,6 +162,48 @@ class Message:
     constants: tuple[Constant, ...] = ()
     comment: tuple[str, ...] = ()
     span: Span | None = None
+
+
+@dataclass(frozen=True)
+class Service:
+    """A service type with what ROS 2 derives from it: `pkg/srv/Name_Request`, `_Response` and `_Event`."""
+
+    name: TypeName
+    request: Message
+    response: Message
+    event: Message
+    comment: tuple[str, ...] = ()
+    span: Span | None = None
+
+    @property
+    def messages(self) -> tuple[Message, ...]:
+        """Every message of it; a later one may use an earlier one."""
+        return (self.request, self.response, self.event)
+
+
+@dataclass(frozen=True)
+class Action:
+    """An action type with what ROS 2 derives from it (rosidl: `_SendGoal`, `_GetResult`, `_FeedbackMessage`)."""
+
+    name: TypeName
+    goal: Message
+    result: Message
+    feedback: Message
+    send_goal: Service
+    get_result: Service
+    feedback_message: Message
+    comment: tuple[str, ...] = ()
+    span: Span | None = None
+
+    @property
+    def messages(self) -> tuple[Message, ...]:
+        """Every message of it; a later one may use an earlier one."""
+        own = (self.goal, self.result, self.feedback)
+        return (*own, *self.send_goal.messages, *self.get_result.messages, self.feedback_message)
+
+
+Declaration = Message | Service | Action
+"""What one interface file declares."""
 
 
 def element_of(field_type: FieldType) -> ElementType:
