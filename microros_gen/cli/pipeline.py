@@ -207,7 +207,9 @@ def _with_agent(transport: Transport, agent: Named, diagnostics: Diagnostics) ->
     is_device = agent.name.startswith("/")
     chosen = transport.type if transport.type_span else None
     if is_device and chosen in (None, "serial"):
-        return replace(transport, type="serial", type_span=transport.type_span or agent.span, device=agent.name)
+        return replace(
+            transport, type="serial", type_span=transport.type_span or agent.span, device=agent.name
+        )
     if is_device or chosen in ("serial", "custom"):
         what = "device" if is_device else "agent address"
         hint = "Give the path of a device, as in /dev/ttyUSB0" if chosen == "serial" else "Leave it out"

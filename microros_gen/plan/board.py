@@ -16,7 +16,7 @@ _FREQUENCY_TOLERANCE = (
     0.025  # a frame of ten bits is sampled in the middle of its bits: each side may err by half of 5 %
 )
 _LINE_USERS = ("serial", "custom")
-# OMG DDS-XRCE 1.0: a header of 4, a submessage of 4 and 5 (ACKNACK); and around each message a frame, stuffed at the worst.
+# OMG DDS-XRCE 1.0: a header of 4, a submessage of 4 and 5 (ACKNACK); and around it a frame, stuffed at the worst.
 _ACKNACK = 13
 _FRAME = 6
 _SERIAL_FUNCTIONS = ("port_serial_open", "port_serial_close", "port_serial_write", "port_serial_read")

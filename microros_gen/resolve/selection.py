@@ -37,8 +37,9 @@ def resolve_selection(
     """Return everything that the application and its profiles select, each item with its reasons.
 
     `port` is the component of the target (`Target.port`); without it the host has `port_posix`, another
-    target none. `transport` is what the target has where nobody else chooses (`Target.transport`). Contradictions and unknown components go to `diagnostics`, each with both places; then the
-    selection is only good for showing. Planned components are selected like others: `check_ready` names them.
+    target none. `transport` is what the target has where nobody else chooses (`Target.transport`).
+    Contradictions and unknown components go to `diagnostics`, each with both places; then the selection is only
+    good for showing. Planned components are selected like others: `check_ready` names them.
     """
     axes = choose_axes(application, profiles, middleware, diagnostics, transport)
     picker = _Picker(catalogue, diagnostics)
@@ -54,7 +55,9 @@ def resolve_selection(
     for demand in stream_demands(application, frozenset(picker.causes), axes["entities"].value):
         picker.pick(demand.component, demand.text, demand.span)
     if axes["transport"].value == "custom" and application.transport.framing is not False:
-        picker.pick("framing", "transport: {type: custom} without `framing: false`", application.transport.span)
+        picker.pick(
+            "framing", "transport: {type: custom} without `framing: false`", application.transport.span
+        )
     picker.close()
     _check(picker, application, profiles, axes, middleware)
     return _selection(picker, profiles, axes, middleware)
