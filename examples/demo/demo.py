@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -17,6 +18,11 @@ FOLDER = Path(__file__).resolve().parent
 ROOT = FOLDER.parent.parent
 OUT = ROOT / "build" / "demo"
 PORTS = range(8888, 8908)
+BOARD = "qemu-mps2-an386"
+FIRMWARE_NEEDS = (
+    ("arm-none-eabi-gcc", "gcc-arm-none-eabi libnewlib-arm-none-eabi"),
+    ("qemu-system-arm", "qemu-system-arm"),
+)
 
 
 class PartFailedError(Exception):
@@ -30,6 +36,7 @@ def main() -> int:
         port = free_port()
         build(port)
         show(port)
+        show_firmware()
     except PartFailedError as error:
         print(f"demo: {error}", file=sys.stderr)
         return 1
@@ -89,6 +96,32 @@ def show(port: int) -> None:
                 f"ended with status {image.returncode}" if image.poll() is not None else "was still running"
             )
             raise PartFailedError(f"listener: it did not get its samples; the image {state}")
+
+
+def show_firmware() -> None:
+    """Build a board's image, run it in QEMU, and let rclpy hear it; say what to install where something lacks."""
+    print(f"5. firmware: the same node for {BOARD}")
+    missing = [package for program, package in FIRMWARE_NEEDS if shutil.which(program) is None]
+    if missing:
+        print(f"   left out; to see it: apt-get install {' '.join(missing)}")
+        return
+    tool = [sys.executable, "-m", "microros_gen"]
+    config, out = str(FOLDER / "firmware.yaml"), str(OUT.with_name("demo_firmware"))
+    if subprocess.run([*tool, "build", "-c", config, "-o", out], check=False).returncode != 0:
+        raise PartFailedError("firmware: the image could not be built (see above)")
+    environment = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", **os.environ, "PYTHONUNBUFFERED": "1"}
+    domain = os.environ.get("ROS_DOMAIN_ID") or "0"
+    listen = [sys.executable, str(FOLDER / "subscriber.py"), "--samples", "5"]
+    with ExitStack() as stack:
+        listener = stack.enter_context(part("listener", listen, environment, "listener ready"))
+        run = [*tool, "run", out, "--domain", domain]
+        stack.enter_context(part("firmware", run, environment, "agent ready"))
+        assert listener.stdout is not None
+        for line in listener.stdout:
+            if not line.startswith("latency"):  # a board without a clock stamps from 0 on
+                print(f"   {line}", end="")
+        if listener.wait() != 0:
+            raise PartFailedError("firmware: the listener did not get its samples")
 
 
 @contextmanager

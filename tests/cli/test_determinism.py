@@ -187,7 +187,8 @@ def test_nothing_tells_of_the_machine(inputs: Path, expected: dict[str, bytes], 
         assert "\r" not in text, name
     manifest = json.loads(expected["manifest.json"])
     assert set(manifest) == {
-        "emulator", "entities", "generator", "image", "inputs", "memory", "outputs", "plan", "pools", "selection", "target",
+        "emulator", "entities", "generator", "image", "inputs", "memory", "outputs",
+        "plan", "pools", "selection", "target",
         "transport", "types",
     }  # fmt: skip
     assert not [key for key in manifest["inputs"] if "/" in key and key.count("/msg/") != 1]
