@@ -147,6 +147,14 @@ _TOP = {
         "'components[0]' must be a component to add or drop such as +timers or -ping; it is the "
         "text '+Timers'",
     ),
+    "creation": KeyCase(
+        "creation: reliable",
+        lambda a: a.creation.name,
+        "reliable",
+        "creation: realiable",
+        "1:11",
+        "'creation' must be best_effort or reliable; it is the text 'realiable'. Did you mean 'reliable'?",
+    ),
     "entities": KeyCase(
         "entities: xml",
         lambda a: a.entities.name,
@@ -205,6 +213,30 @@ _TOP = {
         "transport: {mtu: 63}",
         "1:18",
         "'transport.mtu' must be a whole number between 64 and 65535; it is 63",
+    ),
+    "transport.device": KeyCase(
+        "transport: {type: serial, device: /dev/ttyACM0}",
+        lambda a: a.transport.device,
+        "/dev/ttyACM0",
+        "transport: {type: serial, device: 3}",
+        "1:35",
+        "'transport.device' must be a text; it is 3",
+    ),
+    "transport.baud": KeyCase(
+        "transport: {type: serial, baud: 921600}",
+        lambda a: a.transport.baud,
+        921600,
+        "transport: {type: serial, baud: 100}",
+        "1:33",
+        "'transport.baud' must be a whole number between 300 and 12000000; it is 100",
+    ),
+    "transport.framing": KeyCase(
+        "transport: {type: custom, framing: false}",
+        lambda a: a.transport.framing,
+        False,
+        "transport: {type: custom, framing: 1}",
+        "1:36",
+        "'transport.framing' must be true or false; it is 1",
     ),
     "session": KeyCase(
         "session: {key: device}",
