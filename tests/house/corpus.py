@@ -46,6 +46,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "liveliness: acknack\non_full: drop_oldest\nerrors: code\nmemory: {arena: 1024}\nsession: {key: device}\n",
         "best_effort": _NODES + _BEST + "liveliness: none\n",
         "reliable_creation": _BOTH + "creation: reliable\npools: {input_history: 2}\n",
+        "ordered_input": _BOTH + "creation: reliable\n",
         "large": _NODES + _LARGE,
         "xml": _BOTH + "entities: xml\nliveliness: none\n",
         "xml_pool": _INT32 + "entities: xml\n",
@@ -63,6 +64,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
 AWAITED: Mapping[str, frozenset[str]] = MappingProxyType(
     {
         "reliable_creation": frozenset({"stream_reliable_input", "entities"}),
+        "ordered_input": frozenset({"stream_reliable_input", "entities"}),
         "large": frozenset({"stream_reliable"}),
         "xml": frozenset({"entities_xml"}),
         "xml_pool": frozenset({"entities_xml"}),
