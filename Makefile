@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-# make demo | test | lint | misra | bench | golden. Each sets up its own virtual environment in .venv first.
+# make demo | test | lint | misra | bench | golden | footprint. Each sets up its own virtual environment in .venv first.
 
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint misra bench golden clean
+.PHONY: demo test lint misra bench golden footprint clean
 
 demo: $(VENV)/ros.stamp
 	@$(BIN)/python examples/demo/demo.py
@@ -26,6 +26,9 @@ bench: $(VENV)/dev.stamp
 
 golden: $(VENV)/dev.stamp
 	@$(BIN)/python tests/tools/update_golden.py
+
+footprint: $(VENV)/dev.stamp
+	@$(BIN)/python tests/tools/update_footprint.py
 
 $(VENV)/bin/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10))' \

@@ -28,6 +28,9 @@ class Limits:
     """Seconds after which a client that was not heard leaves the ROS graph."""
     sleep_timeout_s: float = 86_400.0
     """Seconds until a client that left the graph is forgotten; heard before that, its entities return."""
+    adopt_after_s: float = 5.0
+    """Seconds that a sender without session and key is listened to before it is adopted: one with liveliness shows
+    itself before (our clients ask after 1 s of silence and open a new session after 4 s at the latest)."""
 
 
 PROBES = 5

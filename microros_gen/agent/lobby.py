@@ -59,6 +59,8 @@ class Lobby:
         self._limits = limits
         self._held = held
         self._never_adopted: set[bytes] = set()
+        self._strangers: dict[tuple[Transport, Hashable], float] = {}
+        """Who sends samples without a session, and since when; the oldest first."""
 
     def visit(
         self,
@@ -77,6 +79,9 @@ class Lobby:
         header = Header.decode(data)
         for identifier, flags, at, end in split(data, start)[:1]:
             submessage = decode(identifier, flags, data, at, end)
+            if isinstance(submessage, WriteData | Heartbeat) and client is None:
+                return self._adopt(header, submessage, address, transport, now)
+            self._strangers.pop((transport, address), None)  # it knows how to help itself
             if isinstance(submessage, GetInfo):
                 known = client is not None and header.session in OUT_OF_SESSION
                 if client is not None and known:
@@ -88,8 +93,6 @@ class Lobby:
             elif isinstance(submessage, Delete) and submessage.object & 0x0F == ObjectKind.CLIENT:
                 status = StatusReply(submessage.request, submessage.object, Status.OK)
                 transport.send(header.encode() + encode(status), address)
-            elif isinstance(submessage, WriteData | Heartbeat) and client is None:
-                return self._adopt(header, submessage, address, transport, now)
             else:
                 raise MalformedError("no_session", f"{submessage.ID.name} without a session")
         return None
@@ -223,6 +226,8 @@ class Lobby:
         key = self._held.preconfigured.to_adopt(header.key, writer, known)
         if key is None or not fits or self._clients.at(address) or header.session in OUT_OF_SESSION:
             raise MalformedError("no_session", f"{submessage.ID.name} without a session")
+        if not header.key and not self._listened_to(address, transport, now):
+            return None
         link = Link(header.session, key, self._limits.minimum_mtu)
         client = self._add(link, address, transport, self._limits.client_timeout_s, now)
         if client is None:
@@ -234,6 +239,16 @@ class Lobby:
         self._tell(client, "client_adopted", text, peer=client.place)
         self._give(client)
         return client
+
+    def _listened_to(self, address: Hashable, transport: Transport, now: float) -> bool:
+        """Return whether a sender of samples without a session was listened to for long enough."""
+        since = self._strangers.setdefault((transport, address), now)
+        if len(self._strangers) > self._limits.clients:
+            del self._strangers[next(iter(self._strangers))]
+        enough = now - since >= self._limits.adopt_after_s
+        if enough:
+            self._strangers.pop((transport, address), None)
+        return enough
 
     def _welcome_back(
         self, client: Client, link: Link, address: Hashable, transport: Transport, now: float

@@ -11,7 +11,9 @@ client that is missing would publish the samples of any other client without a s
 that client from healing. So the agent does this (it adopts the client) only where the file says `adopt: true`, that is
 where whoever runs it knows that no other client comes, and only when
 
-- the message carries that client's key (session ids below 0x80), or exactly one client to adopt is not in session;
+- the message carries that client's key (session ids below 0x80), or exactly one client to adopt is not in session and
+  its sender was listened to for some seconds (`Limits.adopt_after_s`), unanswered: a client with liveliness asks for
+  the agent before that;
 - its first submessage is a WRITE_DATA to one of the client's data writers, or on a reliable stream the HEARTBEAT
   that goes before: only that says where the stream goes on;
 - nobody is in session at its address.

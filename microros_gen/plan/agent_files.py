@@ -45,12 +45,16 @@ class AgentWriter:
 
 @dataclass(frozen=True)
 class AgentFiles:
-    """The files' contents. `key` is the client's, None: any. `complete` is false where others may be created too."""
+    """The files' contents. `key` is the client's, None: any. `complete` is false where others may be created too.
+
+    `adopt`: the client never opens its session again (no liveliness), so an agent that restarts has to know it.
+    """
 
     key: int | None
     nodes: tuple[AgentNode, ...]
     writers: tuple[AgentWriter, ...]
     complete: bool
+    adopt: bool = False
 
 
 def object_id(index: int, kind: str) -> int:
@@ -76,7 +80,8 @@ def plan_agent_files(project: Project) -> AgentFiles:
     writers = tuple(
         _writer(p.index, p.node, p.topic, p.dds_type, declared[p.index].qos) for p in runtime.publishers
     )
-    return AgentFiles(runtime.client_key, nodes, writers, complete=True)
+    adopt = project.selection.liveliness == "none" and runtime.client_key is not None
+    return AgentFiles(runtime.client_key, nodes, writers, complete=True, adopt=adopt)
 
 
 def check_entities(application: Application, selection: Selection, diagnostics: Diagnostics) -> None:

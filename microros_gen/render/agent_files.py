@@ -48,7 +48,8 @@ def entities_json(files: AgentFiles) -> str:
                 objects += _writer_objects(writer, participant)
     key = "*" if files.key is None else f"0x{files.key:08X}"
     lines = ",\n".join(f"        {json.dumps(entry, ensure_ascii=False)}" for entry in objects)
-    client = f'    {{"key": "{key}", "objects": [\n{lines}\n    ]}}'
+    adopt = '"adopt": true, ' if files.adopt else ""
+    client = f'    {{"key": "{key}", {adopt}"objects": [\n{lines}\n    ]}}'
     return f'{{"version": 1, "clients": [\n{client}\n]}}\n'
 
 

@@ -12,6 +12,7 @@ from agent.captured import CREATE_CLIENT, PING, STATUS_AGENT
 from agent.client import int32_body
 from agent.fakes import Bench
 from agent.test_core import message
+from microros_gen.agent.limits import Limits
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.wire.data_messages import WriteData
 from microros_gen.agent.wire.entity_messages import Delete, Heartbeat
@@ -146,8 +147,30 @@ def test_without_leave_to_adopt_a_stranger_stays_one() -> None:
     assert bench.log.counters == {"no_session": 1}
 
 
-def test_an_agent_that_was_restarted_adopts() -> None:
+def listened_to(bench: Bench, address: str = "a") -> Bench:
+    """Let a sender without a session be heard for as long as it takes to know that it has no liveliness."""
+    assert bench.say(sample(99, 0), address) == []
+    assert bench.bridge.published == []
+    bench.now += Limits().adopt_after_s
+    return bench
+
+
+def test_one_that_asks_for_the_agent_is_never_taken_for_another() -> None:
+    """A client with liveliness whose agent was restarted: its samples are nobody's, and it must find that out."""
     bench = bench_with(content(adopt=True))
+    for i in range(9):
+        assert bench.say(sample(i, 40 + i)) == []
+        bench.now += 0.5
+    (answer,) = bench.say(PING.replace("80 00", "81 00", 1))
+    assert bytes.fromhex(answer)[12:14] == b"\0\0", answer  # implementation status 0: no session
+    bench.now += 4
+    assert bench.say(sample(9, 49)) == []
+    assert values(bench) == []
+    assert bench.bridge.graph == []
+
+
+def test_an_agent_that_was_restarted_adopts() -> None:
+    bench = listened_to(bench_with(content(adopt=True)))
     for i in range(3):
         bench.say(sample(i, 40 + i))
     assert values(bench) == [0, 1, 2]
@@ -173,6 +196,7 @@ def test_two_that_could_be_meant_are_none() -> None:
     bench.say(sample(1, 9))
     assert values(bench) == []
     bench.say(CREATE_CLIENT)
+    listened_to(bench, "b")
     bench.say(sample(2, 9), "b")  # now only one is missing
     assert values(bench) == [2]
 
@@ -185,7 +209,7 @@ def test_a_sample_for_another_writer_is_not_taken() -> None:
 
 
 def test_a_reliable_stream_goes_on_where_its_heartbeat_says() -> None:
-    bench = bench_with(content(adopt=True))
+    bench = listened_to(bench_with(content(adopt=True)))
     bench.say(sample(7, 0xFFF0, stream=0x80))
     assert values(bench) == []
     (answer,) = bench.say(message(Heartbeat(0xFFEF, 0xFFF0, 0x80), stream=0))
@@ -196,7 +220,7 @@ def test_a_reliable_stream_goes_on_where_its_heartbeat_says() -> None:
 
 
 def test_one_that_pings_is_another_and_heals() -> None:
-    bench = bench_with(content(adopt=True))
+    bench = listened_to(bench_with(content(adopt=True)))
     bench.say(sample(1, 9))
     assert bench.say(PING.replace("80 00", "81 00", 1)) == []
     assert bench.bridge.graph == []

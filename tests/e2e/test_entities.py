@@ -38,6 +38,7 @@ WAYS = {
     "reference": (NODE, "entities: reference\n"),
     "two_references": (NODE + OTHER, "entities: reference\ncreation: reliable\n"),
     "preconfigured": (NODE + OTHER, "entities: preconfigured\n"),
+    "silent": (NODE, "entities: preconfigured\nliveliness: none\n"),  # it never opens its session again
 }
 
 
@@ -101,7 +102,7 @@ def test_every_way_to_create_reaches_ros(
     found = built(images, image_port.port)
     options = files_of(found)
     assert options.count("--references") == 2
-    assert options.count("--entities") == 1
+    assert options.count("--entities") == 2
     topics = [topic for name in WAYS for topic in topics_of(name)]
     with (
         running_agent(domain, "--domain", str(domain), "--client-timeout", "2", *options) as agent,
@@ -128,7 +129,7 @@ def test_entities_return_with_a_restarted_agent(
     found = {
         name: image
         for name, image in built(images, image_port.port).items()
-        if name in ("two_references", "xml_reliable", "preconfigured")
+        if name in ("two_references", "xml_reliable", "preconfigured", "silent")
     }
     options = ["--domain", str(domain), *files_of(found)]
     topics = [f"/{name}/count" for name in found]

@@ -30,7 +30,7 @@ const char microros_error_stream_small[] =
   "%t takes %n bytes and its stream holds %m: declare the publisher with its qos%y";
 const char microros_error_qos[] = "publisher %s: XRCE carries no such QoS: %d";
 const char microros_error_entity_silent[] = "%d %s: no answer of the agent within %m ms";
-const char microros_error_entity_refused[] = "%d %s: the agent refuses it: %a";
+const char microros_error_entity_refused[] = "%d %s: the agent refuses it: %a (entities%y)";
 const char microros_error_field[] = "%t.%d: %n, limit %m: raise limits%y";
 const char microros_error_stream_full[] =
   "publisher %s: stream full, %n unacknowledged: raise pools: {history: %m}%y";
