@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Annotations of .idl files (OMG IDL 4.2, 7.4.15.4.2): documentation, units and defaults.
+
+All others are read and mean nothing to ROS 2 Jazzy, which keeps none of them in C.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from microros_gen.diagnostics import Source, Span
+from microros_gen.model.types import ScalarValue
+from microros_gen.parse.idl_values import IdlError, literal_value, span_of
+from microros_gen.parse.msg_declarations import SyntaxNode
+
+
+@dataclass(frozen=True)
+class Default:
+    """The value of `@default` and its place."""
+
+    value: ScalarValue
+    span: Span
+
+
+@dataclass(frozen=True)
+class Annotations:
+    """What the annotations of one declaration say."""
+
+    comment: tuple[str, ...] = ()
+    default: Default | None = None
+
+
+def read_annotations(node: SyntaxNode, constants: Mapping[str, SyntaxNode], source: Source) -> Annotations:
+    """Return what the annotations below `node` say. Raises IdlError for what stops ROS 2 Jazzy."""
+    if not node.children:
+        return Annotations()
+    comment: list[str] = []
+    units: list[str] = []
+    defaults: list[Default] = []
+    for annotation in node.children:
+        name = next(str(token) for token in annotation.children[0].children if token.type == "IDENTIFIER")
+        span = span_of(annotation, source)
+        # The names of enumerators and constants stand here without being looked up.
+        values = dict(_parameters(annotation.children[1:], constants, source))
+        if name == "verbatim":
+            comment.extend(_verbatim(values, span))
+        elif name == "unit":
+            units.extend(value for value in values.values() if isinstance(value, str))
+        elif name == "default":
+            defaults.append(Default(_default_value(annotation, values, span), span))
+    if len(defaults) > 1:
+        raise IdlError(
+            defaults[1].span, "there are two defaults: ROS 2 Jazzy takes none of them", "Remove one"
+        )
+    return Annotations(_with_unit(comment, units), defaults[0] if defaults else None)
+
+
+def _parameters(
+    nodes: Sequence[SyntaxNode], constants: Mapping[str, SyntaxNode], source: Source
+) -> Iterator[tuple[str, ScalarValue | None]]:
+    """Yield name and value of each parameter; the only one may have no name, a name for a value has None."""
+    for node in nodes:
+        name, value = ("", node) if node.data != "parameter" else (str(node.children[0]), node.children[1])
+        if value.data == "name":
+            yield name, None
+        else:
+            yield name, literal_value(value, constants, source, parameter=True)
+
+
+def _verbatim(values: Mapping[str, ScalarValue | None], span: Span) -> list[str]:
+    if not values:
+        raise IdlError(span, "@verbatim without a text", 'Write @verbatim (language="comment", text="…")')
+    text = values.get("text")
+    if values.get("language") != "comment" or "text" not in values:
+        return []
+    if not isinstance(text, str):
+        raise IdlError(span, "the text of @verbatim is a string", "Write it in quotes")
+    return text.splitlines()
+
+
+def _default_value(
+    annotation: SyntaxNode, values: Mapping[str, ScalarValue | None], span: Span
+) -> ScalarValue:
+    if "value" not in values:
+        raise IdlError(span, "@default has no parameter 'value'", "Write @default (value=…)")
+    value = values["value"]
+    if value is None:
+        raise IdlError(span, "ROS 2 Jazzy cannot take a name for a default", "Write the value itself")
+    return value
+
+
+def _with_unit(comment: Sequence[str], units: Sequence[str]) -> tuple[str, ...]:
+    """Return the lines with the unit in brackets behind the last one, where .msg files have it."""
+    text = "".join(f" [{unit}]" for unit in units)
+    if not text:
+        return tuple(comment)
+    if not comment:
+        return (text.lstrip(),)
+    return (*comment[:-1], f"{comment[-1]}{text}".lstrip())
