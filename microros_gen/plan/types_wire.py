@@ -22,9 +22,9 @@ from microros_gen.model.types import (
     TypeName,
     element_of,
 )
-from microros_gen.plan.layout import LP64, StructLayouts
+from microros_gen.plan.types_facts import TypeFacts
 from microros_gen.plan.types_limits import Homes, LimitMember, limit_members, plan_homes
-from microros_gen.plan.types_size import LENGTH_SIZE, TypeLimits, WireSizes, is_fixed, members
+from microros_gen.plan.types_size import LENGTH_SIZE, TypeLimits, members
 from microros_gen.plan.types_steps import (
     Align,
     Leaf,
@@ -39,9 +39,6 @@ from microros_gen.plan.types_steps import (
     Texts,
     Zeros,
 )
-
-LARGEST_INLINE = 3
-"""Variable parts that a nested type may have to be written in place: beyond, a call costs less flash."""
 
 
 @dataclass(frozen=True)
@@ -128,75 +125,17 @@ def _called_by(facts: _Facts, name: TypeName) -> Iterator[TypeName]:
             yield element.name
 
 
-class _Facts:
-    """What the emitter asks about types."""
+class _Facts(TypeFacts):
+    """What the emitter asks about types: with where limits differ, and what has a function of its own."""
 
     def __init__(self, messages: Mapping[TypeName, Message], homes: Homes) -> None:
-        self.messages = messages
+        super().__init__(messages)
         self.homes = homes
         self.called: frozenset[TypeName] = frozenset()
-        self.layouts = StructLayouts(messages, LP64)
-        self._sizes = WireSizes(messages)
-        self._fixed: dict[TypeName, bool] = {}
-        self._parts: dict[TypeName, int] = {}
-
-    def fixed(self, name: TypeName) -> bool:
-        """Return whether the type has no part of variable length."""
-        if name not in self._fixed:
-            self._fixed[name] = is_fixed(self.messages[name], self.messages)
-        return self._fixed[name]
 
     def takes_limits(self, name: TypeName) -> bool:
         """Return whether `encode_at` gets a table: its limits differ from use to use."""
         return name in self.called and name in self.homes.differing
-
-    def is_inline(self, name: TypeName) -> bool:
-        """Return whether a member of this type is written in place."""
-        return self.variable_parts(name) <= LARGEST_INLINE
-
-    def variable_parts(self, name: TypeName) -> int:
-        """Return the number of strings, sequences and arrays of messages, nested ones included."""
-        if name not in self._parts:
-            self._parts[name] = sum(self._parts_of(field) for field in self.messages[name].fields)
-        return self._parts[name]
-
-    def _parts_of(self, field: Field) -> int:
-        element = element_of(field.type)
-        if isinstance(field.type, NamedType):
-            return self.variable_parts(field.type.name)
-        return int(not isinstance(element, Primitive) or isinstance(field.type, SequenceType))
-
-    def packed(self, name: TypeName) -> tuple[int, int] | None:
-        """Return size and alignment where an array of the type is one run on the wire and in C, else None.
-
-        That is: no bool, no padding, the first member has the largest alignment, the size is a multiple of
-        it.
-        """
-        leaves = list(self._leaves(name))
-        if not leaves or not self.fixed(name) or None in leaves:
-            return None
-        primitives = [p for p in leaves if p is not None]
-        alignment = max(p.size for p, _ in primitives)
-        size = 0
-        for primitive, count in primitives:
-            if primitive is Primitive.BOOL or size % primitive.size:
-                return None
-            size += primitive.size * count
-        if primitives[0][0].size != alignment or size % alignment:
-            return None
-        return (size, alignment) if self.layouts.extent(name).size == size else None
-
-    def _leaves(self, name: TypeName) -> Iterator[tuple[Primitive, int] | None]:
-        for field in members(self.messages[name]):
-            element = element_of(field.type)
-            count = field.type.size if isinstance(field.type, ArrayType) else 1
-            if isinstance(element, Primitive):
-                yield element, count
-            elif isinstance(element, NamedType) and not isinstance(field.type, SequenceType):
-                for _ in range(count):
-                    yield from self._leaves(element.name)
-            else:
-                yield None
 
 
 class _Emitter:
