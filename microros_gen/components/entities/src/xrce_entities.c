@@ -144,7 +144,7 @@ static uint8_t * entities_put_object(
   uint8_t * const blob = &room[BLOB_AT];
   uint8_t * end;
 
-  memset(&room[KIND_AT], 0, BLOB_AT - KIND_AT);
+  (void)memset(&room[KIND_AT], 0, BLOB_AT - KIND_AT);
   room[KIND_AT] = kind;
   end = xrce_describe(client, place, kind, blob, &room[FORMAT_AT]);
   xrce_put_le16(&room[LENGTH_AT], (uint16_t)(end - blob));

@@ -22,7 +22,7 @@ static uint8_t * binary_put_participant(uint8_t * blob, const xrce_participant_t
 {
   const bool is_root = participant->namespace_[1] == '\0';
 
-  memset(blob, 0, 4);
+  (void)memset(blob, 0, 4);
   blob[1] = 1;
   return binary_put_string(
     &blob[4], is_root ? "" : participant->namespace_, is_root ? "" : "/", participant->name);
@@ -44,7 +44,7 @@ static uint8_t * binary_put_topic(uint8_t * blob, const xrce_writer_t * writer)
 /* QoS: flags, depth where there is one; neither deadline, lifespan, user data nor ownership strength. */
 static uint8_t * binary_put_data_writer(uint8_t * blob, const xrce_writer_t * writer)
 {
-  memset(blob, 0, 14);
+  (void)memset(blob, 0, 14);
   xrce_put_be16(&blob[0], xrce_object_id(writer->index, XRCE_KIND_TOPIC));
   blob[2] = 1;
   blob[4] = writer->qos;

@@ -100,7 +100,7 @@ void * microros_arena_zero_allocate(size_t number_of_elements, size_t size_of_el
   void * memory = microros_arena_allocate(size, state);
 
   if (memory != NULL) {
-    memset(memory, 0, size);
+    (void)memset(memory, 0, size);
   }
   return memory;
 }
@@ -121,7 +121,7 @@ void * microros_arena_reallocate(void * pointer, size_t size, void * state)
   }
   memory = microros_arena_allocate(size, state);
   if (memory != NULL) {
-    memcpy(memory, pointer, (block->block.units - 1u) * (size_t)UNIT);
+    (void)memcpy(memory, pointer, (block->block.units - 1u) * (size_t)UNIT);
     microros_arena_deallocate(pointer, state);
   }
   return memory;

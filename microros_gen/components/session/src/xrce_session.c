@@ -19,7 +19,7 @@ void xrce_session_open(xrce_client_t * client, uint32_t key)
 {
   xrce_session_t * session = &client->session;
 
-  memset(client, 0, sizeof(*client));
+  (void)memset(client, 0, sizeof(*client));
   session->key = key;
   session->request = XRCE_REQUEST_FIRST;
   session->retry_ms = MICROROS_RETRY_FIRST_MS;
@@ -60,7 +60,7 @@ static void session_send_create_client(xrce_session_t * session)
 
   xrce_put_header(message, XRCE_SESSION_NONE, XRCE_STREAM_NONE, 0);
   xrce_put_submessage(&message[4], XRCE_CREATE_CLIENT, XRCE_FLAG_LITTLE_ENDIAN, CREATE_CLIENT_SIZE - 8);
-  memcpy(&message[8], cookie_and_version, sizeof(cookie_and_version));
+  (void)memcpy(&message[8], cookie_and_version, sizeof(cookie_and_version));
   xrce_put_be16(&message[16], (uint16_t)(session->key >> 16));
   xrce_put_be16(&message[18], (uint16_t)(session->key & 0xffffu));
   message[20] = XRCE_SESSION_ID;
@@ -126,8 +126,7 @@ void xrce_session_on_status_agent(xrce_client_t * client, const uint8_t * payloa
   xrce_route_connected(client, now);
 }
 
-bool xrce_session_take_submessages(
-  xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
+bool xrce_session_take_submessages(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
 {
   const bool in_session = message[0] == XRCE_SESSION_ID;
   size_t at = XRCE_MESSAGE_HEADER;
@@ -207,5 +206,5 @@ void xrce_session_close(xrce_client_t * client)
 {
   client->session.state = XRCE_CLOSED;
   session_close_transport(&client->session);
-  memset(client->states, 0, sizeof(client->states)); /* whoever still has an entity has it no more */
+  (void)memset(client->states, 0, sizeof(client->states)); /* whoever still has an entity has it no more */
 }

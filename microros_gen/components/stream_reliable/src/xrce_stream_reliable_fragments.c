@@ -82,13 +82,13 @@ static void stream_send_of(
     (void)xrce_session_send(session, at, XRCE_MESSAGE_HEADER + size);
     return;
   }
-  memcpy(kept, at, sizeof(kept));
+  (void)memcpy(kept, at, sizeof(kept));
   if (size > PIECE_SIZE) {
     stream_send_piece(session, at, sequence, PIECE_SIZE, false);
   } else {
     stream_send_piece(session, at, sequence, (uint16_t)size, true);
   }
-  memcpy(at, kept, sizeof(kept));
+  (void)memcpy(at, kept, sizeof(kept));
 }
 
 /* Sends what has the number first + place; false: there is nothing. */

@@ -12,7 +12,7 @@ enum { ACKNACK_MESSAGE = 13, WINDOW = 16, HALF = 0x8000 };
 
 void xrce_stream_reliable_input_reset(xrce_stream_reliable_input_t * stream)
 {
-  memset(stream, 0, sizeof(*stream));
+  (void)memset(stream, 0, sizeof(*stream));
 }
 
 /* Tells the agent whose turn it is, and which messages behind that are known but not here. */

@@ -29,7 +29,7 @@ void xrce_stream_reliable_input_keep(
     input_slot(stream, sequence) != XRCE_RELIABLE_INPUT_HELD) {
     return;
   }
-  memcpy(stream->message[slot], message, size);
+  (void)memcpy(stream->message[slot], message, size);
   stream->size[slot] = (uint16_t)size;
   stream->sequence[slot] = sequence;
 }

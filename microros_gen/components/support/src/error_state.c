@@ -25,7 +25,7 @@ rcutils_error_string_t rcutils_get_error_string(void)
 {
   rcutils_error_string_t text;
 
-  memcpy(text.str, microros_error_state()->message, sizeof(text.str));
+  (void)memcpy(text.str, microros_error_state()->message, sizeof(text.str));
   return text;
 }
 

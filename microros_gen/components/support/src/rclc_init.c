@@ -12,7 +12,7 @@ static rcl_ret_t support_prepare(rclc_support_t * support, rcl_allocator_t * all
   if (support == NULL || allocator == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "support or allocator");
   }
-  memset(support, 0, sizeof(*support));
+  (void)memset(support, 0, sizeof(*support));
   support->allocator = allocator;
   return RCL_RET_OK;
 }

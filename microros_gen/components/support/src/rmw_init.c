@@ -27,7 +27,7 @@ rmw_context_t rmw_get_zero_initialized_context(void)
 {
   rmw_context_t context;
 
-  memset(&context, 0, sizeof(context));
+  (void)memset(&context, 0, sizeof(context));
   return context;
 }
 
@@ -88,7 +88,7 @@ rmw_ret_t rmw_open_as_planned(rmw_context_t * context)
   if (!init_is_free()) {
     return RMW_RET_ERROR;
   }
-  memset(&context->options, 0, sizeof(context->options));
+  (void)memset(&context->options, 0, sizeof(context->options));
   context->options.domain_id = RMW_DEFAULT_DOMAIN_ID;
   return init_open(context);
 }

@@ -17,7 +17,7 @@ size_t xrce_line_read(struct xrce_transport_t * line, uint8_t * buffer, size_t c
 
 bool xrce_transport_open(xrce_transport_t * transport)
 {
-  memset(&transport->framing, 0, sizeof(transport->framing));
+  (void)memset(&transport->framing, 0, sizeof(transport->framing));
   return port_serial_open(&transport->serial, xrce_transport_name(transport), MICROROS_SERIAL_BAUD);
 }
 

@@ -30,7 +30,7 @@ rmw_ret_t rmw_uros_options_set_udp_address(
     microros_error_set(microros_error_address, ip, port, 0, RMW_UXRCE_MAX_HOST_SIZE - 1u);
     return RMW_RET_INVALID_ARGUMENT;
   }
-  memcpy(rmw_options->transport_params.agent_address, ip, strlen(ip) + 1u);
-  memcpy(rmw_options->transport_params.agent_port, port, strlen(port) + 1u);
+  (void)memcpy(rmw_options->transport_params.agent_address, ip, strlen(ip) + 1u);
+  (void)memcpy(rmw_options->transport_params.agent_port, port, strlen(port) + 1u);
   return RMW_RET_OK;
 }
