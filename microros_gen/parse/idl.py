@@ -142,11 +142,13 @@ def _check_surroundings(contents: Contents, scope: Scope) -> None:
                 span_of(forward.name, source),
                 "Put it at the struct itself",
             )
-    for module in contents.empty_modules:
-        if not scope.broken:
-            diagnostics.error(
-                f"the module '{module.name}' is empty", span_of(module.name, source), "Remove it"
-            )
+    for module in contents.modules:
+        span = span_of(module.name, source)
+        if module.node.children[0].children:
+            message = f"ROS 2 Jazzy takes the annotation's name for that of the module '{module.name}'"
+            diagnostics.error(message, span, "Write modules without annotations")
+        if len(module.node.children) == 2 and not scope.broken:
+            diagnostics.error(f"the module '{module.name}' is empty", span, "Remove it")
 
 
 def _stem(structs: Sequence[Placed], scope: Scope) -> str | None:

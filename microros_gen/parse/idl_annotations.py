@@ -31,8 +31,13 @@ class Annotations:
     default: Default | None = None
 
 
-def read_annotations(node: SyntaxNode, constants: Mapping[str, SyntaxNode], source: Source) -> Annotations:
-    """Return what the annotations below `node` say. Raises IdlError for what stops ROS 2 Jazzy."""
+def read_annotations(
+    node: SyntaxNode, constants: Mapping[str, SyntaxNode], source: Source, *, known_only: bool = False
+) -> Annotations:
+    """Return what the annotations below `node` say. Raises IdlError for what stops ROS 2 Jazzy.
+
+    `known_only` says that Jazzy does not read the parameters of annotations here, whatever they are.
+    """
     if not node.children:
         return Annotations()
     comment: list[str] = []
@@ -41,7 +46,8 @@ def read_annotations(node: SyntaxNode, constants: Mapping[str, SyntaxNode], sour
     for annotation in node.children:
         name = next(str(token) for token in annotation.children[0].children if token.type == "IDENTIFIER")
         span = span_of(annotation, source)
-        # The names of enumerators and constants stand here without being looked up.
+        if known_only and name not in ("verbatim", "unit", "default"):
+            continue
         values = dict(_parameters(annotation.children[1:], constants, source))
         if name == "verbatim":
             comment.extend(_verbatim(values, span))

@@ -53,7 +53,7 @@ class Contents:
     typedefs: list[Placed] = field(default_factory=list)
     enumerations: list[Placed] = field(default_factory=list)
     forwards: list[Placed] = field(default_factory=list)
-    empty_modules: list[Placed] = field(default_factory=list)
+    modules: list[Placed] = field(default_factory=list)
 
 
 def contents_of(tree: SyntaxNode) -> Contents:
@@ -75,8 +75,7 @@ def contents_of(tree: SyntaxNode) -> Contents:
         elif node.data == "module":
             inside = (*placed.modules, str(node.children[1]))
             pending.extend(Placed(child, inside) for child in reversed(node.children[2:]))
-            if len(node.children) == 2:
-                found.empty_modules.append(placed)
+            found.modules.append(placed)
         else:
             lists[node.data].append(placed)
     return found
@@ -110,7 +109,10 @@ def message_of(placed: Placed, constants: Sequence[Placed], name: TypeName, scop
     source = scope.source
     annotations = Annotations()
     with reported(scope.diagnostics):
-        annotations = read_annotations(placed.node.children[0], scope.constants, source)
+        known_only = name.kind != "msg"
+        annotations = read_annotations(
+            placed.node.children[0], scope.constants, source, known_only=known_only
+        )
     members = [Placed(node, placed.modules) for node in placed.node.children[2:]]
     fields = [element for member in members for element in _fields(member.node, scope)]
     values = [c for constant in constants if (c := _constant(constant.node, scope)) is not None]

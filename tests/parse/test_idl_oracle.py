@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The reader of .idl files against ROS 2's: what is taken, what is refused, values, comments, includes."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+from typing import Any
+
+import pytest
+from idl_corpus import BAD, BAD_PARTS, DIFFERENCES, GOOD, GOOD_PARTS, NO_C, Difference
+from rosidl_idl_pipeline import RosMessage, ros_c_compiles, ros_idl
+
+from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.model.derived import messages_of
+from microros_gen.model.type_description import type_description
+from microros_gen.model.types import Message, NamedType, element_of
+from microros_gen.parse.idl import IdlFile, read_idl
+
+pytestmark = pytest.mark.ros
+
+
+def read(text: str, kind: str = "msg") -> IdlFile:
+    return read_idl(Source("Foo.idl", text), "pkg_a", kind, Diagnostics())
+
+
+def described(message: Message) -> dict[str, Any]:
+    """Return the message's own description; the types it names stand as empty ones."""
+    names = (element_of(f.type) for f in message.fields)
+    closure = {n.name: Message(n.name, ()) for n in names if isinstance(n, NamedType)}
+    description: dict[str, Any] = type_description(message, closure)["type_description"]
+    return description
+
+
+def meaning(description: dict[str, Any]) -> dict[str, Any]:
+    """Return a description with defaults as values: rosidl has their text as the file writes it."""
+    fields = [dict(field) for field in description["fields"]]
+    for field in fields:
+        if field["type"]["type_id"] in (15, 11) and field["default_value"]:
+            field["default_value"] = float(ast.literal_eval(field["default_value"]))
+        elif field["default_value"] and field["type"]["type_id"] > 48:
+            field["default_value"] = tuple(ast.literal_eval(field["default_value"]))
+    return {**description, "fields": fields}
+
+
+def check_equal(ours: Message, theirs: RosMessage, *, documented: bool) -> None:
+    assert meaning(described(ours)) == meaning(theirs.description)
+    assert tuple((c.name, c.value) for c in ours.constants) == theirs.constants
+    if documented:
+        elements = [ours, *ours.constants, *ours.fields]
+        comments = tuple(e.comment for e in elements)
+        assert comments == theirs.comments[: len(elements)]
+
+
+@pytest.mark.parametrize(("kind", "text"), [*(("msg", text) for text in GOOD), *GOOD_PARTS])
+def test_good_text_is_read_as_ros_reads_it(kind: str, text: str, tmp_path: Path) -> None:
+    ours, theirs = read(text, kind), ros_idl(text, tmp_path, kind)
+    assert theirs is not None, "the corpus is wrong: Jazzy refuses this text"
+    assert len(ours.declarations) == 1
+    assert tuple(include.path for include in ours.includes) == theirs.includes
+    messages = messages_of(ours.declarations[0])
+    assert len(messages) == len(theirs.messages)
+    # A unit stands with the comment here, and derived messages are documented, which they are not in ROS 2.
+    documented = kind == "msg" and "@unit" not in text
+    for mine, other in zip(messages, theirs.messages, strict=True):
+        check_equal(mine, other, documented=documented)
+
+
+@pytest.mark.parametrize(("kind", "text"), [*(("msg", text) for text in BAD), *BAD_PARTS])
+def test_bad_text_is_refused_as_ros_refuses_it(kind: str, text: str, tmp_path: Path) -> None:
+    assert ros_idl(text, tmp_path, kind) is None, "the corpus is wrong: Jazzy takes this text"
+    assert not read(text, kind).declarations
+
+
+@pytest.mark.parametrize("difference", DIFFERENCES, ids=lambda d: d.why)
+def test_differences_from_ros_are_the_known_ones(difference: Difference, tmp_path: Path) -> None:
+    kind = "srv" if "module srv" in difference.text else "msg"
+    assert (ros_idl(difference.text, tmp_path, kind) is not None) is difference.ros_takes
+    assert (len(read(difference.text, kind).declarations) == 1) is difference.we_take
+
+
+@pytest.mark.parametrize("text", NO_C)
+def test_what_rosidl_takes_and_makes_no_c_of_is_refused(text: str, tmp_path: Path) -> None:
+    ros_idl(text, tmp_path)
+    assert not ros_c_compiles(tmp_path, tmp_path / "c"), "the corpus is wrong: C comes out of it"
+    assert not read(text).declarations
+
+
+@pytest.mark.parametrize("text", [GOOD[0], GOOD[30], GOOD[60], GOOD[-1]])
+def test_the_oracle_of_c_takes_what_is_right(text: str, tmp_path: Path) -> None:
+    assert ros_idl(text.replace("other_pkg::msg::Bar", "std_msgs::msg::Header"), tmp_path) is not None
+    assert ros_c_compiles(tmp_path, tmp_path / "c")
