@@ -54,7 +54,7 @@ def read_annotations(
         elif name == "unit":
             units.extend(value for value in values.values() if isinstance(value, str))
         elif name == "default":
-            defaults.append(Default(_default_value(annotation, values, span), span))
+            defaults.append(Default(_default_value(values, span), _value_span(annotation, source)))
     if len(defaults) > 1:
         raise IdlError(
             defaults[1].span, "there are two defaults: ROS 2 Jazzy takes none of them", "Remove one"
@@ -85,9 +85,12 @@ def _verbatim(values: Mapping[str, ScalarValue | None], span: Span) -> list[str]
     return text.splitlines()
 
 
-def _default_value(
-    annotation: SyntaxNode, values: Mapping[str, ScalarValue | None], span: Span
-) -> ScalarValue:
+def _value_span(annotation: SyntaxNode, source: Source) -> Span:
+    values = (node.children[1] for node in annotation.children[1:] if node.children[0] == "value")
+    return span_of(next(values), source)
+
+
+def _default_value(values: Mapping[str, ScalarValue | None], span: Span) -> ScalarValue:
     if "value" not in values:
         raise IdlError(span, "@default has no parameter 'value'", "Write @default (value=…)")
     value = values["value"]

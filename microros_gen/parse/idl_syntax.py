@@ -63,6 +63,7 @@ _LEXEME = re.compile(
     r"//[^\n]*|/\*.*?\*/|L?\"(?:[^\"\\\n]|\\.)*\"|L?'(?:[^'\\\n]|\\.)[^'\n]*'|[ \t]*#[^\n]*|[;{}]|\w+|\s+|.",
     re.DOTALL,
 )
+_BLOCK_TAIL = re.compile(r"\s*(\w+(\[[^\]]*\])*\s*)?;")
 
 
 @dataclass(frozen=True)
@@ -91,7 +92,9 @@ def parse_syntax(source: Source, diagnostics: Diagnostics) -> Syntax | None:
             return Syntax(_grammar().parse(text), lost)
         except UnexpectedInput as fault:
             error = _error(fault, text)
-        _report(source, text, error, diagnostics)
+        # What is missing at the end of the file is said once.
+        if error.start < len(source.text) or text == source.text:
+            _report(source, text, error, diagnostics)
         start, end, filler = _repair(text, error)
         lost += text[start:end] + "\n"
         repaired = text[:start] + filler + text[end:]
@@ -124,45 +127,70 @@ def _error(fault: UnexpectedInput, text: str) -> _Error:
 
 def _repair(text: str, error: _Error) -> tuple[int, int, str]:
     """Return the part of `text` to replace and by what: a missing end is added, else a declaration blanked."""
+    if error.start >= len(text) and error.expected & {"_SEMICOLON", "_CLOSE"}:
+        return len(text), len(text), ";" if "_SEMICOLON" in error.expected else "}"
     before = text[: error.start]
-    gap = len(before) - len(before.rstrip())
     if _semicolon_is_missing(text, error):
-        place = error.start - gap
-        return place, place + 1, ";"
-    start, end, depth = _declaration_around(text, error.start)
-    if error.start >= len(text.rstrip()) and not text[start:end].strip():
-        return len(text), len(text), "};" * depth
+        place = len(before.rstrip())
+        return place, place + (text[place] != "\n"), ";"
+    start, end = _declaration_around(text, error.start)
     return start, end, re.sub(r"[^\n]", " ", text[start:end])
 
 
 def _semicolon_is_missing(text: str, error: _Error) -> bool:
-    """Return whether a declaration ended with its line, so that only a semicolon is missing."""
+    """Return whether a declaration ended with its line, or before a brace, so that only a semicolon is missing."""
     before = text[: error.start]
-    return "_SEMICOLON" in error.expected and "\n" in before[len(before.rstrip()) :]
+    gap = before[len(before.rstrip()) :]
+    closes = text.startswith("}", error.start) and bool(gap)
+    return "_SEMICOLON" in error.expected and ("\n" in gap or closes)
 
 
-def _declaration_around(text: str, place: int) -> tuple[int, int, int]:
-    """Return where the declaration around `place` begins and ends, and how many braces are open before it."""
-    start = depth = inner = 0
+def _declaration_around(text: str, place: int) -> tuple[int, int]:
+    """Return where the declaration around `place` begins and ends.
+
+    At the end of a block that is the whole block, unless something stands before it that has no end.
+    """
+    starts, start = [0], 0
     for match in _LEXEME.finditer(text):
-        lexeme, end = match.group(), match.end()
-        behind = match.start() >= place
-        if not behind:
-            if lexeme in ("{", "}", ";") or lexeme.lstrip().startswith("#"):
-                start = end
-                depth += {"{": 1, "}": -1}.get(lexeme, 0)
-            continue
+        if match.start() >= place:
+            break
+        lexeme = match.group()
         if lexeme == "{":
-            inner += 1
+            starts.append(start)
+        elif lexeme == "}" and len(starts) > 1:
+            starts.pop()
+        if lexeme in ("{", "}", ";") or lexeme.lstrip().startswith("#"):
+            start = match.end()
+    if text.startswith("}", place):
+        if text[start:place].strip():
+            return start, place
+        if len(starts) == 1:
+            return place, _end_of_block(text, place + 1)
+        return starts[-1], _end_of_block(text, place + 1)
+    return start, _end_of_declaration(text, place)
+
+
+def _end_of_declaration(text: str, place: int) -> int:
+    depth = 0
+    for match in _LEXEME.finditer(text, place):
+        lexeme = match.group()
+        if lexeme == "{":
+            depth += 1
         elif lexeme == "}":
-            if inner == 0 and text[start : match.start()].strip():
-                return start, match.start(), depth
-            inner = max(0, inner - 1)
-            if inner == 0 and not text[end:].lstrip().startswith(";"):
-                return start, end, depth
-        elif (lexeme == ";" and inner == 0) or (lexeme.lstrip().startswith("#") and inner == 0):
-            return start, end, depth
-    return start, len(text), depth
+            if depth == 0:
+                return match.start()
+            depth -= 1
+            if depth == 0:
+                return _end_of_block(text, match.end())
+        elif depth == 0 and (lexeme == ";" or lexeme.lstrip().startswith("#")):
+            return match.end()
+    return len(text)
+
+
+def _end_of_block(text: str, place: int) -> int:
+    """Return the end of the semicolon behind a brace, with a name between them if there is one."""
+    tail = _BLOCK_TAIL.match(text, place)
+    return tail.end() if tail else place
 
 
 def _report(source: Source, text: str, error: _Error, diagnostics: Diagnostics) -> None:
@@ -187,8 +215,10 @@ def _hint(text: str, start: int, found: str, expected: frozenset[str]) -> str | 
         return 'Of the preprocessor ROS 2 has #include "package/msg/Name.idl" alone'
     if found == ":" and "_OPEN" in expected:
         return "ROS 2 has no inheritance: repeat the members, or take a member of the other type"
-    if found in ('"', "'") or text[start : start + 2] in ('L"', "L'"):
+    if found in ('"', "'"):
         return "The quote is not closed in its line" if "STRING" in expected else None
+    if "IDENTIFIER" in expected and (found[:1] == "_" or not found.isascii()):
+        return "A name begins with a letter from A to Z; letters, digits and _ follow"
     if found == "/" and text.startswith("/*", start):
         return "The comment is not closed"
     if found in ("struct", "enum") and "BASE" in expected:

@@ -186,12 +186,18 @@ def _target(alias: Alias, scope: Scope) -> Written | None:
             f"'{alias.name}' is an enumeration: ROS 2 reads them and makes no type of them",
             "Take uint8 and constants in a module that ends with '_Constants'",
         )
-    hint = _OTHER_LANGUAGES.get(alias.name)
     raise IdlError(
-        alias.span,
-        f"'{alias.name}' is no type and no typedef of this file",
-        f"Write {hint}" if hint else nearest(alias.name, [*scope.typedefs, *_BASES, "string", "wstring"]),
+        alias.span, f"'{alias.name}' is no type and no typedef of this file", _type_hint(alias.name, scope)
     )
+
+
+def _type_hint(name: str, scope: Scope) -> str | None:
+    if name in _OTHER_LANGUAGES:
+        return f"Write {_OTHER_LANGUAGES[name]}"
+    near = nearest(name, [*scope.typedefs, *_BASES, "string", "wstring"])
+    if name[0].isupper() and (near is None or near.strip("?'").rpartition("'")[2] not in scope.typedefs):
+        return f"Another interface is written '{scope.modules[0]}::msg::{name}'"
+    return near
 
 
 def _model_type(written: Written, element: ElementType) -> FieldType:

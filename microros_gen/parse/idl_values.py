@@ -231,7 +231,8 @@ def _string(token: Token, source: Source) -> str:
 
 def _checked_string(kind: StringType, value: ScalarValue, span: Span) -> str:
     if not isinstance(value, str):
-        raise IdlError(span, f"{value} is no string", "Write it in quotes")
+        written = str(value).upper() if isinstance(value, bool) else value
+        raise IdlError(span, f"{written} is no string", "Write it in quotes")
     if "\0" in value:
         raise IdlError(span, "a string cannot hold the character NUL", "It ends the string in C")
     if any("\ud800" <= character <= "\udfff" for character in value):
