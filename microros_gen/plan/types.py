@@ -11,6 +11,7 @@ from microros_gen.model.types import Message, TypeName
 from microros_gen.plan.capacity import Capacities
 from microros_gen.plan.layout import I386, ILP32, LP64, DataModel, StructLayouts
 from microros_gen.plan.names import dds_type
+from microros_gen.plan.types_decode import DecodePlan, decode_files, plan_decoders
 from microros_gen.plan.types_names import TypeFiles, c_name, type_files
 from microros_gen.plan.types_size import TypeLimits, WireSizes, is_fixed
 from microros_gen.plan.types_storage import StorageUnit, plan_storage, storage_extents
@@ -28,7 +29,8 @@ class TypePlan:
     """One message type.
 
     `root`: declared by the application, so it has a type support handle; the others are parts of roots.
-    `received`: it needs a decoder. Encoded sizes are bytes of the CDR body under the limits (0 for a part
+    `received`: its handle has a decoder; `decoder` is None where neither it nor a type that contains it is
+    received. Encoded sizes are bytes of the CDR body under the limits (0 for a part
     that is never a root and whose limits differ from use to use). `struct_sizes` and `storage_sizes` are
     bytes for each of DATA_MODELS; `storage_sizes` is empty for a type without storage.
     """
@@ -46,6 +48,7 @@ class TypePlan:
     min_encoded_size: int
     limits: TypeLimits | None
     wire: WirePlan | None
+    decoder: DecodePlan | None
     storage: tuple[StorageUnit, ...]
     struct_sizes: tuple[int, ...]
     storage_sizes: tuple[int, ...]
@@ -63,6 +66,7 @@ class TypePlan:
         """Paths of its headers below the output folder, sorted."""
         found = [self.files.header, self.files.struct, self.files.functions]
         found += [self.files.type_support] if self.wire else []
+        found += [decode_files(self.files)[0]] if self.decoder else []
         found += [self.files.storage] if self.storage else []
         return tuple(sorted(found))
 
@@ -71,6 +75,7 @@ class TypePlan:
         """Paths of its C files below the output folder, sorted."""
         found = [self.files.functions_source]
         found += [self.files.type_support_source] if self.wire else []
+        found += [decode_files(self.files)[1]] if self.decoder else []
         found += [self.files.storage_source] if self.storage else []
         return tuple(sorted(found))
 
@@ -82,7 +87,11 @@ def plan_types(
     diagnostics: Diagnostics,
     received: Collection[TypeName] = (),
 ) -> tuple[TypePlan, ...]:
-    """Plan every type of `messages` (closed, in dependency order; the roots are those of `capacities`)."""
+    """Plan every type of `messages` (closed, in dependency order; the roots are those of `capacities`).
+
+    `received`: the roots that need a decoder.
+    """
+    decoders = plan_decoders(messages, received)
     wires = plan_wire(messages, capacities.limits)
     storages = plan_storage(messages, capacities.limits, wires.home_limits, diagnostics)
     sizes = WireSizes(messages)
@@ -108,6 +117,7 @@ def plan_types(
                 min_encoded_size=sizes.smallest(name),
                 limits=limits,
                 wire=wires.plans.get(name),
+                decoder=decoders.get(name),
                 storage=units,
                 struct_sizes=tuple(layout.extent(name).size for layout in layouts),
                 storage_sizes=tuple(known[units[-1].name].size for known in extents) if units else (),

@@ -15,6 +15,7 @@ from microros_gen.render.agent_files import render_agent_files
 from microros_gen.render.board import BoardView, board_view
 from microros_gen.render.example import example_view
 from microros_gen.render.types import render_types
+from microros_gen.render.types_decode import render_decoders
 from microros_gen.sources.runtime import ComponentFile
 
 
@@ -64,6 +65,7 @@ def render_project(
     """
     rendered = _component_files(project, files, environment)
     rendered |= render_types(project.types, environment)
+    rendered |= render_decoders(project.types, environment)
     rendered |= render_agent_files(project)
     for path, content in _unselected_headers(unselected, environment):
         rendered.setdefault(path, content)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from microros_gen.model.types import TypeName
 from microros_gen.plan.types import TypePlan
+from microros_gen.plan.types_decode import decode_files
 from microros_gen.plan.types_limits import LimitMember, limit_value
 from microros_gen.plan.types_names import c_name, guard, include_path, type_files
 from microros_gen.plan.types_size import TypeLimits
@@ -112,7 +113,7 @@ class EncoderViews:
             table=tuple(_table_declaration(member) for member in wire.limit_members),
             tables=tuple(builder.tables),
             functions=functions,
-            decode="NULL",
+            decode=f"{plan.c_name}__decode" if plan.received else "NULL",
         )
 
 
@@ -153,6 +154,8 @@ class _Builder:
         found = {"microros/cdr.h"}
         for name in self._plan.wire.calls if self._plan.wire else ():
             found.add(include_path(type_files(name).type_support))
+        if self._plan.received:
+            found.add(include_path(decode_files(self._plan.files)[0]))
         return tuple(sorted(found))
 
     def size_assertion(self) -> str:

@@ -20,7 +20,12 @@ SAMPLES = ("empty", "full", "full", *("random",) * 8)
 
 
 class Fault(ctypes.Structure):
-    _fields_ = (("field", ctypes.c_char_p), ("found", ctypes.c_uint32), ("fits", ctypes.c_uint32))
+    _fields_ = (
+        ("field", ctypes.c_char_p),
+        ("found", ctypes.c_uint32),
+        ("fits", ctypes.c_uint32),
+        ("kind", ctypes.c_int),
+    )
 
 
 class MessageType(ctypes.Structure):

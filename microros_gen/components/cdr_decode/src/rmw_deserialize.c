@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/error.h"
+#include "microros/message_type.h"
+#include "rmw/rmw.h"
+
+#include <stddef.h>
+#include <string.h>
+
+/* Representation identifier and options; CDR_BE and CDR_LE are 0 and 1 (OMG DDS-XTypes 1.3, 7.6.3.1.2). */
+enum { ENCAPSULATION_SIZE = 4, CDR_LITTLE_ENDIAN = 1 };
+
+static bool is_little_endian_here(void)
+{
+  const uint16_t one = 1u;
+  uint8_t first;
+
+  (void)memcpy(&first, &one, sizeof(first));
+  return first != 0u;
+}
+
+static rmw_ret_t deserialize_refuse(const microros_message_type_t * type, const cdr_fault_t * fault)
+{
+  microros_error_t error = microros_error_field;
+
+  if (fault->kind == CDR_FAULT_END) {
+    error = microros_error_body_end;
+  } else if (fault->kind == CDR_FAULT_VALUE) {
+    error = microros_error_value;
+  } else {
+    /* above a limit */
+  }
+  microros_error_set(error, type->dds_type_name, fault->field, fault->found, fault->fits);
+  return RMW_RET_ERROR;
+}
+
+rmw_ret_t rmw_deserialize(
+  const rmw_serialized_message_t * serialized_message, const rosidl_message_type_support_t * type_support,
+  void * ros_message)
+{
+  cdr_fault_t fault = {"", 0, 0, CDR_FAULT_LIMIT};
+  const microros_message_type_t * type;
+  const uint8_t * bytes;
+  uint32_t representation = UINT32_MAX;
+  size_t size;
+
+  if (serialized_message == NULL || type_support == NULL || ros_message == NULL) {
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "serialized_message, type_support or ros_message");
+  }
+  type = type_support->data;
+  if (type->decode == NULL) {
+    return microros_error_named(RMW_RET_UNSUPPORTED, microros_error_not_received, type->dds_type_name);
+  }
+  bytes = serialized_message->buffer;
+  size = serialized_message->buffer_length;
+  if (bytes != NULL && size >= (size_t)ENCAPSULATION_SIZE && size <= UINT32_MAX) {
+    representation = ((uint32_t)bytes[0] << 8) | bytes[1];
+  }
+  if (representation > (uint32_t)CDR_LITTLE_ENDIAN) {
+    microros_error_set(microros_error_encapsulation, NULL, NULL, representation, (uint32_t)size);
+    return RMW_RET_ERROR;
+  }
+  const bool swap = (representation == (uint32_t)CDR_LITTLE_ENDIAN) != is_little_endian_here();
+  if (!type->decode(
+        &bytes[ENCAPSULATION_SIZE], (uint32_t)size - (uint32_t)ENCAPSULATION_SIZE, swap, ros_message, &fault)) {
+    return deserialize_refuse(type, &fault);
+  }
+  return RMW_RET_OK;
+}
