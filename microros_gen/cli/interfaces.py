@@ -12,9 +12,10 @@ import click
 
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Severity, UserError
 from microros_gen.model.application import Named
+from microros_gen.model.derived import declaring_name, parts_of
 from microros_gen.model.msg_text import type_text, value_text
-from microros_gen.model.types import Constant, Field, Value
-from microros_gen.resolve.interfaces import Interface, InterfaceSet, resolve_interfaces
+from microros_gen.model.types import Action, Constant, Declaration, Field, Message, Service, Value
+from microros_gen.resolve.interfaces import InterfaceSet, resolve_interfaces
 from microros_gen.sources.interfaces import InterfaceFinder, types_in
 
 
@@ -37,7 +38,7 @@ from microros_gen.sources.interfaces import InterfaceFinder, types_in
     help="Tables for people, or JSON for programs.",
 )
 def command(name: str | None, interface_paths: tuple[Path, ...], form: str) -> None:
-    """List interface packages; with NAME = pkg its types, with NAME = pkg/Type that type.
+    """List interface packages; with NAME = pkg its types, with NAME = pkg/Type that message, service or action.
 
     Packages are looked for in --interface-path, AMENT_PREFIX_PATH, packages installed by pip, and the
     definitions that ship with this tool, in this order; the first place that has a package hides the others.
@@ -46,6 +47,7 @@ def command(name: str | None, interface_paths: tuple[Path, ...], form: str) -> N
     microros-gen interfaces
     microros-gen interfaces sensor_msgs
     microros-gen interfaces sensor_msgs/msg/Imu
+    microros-gen interfaces std_srvs/srv/SetBool --format json
     """
     finder = InterfaceFinder.from_environment(interface_paths)
     diagnostics = Diagnostics()
@@ -85,7 +87,7 @@ def _package(finder: InterfaceFinder, name: str, diagnostics: Diagnostics) -> tu
         {
             "type": str(root),
             "hash": interfaces.type_hash(root),
-            "comment": list(interfaces.message(root).comment),
+            "comment": list(interfaces.interfaces[root].declaration.comment),
         }
         for root in interfaces.roots
     ]
@@ -97,38 +99,70 @@ def _package(finder: InterfaceFinder, name: str, diagnostics: Diagnostics) -> tu
 def _type(finder: InterfaceFinder, name: str, diagnostics: Diagnostics) -> tuple[Any, list[str]]:
     interfaces = _resolved(finder, name, diagnostics)
     root = interfaces.roots[0]
-    interface = interfaces.interfaces[root]
-    message = interface.message
+    interface = interfaces.interfaces[declaring_name(root)]
+    declaration = interface.declaration if root == interface.name else interfaces.message(root)
     data = {
         "type": str(root),
         "hash": interfaces.type_hash(root),
         "origin": interface.place.origin.value,
         "file": interface.source.name,
-        "comment": list(message.comment),
+        "comment": list(declaration.comment),
+        **_contents(declaration, interfaces),
+        "dependencies": [str(needed) for needed in interfaces.closure(root)],
+        "description": interfaces.type_description(root),
+    }
+    lines = [str(root), *(f"  {line}".rstrip() for line in declaration.comment)]
+    lines += ["", f"  hash    {data['hash']}", f"  origin  {data['origin']}: {data['file']}"]
+    lines += _message_lines(declaration) if isinstance(declaration, Message) else _part_lines(declaration)
+    if data["dependencies"]:
+        lines += ["", "  made of", *(f"  {needed}" for needed in data["dependencies"])]
+    return data, lines
+
+
+def _contents(declaration: Declaration, interfaces: InterfaceSet) -> dict[str, Any]:
+    """Return what is declared: the members of a message, or the parts of a service or action and the rest."""
+    if isinstance(declaration, Message):
+        return _members(declaration)
+    derived = [n for n in interfaces.described if declaring_name(n) == declaration.name != n]
+    return {
+        "parts": {
+            part.lower(): {"type": str(message.name), "comment": list(message.comment), **_members(message)}
+            for part, message in parts_of(declaration)
+        },
+        "derived": [{"type": str(name), "hash": interfaces.type_hash(name)} for name in derived],
+    }
+
+
+def _members(message: Message) -> dict[str, Any]:
+    return {
         "constants": [_entry(constant, constant.value) for constant in message.constants],
         "fields": [_entry(field, field.default) for field in message.fields],
-        "dependencies": [str(needed) for needed in interfaces.closure(root)],
     }
-    return data, _type_lines(interface, data)
 
 
-def _type_lines(interface: Interface, data: dict[str, Any]) -> list[str]:
-    lines = [data["type"], *(f"  {line}".rstrip() for line in data["comment"])]
-    lines += ["", f"  hash    {data['hash']}", f"  origin  {data['origin']}: {data['file']}"]
-    for title, value in (("constants", "value"), ("fields", "default")):
-        message = interface.message
-        entries: Sequence[Constant | Field] = message.constants if title == "constants" else message.fields
-        if entries:
-            rows = [_row(entry, spec) for entry, spec in zip(entries, data[title], strict=True)]
-            lines += ["", *(f"  {line}".rstrip() for line in _table([title, "type", value, "comment"], rows))]
-    if data["dependencies"]:
-        lines += ["", "  made of", *(f"  {name}" for name in data["dependencies"])]
+def _part_lines(declaration: Service | Action) -> list[str]:
+    lines: list[str] = []
+    for part, message in parts_of(declaration):
+        empty = "" if message.fields or message.constants else " (empty)"
+        lines += ["", f"  {part.lower()}{empty}", *(f"    {line}".rstrip() for line in message.comment)]
+        lines += [f"  {line}".rstrip() for line in _message_lines(message)]
     return lines
 
 
-def _row(entry: Constant | Field, spec: dict[str, Any]) -> list[str]:
+def _message_lines(message: Message) -> list[str]:
+    lines: list[str] = []
+    for title, value in (("constants", "value"), ("fields", "default")):
+        entries: Sequence[Constant | Field] = message.constants if title == "constants" else message.fields
+        if entries:
+            rows = [_row(entry) for entry in entries]
+            lines += ["", *(f"  {line}".rstrip() for line in _table([title, "type", value, "comment"], rows))]
+    return lines
+
+
+def _row(entry: Constant | Field) -> list[str]:
     value = entry.value if isinstance(entry, Constant) else entry.default
-    return [entry.name, spec["type"], "" if value is None else value_text(value), " ".join(entry.comment)]
+    shown = "" if value is None else value_text(value)
+    return [entry.name, type_text(entry.type), shown, " ".join(entry.comment)]
 
 
 def _entry(entry: Constant | Field, value: Value | None) -> dict[str, Any]:

@@ -9,8 +9,9 @@ from pathlib import Path
 
 from microros_gen.cli.options import SelectionOptions
 from microros_gen.diagnostics import Diagnostics, Source, Span
-from microros_gen.model.application import Application, Named, Transport
+from microros_gen.model.application import Application, EndpointDecl, Named, Transport
 from microros_gen.model.component import Catalogue, Profile
+from microros_gen.model.derived import declaring_name
 from microros_gen.model.selection import Selection
 from microros_gen.model.target import Target
 from microros_gen.model.types import TypeName
@@ -20,7 +21,7 @@ from microros_gen.plan.capacity import Capacities, Defaults, Root, plan_capaciti
 from microros_gen.plan.project import Project, plan_project, publisher_declarations, type_name
 from microros_gen.plan.streams import DEFAULT_MTU, WRITE_DATA_OVERHEAD
 from microros_gen.plan.types import plan_types
-from microros_gen.resolve.interfaces import InterfaceSet, resolve_interfaces
+from microros_gen.resolve.interfaces import InterfaceSet, resolve_interfaces, split_type_name
 from microros_gen.resolve.profiles import resolve_profiles
 from microros_gen.resolve.selection import check_ready, resolve_selection
 from microros_gen.sources.application import APPLICATION_FILE, read_application
@@ -130,10 +131,11 @@ def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Dia
     diagnostics.check()
     capacities = _capacities(resolved, interfaces, diagnostics)
     diagnostics.check()
-    types = plan_types(interfaces.messages, capacities, interfaces.type_hash, diagnostics)
+    received = _received(selection, capacities)
+    types = plan_types(interfaces.messages, capacities, interfaces.type_hash, diagnostics, received)
     diagnostics.check()
     project = plan_project(
-        application, selection, resolved.request.target, types, interfaces.roots, diagnostics
+        application, selection, resolved.request.target, types, _published(interfaces), diagnostics
     )
     diagnostics.check()
     packages = sorted({entry.name.package for entry in interfaces})
@@ -175,8 +177,7 @@ def read_paths(planned: Planned) -> Iterator[Path]:
     yield from (Path(source.name) for source in request.found_target.own)
     yield from planned.searched
     for entry in planned.interfaces:
-        folder = entry.place.folder / entry.name.kind
-        yield from (folder, folder / f"{entry.name.name}.msg")
+        yield from (entry.place.folder / entry.name.kind, Path(entry.source.name))
 
 
 def warnings_text(diagnostics: Diagnostics) -> str:
@@ -231,11 +232,22 @@ def _named(values: Iterable[str], option: str) -> tuple[Named, ...]:
 
 def _requested(application: Application) -> tuple[Named, ...]:
     declared = tuple(
-        Named(endpoint.type, endpoint.type_span or endpoint.span)
+        Named(_of_kind(endpoint), endpoint.type_span or endpoint.span)
         for node in application.nodes
         for endpoint in node.endpoints
     )
     return declared + application.interfaces
+
+
+def _of_kind(endpoint: EndpointDecl) -> str:
+    """Return the full name of an endpoint's type: `pkg/Type` of a service is `pkg/srv/Type`."""
+    name = split_type_name(endpoint.type, "srv" if endpoint.kind in ("service", "client") else "msg")
+    return endpoint.type if name is None else str(name)
+
+
+def _published(interfaces: InterfaceSet) -> tuple[TypeName, ...]:
+    """Return the requested types that publishers can have: messages, not what services and actions exchange."""
+    return tuple(name for name in interfaces.roots if name.kind == "msg")
 
 
 def _capacities(resolved: Resolved, interfaces: InterfaceSet, diagnostics: Diagnostics) -> Capacities:
@@ -246,14 +258,24 @@ def _capacities(resolved: Resolved, interfaces: InterfaceSet, diagnostics: Diagn
         for _, _, endpoint in publisher_declarations(application)
     ]
     known = {root.type for root in declared}
-    roots = declared + [_root(name, application, room) for name in interfaces.roots if name not in known]
+    roots = declared + [
+        _root(name, application, room) for name in interfaces.message_roots if name not in known
+    ]
     defaults = Defaults(None, None) if request.from_file else Defaults()
     return plan_capacities(interfaces.messages, roots, application.limits, defaults, diagnostics)
 
 
+def _received(selection: Selection, capacities: Capacities) -> tuple[TypeName, ...]:
+    """Return the types that have a decoder: every root, where decoding is selected."""
+    decodes = any(c.component.name == "cdr_decode" for c in selection.components)
+    return tuple(capacities.limits) if decodes else ()
+
+
 def _root(name: TypeName, application: Application, room: int) -> Root:
     spans = {i.name: i.span for i in application.interfaces}
-    span = spans.get(str(name)) or spans.get(f"{name.package}/{name.name}") or spans.get(name.package)
+    declared = declaring_name(name)
+    asked = (str(name), str(declared), f"{name.package}/{declared.name}", name.package)
+    span = next((spans[text] for text in asked if text in spans), None)
     return Root(name, (), span, room)
 
 

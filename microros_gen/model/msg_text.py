@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Prints interface types as the text of .msg files; reading the text again gives the same model."""
+"""Prints interface types as the text of .msg, .srv and .action files; reading it again gives the same model."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
+from microros_gen.model.derived import parts_of
 from microros_gen.model.types import (
     ArrayType,
     Constant,
+    Declaration,
     Field,
     FieldType,
     Message,
@@ -60,6 +62,13 @@ def message_text(message: Message) -> str:
     body = "\n".join(block for block in (constants, fields) if block)
     # Comment lines at the very top are the message's own, so those of a declaration come below an empty line.
     return f"{head}\n{body}" if head or body.startswith("#") else body
+
+
+def declaration_text(declaration: Declaration) -> str:
+    """Return the file of a declaration; that of a service or action has a line `---` between its parts."""
+    if isinstance(declaration, Message):
+        return message_text(declaration)
+    return "---\n".join(message_text(message) for _, message in parts_of(declaration))
 
 
 def _constant_text(constant: Constant) -> str:

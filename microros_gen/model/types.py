@@ -44,6 +44,11 @@ class Primitive(Enum):
     LONG_DOUBLE = "long double"
 
     @property
+    def in_msg(self) -> bool:
+        """Whether .msg, .srv and .action files have it."""
+        return self not in (Primitive.IDL_CHAR, Primitive.WCHAR, Primitive.LONG_DOUBLE)
+
+    @property
     def size(self) -> int:
         """Size and alignment in XCDR1, bytes."""
         return _FACTS[self].size

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads .msg files as ROS 2 Jazzy does (rosidl_adapter and the readers behind it).
+"""Reads .msg files, and the parts of .srv and .action files, as ROS 2 Jazzy does (rosidl_adapter and the
+readers behind it).
 
-A .msg file is line oriented: each line is taken apart into declaration and comment here, the grammar
+Such a text is line oriented: each line is taken apart into declaration and comment here, the grammar
 `msg.lark` parses the declaration, and what it may say is checked after that. So every faulty line is
 reported in one run.
 """
@@ -9,7 +10,7 @@ reported in one run.
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
@@ -53,8 +54,8 @@ class _Entry:
 
 
 @dataclass
-class _File:
-    """What was found in a file so far."""
+class _Part:
+    """What was found in a file, or in one part of it, so far."""
 
     source: Source
     comment: list[str] = field(default_factory=list)
@@ -68,32 +69,52 @@ def parse_msg(source: Source, name: TypeName, diagnostics: Diagnostics) -> Messa
     are named and not looked up.
     """
     found = Diagnostics()
+    source = checked_source(source, name.package, (name.name,), found)
+    message = parse_part(source, 1, source.text.splitlines(), name, found)
+    diagnostics.extend(found)
+    return None if found.has_errors() else message
+
+
+def checked_source(source: Source, package: str, names: Iterable[str], diagnostics: Diagnostics) -> Source:
+    """Return `source` without a byte order mark; report that, and names that ROS 2 does not take for
+    packages and messages."""
     if source.text.startswith(_BYTE_ORDER_MARK):
         source = Source(source.name, source.text[1:])
-        found.warning(
+        diagnostics.warning(
             "the file begins with a byte order mark",
             Span(source, 1, 1),
             "ROS 2 refuses it: save as UTF-8 without it",
         )
-    for fault in (package_name_fault(name.package), type_name_fault(name.name)):
+    for fault in (package_name_fault(package), *map(type_name_fault, names)):
         if fault is not None:
-            found.error(
+            diagnostics.error(
                 fault, Span(source, 1, 1), "ROS 2 takes no other names for folders and files of interfaces"
             )
-    file = _read_lines(source, name, found)
-    _check_duplicates(file.entries, found)
-    diagnostics.extend(found)
-    return None if found.has_errors() else _message(file, name)
+    return source
 
 
-def _read_lines(source: Source, name: TypeName, diagnostics: Diagnostics) -> _File:
-    file = _File(source)
+def parse_part(
+    source: Source, first: int, lines: Sequence[str], name: TypeName, diagnostics: Diagnostics
+) -> Message:
+    """Return the message that `lines` declare; they begin in line `first` of `source`.
+
+    Faults go to `diagnostics` at their places in `source`; the message lacks what is faulty.
+    """
+    part = _read_lines(source, first, lines, name, diagnostics)
+    _check_duplicates(part.entries, diagnostics)
+    return _message(part, name, first)
+
+
+def _read_lines(
+    source: Source, first: int, lines: Sequence[str], name: TypeName, diagnostics: Diagnostics
+) -> _Part:
+    part = _Part(source)
     pending: list[str] = []
     at_top = True
     # Each tab counts as one space, also inside of strings, so columns stay what they are.
-    for number, line in enumerate(source.text.replace("\t", " ").splitlines(), 1):
+    for number, line in enumerate((line.replace("\t", " ") for line in lines), first):
         if at_top and line.startswith("#"):
-            file.comment.append(line.lstrip("#"))
+            part.comment.append(line.lstrip("#"))
             continue
         at_top = False
         text, mark, comment = line.rstrip().partition("#")
@@ -101,8 +122,8 @@ def _read_lines(source: Source, name: TypeName, diagnostics: Diagnostics) -> _Fi
             comment = comment.lstrip("#")
             if text and not text.strip():
                 # An indented comment goes on with that of the declaration above it.
-                if file.entries:
-                    file.entries[-1].comment.append(comment)
+                if part.entries:
+                    part.entries[-1].comment.append(comment)
                 continue
             pending.append(comment)
             text = text.rstrip()
@@ -110,9 +131,9 @@ def _read_lines(source: Source, name: TypeName, diagnostics: Diagnostics) -> _Fi
             continue
         declaration = _parse_line(Line(source, number, text, bool(mark)), name.package, diagnostics)
         if declaration is not None:
-            file.entries.append(_Entry(declaration, pending))
+            part.entries.append(_Entry(declaration, pending))
         pending = []
-    return file
+    return part
 
 
 def _parse_line(line: Line, package: str, diagnostics: Diagnostics) -> Declaration | None:
@@ -184,9 +205,9 @@ def _check_duplicates(entries: list[_Entry], diagnostics: Diagnostics) -> None:
             )
 
 
-def _message(file: _File, name: TypeName) -> Message:
+def _message(part: _Part, name: TypeName, first: int) -> Message:
     fields, constants = [], []
-    for entry in file.entries:
+    for entry in part.entries:
         comment = _documentation(entry.comment)
         element = entry.declaration.element
         if isinstance(element, Field):
@@ -194,7 +215,7 @@ def _message(file: _File, name: TypeName) -> Message:
         else:
             constants.append(replace(element, comment=comment))
     return Message(
-        name, tuple(fields), tuple(constants), _documentation(file.comment), Span(file.source, 1, 1)
+        name, tuple(fields), tuple(constants), _documentation(part.comment), Span(part.source, first, 1)
     )
 
 

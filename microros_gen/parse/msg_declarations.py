@@ -38,7 +38,7 @@ from microros_gen.parse.msg_values import (
 LARGEST_BOUND = 2**32 - 1
 """The most elements or characters that CDR can count: lengths have 32 bits (DDS-XTypes 1.3, 7.4.3)."""
 
-_PRIMITIVES = {p.value: p for p in Primitive}
+_PRIMITIVES = {p.value: p for p in Primitive if p.in_msg}
 _OTHER_LANGUAGES = {
     **{
         "boolean": "bool",

@@ -7,6 +7,7 @@ import re
 from dataclasses import dataclass
 from functools import cache
 
+from microros_gen.model.derived import declaring_name
 from microros_gen.model.types import (
     ElementType,
     NamedType,
@@ -75,10 +76,10 @@ class TypeFiles:
 
 @cache
 def type_files(name: TypeName) -> TypeFiles:
-    """Return the paths of the files of `name`."""
-    stem = snake_case(name.name)
+    """Return the paths of the files of `name`; all messages of a service or action share one set of files."""
+    stem = snake_case(declaring_name(name).name)
     detail = f"include/{name.package}/{name.kind}/detail/{stem}"
-    source = f"src/{name.package}/{stem}"
+    source = f"src/{name.package}/" + (stem if name.kind == "msg" else f"{name.kind}__{stem}")
     return TypeFiles(
         header=f"include/{name.package}/{name.kind}/{stem}.h",
         struct=f"{detail}__struct.h",

@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plans of message types → the C files of their type support."""
+"""Plans of message types → the C files of their type support.
+
+A file holds one message, or every message of a service or an action, as rosidl_generator_c lays them out.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Iterable, Sequence
+from dataclasses import fields
 from typing import Any
 
 from jinja2 import Environment
 
+from microros_gen.model.derived import declaring_name
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_names import guard, include_path
 from microros_gen.render.types_encode import EncoderViews
@@ -16,23 +20,17 @@ from microros_gen.render.types_storage import storage_view
 from microros_gen.render.types_struct import functions_view, struct_view
 
 
-@dataclass(frozen=True)
-class HeaderView:
-    """message.h.j2."""
-
-    ros_name: str
-    guard: str
-    includes: tuple[str, ...]
-
-
 def render_types(type_plans: Sequence[TypePlan], environment: Environment) -> dict[str, bytes]:
     """Return path → contents of every file of the types, in the order of the plans.
 
     `type_plans` must hold every type that one of them is made of.
     """
-    renderer = _Renderer(type_plans, environment)
+    files: dict[str, list[TypePlan]] = {}
     for plan in type_plans:
-        renderer.add(plan)
+        files.setdefault(plan.files.header, []).append(plan)
+    renderer = _Renderer(type_plans, environment)
+    for plans in files.values():
+        renderer.add(plans)
     return renderer.files
 
 
@@ -45,37 +43,66 @@ class _Renderer:
         self._encoders = EncoderViews(self._plans)
         self._environment = environment
 
-    def add(self, plan: TypePlan) -> None:
-        """Print every file of one type."""
-        own = {plan.files.struct, plan.files.functions}
-        functions = _values(functions_view(plan))
-        self._print(plan.files.struct, "struct.h", _values(struct_view(plan)))
-        self._print(plan.files.functions, "functions.h", functions)
-        self._print(plan.files.functions_source, "functions.c", functions)
-        if plan.wire is not None:
-            own.add(plan.files.type_support)
-            view = _values(self._encoders.view(plan))
-            source_includes = view["includes"]
-            self._print(
-                plan.files.type_support,
-                "type_support.h",
-                {**view, "includes": view["header_includes"]},
-            )
-            self._print(
-                plan.files.type_support_source, "type_support.c", {**view, "includes": source_includes}
-            )
-        if plan.storage:
-            own.add(plan.files.storage)
-            view = _values(storage_view(plan, self._plans))
-            self._print(plan.files.storage, "storage.h", {**view, "includes": view["header_includes"]})
-            self._print(plan.files.storage_source, "storage.c", view)
-        includes = tuple(sorted(include_path(path) for path in own))
-        header = HeaderView(str(plan.name), guard(plan.files.header), includes)
-        self._print(plan.files.header, "message.h", _values(header))
+    def add(self, plans: Sequence[TypePlan]) -> None:
+        """Print every file of the messages that share one header."""
+        paths = plans[0].files
+        own = [paths.functions, paths.struct]
+        functions = [functions_view(plan) for plan in plans]
+        self._print(paths.struct, "struct.h", _file(plans, paths.struct, map(struct_view, plans)))
+        self._print(paths.functions, "functions.h", _file(plans, paths.functions, functions))
+        self._print(paths.functions_source, "functions.c", _file(plans, paths.functions, functions))
+        encoded = [self._encoders.view(plan) for plan in plans if plan.wire is not None]
+        if encoded:
+            own.append(paths.type_support)
+            header = _file(plans, paths.type_support, encoded, "header_includes")
+            self._print(paths.type_support, "type_support.h", header)
+            source = _file(plans, paths.type_support, encoded)
+            self._print(paths.type_support_source, "type_support.c", source)
+        stored = [storage_view(plan, self._plans) for plan in plans if plan.storage]
+        if stored:
+            own.append(paths.storage)
+            fini = f"{stored[0].name}__fini" if len(stored) == 1 else "a function …__fini"
+            header = {**_file(plans, paths.storage, stored, "header_includes"), "fini": fini}
+            self._print(paths.storage, "storage.h", header)
+            self._print(paths.storage_source, "storage.c", _file(plans, paths.storage, stored))
+        view = {
+            "title": _title(plans),
+            "guard": guard(paths.header),
+            "includes": tuple(sorted(map(include_path, own))),
+        }
+        self._print(paths.header, "message.h", view)
 
     def _print(self, path: str, template: str, view: dict[str, Any]) -> None:
         text = self._environment.get_template(f"types/{template}.j2").render(view)
         self.files[path] = text.encode("utf-8")
+
+
+def _title(plans: Sequence[TypePlan]) -> str:
+    """Return the name of the interface that the file is made from."""
+    return str(declaring_name(plans[0].name))
+
+
+def _file(
+    plans: Sequence[TypePlan], header: str, views: Iterable[Any], includes: str = "includes"
+) -> dict[str, Any]:
+    """Return the view of one file: that of its messages, and what they include together.
+
+    `header` is the header that the file is, or belongs to: it is not among its own includes. What the views
+    have in common (the header of the struct) is taken from the first one.
+    """
+    messages = list(views)
+    own = include_path(header)
+    return {
+        **_values(messages[0]),
+        "title": _title(plans),
+        "messages": messages,
+        "includes": _united(messages, includes, own),
+        "system_includes": _united(messages, "system_includes", own),
+    }
+
+
+def _united(views: Iterable[Any], name: str, own: str) -> tuple[str, ...]:
+    return tuple(sorted({include for view in views for include in getattr(view, name, ())} - {own}))
 
 
 def _values(view: Any) -> dict[str, Any]:

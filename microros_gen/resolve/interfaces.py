@@ -3,20 +3,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Callable, Mapping
 from graphlib import CycleError, TopologicalSorter
 from types import MappingProxyType
-from typing import Any
 
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
 from microros_gen.model.application import Named
-from microros_gen.model.type_description import referenced_types, type_description, type_hash
-from microros_gen.model.types import Field, Message, NamedType, TypeName, element_of
+from microros_gen.model.derived import declaring_name
+from microros_gen.model.types import Declaration, Field, Message, NamedType, TypeName, element_of
+from microros_gen.parse.action import parse_action
 from microros_gen.parse.msg import parse_msg
+from microros_gen.parse.srv import parse_srv
+from microros_gen.resolve.interface_set import Interface, InterfaceSet
 from microros_gen.sources.interfaces import (
-    KIND_OF_SUFFIX,
+    KINDS,
     InterfaceFinder,
     PackagePlace,
     read_type,
@@ -24,86 +24,42 @@ from microros_gen.sources.interfaces import (
     unread_types_in,
 )
 
-_ONLY_MSG = "This version reads .msg files; ROS 2 packages mostly bring them beside the .idl files"
+__all__ = ["Interface", "InterfaceSet", "resolve_interfaces", "split_type_name"]
 
-
-@dataclass(frozen=True)
-class Interface:
-    """One interface: its message, the text it was read from and the package's place (`place.origin`)."""
-
-    message: Message
-    source: Source
-    place: PackagePlace
-
-    @property
-    def name(self) -> TypeName:
-        """The full name of the type."""
-        return self.message.name
-
-
-@dataclass(frozen=True)
-class InterfaceSet:
-    """Closed under dependencies: every type that a field names is in it.
-
-    `interfaces` is ordered: a type comes after all types of its fields; types of the same depth by name. The
-    order does not depend on the order of the requests. `roots` are the requested types, sorted.
-    """
-
-    interfaces: Mapping[TypeName, Interface]
-    roots: tuple[TypeName, ...]
-
-    def __iter__(self) -> Iterator[Interface]:
-        return iter(self.interfaces.values())
-
-    def __len__(self) -> int:
-        return len(self.interfaces)
-
-    @cached_property
-    def messages(self) -> Mapping[TypeName, Message]:
-        """The messages by name, in the same order."""
-        return MappingProxyType({name: entry.message for name, entry in self.interfaces.items()})
-
-    def message(self, name: TypeName) -> Message:
-        """Return the message of a type of this set (KeyError for another)."""
-        return self.interfaces[name].message
-
-    def closure(self, name: TypeName) -> tuple[TypeName, ...]:
-        """Return the types that `name` is made of, directly or not, without itself, by name."""
-        return referenced_types(self.message(name), self.messages)
-
-    def type_hash(self, name: TypeName) -> str:
-        """Return the RIHS01 hash of `name` (REP-2011), computed when it is asked for."""
-        return type_hash(self.message(name), self.messages)
-
-    def type_description(self, name: TypeName) -> dict[str, Any]:
-        """Return the type description of `name` as data (REP-2016)."""
-        return type_description(self.message(name), self.messages)
+_NOT_IDL = (
+    "This version reads .msg, .srv and .action files; ROS 2 packages mostly bring them beside the .idl files"
+)
+_PARSERS: Mapping[str, Callable[[Source, TypeName, Diagnostics], Declaration | None]] = MappingProxyType(
+    {"msg": parse_msg, "srv": parse_srv, "action": parse_action}
+)
 
 
 def resolve_interfaces(
     requested: tuple[Named, ...], finder: InterfaceFinder, diagnostics: Diagnostics
 ) -> InterfaceSet:
-    """Return the closure of what is requested: `pkg` (all its types), `pkg/Type` or `pkg/msg/Type`.
+    """Return the closure of what is requested: `pkg` (all its types), `pkg/Type` or `pkg/kind/Type`.
 
-    Unknown packages and types, cycles and every fault of a file go to `diagnostics`, at the request or the
-    field that needs them; the set then lacks what is faulty. Call `diagnostics.check()` before using it.
+    `pkg/Type` names a type of any kind where the package has one of this name only. Unknown and ambiguous
+    packages and types, cycles and every fault of a file go to `diagnostics`, at the request or the field that
+    needs them; the set then lacks what is faulty. Call `diagnostics.check()` before using it.
     """
     resolver = _Resolver(finder, diagnostics)
     roots: set[TypeName] = set()
     for request in requested:
         roots.update(resolver.request(request))
-    found = resolver.close(roots)
+    found = resolver.close({declaring_name(name) for name in roots})
     order = _dependency_order(found, diagnostics)
     return InterfaceSet(
-        MappingProxyType({name: found[name] for name in order}), tuple(sorted(roots & found.keys()))
+        MappingProxyType({name: found[name] for name in order}),
+        tuple(sorted(name for name in roots if declaring_name(name) in found)),
     )
 
 
-def split_type_name(text: str) -> TypeName | None:
-    """Return the type that `pkg/Type` or `pkg/msg/Type` names, or None for another text."""
+def split_type_name(text: str, kind: str = "msg") -> TypeName | None:
+    """Return the type that `pkg/Type` (of `kind`) or `pkg/msg/Type` names, or None for another text."""
     parts = text.split("/")
     if len(parts) == 2:
-        parts.insert(1, "msg")
+        parts.insert(1, kind)
     return TypeName(*parts) if len(parts) == 3 and all(parts) else None
 
 
@@ -115,6 +71,7 @@ class _Resolver:
         self._diagnostics = diagnostics
         self._places: dict[str, PackagePlace | None] = {}
         self._types: dict[str, frozenset[TypeName]] = {}
+        self._ambiguous = finder.ambiguous()
 
     def request(self, request: Named) -> tuple[TypeName, ...]:
         """Return the types that a request names; an error where it names none."""
@@ -122,19 +79,21 @@ class _Resolver:
         if "/" not in text:
             place = self._place(text)
             if place is None:
-                self._unknown_package(text, request.span, None)
+                self._unknown_package(text, request.span, "")
                 return ()
             names = types_in(place)
             if not names:
                 self._nothing_to_read(place, request.span)
             return names
-        name = split_type_name(text)
-        if name is None:
+        if split_type_name(text) is None:
             self._diagnostics.error(
-                f"'{request.name}' names no interface", request.span, "Write pkg, pkg/Type or pkg/msg/Type"
+                f"'{request.name}' names no interface",
+                request.span,
+                "Write pkg, pkg/Type, pkg/msg/Type, pkg/srv/Type or pkg/action/Type",
             )
             return ()
-        return (name,) if self._known(name, request.span, None) else ()
+        name = self._of_any_kind(text, request.span)
+        return (name,) if name is not None and self._known(name, request.span, "") else ()
 
     def close(self, roots: set[TypeName]) -> dict[TypeName, Interface]:
         """Read `roots` and everything that they are made of."""
@@ -146,55 +105,81 @@ class _Resolver:
             if interface is None:
                 continue
             found[interface.name] = interface
-            for field in interface.message.fields:
-                element = element_of(field.type)
-                if not isinstance(element, NamedType):
-                    continue
-                if self._known(element.name, field.span, field) and element.name not in tried:
-                    tried.add(element.name)
-                    pending.append(element.name)
+            for message in interface.messages:
+                for needed in self._needed(message):
+                    if needed not in tried:
+                        tried.add(needed)
+                        pending.append(needed)
         return found
+
+    def _needed(self, message: Message) -> list[TypeName]:
+        """Return the interfaces that the fields of `message` name; an error for each that is missing."""
+        found = []
+        for field in message.fields:
+            element = element_of(field.type)
+            if isinstance(element, NamedType):
+                need = _need(message, field)
+                if self._known(element.name, field.span or message.span, need):
+                    found.append(declaring_name(element.name))
+        return found
+
+    def _of_any_kind(self, text: str, span: Span | None) -> TypeName | None:
+        """Return the type that a request names; None, with an error, where several kinds have `pkg/Type`."""
+        names = [name for kind in KINDS if (name := split_type_name(text, kind)) is not None]
+        if text.count("/") > 1:
+            return names[0]
+        there = [name for name in names if self._has(name)]
+        if len(there) > 1:
+            self._diagnostics.error(
+                f"'{text}' is ambiguous: {names[0].package} has {' and '.join(map(str, there))}",
+                span,
+                f"Write {' or '.join(map(str, there))}",
+            )
+            return None
+        return there[0] if there else names[0]
 
     def _read(self, name: TypeName) -> Interface | None:
         place = self._place(name.package)
         source = read_type(place, name, self._diagnostics) if place is not None else None
         if place is None or source is None:
             return None
-        message = parse_msg(source, name, self._diagnostics)
-        return Interface(message, source, place) if message is not None else None
+        declaration = _PARSERS[name.kind](source, name, self._diagnostics)
+        return Interface(declaration, source, place) if declaration is not None else None
 
-    def _known(self, name: TypeName, span: Span | None, field: Field | None) -> bool:
-        """Return whether the type exists; otherwise say what is missing, at the request or at the field."""
+    def _has(self, name: TypeName) -> bool:
+        """Return whether there is a file of the type, or of the service or action that it is derived from."""
         place = self._place(name.package)
         if place is None:
-            self._unknown_package(name.package, span, field)
             return False
         if name.package not in self._types:
             self._types[name.package] = frozenset(types_in(place))
-        if name in self._types[name.package]:
+        return declaring_name(name) in self._types[name.package]
+
+    def _known(self, name: TypeName, span: Span | None, need: str) -> bool:
+        """Return whether the type exists; otherwise say what is missing, at the request or at the field."""
+        place = self._place(name.package)
+        if place is None:
+            self._unknown_package(name.package, span, need)
+            return False
+        if self._has(name):
             return True
-        self._unknown_type(name, place, span, field)
+        self._unknown_type(name, place, span, need)
         return False
 
-    def _unknown_package(self, package: str, span: Span | None, field: Field | None) -> None:
+    def _unknown_package(self, package: str, span: Span | None, need: str) -> None:
         near = nearest(package, (place.name for place in self._finder.packages()))
-        need = f", which the field '{field.name}' needs" if field is not None else ""
         looked = f"Looked in {self._finder.searched()}; --interface-path adds a place"
         self._diagnostics.error(
             f"unknown interface package '{package}'{need}", span, f"{near} {looked}" if near else looked
         )
 
-    def _unknown_type(
-        self, name: TypeName, place: PackagePlace, span: Span | None, field: Field | None
-    ) -> None:
+    def _unknown_type(self, name: TypeName, place: PackagePlace, span: Span | None, need: str) -> None:
         unread = [stem for stem in unread_types_in(place) if stem.startswith(f"{name.kind}/{name.name}.")]
-        need = f", which the field '{field.name}' needs" if field is not None else ""
         if unread:
-            self._diagnostics.error(f"'{place.folder / unread[0]}' cannot be read yet{need}", span, _ONLY_MSG)
+            self._diagnostics.error(f"'{place.folder / unread[0]}' cannot be read yet{need}", span, _NOT_IDL)
             return
-        if name.kind not in KIND_OF_SUFFIX.values():
-            kinds = " and ".join(KIND_OF_SUFFIX.values())
-            message = f"'{name}': interfaces of kind {kinds} are read, not '{name.kind}'{need}"
+        if name.kind not in KINDS:
+            message = f"'{name}': the kinds of interfaces are {', '.join(KINDS)}, not '{name.kind}'{need}"
             self._diagnostics.error(message, span, f"Write {name.package}/msg/{name.name} for a message")
             return
         what = f"package '{name.package}' ({place.folder}) has no type '{name.name}'{need}"
@@ -205,32 +190,55 @@ class _Resolver:
         hidden = next((p for p in self._finder.places(name.package) if name in types_in(p)), None)
         if hidden is not None:
             return f"It hides {hidden.folder}, which has this type: a package is taken from one place only"
+        sibling = next((k for k in KINDS if self._has(TypeName(name.package, k, name.name))), None)
+        if sibling is not None:
+            return f"It has {name.package}/{sibling}/{name.name}"
         packages = (other.name for other in self._finder.packages() if other.name != name.package)
         elsewhere = (p for p in packages if TypeName(p, name.kind, name.name) in self._finder.types(p))
         package = next(elsewhere, None)
         if package is not None:
+            kind = "" if name.kind == "msg" else f"{name.kind}/"
             return (
-                f"Did you mean '{package}/{name.name}'? A type without its package is one of the same package"
+                f"Did you mean '{package}/{kind}{name.name}'? A type without its package is one of the same"
+                " package"
             )
         return nearest(name.name, (known.name for known in self._types[place.name]))
 
     def _nothing_to_read(self, place: PackagePlace, span: Span | None) -> None:
         unread = unread_types_in(place)
-        kinds = ", ".join(sorted(KIND_OF_SUFFIX))
         what = (
-            f"only files that cannot be read yet ({', '.join(unread[:3])})" if unread else f"no {kinds} file"
+            f"only files that cannot be read yet ({', '.join(unread[:3])})"
+            if unread
+            else "no .msg, .srv or .action file"
         )
-        self._diagnostics.error(f"package '{place.name}' ({place.folder}) has {what}", span, _ONLY_MSG)
+        self._diagnostics.error(f"package '{place.name}' ({place.folder}) has {what}", span, _NOT_IDL)
 
     def _place(self, package: str) -> PackagePlace | None:
         if package not in self._places:
             self._places[package] = self._finder.package(package)
+            self._check_ambiguous(package)
         return self._places[package]
+
+    def _check_ambiguous(self, package: str) -> None:
+        rivals = self._ambiguous.get(package, ())
+        if rivals:
+            folders = " and ".join(f"'{place.folder}'" for place in rivals)
+            self._diagnostics.error(
+                f"the package '{package}' is there {len(rivals)} times: {folders}",
+                hint="ROS 2 takes a name once: remove one, or name the folder that counts first with"
+                " --interface-path",
+            )
+
+
+def _need(message: Message, field: Field) -> str:
+    """Return what needs a type, in words; a field without a place is one that ROS 2 adds."""
+    owner = "" if field.span is not None else f" of {message.name}"
+    return f", which the field '{field.name}'{owner} needs"
 
 
 def _dependency_order(found: Mapping[TypeName, Interface], diagnostics: Diagnostics) -> list[TypeName]:
     """Return the names, each after what it is made of; report cycles and leave their types out."""
-    graph = {name: _needs(interface.message) & found.keys() for name, interface in found.items()}
+    graph = {name: _needs(interface) & found.keys() for name, interface in found.items()}
     while True:
         sorter = TopologicalSorter(graph)
         try:
@@ -256,12 +264,19 @@ def _report_cycle(
     start = ring.index(min(ring))
     ring = ring[start:] + ring[:start]
     follower = ring[1] if len(ring) > 1 else ring[0]
-    fields = found[ring[0]].message.fields
-    span = next((f.span for f in fields if element_of(f.type) == NamedType(follower)), None)
+    fields = [f for message in found[ring[0]].messages for f in message.fields]
+    span = next((f.span for f in fields if _interface_of(f) == follower), None)
     path = " → ".join(str(name) for name in [*ring, ring[0]])
     diagnostics.error(f"a message contains itself: {path}", span, "Its size would have no end")
 
 
-def _needs(message: Message) -> set[TypeName]:
-    elements = (element_of(field.type) for field in message.fields)
-    return {element.name for element in elements if isinstance(element, NamedType)}
+def _needs(interface: Interface) -> set[TypeName]:
+    """Return the interfaces that this one is made of; a service or action uses its own messages."""
+    found = {_interface_of(field) for message in interface.messages for field in message.fields}
+    own = set() if isinstance(interface.declaration, Message) else {interface.name}
+    return {name for name in found if name is not None} - own
+
+
+def _interface_of(field: Field) -> TypeName | None:
+    element = element_of(field.type)
+    return declaring_name(element.name) if isinstance(element, NamedType) else None

@@ -21,13 +21,17 @@ from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.model.types import TypeName
 from microros_gen.parse.msg_names import is_package_name
 
-KIND_OF_SUFFIX: Mapping[str, str] = MappingProxyType({".msg": "msg"})
-"""The interface files that are read: suffix → kind, which is also the folder that holds them."""
+SUFFIXES_OF_KIND: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {"msg": (".msg",), "srv": (".srv",), "action": (".action",)}
+)
+"""The interface files that are read: kind, which is also the folder that holds them → suffixes, best first."""
 
 UNREAD_SUFFIXES = (".idl",)
 """Interface files that ROS 2 knows and this version does not read; they are named in diagnostics."""
 
-_INTERFACE_FOLDERS = ("msg", "srv", "action")
+KINDS = tuple(SUFFIXES_OF_KIND)
+"""The kinds of interfaces."""
+
 _PACKAGE_NAME = re.compile(r"<name>\s*([a-z][a-z0-9_]*)\s*</name>")
 
 
@@ -42,7 +46,7 @@ class Origin(Enum):
 
 @dataclass(frozen=True)
 class PackagePlace:
-    """One package: `folder` is the one that holds `msg/`, printed as the user gave it."""
+    """One package: `folder` is the one that holds `msg/`, `srv/` or `action/`, printed as the user gave it."""
 
     name: str
     folder: Path
@@ -121,6 +125,21 @@ class InterfaceFinder:
             return None
         return read_type(place, name, diagnostics)
 
+    def ambiguous(self) -> Mapping[str, tuple[PackagePlace, ...]]:
+        """Return the packages that one of the user's paths holds more than once, with their places there.
+
+        A package that an earlier path has is not among them: that one counts.
+        """
+        seen: set[str] = set()
+        found: dict[str, tuple[PackagePlace, ...]] = {}
+        for path in self.paths:
+            places: dict[str, list[PackagePlace]] = {}
+            for place in _packages_below(path, Origin.PATH):
+                places.setdefault(place.name, []).append(place)
+            found |= {n: tuple(p) for n, p in places.items() if len(p) > 1 and n not in seen}
+            seen.update(places)
+        return found
+
     def check_paths(self, diagnostics: Diagnostics) -> None:
         """Report each of the user's paths that is no folder, cannot be read or holds no interface package."""
         for path in self.paths:
@@ -168,24 +187,27 @@ def types_in(place: PackagePlace) -> tuple[TypeName, ...]:
     """Return the types in `place` that can be read, sorted by kind and name."""
     return tuple(
         TypeName(place.name, kind, stem)
-        for suffix, kind in KIND_OF_SUFFIX.items()
-        for stem in _stems(place.folder / kind, suffix)
+        for kind, suffixes in sorted(SUFFIXES_OF_KIND.items())
+        for stem in _stems(place.folder / kind, suffixes)
     )
 
 
 def read_type(place: PackagePlace, name: TypeName, diagnostics: Diagnostics) -> Source | None:
     """Read the file of type `name` in `place`; None where there is none or, with an error, no text."""
-    suffix = next((s for s, kind in KIND_OF_SUFFIX.items() if kind == name.kind), None)
-    if suffix is None:
-        return None
-    path = place.folder / name.kind / f"{name.name}{suffix}"
-    try:
-        data = path.read_bytes()
-    except FileNotFoundError:
-        return None
-    except OSError as fault:
-        diagnostics.error(f"cannot read '{path}': {fault.strerror}", hint="Check the file's permissions")
-        return None
+    for suffix in SUFFIXES_OF_KIND.get(name.kind, ()):
+        path = place.folder / name.kind / f"{name.name}{suffix}"
+        try:
+            data = path.read_bytes()
+        except FileNotFoundError:
+            continue
+        except OSError as fault:
+            diagnostics.error(f"cannot read '{path}': {fault.strerror}", hint="Check the file's permissions")
+            return None
+        return _text_of(path, data, diagnostics)
+    return None
+
+
+def _text_of(path: Path, data: bytes, diagnostics: Diagnostics) -> Source | None:
     try:
         return Source(str(path), data.decode("utf-8"))
     except UnicodeDecodeError as fault:
@@ -198,27 +220,27 @@ def read_type(place: PackagePlace, name: TypeName, diagnostics: Diagnostics) -> 
 
 
 def unread_types_in(place: PackagePlace) -> tuple[str, ...]:
-    """Return the files in `place` in a form that is not read yet: .idl files without a .msg beside them."""
+    """Return the files in `place` in a form that is not read yet: .idl files with nothing else beside them."""
     known = {(name.kind, name.name) for name in types_in(place)}
     return tuple(
         f"{kind}/{stem}{suffix}"
-        for kind in KIND_OF_SUFFIX.values()
+        for kind in KINDS
         for suffix in UNREAD_SUFFIXES
-        for stem in _stems(place.folder / kind, suffix)
+        for stem in _stems(place.folder / kind, (suffix,))
         if (kind, stem) not in known
     )
 
 
-def _stems(folder: Path, suffix: str) -> list[str]:
+def _stems(folder: Path, suffixes: tuple[str, ...]) -> list[str]:
     try:
         entries = [entry for entry in folder.iterdir() if not entry.name.startswith(".")]
-        return sorted(entry.stem for entry in entries if entry.suffix == suffix)
+        return sorted({entry.stem for entry in entries if entry.suffix in suffixes})
     except OSError:
         return []
 
 
 def _is_package(folder: Path) -> bool:
-    return any((folder / kind).is_dir() for kind in _INTERFACE_FOLDERS)
+    return any((folder / kind).is_dir() for kind in KINDS)
 
 
 def _packages_below(folder: Path, origin: Origin) -> list[PackagePlace]:
@@ -250,7 +272,7 @@ def _path_fault(path: Path) -> tuple[str, str] | None:
     if not path.exists():
         return "does not exist", "Name a folder that holds interface packages, or one package"
     if not path.is_dir():
-        return "is not a folder", "Name the package's folder, the one that holds msg/"
+        return "is not a folder", "Name the package's folder, the one that holds msg/, srv/ or action/"
     try:
         next(path.iterdir(), None)
     except OSError as fault:
@@ -262,5 +284,5 @@ def _path_fault(path: Path) -> tuple[str, str] | None:
         return "holds no interface package", f"Did you mean '{path / inner}'?"
     return (
         "holds no interface package",
-        "A package has a folder msg/; its parent folder or itself can be named",
+        "A package has a folder msg/, srv/ or action/; its parent folder or itself can be named",
     )

@@ -62,11 +62,45 @@ def test_one_type_for_machines(folder: Path) -> None:
     assert data["file"] == str(folder / "my_msgs/msg/Drive.msg")
 
 
+def test_a_service_shows_its_parts(folder: Path) -> None:
+    (folder / "my_msgs/srv").mkdir()
+    text = "# Drive there.\nfloat64 x\n---\nuint8 LATE=2\nbool done true # or not\n"
+    (folder / "my_msgs/srv/Go.srv").write_text(text, encoding="utf-8")
+    lines = [
+        " ".join(x.split()) for x in run("my_msgs/Go", "--interface-path", str(folder)).stdout.splitlines()
+    ]
+    assert lines[:2] == ["my_msgs/srv/Go", "Drive there."]
+    assert lines.index("request") < lines.index("x float64") < lines.index("response")
+    assert lines.index("response") < lines.index("LATE uint8 2") < lines.index("done bool true or not")
+    data = json.loads(run("my_msgs/Go", "--interface-path", str(folder), "--format", "json").stdout)
+    assert list(data["parts"]) == ["request", "response"]
+    assert data["parts"]["response"]["constants"][0]["name"] == "LATE"
+    assert [entry["type"].split("_")[-1] for entry in data["derived"]] == ["Request", "Response", "Event"]
+    assert all(entry["hash"].startswith("RIHS01_") for entry in data["derived"])
+    members = data["description"]["type_description"]["fields"]
+    assert [member["name"] for member in members] == ["request_message", "response_message", "event_message"]
+
+
+def test_an_action_shows_its_parts() -> None:
+    result = run("example_interfaces/Fibonacci", "--format", "json")
+    data = json.loads(result.stdout)
+    assert list(data["parts"]) == ["goal", "result", "feedback"]
+    assert len(data["derived"]) == 12
+    assert "  goal\n" in run("example_interfaces/action/Fibonacci").stdout
+
+
+def test_a_derived_message_is_shown(folder: Path) -> None:
+    lines = run("std_srvs/srv/SetBool_Event").stdout.splitlines()
+    assert any(line.split()[:2] == ["request", "std_srvs/SetBool_Request[<=1]"] for line in lines)
+    assert "(empty)" in run("std_srvs/Trigger").stdout
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
         (["nope"], "unknown interface package 'nope'"),
         (["std_msgs/Nope"], "has no type 'Nope'"),
+        (["std_srvs/action/SetBool"], "has no type 'SetBool'. It has std_srvs/srv/SetBool"),
         (["--interface-path", "/does/not/exist"], "the interface path '/does/not/exist' does not exist"),
     ],
 )

@@ -17,11 +17,11 @@ from microros_gen.resolve.interfaces import InterfaceSet, resolve_interfaces
 from microros_gen.sources.interfaces import InterfaceFinder, Origin, shipped_folder
 
 
-def package(folder: Path, name: str, **types: str) -> Path:
-    """Make a package with the files `Type=text`."""
-    (folder / name / "msg").mkdir(parents=True, exist_ok=True)
+def package(folder: Path, name: str, kind: str = "msg", **types: str) -> Path:
+    """Make a package with the files `Type=text` of one kind."""
+    (folder / name / kind).mkdir(parents=True, exist_ok=True)
     for type_name, text in types.items():
-        (folder / name / "msg" / f"{type_name}.msg").write_text(text, encoding="utf-8")
+        (folder / name / kind / f"{type_name}.{kind}").write_text(text, encoding="utf-8")
     return folder / name
 
 
@@ -155,9 +155,17 @@ def test_forms_of_a_request(request_: str) -> None:
         ("std_msgs/Strin", "has no type 'Strin'. Did you mean 'String'?"),
         ("std_msgs/imu", "has no type 'imu'"),
         ("std_msgs/Imu", "has no type 'Imu'. Did you mean 'sensor_msgs/Imu'?"),
-        ("std_srvs/srv/Empty", "unknown interface package 'std_srvs'"),
-        ("std_msgs/srv/Empty", "interfaces of kind msg are read, not 'srv'. Write std_msgs/msg/Empty"),
-        ("a/b/c/d", "'a/b/c/d' names no interface. Write pkg, pkg/Type or pkg/msg/Type"),
+        ("std_srv/srv/Empty", "unknown interface package 'std_srv'. Did you mean 'std_srvs'?"),
+        ("std_msgs/srv/Empty", "has no type 'Empty'. It has std_msgs/msg/Empty"),
+        ("std_srvs/msg/SetBool", "has no type 'SetBool'. It has std_srvs/srv/SetBool"),
+        ("std_srvs/srv/SetBol", "has no type 'SetBol'. Did you mean 'SetBool'?"),
+        ("std_srvs/srv/SetBool_Goals", "has no type 'SetBool_Goals'. Did you mean 'SetBool'?"),
+        ("nav_msgs/srv/SetBool", "has no type 'SetBool'. Did you mean 'example_interfaces/srv/SetBool'?"),
+        ("std_msgs/idl/Empty", "the kinds of interfaces are msg, srv, action, not 'idl'. Write std_msgs/msg"),
+        (
+            "a/b/c/d",
+            "'a/b/c/d' names no interface. Write pkg, pkg/Type, pkg/msg/Type, pkg/srv/Type or pkg/ac",
+        ),
         ("", "unknown interface package ''"),
         ("..", "unknown interface package '..'"),
         ("../idl/std_msgs", "unknown interface package '..'"),
@@ -219,10 +227,12 @@ def test_dependencies_come_first_and_the_order_is_fixed() -> None:
     interfaces, _ = resolve(finder, *requests)
     before: set[TypeName] = set()
     for interface in interfaces:
-        needs = [element_of(field.type) for field in interface.message.fields]
-        assert {n.name for n in needs if isinstance(n, NamedType)} <= before
-        before.add(interface.name)
-    assert len(before) == len(interfaces)
+        for message in interface.messages:
+            needs = [element_of(field.type) for field in message.fields]
+            assert {n.name for n in needs if isinstance(n, NamedType)} <= before
+            before.add(message.name)
+    assert before == set(interfaces.messages)
+    assert len(before) > len(interfaces)
 
 
 def test_all_of_common_interfaces_resolves_quickly() -> None:

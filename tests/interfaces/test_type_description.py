@@ -44,19 +44,24 @@ def installed() -> InterfaceSet:
 
 @pytest.mark.ros
 def test_every_installed_description_and_hash_is_equal(installed: InterfaceSet) -> None:
-    compared = 0
+    """Messages, services, actions and everything derived from them: all hashes of each .json."""
+    compared = {"msg": 0, "srv": 0, "action": 0}
+    hashed = set()
     for interface in installed:
-        path = SHARE / interface.name.package / "msg" / f"{interface.name.name}.json"
+        path = SHARE / interface.name.package / interface.name.kind / f"{interface.name.name}.json"
         if not path.exists():  # test_interface_files brings none
             continue
         expected = json.loads(path.read_text(encoding="utf-8"))
         assert installed.type_description(interface.name) == expected["type_description_msg"]
         hashes = {entry["type_name"]: entry["hash_string"] for entry in expected["type_hashes"]}
         for name in (interface.name, *installed.closure(interface.name)):
+            hashed.add(name)
             assert installed.type_hash(name) == hashes.pop(str(name))
         assert not hashes, "our closure lacks these"
-        compared += 1
-    assert compared >= 169
+        compared[interface.name.kind] += 1
+    assert compared == {"msg": 169, "srv": 28, "action": 2}
+    installed_kinds = {n for n in installed.described if n.package != "test_interface_files"}
+    assert hashed == installed_kinds
 
 
 @pytest.mark.ros

@@ -221,7 +221,7 @@ def scalars(kind: Primitive | StringType) -> st.SearchStrategy[bool | int | floa
 
 
 ELEMENTS: st.SearchStrategy[ElementType] = st.one_of(
-    st.sampled_from(Primitive),
+    st.sampled_from([p for p in Primitive if p.in_msg]),
     st.builds(StringType, st.booleans(), st.none() | SIZES),
     st.builds(NamedType, st.builds(TypeName, NAMES, st.just("msg"), TYPE_NAMES)),
 )
@@ -270,7 +270,9 @@ def messages(draw: st.DrawFn) -> Message:
         fields.append(Field(name, field_type, draw(defaults(field_type)), draw(COMMENTS)))
     constants = []
     for name in draw(st.lists(NAMES, max_size=3, unique_by=str.upper)):
-        kind = draw(st.sampled_from(Primitive) | st.builds(StringType, st.booleans()))
+        kind = draw(
+            st.sampled_from([p for p in Primitive if p.in_msg]) | st.builds(StringType, st.booleans())
+        )
         constants.append(Constant(name.upper(), kind, draw(scalars(kind)), draw(COMMENTS)))
     return Message(NAME, tuple(fields), tuple(constants), draw(COMMENTS))
 

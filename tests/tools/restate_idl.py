@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Restates interface packages: reads their .msg files and prints names, types, constants and defaults anew.
+"""Restates interface packages: reads their interface files and prints names, types, constants and defaults anew.
 
 Nothing else of the read files is kept, comments least of all; the short notes below are this project's own.
 Run it when a new distribution is taken up:
@@ -18,9 +18,11 @@ from dataclasses import replace
 from pathlib import Path
 
 from microros_gen.diagnostics import Diagnostics, UserError
-from microros_gen.model.msg_text import message_text
-from microros_gen.model.types import Message, TypeName
-from microros_gen.parse.msg import parse_msg
+from microros_gen.model.application import Named
+from microros_gen.model.derived import make_declaration, parts_of
+from microros_gen.model.msg_text import declaration_text
+from microros_gen.model.types import Declaration, Message
+from microros_gen.resolve.interfaces import Interface, resolve_interfaces
 from microros_gen.sources.interfaces import InterfaceFinder, shipped_folder
 
 PACKAGES = (
@@ -39,6 +41,7 @@ PACKAGES = (
     "service_msgs",
     "shape_msgs",
     "std_msgs",
+    "std_srvs",
     "stereo_msgs",
     "tf2_msgs",
     "trajectory_msgs",
@@ -50,13 +53,18 @@ PACKAGES = (
 # Units of REP-103 and what a value means where the name does not say it. In this project's own words.
 NOTES: Mapping[str, Mapping[str, str]] = {
     "builtin_interfaces/msg/Duration": {"sec": "s, may be negative", "nanosec": "ns, always added to sec"},
-    "builtin_interfaces/msg/Time": {"sec": "s since the epoch of the clock", "nanosec": "ns, added to sec"},
+    "builtin_interfaces/msg/Time": {
+        "sec": "s since the epoch of the clock",
+        "nanosec": "ns, always added to sec",
+    },
     "geometry_msgs/msg/Accel": {"linear": "m/s^2", "angular": "rad/s^2"},
     "geometry_msgs/msg/Inertia": {"m": "kg", "com": "m", "ixx": "kg m^2"},
     "geometry_msgs/msg/Point": {"x": "m", "y": "m", "z": "m"},
     "geometry_msgs/msg/Point32": {"x": "m", "y": "m", "z": "m"},
     "geometry_msgs/msg/Pose2D": {"x": "m", "y": "m", "theta": "rad"},
-    "geometry_msgs/msg/PoseWithCovariance": {"covariance": "row major, 6x6: x y z, then about X Y Z"},
+    "geometry_msgs/msg/PoseWithCovariance": {
+        "covariance": "row major, 6x6: x y z, then rotation about X Y Z"
+    },
     "geometry_msgs/msg/Twist": {"linear": "m/s", "angular": "rad/s"},
     "geometry_msgs/msg/TwistWithCovariance": {"covariance": "row major, 6x6: linear x y z, angular x y z"},
     "geometry_msgs/msg/Wrench": {"force": "N", "torque": "N m"},
@@ -119,16 +127,22 @@ def restated(message: Message) -> Message:
     return replace(message, fields=fields, constants=constants, comment=())
 
 
-def restate(finder: InterfaceFinder, name: TypeName, output: Path) -> None:
-    """Write one type below `output`; UserError where its file has an error."""
-    diagnostics = Diagnostics()
-    source = finder.read(name, diagnostics)
-    message = parse_msg(source, name, diagnostics) if source is not None else None
-    diagnostics.check()
-    assert message is not None
-    target = output / name.package / name.kind / f"{name.name}.msg"
+def restated_declaration(declaration: Declaration) -> Declaration:
+    """Return a message, service or action as `restated` makes its messages."""
+    if isinstance(declaration, Message):
+        return restated(declaration)
+    return make_declaration(
+        declaration.name, tuple(restated(message) for _, message in parts_of(declaration))
+    )
+
+
+def restate(interface: Interface, output: Path) -> None:
+    """Write one interface below `output`."""
+    name = interface.name
+    target = output / name.package / name.kind / f"{name.name}.{name.kind}"
     target.parent.mkdir(parents=True, exist_ok=True)
-    target.write_text(message_text(restated(message)), encoding="utf-8", newline="\n")
+    text = declaration_text(restated_declaration(interface.declaration))
+    target.write_text(text, encoding="utf-8", newline="\n")
 
 
 def main() -> None:
@@ -138,13 +152,15 @@ def main() -> None:
     parser.add_argument("--output", type=Path, default=shipped_folder(), help="folder to write")
     parser.add_argument("--package", action="append", help="only this package")
     options = parser.parse_args()
-    finder = InterfaceFinder(paths=tuple(options.share))
+    finder = InterfaceFinder(paths=tuple(options.share), shipped=shipped_folder())
     try:
         for package in options.package or PACKAGES:
-            names = finder.types(package)
-            for name in names:
-                restate(finder, name, options.output)
-            sys.stdout.write(f"{package}: {len(names)}\n")
+            diagnostics = Diagnostics()
+            interfaces = resolve_interfaces((Named(package),), finder, diagnostics)
+            diagnostics.check()
+            for name in interfaces.roots:
+                restate(interfaces.interfaces[name], options.output)
+            sys.stdout.write(f"{package}: {len(interfaces.roots)}\n")
     except UserError as fault:
         sys.exit(str(fault))
 

@@ -13,13 +13,14 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 from ts_build import TEST_RULES, Generated, compile_shared, differing_rules, generate, interfaces
 
-ROS_PACKAGES = Path(sys.prefix) / "share"
+from microros_gen.sources.interfaces import InterfaceFinder
 
 
 @pytest.fixture(scope="session")
 def packages() -> list[str]:
-    """Every package of the environment that has messages."""
-    found = sorted({path.parent.parent.name for path in ROS_PACKAGES.glob("*/msg/*.msg")})
+    """Every package of the environment that has interfaces."""
+    finder = InterfaceFinder(pip=(Path(sys.prefix),))
+    found = [place.name for place in finder.packages() if finder.types(place.name)]
     if "test_msgs" not in found:
         pytest.skip("the ROS wheels are not installed")
     return found
@@ -27,7 +28,7 @@ def packages() -> list[str]:
 
 @pytest.fixture(scope="session")
 def everything(packages: list[str], tmp_path_factory: pytest.TempPathFactory) -> Generated:
-    """All messages under one small limit: every capacity is a constant."""
+    """All messages, derived ones too, under one small limit: every capacity is a constant."""
     return generate(packages, TEST_RULES, tmp_path_factory.mktemp("same"))
 
 

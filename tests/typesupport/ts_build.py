@@ -25,11 +25,13 @@ from microros_gen.plan.types import TypePlan, plan_types
 from microros_gen.plan.types_size import is_fixed_field
 from microros_gen.render.environment import shared_environment
 from microros_gen.render.types import render_types
+from microros_gen.render.types_decode import render_decoders
 from microros_gen.resolve.interfaces import InterfaceSet, resolve_interfaces
 from microros_gen.sources.interfaces import InterfaceFinder
 
 COMPONENTS = Path(__file__).resolve().parents[2] / "microros_gen" / "components"
-COMPONENT_HEADERS = ("cdr", "rosidl_runtime", "memory")
+COMPONENT_HEADERS = ("cdr", "cdr_decode", "rosidl_runtime", "memory")
+DECODING = sorted((COMPONENTS / "cdr_decode" / "src").glob("cdr_*.c"))
 TEST_RULES = (LimitRule(("*",), string=13, sequence=5),)
 """Small enough to fill, large enough for every default value in test_msgs."""
 
@@ -83,12 +85,13 @@ def generate(
     found = interfaces(requests, paths)
     diagnostics = Diagnostics()
     capacities = plan_capacities(
-        found.messages, [Root(name) for name in found.roots], rules, Defaults(), diagnostics
+        found.messages, [Root(name) for name in found.message_roots], rules, Defaults(), diagnostics
     )
     diagnostics.check()
-    plans = plan_types(found.messages, capacities, found.type_hash, diagnostics)
+    received = tuple(capacities.limits)
+    plans = plan_types(found.messages, capacities, found.type_hash, diagnostics, received)
     diagnostics.check()
-    files = render_types(plans, shared_environment())
+    files = render_types(plans, shared_environment()) | render_decoders(plans, shared_environment())
     for path, content in files.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_bytes(content)
@@ -98,7 +101,7 @@ def generate(
 def differing_rules(found: InterfaceSet) -> tuple[LimitRule, ...]:
     """Return limits that differ from root to root and from member to member."""
     rules = []
-    for index, root in enumerate(found.roots):
+    for index, root in enumerate(found.message_roots):
         for number, field in enumerate(found.messages[root].fields):
             if not is_fixed_field(field, found.messages):
                 path = (str(root), field.name)
@@ -154,7 +157,7 @@ def compile_shared(generated: Generated) -> ctypes.CDLL:
     """
     source = unity(generated, "all.c", ".c", extra=ALLOCATOR)
     output = generated.folder / "libeverything.so"
-    runtime = sorted((COMPONENTS / "rosidl_runtime" / "src").glob("*.c"))
+    runtime = [*sorted((COMPONENTS / "rosidl_runtime" / "src").glob("*.c")), *DECODING]
     command = ["gcc", "-O1", *WARNINGS, "-fPIC", "-shared", "-Wl,-Bsymbolic", "-Wl,-z,defs"]
     run([*command, *generated.includes, source, *runtime, "-o", output])
     return ctypes.CDLL(str(output))

@@ -10,6 +10,7 @@ import struct
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from microros_gen.model.derived import declaring_name
 from microros_gen.model.types import (
     ArrayType,
     ElementType,
@@ -22,6 +23,7 @@ from microros_gen.model.types import (
     TypeName,
     element_of,
 )
+from microros_gen.plan.types_names import snake_case
 from microros_gen.plan.types_size import FieldLimits, TypeLimits, members
 
 C_TYPES: dict[Primitive, Any] = {
@@ -132,7 +134,8 @@ def from_ros(messages: Mapping[TypeName, Message], name: TypeName, message: Any)
 
 def ros_class(name: TypeName) -> Any:
     """Return the Python class of a ROS 2 message."""
-    return getattr(importlib.import_module(f"{name.package}.{name.kind}"), name.name)
+    module = f"{name.package}.{name.kind}._{snake_case(declaring_name(name).name)}"
+    return getattr(importlib.import_module(module), name.name)
 
 
 class CString(ctypes.Structure):
@@ -243,5 +246,5 @@ class CStructs:
         if isinstance(element, StringType):
             width = 2 if element.wide else 1
             raw = ctypes.string_at(value.data, value.size * width) if value.size else b""
-            return raw.decode("utf-16-le" if element.wide else "utf-8")
+            return raw.decode("utf-16-le" if element.wide else "utf-8", "replace")
         return value
