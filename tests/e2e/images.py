@@ -82,7 +82,10 @@ class Images:
     def build(
         self, port: int, application: str = "", compiler: str = "gcc", flags: tuple[str, ...] = SANITIZE
     ) -> Image:
-        """Run `microros-gen build` for an agent at `port`; `application` empty: `--profile pure_sender` alone."""
+        """Run `microros-gen build` for an agent at `port` (0: as the application says).
+
+        `application` empty: `--profile pure_sender` alone.
+        """
         name = hashlib.sha256(repr((port, application, compiler, flags)).encode()).hexdigest()[:16]
         image = Image(self._folder / name / "out", compiler, flags)
         with self._once(name) as first:
@@ -113,7 +116,7 @@ class Images:
         home = image.out.parent
         shutil.rmtree(home, ignore_errors=True)
         home.mkdir()
-        arguments = ["--agent", f"127.0.0.1:{port}", "-o", "out"]
+        arguments = [*(["--agent", f"127.0.0.1:{port}"] if port else []), "-o", "out"]
         if application:
             (home / "microros.yaml").write_text(application)
         else:

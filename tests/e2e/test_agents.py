@@ -111,7 +111,10 @@ def test_a_refused_entity(live: Live, kind: str, shown: str, status: int, name: 
         answer = live.call("node 0 talker -")
         if answer.code == 0:
             answer = live.call("publisher 0 0 Int32 chatter reliable")
-        assert (answer.code, answer.text) == (1, f"{shown}: the agent refuses it: {name} (entities in microros.yaml)")
+        assert (answer.code, answer.text) == (
+            1,
+            f"{shown}: the agent refuses it: {name} (entities in microros.yaml)",
+        )
         assert answer.took_us < HICCUP_US
         agent.refuse.clear()
         live.ok("node 1 talker -")

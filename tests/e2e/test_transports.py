@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Transports other than UDP on the host: a serial line, and functions of an application, to rclpy."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+from agent.observer import Observer
+from agent.process import running_agent
+
+from e2e.images import QUICK, Images, ends_well, started
+from e2e.test_samples import run_to, until
+
+pytestmark = pytest.mark.ros
+
+CUSTOM = Path(__file__).parents[1] / "runtime" / "c" / "custom.c"
+APPLICATION = """\
+version: 1
+profiles: [pure_sender]
+transport: {{type: {transport}}}
+session: {{key: {key}}}
+nodes:
+  - name: talker
+    publishers: [{{topic: {topic}, type: std_msgs/msg/Int32}}]
+pools: {{history: 16}}
+"""
+LAST = 199
+"""The last value of both programs; they take some seconds, which discovery needs."""
+
+
+@pytest.mark.parametrize("way", ["udp", "line"])
+def test_functions_of_an_application(
+    images: Images, observer: Observer, domain: int, way: str, tmp_path: Path
+) -> None:
+    """An application as those for micro-ROS are written: packets as they are, and frames on a stream of bytes."""
+    text = APPLICATION.format(transport="custom", key=11 if way == "udp" else 12, topic=f"custom_{way}")
+    image = images.build(0, text, "gcc", QUICK)
+    source = tmp_path / "custom.c"
+    slower = (
+        CUSTOM.read_text()
+        .replace("VALUES = 100", f"VALUES = {LAST + 1}")
+        .replace("sleep_ms(2)", "sleep_ms(15)")
+    )
+    source.write_text(slower.replace('"chatter"', f'"custom_{way}"'))
+    (tmp_path / "types.h").write_text("#include <std_msgs/msg/int32.h>\n")
+    program = image.application(source, tmp_path / "custom", "-std=c99")
+    transport = ("udp4", "--port", "0") if way == "udp" else ("pty",)
+    with running_agent(domain, "--domain", str(domain), transport=transport) as agent:
+        observer.subscribe(f"/custom_{way}", "std_msgs/msg/Int32")
+        with started(program, way, str(agent.port) if way == "udp" else agent.device) as running:
+            samples = until(observer, [f"/custom_{way}"], LAST)
+            running.communicate(timeout=15)
+            assert running.returncode == 0
+    run_to(LAST, [sample["data"] for sample in samples[f"/custom_{way}"]])
+
+
+def test_a_serial_line(images: Images, observer: Observer, domain: int, tmp_path: Path) -> None:
+    """The profile's example over a pseudo-terminal whose name the application file has."""
+    line = tmp_path / "line"
+    text = APPLICATION.format(transport=f'serial, device: "{line}"', key=13, topic="serial")
+    flags = (*QUICK, f"-DEXAMPLE_SAMPLES={LAST + 1}", "-DEXAMPLE_PERIOD_MS=15")
+    image = images.build(0, text, "gcc", flags)
+    with running_agent(domain, "--domain", str(domain), transport=("pty", "--link", str(line))):
+        observer.subscribe("/serial", "std_msgs/msg/Int32")
+        with started(image.program) as running:
+            samples = until(observer, ["/serial"], LAST)
+            ends_well(running)
+    run_to(LAST, [sample["data"] for sample in samples["/serial"]])
+    shutil.rmtree(image.out.parent)  # its line is this test's
