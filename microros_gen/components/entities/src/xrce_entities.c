@@ -143,12 +143,14 @@ static uint8_t * entities_put_object(
 {
   uint8_t * const blob = &room[BLOB_AT];
   uint8_t * end;
+  uint16_t size;
 
   (void)memset(&room[KIND_AT], 0, BLOB_AT - KIND_AT);
   room[KIND_AT] = kind;
   end = xrce_describe(client, place, kind, blob, &room[FORMAT_AT]);
-  xrce_put_le16(&room[LENGTH_AT], (uint16_t)(end - blob));
-  return entities_put_owner(client, place, kind, end, ((end - blob) & 1) != 0);
+  size = xrce_size_between(blob, end);
+  xrce_put_le16(&room[LENGTH_AT], size);
+  return entities_put_owner(client, place, kind, end, (size & 1u) != 0u);
 }
 
 /* Sends the outstanding request. There is a session: what does not come was a lost datagram, and a caller waits. So the
@@ -172,10 +174,10 @@ static void entities_send(xrce_client_t * client, uint32_t now)
   xrce_put_submessage(
     room, entities->deleting ? XRCE_DELETE : XRCE_CREATE,
     entities->deleting ? XRCE_FLAG_LITTLE_ENDIAN : CREATE_FLAGS,
-    (uint16_t)(end - room - XRCE_SUBMESSAGE_HEADER));
+    xrce_size_between(&room[XRCE_SUBMESSAGE_HEADER], end));
   xrce_put_be16(&room[REQUEST_AT], entities->request);
   xrce_put_be16(&room[OBJECT_AT], xrce_object_id(index, kind));
-  xrce_creation_send(client, (size_t)(end - room));
+  xrce_creation_send(client, xrce_size_between(room, end));
 }
 
 /* Begins the next request; false: there is nothing to do. */

@@ -12,7 +12,7 @@ static uint8_t * binary_put_string(uint8_t * at, const char * first, const char 
   uint8_t * end = xrce_describe_text(xrce_describe_text(xrce_describe_text(&at[4], first), second), third);
 
   *end++ = 0;
-  xrce_put_le16(&at[0], (uint16_t)(end - &at[4]));
+  xrce_put_le16(&at[0], xrce_size_between(&at[4], end));
   xrce_put_le16(&at[2], 0);
   return end;
 }
@@ -35,7 +35,7 @@ static uint8_t * binary_put_topic(uint8_t * blob, const xrce_writer_t * writer)
 
   *end++ = 0;
   *end++ = 1;
-  while (((end - blob) & 3) != 0) {
+  while (xrce_size_between(blob, end) % 4u != 0u) {
     *end++ = 0;
   }
   return binary_put_string(end, "", "", writer->type->dds_type_name);

@@ -8,83 +8,90 @@
 #include <stdint.h>
 #include <string.h>
 
-/* What every type can be aligned to; blocks begin with one, so the memory behind is aligned. */
-typedef union arena_unit_t {
-  struct {
-    uint32_t units; /* of the whole block, this one included; 0: never used arena */
-    bool taken;
-  } block;
-  uint64_t integer;
-  double number;
-  void * pointer;
-} arena_unit_t;
+enum { UNIT = sizeof(uint64_t), UNITS = MICROROS_ARENA_SIZE / UNIT > 2 ? MICROROS_ARENA_SIZE / UNIT : 2 };
 
-enum { UNIT = sizeof(arena_unit_t), UNITS = MICROROS_ARENA_SIZE / sizeof(arena_unit_t) };
+/* Blocks, one behind the other. A block is known by the place of its first word, which is its head; the memory behind is
+ * aligned for every type. A head is the number of words, itself included, times two, and one more of a taken block; 0:
+ * the arena was never used. */
+static uint64_t arena[UNITS];
 
-static arena_unit_t arena[UNITS > 2 ? UNITS : 2];
-
-/* Returns the block behind, or NULL. */
-static arena_unit_t * arena_next(arena_unit_t * block)
+static uint32_t arena_units(uint32_t block)
 {
-  arena_unit_t * next = block + block->block.units;
-
-  return next < arena + sizeof(arena) / sizeof(arena[0]) ? next : NULL;
+  return (uint32_t)arena[block] / 2u;
 }
 
-static void arena_join(arena_unit_t * block)
+static bool arena_is_taken(uint32_t block)
 {
-  arena_unit_t * next = arena_next(block);
+  return ((uint32_t)arena[block] & 1u) != 0u;
+}
 
-  while (next != NULL && !next->block.taken) {
-    block->block.units += next->block.units;
-    next = arena_next(block);
+static void arena_set(uint32_t block, uint32_t units, bool taken)
+{
+  const uint32_t head = units * 2u + (taken ? 1u : 0u);
+
+  arena[block] = head;
+}
+
+/* Gives a block the free ones behind it. */
+static void arena_join(uint32_t block)
+{
+  uint32_t next = block + arena_units(block);
+
+  while (next < UNITS && !arena_is_taken(next)) {
+    next += arena_units(next);
+  }
+  arena_set(block, next - block, arena_is_taken(block));
+}
+
+/* Takes the first `units` words of a block; what is left becomes one of its own. */
+static void arena_take(uint32_t block, uint32_t units)
+{
+  const uint32_t all = arena_units(block);
+
+  if (all > units + 1u) {
+    arena_set(block + units, all - units, false);
+    arena_set(block, units, true);
+  } else {
+    arena_set(block, all, true);
   }
 }
 
-static void arena_take(arena_unit_t * block, uint32_t units)
+/* Returns the block of memory that was taken and not given back, or UNITS. */
+static uint32_t arena_find(const void * pointer)
 {
-  if (block->block.units > units + 1u) {
-    arena_unit_t * rest = block + units;
+  uint32_t block = 0;
 
-    rest->block.units = block->block.units - units;
-    rest->block.taken = false;
-    block->block.units = units;
-  }
-  block->block.taken = true;
-}
-
-/* Returns the block of memory that was taken and not given back, or NULL. */
-static arena_unit_t * arena_find(const void * pointer)
-{
-  for (arena_unit_t * block = arena; block != NULL && block->block.units != 0u; block = arena_next(block)) {
-    if (block + 1 == pointer) {
-      return block->block.taken ? block : NULL;
+  while (block < UNITS && arena[block] != 0u) {
+    if (&arena[block + 1u] == pointer) {
+      return arena_is_taken(block) ? block : (uint32_t)UNITS;
     }
+    block += arena_units(block);
   }
-  return NULL;
+  return UNITS;
 }
 
-static uint32_t arena_units(size_t size)
+/* Returns how many words a block for `size` bytes has; more than there are where it cannot be. */
+static uint32_t arena_needed(size_t size)
 {
-  return size > sizeof(arena) ? UINT32_MAX : (uint32_t)(1u + (size + UNIT - 1u) / UNIT);
+  return size > sizeof(arena) ? UNITS + 1u : (uint32_t)(1u + (size + UNIT - 1u) / UNIT);
 }
 
 void * microros_arena_allocate(size_t size, void * state)
 {
-  const uint32_t units = arena_units(size == 0u ? 1u : size);
+  const uint32_t units = arena_needed(size == 0u ? 1u : size);
 
   (void)state;
-  if (arena[0].block.units == 0u) {
-    arena[0].block.units = sizeof(arena) / sizeof(arena[0]);
+  if (arena[0] == 0u) {
+    arena_set(0, UNITS, false);
   }
-  for (arena_unit_t * block = arena; block != NULL; block = arena_next(block)) {
-    if (block->block.taken) {
+  for (uint32_t block = 0; block < UNITS; block += arena_units(block)) {
+    if (arena_is_taken(block)) {
       continue;
     }
     arena_join(block);
-    if (block->block.units >= units) {
+    if (arena_units(block) >= units) {
       arena_take(block, units);
-      return block + 1;
+      return &arena[block + 1u];
     }
   }
   microros_error_set(
@@ -107,21 +114,21 @@ void * microros_arena_zero_allocate(size_t number_of_elements, size_t size_of_el
 
 void * microros_arena_reallocate(void * pointer, size_t size, void * state)
 {
-  arena_unit_t * block = arena_find(pointer);
-  const uint32_t units = arena_units(size == 0u ? 1u : size);
+  const uint32_t block = arena_find(pointer);
+  const uint32_t units = arena_needed(size == 0u ? 1u : size);
   void * memory;
 
-  if (block == NULL) {
+  if (block == UNITS) {
     return microros_arena_allocate(size, state);
   }
   arena_join(block);
-  if (block->block.units >= units) {
+  if (arena_units(block) >= units) {
     arena_take(block, units);
     return pointer;
   }
   memory = microros_arena_allocate(size, state);
   if (memory != NULL) {
-    (void)memcpy(memory, pointer, (block->block.units - 1u) * (size_t)UNIT);
+    (void)memcpy(memory, pointer, (arena_units(block) - 1u) * (size_t)UNIT);
     microros_arena_deallocate(pointer, state);
   }
   return memory;
@@ -129,10 +136,10 @@ void * microros_arena_reallocate(void * pointer, size_t size, void * state)
 
 void microros_arena_deallocate(void * pointer, void * state)
 {
-  arena_unit_t * block = arena_find(pointer);
+  const uint32_t block = arena_find(pointer);
 
   (void)state;
-  if (block != NULL) {
-    block->block.taken = false;
+  if (block != UNITS) {
+    arena_set(block, arena_units(block), false);
   }
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The UART of Arm's Cortex-M System Design Kit (DDI 0479, "APB UART"). */
+/* The UART of Arm's Cortex-M System Design Kit (DDI 0479, "APB UART"). It holds one byte of input; each that comes
+ * asks for an interrupt. */
 #include "microros/port.h"
 #include "microros/port_board.h"
 #include "microros/port_cortex_m.h"
@@ -25,7 +26,7 @@ void port_cortex_m_uart_interrupt(void)
     PORT_CORTEX_M_REGISTER(UART_STATE) = state_rx_overrun;
     port_uart_lost();
   }
-  while ((PORT_CORTEX_M_REGISTER(UART_STATE) & state_rx_full) != 0u) {
+  if ((PORT_CORTEX_M_REGISTER(UART_STATE) & state_rx_full) != 0u) {
     port_uart_received((uint8_t)(PORT_CORTEX_M_REGISTER(UART_DATA) & 0xffu));
   }
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The UART of Nordic's nRF51 (Reference Manual, "UART"). It holds six bytes of input. */
+/* The UART of Nordic's nRF51 (Reference Manual, "UART"). It holds six bytes of input, and asks for an interrupt anew
+ * as long as there is one. */
 #include "microros/port.h"
 #include "microros/port_board.h"
 #include "microros/port_cortex_m.h"
@@ -32,7 +33,7 @@ void port_cortex_m_uart_interrupt(void)
   if ((errors & error_overrun) != 0u) {
     port_uart_lost();
   }
-  while (PORT_CORTEX_M_REGISTER(UART_RX_READY) != 0u) {
+  if (PORT_CORTEX_M_REGISTER(UART_RX_READY) != 0u) {
     PORT_CORTEX_M_REGISTER(UART_RX_READY) = 0;
     port_uart_received((uint8_t)(PORT_CORTEX_M_REGISTER(UART_RX_DATA) & 0xffu));
   }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The UART 16550 with registers of one byte side by side (PC16550D data sheet). It holds 16 bytes of input. */
+/* The UART 16550 with registers of one byte side by side (PC16550D data sheet). It holds 16 bytes of input,
+ * and asks for an interrupt as long as there is one. */
 #include "microros/port.h"
 #include "microros/port_board.h"
 #include "microros/port_riscv.h"
@@ -23,14 +24,13 @@ static const uint8_t state_room = 0x20;
 
 void port_riscv_uart_interrupt(void)
 {
-  uint8_t state = PORT_RISCV_REGISTER_8(UART_STATE);
+  const uint8_t state = PORT_RISCV_REGISTER_8(UART_STATE);
 
-  while ((state & state_ready) != 0u) {
-    if ((state & state_overrun) != 0u) {
-      port_uart_lost();
-    }
+  if ((state & state_overrun) != 0u) {
+    port_uart_lost();
+  }
+  if ((state & state_ready) != 0u) {
     port_uart_received(PORT_RISCV_REGISTER_8(UART_DATA));
-    state = PORT_RISCV_REGISTER_8(UART_STATE);
   }
 }
 

@@ -33,7 +33,8 @@ static void stream_remove(xrce_stream_reliable_t * stream, uint8_t i)
 {
   const uint8_t slot = stream_slot(stream, i);
 
-  for (--stream->count; i < stream->count; ++i) {
+  --stream->count;
+  for (; i < stream->count; ++i) {
     stream->order[i] = (uint8_t)(stream_slot(stream, (uint8_t)(i + 1u)) ^ i);
   }
   stream->order[i] = slot ^ i;

@@ -49,8 +49,8 @@ const char microros_error_value[] = "%t.%d: %n is above %m";
 const char microros_error_framing[] = "custom transport: set transport: {framing: %d}%y";
 
 /* From status 0x80 on (OMG DDS-XRCE 1.0, 7.7.2). */
-static const char statuses[] =
-  "DDS_ERROR\0MISMATCH\0ALREADY_EXISTS\0DENIED\0UNKNOWN_REFERENCE\0INVALID_DATA\0INCOMPATIBLE\0RESOURCES";
+static const char * const statuses[] = {"DDS_ERROR",         "MISMATCH",     "ALREADY_EXISTS", "DENIED",
+                                        "UNKNOWN_REFERENCE", "INVALID_DATA", "INCOMPATIBLE",   "RESOURCES"};
 
 enum { STATUS_FIRST = 0x80, STATUS_LAST = 0x87 };
 
@@ -105,20 +105,10 @@ static void text_put_type(text_t * text, const char * dds_type)
   }
 }
 
-/* Returns the string that `count` others stand before. */
-static const char * text_skip(const char * strings, uint32_t count)
-{
-  while (count != 0u) {
-    count -= *strings == '\0' ? 1u : 0u;
-    ++strings;
-  }
-  return strings;
-}
-
 static void text_put_status(text_t * text, uint32_t status)
 {
   if (status >= STATUS_FIRST && status <= STATUS_LAST) {
-    text_put_string(text, text_skip(statuses, status - STATUS_FIRST));
+    text_put_string(text, statuses[status - STATUS_FIRST]);
   } else {
     text_put_number(text, status);
   }

@@ -26,7 +26,8 @@ void port_uart_stop(void);
 /* Of the driver: hands one byte over, waiting for room. False: there was none in PORT_UART_BYTE_TIMEOUT_MS. */
 bool port_uart_put(uint8_t byte);
 
-/* For the driver's interrupt: a byte has come; a full ring counts it as lost. */
+/* For the driver's interrupt: a byte has come; a full ring counts it as lost. One byte an interrupt: between two of them
+ * others have their turn, however fast the line is. */
 void port_uart_received(uint8_t byte);
 
 /* For the driver's interrupt: the hardware lost a byte. */

@@ -120,6 +120,12 @@ static inline void xrce_put_submessage(uint8_t * at, uint8_t id, uint8_t flags, 
   xrce_put_le16(&at[2], size);
 }
 
+/* Returns how many bytes of a message lie between two places in it; a message has less than 64 KiB. */
+static inline uint16_t xrce_size_between(const uint8_t * begin, const uint8_t * end)
+{
+  return (uint16_t)(end - begin);
+}
+
 /* Whether `deadline` is reached at `now`; both in milliseconds that start again at 0 after 2^32 - 1. */
 static inline bool xrce_is_due(uint32_t now, uint32_t deadline)
 {
