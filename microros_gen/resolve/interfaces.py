@@ -12,6 +12,7 @@ from microros_gen.model.application import Named
 from microros_gen.model.derived import declaring_name
 from microros_gen.model.types import Declaration, Field, Message, NamedType, TypeName, element_of
 from microros_gen.parse.action import parse_action
+from microros_gen.parse.idl import parse_idl
 from microros_gen.parse.msg import parse_msg
 from microros_gen.parse.srv import parse_srv
 from microros_gen.resolve.interface_set import Interface, InterfaceSet
@@ -21,14 +22,10 @@ from microros_gen.sources.interfaces import (
     PackagePlace,
     read_type,
     types_in,
-    unread_types_in,
 )
 
 __all__ = ["Interface", "InterfaceSet", "resolve_interfaces", "split_type_name"]
 
-_NOT_IDL = (
-    "This version reads .msg, .srv and .action files; ROS 2 packages mostly bring them beside the .idl files"
-)
 _PARSERS: Mapping[str, Callable[[Source, TypeName, Diagnostics], Declaration | None]] = MappingProxyType(
     {"msg": parse_msg, "srv": parse_srv, "action": parse_action}
 )
@@ -143,7 +140,7 @@ class _Resolver:
         source = read_type(place, name, self._diagnostics) if place is not None else None
         if place is None or source is None:
             return None
-        declaration = _PARSERS[name.kind](source, name, self._diagnostics)
+        declaration = _parsed(source, name, self._diagnostics)
         return Interface(declaration, source, place) if declaration is not None else None
 
     def _has(self, name: TypeName) -> bool:
@@ -174,10 +171,6 @@ class _Resolver:
         )
 
     def _unknown_type(self, name: TypeName, place: PackagePlace, span: Span | None, need: str) -> None:
-        unread = [stem for stem in unread_types_in(place) if stem.startswith(f"{name.kind}/{name.name}.")]
-        if unread:
-            self._diagnostics.error(f"'{place.folder / unread[0]}' cannot be read yet{need}", span, _NOT_IDL)
-            return
         if name.kind not in KINDS:
             message = f"'{name}': the kinds of interfaces are {', '.join(KINDS)}, not '{name.kind}'{need}"
             self._diagnostics.error(message, span, f"Write {name.package}/msg/{name.name} for a message")
@@ -205,13 +198,11 @@ class _Resolver:
         return nearest(name.name, (known.name for known in self._types[place.name]))
 
     def _nothing_to_read(self, place: PackagePlace, span: Span | None) -> None:
-        unread = unread_types_in(place)
-        what = (
-            f"only files that cannot be read yet ({', '.join(unread[:3])})"
-            if unread
-            else "no .msg, .srv or .action file"
+        self._diagnostics.error(
+            f"package '{place.name}' ({place.folder}) has no .msg, .srv, .action or .idl file",
+            span,
+            "They lie in its folders msg/, srv/ and action/",
         )
-        self._diagnostics.error(f"package '{place.name}' ({place.folder}) has {what}", span, _NOT_IDL)
 
     def _place(self, package: str) -> PackagePlace | None:
         if package not in self._places:
@@ -228,6 +219,24 @@ class _Resolver:
                 hint="ROS 2 takes a name once: remove one, or name the folder that counts first with"
                 " --interface-path",
             )
+
+
+def _parsed(source: Source, name: TypeName, diagnostics: Diagnostics) -> Declaration | None:
+    """Return what a file declares, or None with errors in `diagnostics`."""
+    if not source.name.endswith(".idl"):
+        return _PARSERS[name.kind](source, name, diagnostics)
+    found = Diagnostics()
+    declarations = parse_idl(source, name.package, name.kind, found)
+    declaration = next((d for d in declarations if d.name == name), None)
+    if declaration is None and not found.has_errors():
+        there = ", ".join(str(d.name) for d in declarations) or "nothing"
+        found.error(
+            f"the file declares {there} and not {name}",
+            Span(source, 1, 1),
+            "ROS 2 names a file after the type that it declares",
+        )
+    diagnostics.extend(found)
+    return declaration
 
 
 def _need(message: Message, field: Field) -> str:

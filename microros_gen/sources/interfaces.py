@@ -22,12 +22,12 @@ from microros_gen.model.types import TypeName
 from microros_gen.parse.msg_names import is_package_name
 
 SUFFIXES_OF_KIND: Mapping[str, tuple[str, ...]] = MappingProxyType(
-    {"msg": (".msg",), "srv": (".srv",), "action": (".action",)}
+    {"msg": (".msg", ".idl"), "srv": (".srv", ".idl"), "action": (".action", ".idl")}
 )
-"""The interface files that are read: kind, which is also the folder that holds them → suffixes, best first."""
+"""The interface files that are read: kind, which is also the folder that holds them → suffixes, best first.
 
-UNREAD_SUFFIXES = (".idl",)
-"""Interface files that ROS 2 knows and this version does not read; they are named in diagnostics."""
+ROS 2 installs an .idl file beside what it is made from; an .idl file alone is an interface that was written so.
+"""
 
 KINDS = tuple(SUFFIXES_OF_KIND)
 """The kinds of interfaces."""
@@ -217,18 +217,6 @@ def _text_of(path: Path, data: bytes, diagnostics: Diagnostics) -> Source | None
             hint="Save the file as UTF-8, which is what ROS 2 reads",
         )
         return None
-
-
-def unread_types_in(place: PackagePlace) -> tuple[str, ...]:
-    """Return the files in `place` in a form that is not read yet: .idl files with nothing else beside them."""
-    known = {(name.kind, name.name) for name in types_in(place)}
-    return tuple(
-        f"{kind}/{stem}{suffix}"
-        for kind in KINDS
-        for suffix in UNREAD_SUFFIXES
-        for stem in _stems(place.folder / kind, (suffix,))
-        if (kind, stem) not in known
-    )
 
 
 def _stems(folder: Path, suffixes: tuple[str, ...]) -> list[str]:

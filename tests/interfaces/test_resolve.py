@@ -124,16 +124,42 @@ def test_a_folder_with_the_name_of_a_file_is_an_error(tmp_path: Path) -> None:
     assert "cannot read" in said[0]
 
 
-def test_packages_with_idl_only_say_so(tmp_path: Path) -> None:
+def idl(package_name: str, kind: str, struct: str) -> str:
+    return f"module {package_name} {{ module {kind} {{ {struct} }}; }};"
+
+
+def test_an_idl_file_alone_is_read(tmp_path: Path) -> None:
+    folder = package(tmp_path, "a", B="A field")
+    (folder / "msg/A.idl").write_text(idl("a", "msg", "struct A { long number; };"), encoding="utf-8")
+    (folder / "srv").mkdir()
+    parts = "struct Do_Request { a::msg::A a; }; struct Do_Response { boolean done; };"
+    text = f'#include "a/msg/A.idl"\n{idl("a", "srv", parts)}'
+    (folder / "srv/Do.idl").write_text(text, encoding="utf-8")
+    interfaces, said = resolve(InterfaceFinder((tmp_path,), shipped=shipped_folder()), "a")
+    assert said == []
+    assert [str(root) for root in interfaces.roots] == ["a/msg/A", "a/msg/B", "a/srv/Do"]
+    assert interfaces.message(TypeName("a", "msg", "A")).fields[0].name == "number"
+    assert interfaces.interfaces[TypeName("a", "srv", "Do")].source.name == str(folder / "srv/Do.idl")
+
+
+def test_an_idl_file_beside_another_one_is_not_read(tmp_path: Path) -> None:
+    folder = package(tmp_path, "a", A="int8 x")
+    (folder / "msg/A.idl").write_text("not IDL", encoding="utf-8")
+    interfaces, said = resolve(InterfaceFinder((tmp_path,)), "a")
+    assert said == []
+    assert interfaces.interfaces[TypeName("a", "msg", "A")].source.text == "int8 x"
+
+
+def test_faults_of_idl_files(tmp_path: Path) -> None:
     folder = package(tmp_path, "a")
-    (folder / "msg/A.idl").write_text("", encoding="utf-8")
-    finder = InterfaceFinder((tmp_path,))
-    assert "has only files that cannot be read yet (msg/A.idl)" in resolve(finder, "a")[1][0]
-    assert "A.idl' cannot be read yet" in resolve(finder, "a/A")[1][0]
-    package(tmp_path, "b", B="a/A field")
-    said = resolve(finder, "b/B")[1]
-    assert said[0].startswith(f"{tmp_path}/b/msg/B.msg:1:1: error: ")
-    assert "cannot be read yet, which the field 'field' needs" in said[0]
+    (folder / "msg/A.idl").write_text(idl("a", "msg", "struct B { long x; };"), encoding="utf-8")
+    (folder / "msg/C.idl").write_text("module a {", encoding="utf-8")
+    (folder / "msg/D.idl").write_text(idl("a", "msg", "struct D { b::msg::E e; };"), encoding="utf-8")
+    _, said = resolve(InterfaceFinder((tmp_path,)), "a")
+    at = {line.removeprefix(f"{folder}/msg/").split(":")[0]: line for line in said}
+    assert set(at) == {"A.idl", "C.idl", "D.idl"}
+    assert "the file declares a/msg/B and not a/msg/A" in at["A.idl"]
+    assert "unknown interface package 'b'" in at["D.idl"]
 
 
 @pytest.mark.parametrize("request_", ["std_msgs/Header", "std_msgs/msg/Header", "/std_msgs/Header"])

@@ -65,6 +65,24 @@ def test_every_installed_description_and_hash_is_equal(installed: InterfaceSet) 
 
 
 @pytest.mark.ros
+def test_the_installed_idl_files_give_the_same(installed: InterfaceSet, tmp_path: Path) -> None:
+    """The folders of the wheels with nothing but their .idl files: same descriptions and hashes."""
+    for path in SHARE.glob("*/*/*.idl"):
+        folder = tmp_path / path.parent.parent.name / path.parent.name
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / path.name).write_bytes(path.read_bytes())
+    finder = InterfaceFinder((tmp_path,))
+    diagnostics = Diagnostics()
+    names = tuple(Named(place.name) for place in finder.packages())
+    interfaces = resolve_interfaces(names, finder, diagnostics)
+    assert [d.headline() for d in diagnostics] == []
+    assert len(interfaces) == 199
+    for name in interfaces.described:
+        assert interfaces.type_description(name) == installed.type_description(name)
+        assert interfaces.type_hash(name) == installed.type_hash(name)
+
+
+@pytest.mark.ros
 def test_the_other_descriptions_are_those_of_the_generator_of_ros(
     installed: InterfaceSet, tmp_path: Path
 ) -> None:
