@@ -25,7 +25,7 @@ from microros_gen.parse.idl_declarations import (
 )
 from microros_gen.parse.idl_syntax import parse_syntax
 from microros_gen.parse.idl_types import KINDS, Scope
-from microros_gen.parse.idl_values import span_of
+from microros_gen.parse.idl_values import span_of, tokens_of
 from microros_gen.parse.msg_names import package_name_fault
 
 _BYTE_ORDER_MARK = "\ufeff"
@@ -211,7 +211,7 @@ def _check_equal_constants(constants: Sequence[Placed], scope: Scope) -> None:
     first: dict[str, list[Placed]] = {}
     for constant in constants:
         for earlier in first.setdefault(str(constant.name), []):
-            if earlier.modules != constant.modules and earlier.node == constant.node:
+            if earlier.modules != constant.modules and tokens_of(earlier.node) == tokens_of(constant.node):
                 scope.diagnostics.error(
                     f"ROS 2 Jazzy takes '{constant.name}' for a constant of '{earlier.modules[-1]}' too, since "
                     "both are declared alike, and its C does not compile",

@@ -100,10 +100,16 @@ def _default_value(values: Mapping[str, ScalarValue | None], span: Span) -> Scal
 
 
 def _with_unit(comment: Sequence[str], units: Sequence[str]) -> tuple[str, ...]:
-    """Return the lines with the unit in brackets behind the last one, where .msg files have it."""
-    text = "".join(f" [{unit}]" for unit in units)
-    if not text:
-        return tuple(comment)
-    if not comment:
-        return (text.lstrip(),)
-    return (*comment[:-1], f"{comment[-1]}{text}".lstrip())
+    """Return the lines with the unit in brackets behind the last one, unless a line has it already.
+
+    In a .msg file a unit stands somewhere in the comment; rosidl_adapter takes it out of its line.
+    """
+    lines = list(comment)
+    for unit in units:
+        if any(f"[{unit}]" in line for line in lines):
+            continue
+        if lines:
+            lines[-1] = f"{lines[-1]} [{unit}]".lstrip()
+        else:
+            lines.append(f"[{unit}]")
+    return tuple(lines)

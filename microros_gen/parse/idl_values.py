@@ -43,6 +43,10 @@ _OPERATORS: Mapping[str, Callable[[int, int], int]] = {
     "%": operator.mod,
 }
 _LARGEST_SHIFT = 64
+_LARGEST = 2**64
+_MOST_STEPS = 1000
+_DEEPEST = 50
+_MOST_DIGITS = 400
 # OMG IDL 4.2, table 7-9, as rosidl_parser resolves it; \u in wide strings alone.
 _ESCAPE = re.compile(r"\\([ntvbrfa\\'\"])|\\([0-7]{1,3})|\\x([0-9a-fA-F]{1,2})|\\u([0-9a-fA-F]{1,4})")
 _SIMPLE = dict(zip("ntvbrfa\\'\"", "\n\t\v\b\r\f\a\\'\"", strict=True))
@@ -64,6 +68,19 @@ def span_of(node: SyntaxNode | Token, source: Source) -> Span:
     return Span(source, first.line or 1, column, column + len(first))
 
 
+def tokens_of(node: SyntaxNode) -> list[Token]:
+    """Return all tokens below `node` in their order."""
+    found: list[Token] = []
+    pending: list[SyntaxNode | Token] = [node]
+    while pending:
+        last = pending.pop()
+        if isinstance(last, Token):
+            found.append(last)
+        else:
+            pending.extend(reversed(last.children))
+    return found
+
+
 def first_token(node: SyntaxNode | Token) -> Token:
     """Return the first token below `node`; it has at least one."""
     while not isinstance(node, Token):
@@ -71,25 +88,42 @@ def first_token(node: SyntaxNode | Token) -> Token:
     return node
 
 
-def computed(node: SyntaxNode, constants: Mapping[str, SyntaxNode], depth: int = 0) -> int | None:
-    """Return the integer that an expression gives by IDL, or None: for hints alone."""
-    if depth > len(constants):
+def computed(node: SyntaxNode, constants: Mapping[str, SyntaxNode]) -> int | None:
+    """Return the integer that an expression gives by IDL, or None where it is long or none: for hints alone."""
+    return _Computation(constants).value(node, 0)
+
+
+class _Computation:
+    """One computation; constants can refer to each other in circles, so its steps are counted."""
+
+    def __init__(self, constants: Mapping[str, SyntaxNode]) -> None:
+        self._constants = constants
+        self._steps = _MOST_STEPS
+
+    def value(self, node: SyntaxNode, depth: int) -> int | None:
+        """Return the integer that `node` gives, or None."""
+        self._steps -= 1
+        if self._steps < 0 or depth > _DEEPEST:
+            return None
+        result = self._value(node, depth + 1)
+        return None if result is None or abs(result) >= _LARGEST else result
+
+    def _value(self, node: SyntaxNode, depth: int) -> int | None:
+        if node.data == "group":
+            return self.value(node.children[0], depth)
+        if node.data == "name":
+            known = self._constants.get(str(node.children[-1]))
+            return None if known is None else self.value(known, depth)
+        if node.data == "literal":
+            return _integer(node.children[0])
+        if node.data == "signed":
+            value = self.value(node.children[1], depth)
+            sign = node.children[0]
+            return None if value is None else -value if sign == "-" else ~value if sign == "~" else value
+        if node.data in ("binary", "shift_right"):
+            left, right = (self.value(n, depth) for n in (node.children[0], node.children[-1]))
+            return None if left is None or right is None else _binary(node, left, right)
         return None
-    if node.data == "group":
-        return computed(node.children[0], constants, depth)
-    if node.data == "name":
-        known = constants.get(str(node.children[-1]))
-        return None if known is None else computed(known, constants, depth + 1)
-    if node.data == "literal":
-        return _integer(node.children[0])
-    if node.data == "signed":
-        value = computed(node.children[1], constants, depth)
-        sign = node.children[0]
-        return None if value is None else -value if sign == "-" else ~value if sign == "~" else value
-    if node.data in ("binary", "shift_right"):
-        left, right = (computed(n, constants, depth) for n in (node.children[0], node.children[-1]))
-        return None if left is None or right is None else _binary(node, left, right)
-    return None
 
 
 def positive_bound(node: SyntaxNode, what: str, constants: Mapping[str, SyntaxNode], source: Source) -> int:
@@ -103,7 +137,7 @@ def positive_bound(node: SyntaxNode, what: str, constants: Mapping[str, SyntaxNo
         hint = f"Write {value}" if value is not None and value > 0 else "Write a number above zero"
         reason = "ROS 2 Jazzy computes nothing here" if value is not None else "this is none"
         raise IdlError(span, f"{what} is a decimal number: {reason}", hint)
-    number = int(inner.children[0])
+    number = _decimal(inner.children[0], source)
     if not 0 < number <= LARGEST_BOUND:
         raise IdlError(span, f"{what} is 1 to {LARGEST_BOUND}, not {number}")
     return number
@@ -166,7 +200,13 @@ def checked_default(field_type: FieldType, value: ScalarValue, span: Span) -> Va
 
 def _integer(token: Token) -> int | None:
     bases = {"DECIMAL": 10, "OCTAL": 8, "HEXADECIMAL": 16}
-    return int(token, bases[token.type]) if token.type in bases else None
+    return int(token, bases[token.type]) if token.type in bases and len(token) <= _MOST_DIGITS else None
+
+
+def _decimal(token: Token, source: Source) -> int:
+    if len(token) > _MOST_DIGITS:
+        raise IdlError(span_of(token, source), f"the number has {len(token)} digits", "Write a smaller one")
+    return int(token)
 
 
 def _binary(node: SyntaxNode, left: int, right: int) -> int | None:
@@ -191,7 +231,7 @@ def _number(
     token: Token, node: SyntaxNode, constants: Mapping[str, SyntaxNode], source: Source
 ) -> int | float:
     if token.type == "DECIMAL":
-        return int(token)
+        return _decimal(token, source)
     if token.type in ("FLOAT", "FIXED"):
         return float(token.rstrip("dD"))
     if token.type == "CHARACTER":
@@ -201,11 +241,9 @@ def _number(
             "Write its number, such as 65 for 'A'",
         )
     base = "octal" if token.type == "OCTAL" else "hexadecimal"
-    raise IdlError(
-        span_of(token, source),
-        f"ROS 2 Jazzy cannot take a number in {base}",
-        f"Write {computed(node, constants)}",
-    )
+    value = computed(node, constants)
+    hint = "Write it in decimal" if value is None else f"Write {value}"
+    raise IdlError(span_of(token, source), f"ROS 2 Jazzy cannot take a number in {base}", hint)
 
 
 def _string(token: Token, source: Source) -> str:
@@ -282,6 +320,8 @@ def _elements(value: ScalarValue, span: Span) -> tuple[ScalarValue, ...]:
         raise IdlError(span, "the default of an array or sequence is a list in a string", hint)
     if not all(isinstance(element, (bool, int, float, str)) for element in found):
         raise IdlError(span, "an element of the default is no literal", hint)
+    if any(isinstance(element, int) and abs(element) >= 10**_MOST_DIGITS for element in found):
+        raise IdlError(span, "a number of the default is too long", "Write a smaller one")
     return tuple(found)
 
 

@@ -1,9 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the corpus and the oracle beside the tests importable."""
+"""Makes the corpora and the oracles beside the tests importable; an environment with the lark of ROS 2."""
 
 from __future__ import annotations
 
+import subprocess
 import sys
+import venv
 from pathlib import Path
 
+import pytest
+
 sys.path.insert(0, str(Path(__file__).parent))
+
+
+@pytest.fixture(scope="session")
+def old_lark_python(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """Return a Python with lark-parser 0.12, which ROS 2 installs into the same folder as lark."""
+    folder = tmp_path_factory.mktemp("old_lark") / "venv"
+    venv.create(folder, with_pip=True)
+    python = str(folder / "bin" / "python")
+    install = [python, "-m", "pip", "install", "-q", "lark-parser==0.12.0"]
+    if subprocess.run(install, capture_output=True, check=False).returncode:
+        pytest.skip("lark-parser cannot be installed here")
+    return python

@@ -121,7 +121,8 @@ GOOD = [
     msg("int32 a;", "enum Color { RED, GREEN, @value(5) BLUE };"),
     msg("int32 a;", "@bit_bound(8) enum Color { RED };"),
     msg("int32 a;", "module m { enum E { A }; };"),
-    "module pkg_a { module msg { module x { typedef int32 A; }; }; }; module pkg_a { module msg { struct Foo { A a; }; }; };",
+    "module pkg_a { module msg { module x { typedef int32 A; }; }; }; "
+    "module pkg_a { module msg { struct Foo { A a; }; }; };",
     msg(
         "int32 a;",
         "module Foo_Constants { const short A = 1; }; module Foo_Constants { const short B = 2; };",

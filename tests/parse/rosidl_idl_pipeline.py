@@ -101,7 +101,7 @@ def _generate(arguments: str) -> None:
     from rosidl_generator_c import generate_c
     from rosidl_generator_type_description import generate_type_hash
 
-    with open(os.devnull, "w", encoding="utf-8") as quiet:
+    with Path(os.devnull).open("w", encoding="utf-8") as quiet:
         sys.stdout = sys.stderr = quiet
         status = 1
         with contextlib.suppress(Exception):
