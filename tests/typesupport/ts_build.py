@@ -158,6 +158,6 @@ def compile_shared(generated: Generated) -> ctypes.CDLL:
     source = unity(generated, "all.c", ".c", extra=ALLOCATOR)
     output = generated.folder / "libeverything.so"
     runtime = [*sorted((COMPONENTS / "rosidl_runtime" / "src").glob("*.c")), *DECODING]
-    command = ["gcc", "-O1", *WARNINGS, "-fPIC", "-shared", "-Wl,-Bsymbolic", "-Wl,-z,defs"]
+    command = ["gcc", "-O0", *WARNINGS, "-fPIC", "-shared", "-Wl,-Bsymbolic", "-Wl,-z,defs"]
     run([*command, *generated.includes, source, *runtime, "-o", output])
     return ctypes.CDLL(str(output))
