@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from microros_gen.diagnostics import Source, Span
 from microros_gen.model.types import ScalarValue
-from microros_gen.parse.idl_values import IdlError, literal_value, span_of
+from microros_gen.parse.idl_values import IdlError, literal_value, span_of, tokens_of
 from microros_gen.parse.msg_declarations import SyntaxNode
 
 
@@ -44,7 +44,7 @@ def read_annotations(
     units: list[str] = []
     defaults: list[Default] = []
     for annotation in node.children:
-        name = next(str(token) for token in annotation.children[0].children if token.type == "IDENTIFIER")
+        name = next(str(token) for token in tokens_of(annotation.children[0]) if token.type == "IDENTIFIER")
         span = span_of(annotation, source)
         if known_only and name not in ("verbatim", "unit", "default"):
             continue

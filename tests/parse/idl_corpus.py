@@ -104,6 +104,8 @@ GOOD = [
     ),
     msg("sequence<int32> sequence; sequence<string<3>> string;"),
     msg("int32 int32;\n uint8 uint8;"),
+    msg("pkg_b::msg::Bar sequence; A string; sequence<A> module; A struct_;", "typedef int32 A;"),
+    msg("@key pkg_b::msg::Bar sequence; @a::b A boolean; @c sequence<A> octet;", "typedef int32 A;"),
     msg("int32 TRUE;"),
     msg("int32 fooBar;\n int32 FOO;\n int32 a_;\n int32 a__b;"),
     msg("uint8 structure_needs_at_least_one_member;"),

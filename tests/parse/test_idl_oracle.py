@@ -8,11 +8,15 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from idl_corpus import BAD, BAD_PARTS, DIFFERENCES, GOOD, GOOD_PARTS, NO_C, Difference
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from idl_corpus import BAD, BAD_PARTS, DIFFERENCES, GOOD, GOOD_PARTS, NO_C, Difference, msg
+from idl_strategies import messages
 from rosidl_idl_pipeline import RosMessage, ros_c_compiles, ros_idl
 
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.model.derived import messages_of
+from microros_gen.model.idl_text import idl_text
 from microros_gen.model.type_description import type_description
 from microros_gen.model.types import Message, NamedType, element_of
 from microros_gen.parse.idl import IdlFile, read_idl
@@ -90,3 +94,87 @@ def test_what_rosidl_takes_and_makes_no_c_of_is_refused(text: str, tmp_path: Pat
 def test_the_oracle_of_c_takes_what_is_right(text: str, tmp_path: Path) -> None:
     assert ros_idl(text.replace("other_pkg::msg::Bar", "std_msgs::msg::Header"), tmp_path) is not None
     assert ros_c_compiles(tmp_path, tmp_path / "c")
+
+
+@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(declared=messages())
+def test_a_struct_made_at_random_is_to_ros_what_it_is_here(declared: Message, tmp_path: Path) -> None:
+    theirs = ros_idl(idl_text(declared), tmp_path)
+    assert theirs is not None
+    check_equal(declared, theirs.messages[0], documented=True)
+
+
+# Pieces that make members near to right ones; known differences are not among them.
+BEFORE = [
+    "",
+    "",
+    "typedef int32 A;",
+    "typedef int32 A[2];",
+    "typedef B A; typedef string<3> B;",
+    "enum A { X };",
+]
+ANNOTATIONS = [
+    *("", "", "@key", "@default (value=1)", '@default (value="(1, 2)")', "@default (1)", '@unit (value="m")'),
+    *(
+        '@verbatim (language="comment", text="a" "b")',
+        "@foo (1, 2)",
+        "@foo (a=1, b=-2.5)",
+        "@foo (bar)",
+        "@foo ()",
+    ),
+]
+TYPES = [
+    *(
+        "int32",
+        "unsigned short",
+        "long long",
+        "long double",
+        "octet",
+        "char",
+        "string<3>",
+        "wstring",
+        "string<0>",
+    ),
+    *(
+        "sequence<int32>",
+        "sequence<int32, 2>",
+        "sequence<string<4>>",
+        "sequence<A>",
+        "sequence<sequence<int32>>",
+    ),
+    *("A", "pkg_b::msg::Bar", "::pkg_b::msg::Bar", "::A", "B", "fixed<3, 2>", "struct Bar", "unsigned", ""),
+]
+DECLARATORS = [
+    "a",
+    "a",
+    "a, b",
+    "a[2]",
+    "a[2], b",
+    "a[2], b[2]",
+    "a[2][2]",
+    "a[0]",
+    "a[]",
+    "1a",
+    "",
+    "sequence",
+    "a b",
+]
+ENDS = [";", ";", "; // c", "; /* c */", "", ";;", "};"]
+members = st.tuples(*map(st.sampled_from, (ANNOTATIONS, TYPES, DECLARATORS, ENDS))).map(" ".join)
+
+
+@settings(max_examples=120, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(before=st.sampled_from(BEFORE), member=members)
+def test_members_made_at_random_are_taken_or_refused_as_by_ros(
+    before: str, member: str, tmp_path: Path
+) -> None:
+    text = msg(f"{member}\nint32 z;", before)
+    ours, theirs = read(text).declarations, ros_idl(text, tmp_path)
+    if theirs is not None and not ours:
+        # What the parser takes and the C generator does not, or has no meaning: each has a line in the corpus.
+        assert "@default" in member or "A" in member
+        return
+    assert bool(ours) == (theirs is not None)
+    if ours and theirs is not None:
+        assert isinstance(ours[0], Message)
+        check_equal(ours[0], theirs.messages[0], documented="@unit" not in text)
