@@ -127,8 +127,7 @@ def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Dia
     check_entities(application, selection, diagnostics)
     finder = InterfaceFinder.from_environment(options.interface_paths)
     finder.check_paths(diagnostics)
-    interfaces = resolve_interfaces(_requested(application), finder, diagnostics)
-    diagnostics.check()
+    interfaces = _interfaces(resolved, finder, diagnostics)
     capacities = _capacities(resolved, interfaces, diagnostics)
     diagnostics.check()
     received = _received(selection, capacities)
@@ -237,6 +236,27 @@ def _requested(application: Application) -> tuple[Named, ...]:
         for endpoint in node.endpoints
     )
     return declared + application.interfaces
+
+
+def _interfaces(resolved: Resolved, finder: InterfaceFinder, diagnostics: Diagnostics) -> InterfaceSet:
+    """Return the closure of what is requested; where no message is among it, the default one for publishers.
+
+    Services and actions bring the types that they exchange; nobody publishes those.
+    """
+    application = resolved.request.application
+    requested = _requested(application)
+    interfaces = resolve_interfaces(requested, finder, diagnostics)
+    diagnostics.check()
+    if application.nodes or _published(interfaces) or not resolved.selection.has("publish"):
+        return interfaces
+    diagnostics.warning(
+        f"there is no message to publish among the interfaces, so {DEFAULT_INTERFACE} is added",
+        next((named.span for named in requested), None),
+        "Services and actions bring their types and no publishers; add a message with --interface pkg/msg/Type",
+    )
+    interfaces = resolve_interfaces((*requested, Named(DEFAULT_INTERFACE)), finder, diagnostics)
+    diagnostics.check()
+    return interfaces
 
 
 def _of_kind(endpoint: EndpointDecl) -> str:

@@ -61,8 +61,12 @@ class _Renderer:
         stored = [storage_view(plan, self._plans) for plan in plans if plan.storage]
         if stored:
             own.append(paths.storage)
-            fini = f"{stored[0].name}__fini" if len(stored) == 1 else "a function …__fini"
-            header = {**_file(plans, paths.storage, stored, "header_includes"), "fini": fini}
+            one = len(stored) == 1
+            wording = {
+                "subject": f"a {stored[0].ros_name}" if one else f"each message of {_title(plans)}",
+                "fini": f"{stored[0].name}__fini" if one else "its __fini",
+            }
+            header = {**_file(plans, paths.storage, stored, "header_includes"), **wording}
             self._print(paths.storage, "storage.h", header)
             self._print(paths.storage_source, "storage.c", _file(plans, paths.storage, stored))
         view = {

@@ -9,6 +9,7 @@ from typing import Any
 
 from jinja2 import Environment
 
+from microros_gen.model.derived import declaring_name
 from microros_gen.model.types import Primitive
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_decode import (
@@ -56,6 +57,7 @@ def render_decoders(type_plans: Sequence[TypePlan], environment: Environment) ->
     rendered = {}
     for (header, source), plans in files.items():
         view = {
+            "title": str(declaring_name(plans[0].name)),
             "guard": guard(header),
             "header": include_path(header),
             "struct": include_path(plans[0].files.struct),

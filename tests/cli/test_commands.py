@@ -161,3 +161,13 @@ def test_a_wrong_command_gets_the_nearest(run: Runner) -> None:
     outcome = run("biuld")
     assert outcome.status == 2
     assert "Did you mean 'build'?" in outcome.err
+
+
+def test_interfaces_of_services_and_actions(run: Runner) -> None:
+    package = data_of(run, "interfaces", "std_srvs", "--interface-path", IDL)
+    assert [entry["type"] for entry in package["types"]] == [
+        f"std_srvs/srv/{name}" for name in ("Empty", "SetBool", "Trigger")
+    ]
+    one = data_of(run, "interfaces", "std_srvs/SetBool", "--interface-path", IDL)
+    assert one["description"]["type_description"]["type_name"] == "std_srvs/srv/SetBool"
+    assert "  request" in table_of(run, "interfaces", "std_srvs/SetBool")

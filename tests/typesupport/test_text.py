@@ -10,10 +10,12 @@ from pathlib import Path
 import pytest
 from ts_build import TEST_RULES, WARNINGS, Generated, generate, run
 
+from microros_gen.diagnostics import UserError
 from microros_gen.model.types import Primitive
 from microros_gen.plan.types_names import snake_case
 from microros_gen.render.environment import make_environment
 from microros_gen.render.types import render_types
+from microros_gen.render.types_decode import render_decoders
 from microros_gen.render.types_text import comment_lines, number, string
 
 NASTY = """# Speed [m/s] */ int injected; /* and more
@@ -153,9 +155,23 @@ def test_text_of_every_file(everything: Generated) -> None:
 
 @pytest.mark.ros
 def test_rendering_is_repeatable_and_fast(everything: Generated) -> None:
-    """Same bytes from a new environment; far below the budget of a generation (0.3 s for 169 types)."""
+    """Same bytes from a new environment; far below the budget of a generation (0.3 s for 169 types, of 304 here)."""
     start = time.perf_counter()
-    files = render_types(everything.plans, make_environment())
+    environment = make_environment()
+    files = render_types(everything.plans, environment) | render_decoders(everything.plans, environment)
     elapsed = time.perf_counter() - start
     assert files == everything.files
     assert elapsed < 1.0
+
+
+def test_types_of_idl_alone_are_refused_by_name(tmp_path: Path) -> None:
+    """`char` and `wchar` are read and hashed; they have no encoding here."""
+    (tmp_path / "a/msg").mkdir(parents=True)
+    members = "char one; wchar two[3]; sequence<char> three; octet four;"
+    text = f"module a {{ module msg {{ struct A {{ {members} }}; }}; }};"
+    (tmp_path / "a/msg/A.idl").write_text(text, encoding="utf-8")
+    with pytest.raises(UserError) as raised:
+        generate(["a"], (), tmp_path / "out", [tmp_path])
+    said = [d.message for d in raised.value.diagnostics]
+    assert [line.split(": ", 1)[0] for line in said] == ["a/msg/A.one", "a/msg/A.two", "a/msg/A.three"]
+    assert "the IDL type 'char' is not generated" in said[2]
