@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -145,13 +146,15 @@ def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Dia
 def render_request(planned: Planned) -> dict[str, bytes]:
     """Return every file of the output folder, the manifest among them."""
     from microros_gen.output.manifest import manifest
+    from microros_gen.output.runs import compiled_templates
     from microros_gen.output.tree import MANIFEST
     from microros_gen.render.environment import make_environment
     from microros_gen.render.project import render_project
 
     chosen = {c.component.name for c in planned.project.selection.components}
     unselected = [c for c in planned.resolved.catalogue.values() if c.name not in chosen]
-    files = render_project(planned.project, _component_files(planned.project), unselected, make_environment())
+    environment = make_environment(compiled=compiled_templates(os.environ))
+    files = render_project(planned.project, _component_files(planned.project), unselected, environment)
     inputs = dict(planned.resolved.request.inputs)
     own = planned.resolved.own_profiles
     inputs |= {f"profile {p.name}": p.span.source.text.encode() for p in own if p.span}

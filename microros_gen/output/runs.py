@@ -89,6 +89,16 @@ def cache_folder(environ: Mapping[str, str]) -> Path:
     return (Path(base) if base else Path.home() / ".cache") / "microros-gen"
 
 
+def compiled_templates(environ: Mapping[str, str]) -> Path | None:
+    """Return the folder that keeps compiled templates between runs; None where there can be none."""
+    folder = cache_folder(environ) / "templates"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return None
+    return folder if os.access(folder, os.W_OK) else None
+
+
 def _record(command: Mapping[str, object], environ: Mapping[str, str]) -> Path:
     key = [
         {name: str(value) for name, value in sorted(command.items())},

@@ -70,7 +70,9 @@ def _target(node: MappingNode) -> Target:
         uart=_uart(node.get("uart")),
         unique_id=_unique_id(node.get("unique_id")),
         emulator=_emulator(node.get("emulator")),
-        interrupts=tuple(sorted((int(e.key), text_of(e.value) or "") for e in entries(node.get("interrupts")))),
+        interrupts=tuple(
+            sorted((int(e.key), text_of(e.value) or "") for e in entries(node.get("interrupts")))
+        ),
         registers=tuple(sorted((e.key, int_of(e.value) or 0) for e in entries(node.get("registers")))),
     )
 

@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 import json
+from html import escape
 from typing import Any
-from xml.sax.saxutils import escape, quoteattr
 
 from microros_gen.plan.agent_files import (
     ENTITIES,
@@ -55,14 +55,14 @@ def entities_json(files: AgentFiles) -> str:
 
 def _participant(reference: str, name: str) -> str:
     return (
-        f"  <participant profile_name={quoteattr(reference)}>\n"
+        f'  <participant profile_name="{escape(reference)}">\n'
         f"    <rtps>\n      <name>{escape(name)}</name>\n    </rtps>\n  </participant>\n"
     )
 
 
 def _topic(writer: AgentWriter) -> str:
     return (
-        f"  <topic profile_name={quoteattr(writer.topic_reference)}>\n"
+        f'  <topic profile_name="{escape(writer.topic_reference)}">\n'
         f"    <kind>NO_KEY</kind>\n    <name>{escape(writer.topic)}</name>\n"
         f"    <dataType>{escape(writer.dds_type)}</dataType>\n  </topic>\n"
     )
@@ -72,7 +72,7 @@ def _data_writer(writer: AgentWriter) -> str:
     qos = writer.qos
     depth = f"        <depth>{qos.depth}</depth>\n" if qos.depth else ""
     return (
-        f"  <data_writer profile_name={quoteattr(writer.writer_reference)}>\n"
+        f'  <data_writer profile_name="{escape(writer.writer_reference)}">\n'
         f"    <topic>\n      <kind>NO_KEY</kind>\n      <name>{escape(writer.topic)}</name>\n"
         f"      <dataType>{escape(writer.dds_type)}</dataType>\n"
         f"      <historyQos>\n        <kind>{qos.history.upper()}</kind>\n{depth}      </historyQos>\n    </topic>\n"

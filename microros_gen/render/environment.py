@@ -7,15 +7,15 @@ from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from jinja2 import Environment, FileSystemBytecodeCache, FileSystemLoader, StrictUndefined
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 TEMPLATE_FOLDERS = (_PACKAGE / "templates", _PACKAGE / "components")
 """Where templates are found: `types/struct.h.j2`, `publish/src/rcl_publisher.c.j2`."""
 
 
-def make_environment(folders: Sequence[Path] = TEMPLATE_FOLDERS) -> Environment:
-    """Return a new environment that finds templates below `folders`.
+def make_environment(folders: Sequence[Path] = TEMPLATE_FOLDERS, compiled: Path | None = None) -> Environment:
+    """Return a new environment that finds templates below `folders`, and keeps them compiled in `compiled`.
 
     A name that a template uses and its view lacks is an error. The files of an installed package do not
     change during a run, so they are not looked at again once compiled.
@@ -28,6 +28,7 @@ def make_environment(folders: Sequence[Path] = TEMPLATE_FOLDERS) -> Environment:
         keep_trailing_newline=True,
         autoescape=False,
         auto_reload=False,
+        bytecode_cache=FileSystemBytecodeCache(str(compiled)) if compiled else None,
     )
 
 
