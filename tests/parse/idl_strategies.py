@@ -27,7 +27,7 @@ NAME = TypeName("pkg_a", "msg", "Foo")
 IDENTIFIERS = st.from_regex(r"[a-zA-Z][a-zA-Z0-9_]{0,8}", fullmatch=True).filter(
     lambda name: name not in C_KEYWORDS | CPP_KEYWORDS and name != "structure_needs_at_least_one_member"
 )
-TEXTS = st.text(st.characters(exclude_categories=("Cs",), exclude_characters="\0"), max_size=12)
+TEXTS = st.text(st.characters(min_codepoint=1, codec="utf-8"), max_size=12)
 COMMENTS = st.lists(
     st.text(
         string.ascii_letters + string.digits + string.punctuation.replace("[", "") + " äハ",

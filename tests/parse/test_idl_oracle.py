@@ -51,9 +51,12 @@ def check_equal(ours: Message, theirs: RosMessage, *, documented: bool) -> None:
     assert meaning(described(ours)) == meaning(theirs.description)
     assert tuple((c.name, c.value) for c in ours.constants) == theirs.constants
     if documented:
-        elements = [ours, *ours.constants, *ours.fields]
-        comments = tuple(e.comment for e in elements)
-        assert comments == theirs.comments[: len(elements)]
+        comments = (
+            ours.comment,
+            *(constant.comment for constant in ours.constants),
+            *(field.comment for field in ours.fields),
+        )
+        assert comments == theirs.comments[: len(comments)]
 
 
 @pytest.mark.parametrize(("kind", "text"), [*(("msg", text) for text in GOOD), *GOOD_PARTS])

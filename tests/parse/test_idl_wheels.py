@@ -21,6 +21,7 @@ from microros_gen.model.type_description import type_hash
 from microros_gen.model.types import (
     Action,
     ArrayType,
+    Constant,
     Declaration,
     Field,
     FieldType,
@@ -90,7 +91,10 @@ def bare_type(field_type: FieldType) -> FieldType:
 def bare(message: Message) -> Message:
     """Return the message without places and without comments."""
     fields = tuple(Field(f.name, bare_type(f.type), f.default) for f in message.fields)
-    constants = tuple(replace(c, type=bare_type(c.type), comment=(), span=None) for c in message.constants)
+    constants = tuple(
+        replace(c, type=Primitive.UINT8 if c.type is Primitive.CHAR else c.type, comment=(), span=None)
+        for c in message.constants
+    )
     return Message(message.name, fields, constants)
 
 
@@ -101,9 +105,14 @@ def words(comment: tuple[str, ...]) -> tuple[str, list[str]]:
     return (" ".join(UNIT.sub("", text).split()), units) if len(units) == 1 else (" ".join(text.split()), [])
 
 
+def documented(message: Message) -> list[Constant | Field]:
+    return [*message.constants, *message.fields]
+
+
 def comments(message: Message) -> list[tuple[str, list[str]]]:
     """Return the words of every comment; rosidl_adapter drops units of constants and of the struct itself."""
-    others = [(words(element.comment)[0], []) for element in (message, *message.constants)]
+    own = [message.comment, *(constant.comment for constant in message.constants)]
+    others: list[tuple[str, list[str]]] = [(words(comment)[0], []) for comment in own]
     return others + [words(field.comment) for field in message.fields]
 
 
@@ -128,7 +137,7 @@ def test_comments_of_idl_files_keep_their_lines() -> None:
     for mine, other in (
         (a, b) for d, f in pairs for a, b in zip(messages_of(d), messages_of(f), strict=True)
     ):
-        for one, two in zip((*mine.constants, *mine.fields), (*other.constants, *other.fields), strict=True):
+        for one, two in zip(documented(mine), documented(other), strict=True):
             if one.comment == two.comment:
                 same += 1
             else:
