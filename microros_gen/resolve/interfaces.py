@@ -68,7 +68,7 @@ class _Resolver:
         self._diagnostics = diagnostics
         self._places: dict[str, PackagePlace | None] = {}
         self._types: dict[str, frozenset[TypeName]] = {}
-        self._ambiguous = finder.ambiguous()
+        self._own = finder.own_packages()
 
     def request(self, request: Named) -> tuple[TypeName, ...]:
         """Return the types that a request names; an error where it names none."""
@@ -206,19 +206,16 @@ class _Resolver:
 
     def _place(self, package: str) -> PackagePlace | None:
         if package not in self._places:
-            self._places[package] = self._finder.package(package)
-            self._check_ambiguous(package)
+            own = self._own.get(package, ())
+            self._places[package] = own[0] if own else self._finder.package(package)
+            if len(own) > 1:
+                folders = " and ".join(f"'{place.folder}'" for place in own)
+                self._diagnostics.error(
+                    f"the package '{package}' is there {len(own)} times: {folders}",
+                    hint="ROS 2 takes a name once: remove one, or name the folder that counts first with"
+                    " --interface-path",
+                )
         return self._places[package]
-
-    def _check_ambiguous(self, package: str) -> None:
-        rivals = self._ambiguous.get(package, ())
-        if rivals:
-            folders = " and ".join(f"'{place.folder}'" for place in rivals)
-            self._diagnostics.error(
-                f"the package '{package}' is there {len(rivals)} times: {folders}",
-                hint="ROS 2 takes a name once: remove one, or name the folder that counts first with"
-                " --interface-path",
-            )
 
 
 def _parsed(source: Source, name: TypeName, diagnostics: Diagnostics) -> Declaration | None:

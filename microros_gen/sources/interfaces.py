@@ -32,6 +32,8 @@ ROS 2 installs an .idl file beside what it is made from; an .idl file alone is a
 KINDS = tuple(SUFFIXES_OF_KIND)
 """The kinds of interfaces."""
 
+_IGNORED = ("COLCON_IGNORE", "AMENT_IGNORE")
+_DEEPEST = 5
 _PACKAGE_NAME = re.compile(r"<name>\s*([a-z][a-z0-9_]*)\s*</name>")
 
 
@@ -58,8 +60,9 @@ class InterfaceFinder:
     """Finds packages and reads their interface files. It holds only where to look; it keeps nothing that it
     read.
 
-    `paths`: folders that the user named, each a package or a folder of packages. `ament`: prefixes, in order.
-    `pip`: prefixes of Python environments. `shipped`: the folder of the definitions that come with the tool.
+    `paths`: folders that the user named, each a package, a folder of packages or a colcon workspace. `ament`:
+    prefixes, in order. `pip`: prefixes of Python environments. `shipped`: the folder of the definitions that
+    come with the tool.
     """
 
     paths: tuple[Path, ...] = ()
@@ -125,19 +128,17 @@ class InterfaceFinder:
             return None
         return read_type(place, name, diagnostics)
 
-    def ambiguous(self) -> Mapping[str, tuple[PackagePlace, ...]]:
-        """Return the packages that one of the user's paths holds more than once, with their places there.
+    def own_packages(self) -> Mapping[str, tuple[PackagePlace, ...]]:
+        """Return the packages of the user's paths by name, with their places in the first path that has them.
 
-        A package that an earlier path has is not among them: that one counts.
+        More than one place is ambiguous: ROS 2 takes a name once.
         """
-        seen: set[str] = set()
         found: dict[str, tuple[PackagePlace, ...]] = {}
         for path in self.paths:
             places: dict[str, list[PackagePlace]] = {}
             for place in _packages_below(path, Origin.PATH):
                 places.setdefault(place.name, []).append(place)
-            found |= {n: tuple(p) for n, p in places.items() if len(p) > 1 and n not in seen}
-            seen.update(places)
+            found = {**{name: tuple(there) for name, there in places.items()}, **found}
         return found
 
     def check_paths(self, diagnostics: Diagnostics) -> None:
@@ -165,8 +166,8 @@ class InterfaceFinder:
         for folder, origin in self._roots():
             yield folder
             if origin is Origin.PATH:  # any folder may hold any package: its package.xml has the name
-                children = [folder, *(entry for entry in _children(folder) if entry.is_dir())]
-                yield from (path for child in children for path in (child, child / "package.xml"))
+                walked = [folder, *_walk(folder)]
+                yield from (path for here in walked for path in (here, here / "package.xml"))
             else:
                 yield from (folder / name for name in names)
 
@@ -232,11 +233,32 @@ def _is_package(folder: Path) -> bool:
 
 
 def _packages_below(folder: Path, origin: Origin) -> list[PackagePlace]:
-    if origin is Origin.PATH and _is_package(folder):
+    if origin is not Origin.PATH:
+        return [PackagePlace(c.name, c, origin) for c in _children(folder) if _is_package(c)]
+    if _is_package(folder):
         return [PackagePlace(_name_of(folder), folder, origin)]
-    children = [entry for entry in _children(folder) if _is_package(entry)]
-    named = origin is Origin.PATH
-    return [PackagePlace(_name_of(c) if named else c.name, c, origin) for c in children]
+    found = (c for c in _walk(folder) if _is_package(c) and (c.parent == folder or _has_manifest(c)))
+    return [PackagePlace(_name_of(c), c, origin) for c in found]
+
+
+def _walk(folder: Path) -> Iterator[Path]:
+    """Yield the folders below `folder` that can be packages, in the order of their paths.
+
+    As colcon looks for them in a workspace: not in hidden folders, nor below a package or a folder that says
+    COLCON_IGNORE, which build, install and log do.
+    """
+    pending = [(entry, 1) for entry in reversed(_children(folder))]
+    while pending:
+        here, depth = pending.pop()
+        if here.name.startswith(".") or not here.is_dir() or any((here / name).exists() for name in _IGNORED):
+            continue
+        yield here
+        if depth < _DEEPEST and not _is_package(here) and not _has_manifest(here):
+            pending += [(entry, depth + 1) for entry in reversed(_children(here))]
+
+
+def _has_manifest(folder: Path) -> bool:
+    return (folder / "package.xml").is_file()
 
 
 def _children(folder: Path) -> list[Path]:
@@ -267,10 +289,7 @@ def _path_fault(path: Path) -> tuple[str, str] | None:
         return f"cannot be read: {fault.strerror}", "Check the folder's permissions"
     if _packages_below(path, Origin.PATH):
         return None
-    inner = next((d for d in ("share", "src") if _packages_below(path / d, Origin.PATH)), None)
-    if inner is not None:
-        return "holds no interface package", f"Did you mean '{path / inner}'?"
     return (
         "holds no interface package",
-        "A package has a folder msg/, srv/ or action/; its parent folder or itself can be named",
+        "A package has a folder msg/, srv/ or action/; itself, a folder of packages or a workspace can be named",
     )
