@@ -27,7 +27,7 @@ from microros_gen.sources.interfaces import InterfaceFinder, types_in
     multiple=True,
     type=click.Path(path_type=Path),
     metavar="DIR",
-    help="Folder of packages, or a package; searched before the ament index, pip and the shipped set.",
+    help="Package, folder of packages or colcon workspace; searched before the ament index, pip and the shipped set.",
 )
 @click.option(
     "--format",

@@ -46,8 +46,8 @@ def selection_options(function: F) -> F:
                 "--interface",
                 "interfaces",
                 multiple=True,
-                metavar="PKG[/msg/Type]",
-                help="Interface, or all of a package. Adds to the file's. Default: std_msgs/msg/Int32.",
+                metavar="PKG[/Type]",
+                help="Message, service, action or all of a package. Adds to the file's. Default: std_msgs/msg/Int32.",
             ),
             click.option(
                 "--interface-path",
@@ -55,7 +55,7 @@ def selection_options(function: F) -> F:
                 multiple=True,
                 type=click.Path(path_type=Path),
                 metavar="DIR",
-                help="Folder of packages, or a package; searched before ament, pip and the shipped set.",
+                help="Package, folder of packages or colcon workspace; searched before ament, pip and the shipped set.",
             ),
             click.option(
                 "--target", metavar="NAME", help="Target, see `microros-gen targets`. Default: host."
