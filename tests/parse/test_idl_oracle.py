@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from idl_corpus import BAD, BAD_PARTS, DIFFERENCES, GOOD, GOOD_PARTS, NO_C, Difference, msg
+from idl_corpus import BAD, BAD_PARTS, DIFFERENCES, GOOD, GOOD_PARTS, NO_C, Difference, msg, parts
 from idl_strategies import messages
 from rosidl_idl_pipeline import RosMessage, ros_c_compiles, ros_idl
 
@@ -181,3 +181,13 @@ def test_members_made_at_random_are_taken_or_refused_as_by_ros(
     if ours and theirs is not None:
         assert isinstance(ours[0], Message)
         check_equal(ours[0], theirs.messages[0], documented="@unit" not in text)
+
+
+def test_ros_gives_constants_declared_alike_to_one_struct(tmp_path: Path) -> None:
+    modules = (f"module Foo_{part}_Constants {{ const short A = 1; }};" for part in ("Request", "Response"))
+    structs = (f"struct Foo_{part} {{ int32 a; }};" for part in ("Request", "Response"))
+    text = parts("srv", *modules, *structs)
+    theirs = ros_idl(text, tmp_path, "srv")
+    assert theirs is not None
+    assert [message.constants for message in theirs.messages[:2]] == [(("A", 1), ("A", 1)), ()]
+    assert not read(text, "srv").declarations
