@@ -108,7 +108,8 @@ def test_a_refusal_is_told_and_others_go_on(bench: Bench, plan: RuntimePlan, kin
     client = bench.start(plan, "ping", agent)
     results = [client.call(call) for call in CALLS]
     failed = results[1 if kind == "participant" else 2]
-    assert (failed.code, failed.error) == (1, f"{shown}: the agent refuses it: UNKNOWN_REFERENCE (entities in microros.yaml)")
+    words = "the agent refuses it: UNKNOWN_REFERENCE (entities in microros.yaml)"
+    assert (failed.code, failed.error) == (1, f"{shown}: {words}")
     agent.refuse.clear()
     if kind == "participant":
         client.ok(CALLS[1])

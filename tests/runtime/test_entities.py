@@ -34,7 +34,10 @@ def test_a_refusal_names_entity_and_status(
     client.agent.refuse = {kind: status}
     results = [client.call("node 0 n -"), client.call("publisher 0 0 Int32 x reliable")]
     failed = results[0 if kind == "participant" else 1]
-    assert (failed.code, failed.error) == (1, f"{shown}: the agent refuses it: {name} (entities in microros.yaml)")
+    assert (failed.code, failed.error) == (
+        1,
+        f"{shown}: the agent refuses it: {name} (entities in microros.yaml)",
+    )
     client.spin(20, 50)
     assert len(client.agent.objects) == (0 if kind == "participant" else 1), (
         "what was created before is deleted"
