@@ -100,7 +100,7 @@ def _type(finder: InterfaceFinder, name: str, diagnostics: Diagnostics) -> tuple
     interfaces = _resolved(finder, name, diagnostics)
     root = interfaces.roots[0]
     interface = interfaces.interfaces[declaring_name(root)]
-    declaration = interface.declaration if root == interface.name else interfaces.message(root)
+    declaration = interfaces.declaration(root)
     data = {
         "type": str(root),
         "hash": interfaces.type_hash(root),
@@ -123,7 +123,8 @@ def _contents(declaration: Declaration, interfaces: InterfaceSet) -> dict[str, A
     """Return what is declared: the members of a message, or the parts of a service or action and the rest."""
     if isinstance(declaration, Message):
         return _members(declaration)
-    derived = [n for n in interfaces.described if declaring_name(n) == declaration.name != n]
+    own = f"{declaration.name}_"
+    derived = [name for name in interfaces.described if str(name).startswith(own)]
     return {
         "parts": {
             part.lower(): {"type": str(message.name), "comment": list(message.comment), **_members(message)}

@@ -38,10 +38,13 @@ SERVICE_PARTS = ("Request", "Response")
 ACTION_PARTS = ("Goal", "Result", "Feedback")
 """The parts of an .action file, in their order."""
 
-_DERIVED = re.compile(
-    r"(?P<stem>.+?)_(?:Goal|Result|Feedback|FeedbackMessage|SendGoal|GetResult"
-    r"|(?:(?:SendGoal|GetResult)_)?(?:Request|Response|Event))"
-)
+_SERVICE_SUFFIX = "(?:Request|Response|Event)"
+_DERIVED = {
+    "srv": re.compile(rf"(?P<stem>.+?)_{_SERVICE_SUFFIX}"),
+    "action": re.compile(
+        rf"(?P<stem>.+?)_(?:Goal|Result|Feedback|FeedbackMessage|(?:SendGoal|GetResult)(?:_{_SERVICE_SUFFIX})?)"
+    ),
+}
 _EVENT_BOUND = 1
 _GOAL_ID_COMMENT = ("Identity of the goal, chosen by the client.",)
 
@@ -56,9 +59,8 @@ def declaring_name(name: TypeName) -> TypeName:
 
     A message, a service and an action belong to themselves.
     """
-    if name.kind == "msg":
-        return name
-    match = _DERIVED.fullmatch(name.name)
+    pattern = _DERIVED.get(name.kind)
+    match = pattern.fullmatch(name.name) if pattern else None
     return TypeName(name.package, name.kind, match["stem"]) if match else name
 
 

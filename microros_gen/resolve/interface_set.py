@@ -41,7 +41,7 @@ class InterfaceSet:
 
     `interfaces` is ordered: a type comes after all types of its fields; types of the same depth by name. The
     order does not depend on the order of the requests. `roots` are the requested types, sorted: names of
-    `interfaces`, or of messages that ROS 2 derives from one of them.
+    `interfaces`, or of what ROS 2 derives from one of them.
     """
 
     interfaces: Mapping[TypeName, Interface]
@@ -81,8 +81,7 @@ class InterfaceSet:
         """The requested messages, and every message of the requested services and actions, sorted."""
         found: set[TypeName] = set()
         for name in self.roots:
-            entry = self.interfaces.get(name)
-            found.update(message.name for message in entry.messages) if entry else found.add(name)
+            found.update(message.name for message in messages_of(self.declaration(name)))
         return tuple(sorted(found))
 
     @cached_property
@@ -90,6 +89,16 @@ class InterfaceSet:
         """Everything that has a type description: messages, and services and actions as structures."""
         found = (structure for entry in self for structure in structures_of(entry.declaration))
         return MappingProxyType({structure.name: structure for structure in found})
+
+    def declaration(self, name: TypeName) -> Declaration:
+        """Return what `name` is: an interface, or a message or service that ROS 2 derives from one.
+
+        KeyError for another name.
+        """
+        entry = self.interfaces.get(name)
+        if entry is not None:
+            return entry.declaration
+        return self.services[name] if name in self.services else self.messages[name]
 
     def message(self, name: TypeName) -> Message:
         """Return a message of this set (KeyError for another type)."""

@@ -48,7 +48,7 @@ def resolve_interfaces(
     order = _dependency_order(found, diagnostics)
     return InterfaceSet(
         MappingProxyType({name: found[name] for name in order}),
-        tuple(sorted(name for name in roots if declaring_name(name) in found)),
+        tuple(sorted(name for name in roots if declaring_name(name) in order)),
     )
 
 

@@ -93,6 +93,12 @@ def test_a_derived_message_is_shown(folder: Path) -> None:
     lines = run("std_srvs/srv/SetBool_Event").stdout.splitlines()
     assert any(line.split()[:2] == ["request", "std_srvs/SetBool_Request[<=1]"] for line in lines)
     assert "(empty)" in run("std_srvs/Trigger").stdout
+    name = "example_interfaces/action/Fibonacci_SendGoal"
+    data = json.loads(run(name, "--format", "json").stdout)
+    assert list(data["parts"]) == ["request", "response"]
+    assert [entry["type"] for entry in data["derived"]] == [
+        f"{name}_{part}" for part in ("Request", "Response", "Event")
+    ]
 
 
 @pytest.mark.parametrize(

@@ -57,6 +57,24 @@ def test_a_derived_message_can_be_requested() -> None:
     assert SET_BOOL in interfaces.interfaces
 
 
+def test_a_service_of_an_action_can_be_requested() -> None:
+    interfaces, said = resolve(SHIPPED, "example_interfaces/action/Fibonacci_SendGoal")
+    assert said == []
+    assert [name.name for name in interfaces.message_roots] == [
+        f"Fibonacci_SendGoal_{part}" for part in ("Event", "Request", "Response")
+    ]
+
+
+@pytest.mark.parametrize(
+    "name", ["std_srvs/srv/SetBool_Goal", "example_interfaces/action/Fibonacci_Event", "std_msgs/Int32_Event"]
+)
+def test_what_ros_does_not_derive_is_unknown(name: str) -> None:
+    interfaces, said = resolve(SHIPPED, name)
+    assert len(interfaces) == 0
+    assert len(said) == 1
+    assert "has no type" in said[0]
+
+
 def test_a_package_means_all_its_kinds(tmp_path: Path) -> None:
     package(tmp_path, "a", A="int8 a")
     package(tmp_path, "a", "srv", B="---")
