@@ -27,7 +27,14 @@ NEEDED = {
     "make": "make",
     "nm": "binutils",
     "valgrind": "valgrind",
+    "qemu-ppc": "qemu-user",
+    "powerpc-linux-gnu-ld": "binutils-powerpc-linux-gnu",
+    "/usr/powerpc-linux-gnu/lib/libc.a": "libc6-dev-powerpc-cross",
+    "arm-linux-gnueabihf-ld": "binutils-arm-linux-gnueabihf",
+    "/usr/arm-linux-gnueabihf/lib/libc.a": "libc6-dev-armhf-cross",
 }
+# What clang links for other targets. Debian's cross gcc itself must not be there beside gcc-multilib.
+CROSS = {"powerpc-linux-gnu": "powerpc", "arm-linux-gnueabihf": "armhf"}
 MULTILIB = "gcc-multilib"
 
 
@@ -36,13 +43,23 @@ def missing_packages() -> list[str]:
     missing = {package for program, package in NEEDED.items() if not _is_there(program)}
     if shutil.which("gcc") is None or not _links_32_bit():
         missing |= {MULTILIB, "g++-multilib"}
-    return sorted(missing)
+    return sorted(missing | _missing_libgcc())
 
 
 def _is_there(name: str) -> bool:
     if name.startswith("/"):  # where Debian puts it; others know best
         return Path(name).exists() or not Path("/etc/debian_version").exists()
     return shutil.which(name) is not None
+
+
+def _missing_libgcc() -> set[str]:
+    """Return the packages with gcc's own library for other targets; their name has the version of Debian's gcc."""
+    release = Path("/usr/lib/gcc/x86_64-linux-gnu")
+    versions = [int(path.name) for path in release.glob("*") if path.name.isdigit()]
+    if not Path("/etc/debian_version").exists() or not versions:
+        return set()
+    there = {path.parent.parent.name for path in Path("/usr/lib/gcc-cross").glob("*/*/libgcc.a")}
+    return {f"libgcc-{max(versions)}-dev-{CROSS[target]}-cross" for target in CROSS if target not in there}
 
 
 def _links_32_bit() -> bool:
