@@ -63,13 +63,14 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "session: {key: device}\n",
         "pool-acknack-block-xml-reliable": _POOL
         + "liveliness: acknack\non_full: block 20 ms\nentities: xml\ncreation: reliable\n",
-        "declared-acknack-drop-arena-reference": _NODES
+        "declared-acknack-drop-arena-reference-pieces": _NODES.replace("sequence: 6", "sequence: 80")
         + "liveliness: acknack\non_full: drop_oldest\nmemory: {arena: 1024}\nentities: reference\n",
         "declared-ping-block-code-device-preconfigured": _NODES
         + "on_full: block 20 ms\nerrors: code\nsession: {key: device}\nentities: preconfigured\n",
         "best-effort-none-code": _BEST_EFFORT + "liveliness: none\nerrors: code\nentities: preconfigured\n",
         "best-effort-ping-drop": _BEST_EFFORT + "on_full: drop_oldest\nsession: {key: 7}\n",
-        "best-effort-reference-reliable": _BEST_EFFORT + "entities: reference\ncreation: reliable\n",
+        "best-effort-reference-reliable-held": _BEST_EFFORT
+        + "entities: reference\ncreation: reliable\npools: {input_history: 2}\n",
     }
 )
 """Application files by name. Together they select every alternative file of the components that are ready."""

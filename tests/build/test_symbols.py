@@ -171,7 +171,7 @@ def test_words_of_other_ways_to_create_are_not_in_an_image(tree_of: TreeOf, tmp_
     for name in (
         "pool",
         "pool-acknack-block-xml-reliable",
-        "best-effort-reference-reliable",
+        "best-effort-reference-reliable-held",
         "best-effort-none-code",
     ):
         tree, application = tree_of(name), VARIANTS[name]
