@@ -3,6 +3,20 @@
 
 #include <string.h>
 
+/** Return how many of `length` characters (at least one) stand before the first NUL. */
+static size_t count_characters(const char * from, uint32_t length)
+{
+  size_t size = 0U;
+
+  if (from[length - 1U] == '\0') {
+    return strlen(from);
+  }
+  while ((size < length) && (from[size] != '\0')) {
+    ++size;
+  }
+  return size;
+}
+
 void cdr_get_string(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bound, const char * field)
 {
   const size_t capacity = (text->data == NULL) ? 0U : text->capacity;
@@ -13,8 +27,7 @@ void cdr_get_string(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bou
 
   if (length > 0U) {
     from = &in->body[in->position];
-    const uint8_t * const end = (const uint8_t *)memchr(from, 0, length);
-    size = (end == NULL) ? length : (size_t)(end - from);
+    size = count_characters((const char *)from, length);
     in->position += length;
   }
   if (size > limit) {

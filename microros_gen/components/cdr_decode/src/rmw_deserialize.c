@@ -40,7 +40,7 @@ rmw_ret_t rmw_deserialize(
   cdr_fault_t fault = {"", 0, 0, CDR_FAULT_LIMIT};
   const microros_message_type_t * type;
   const uint8_t * bytes;
-  uint32_t representation = UINT32_MAX;
+  uint32_t representation;
   size_t size;
 
   if (serialized_message == NULL || type_support == NULL || ros_message == NULL) {
@@ -51,17 +51,22 @@ rmw_ret_t rmw_deserialize(
     return microros_error_named(RMW_RET_UNSUPPORTED, microros_error_not_received, type->dds_type_name);
   }
   bytes = serialized_message->buffer;
-  size = serialized_message->buffer_length;
-  if (bytes != NULL && size >= (size_t)ENCAPSULATION_SIZE && size <= UINT32_MAX) {
-    representation = ((uint32_t)bytes[0] << 8) | bytes[1];
+  size = (bytes == NULL) ? 0u : serialized_message->buffer_length;
+  if (size < (size_t)ENCAPSULATION_SIZE) {
+    const cdr_fault_t short_of = {"encapsulation", ENCAPSULATION_SIZE, (uint32_t)size, CDR_FAULT_END};
+    return deserialize_refuse(type, &short_of);
   }
+  representation = ((uint32_t)bytes[0] << 8) | bytes[1];
   if (representation > (uint32_t)CDR_LITTLE_ENDIAN) {
-    microros_error_set(microros_error_encapsulation, NULL, NULL, representation, (uint32_t)size);
+    microros_error_set(
+      microros_error_encapsulation, type->dds_type_name, NULL, representation, CDR_LITTLE_ENDIAN);
     return RMW_RET_ERROR;
   }
+  bytes = &bytes[ENCAPSULATION_SIZE];
+  size -= (size_t)ENCAPSULATION_SIZE;
+  size = (size > UINT32_MAX) ? UINT32_MAX : size;
   const bool swap = (representation == (uint32_t)CDR_LITTLE_ENDIAN) != is_little_endian_here();
-  if (!type->decode(
-        &bytes[ENCAPSULATION_SIZE], (uint32_t)size - (uint32_t)ENCAPSULATION_SIZE, swap, ros_message, &fault)) {
+  if (!type->decode(bytes, (uint32_t)size, swap, ros_message, &fault)) {
     return deserialize_refuse(type, &fault);
   }
   return RMW_RET_OK;

@@ -42,10 +42,13 @@ const char microros_error_domain[] = "domain %n is above %m";
 const char microros_error_device[] = "serial device %s: more than %m bytes, or none";
 const char microros_error_custom_unset[] =
   "rmw_uros_set_custom_transport was not called before, or refused its arguments";
-const char microros_error_encapsulation[] = "serialized message: not plain CDR (0 or 1): %n, of %m bytes";
+const char microros_error_encapsulation[] = "%t: representation %n is not plain CDR (0 or %m)";
 const char microros_error_not_received[] = "%t has no decoder: no profile that receives it";
 const char microros_error_body_end[] = "%t.%d: the message ends: %n bytes needed, %m left";
 const char microros_error_value[] = "%t.%d: %n is above %m";
+const char microros_error_memory_rule[] = "memory rule '%d' names no string or sequence of %t";
+const char microros_error_memory_given[] = "the allocator gives no memory for %n bytes";
+const char microros_error_memory_buffer[] = "the buffer has %n bytes and the message takes %m";
 const char microros_error_framing[] = "custom transport: set transport: {framing: %d}%y";
 
 /* From status 0x80 on (OMG DDS-XRCE 1.0, 7.7.2). */
