@@ -132,6 +132,14 @@ class Unit:
     key: str
 
 
+def tree_key(tree: Tree) -> str:
+    """Return what stands for every C file and header of `tree`."""
+    digest = hashlib.sha256()
+    for path in sorted(p for p in tree.out.rglob("*.[ch]") if p.is_file()):
+        digest.update(f"{path.relative_to(tree.out).as_posix()}\0".encode() + path.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
 def width_flags(unit: Unit) -> tuple[str, ...]:
     """Return how a file of a microcontroller's port is compiled on a host: its registers have addresses of 32 bits."""
     bare = ("src/port_bare/", "src/port_cortex_m/", "src/port_riscv/")
