@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Publishes Int32 and encodes six messages under callgrind; argv[1] says which (see instructions.py). */
+/* Publishes Int32, encodes and decodes messages under callgrind; argv[1] says which (see instructions.py). */
 #include <microros/message_type.h>
 #include <rcl/rcl.h>
 #include <rclc/rclc.h>
@@ -34,7 +34,16 @@ uint32_t bench_encode(const rosidl_message_type_support_t * support, const void 
   return type->encode(message, body, &fault);
 }
 
-static void encode_all(const char * what)
+bool bench_decode(const rosidl_message_type_support_t * support, uint32_t size, void * message);
+
+bool bench_decode(const rosidl_message_type_support_t * support, uint32_t size, void * message)
+{
+  const microros_message_type_t * const type = (const microros_message_type_t *)support->data;
+  cdr_fault_t fault;
+  return type->decode(body, size, false, message, &fault);
+}
+
+static int encode_all(const char * what)
 {
   static std_msgs__msg__Int32 number;
   static std_msgs__msg__String text;
@@ -48,7 +57,8 @@ static void encode_all(const char * what)
   static geometry_msgs__msg__TwistStamped twist;
   static geometry_msgs__msg__TwistStamped__Storage twist_storage;
   const rosidl_message_type_support_t * support = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
-  const void * message = &number;
+  void * message = &number;
+  bool read = true;
 
   if (strcmp(what, "String") == 0) {
     std_msgs__msg__String__bind(&text, &text_storage);
@@ -87,7 +97,11 @@ static void encode_all(const char * what)
   for (int i = 0; i < ENCODES; ++i) {
     written = bench_encode(support, message);
   }
+  for (int i = 0; i < ENCODES; ++i) {
+    read = read && bench_decode(support, written, message);
+  }
   printf("%d calls, %u bytes\n", ENCODES, (unsigned)written);
+  return written != 0u && read ? 0 : 1;
 }
 
 static int publish_all(bool reliable)
@@ -135,6 +149,5 @@ int main(int argc, char ** argv)
   if (strcmp(argv[1], "best_effort") == 0 || strcmp(argv[1], "reliable") == 0) {
     return publish_all(argv[1][0] == 'r');
   }
-  encode_all(argv[1]);
-  return 0;
+  return encode_all(argv[1]);
 }

@@ -40,6 +40,11 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "types_nodes": _NODES
         + "      - {topic: tree, type: quality_msgs/msg/Tree}\n"
         + "limits:\n  '*': {string: 12, sequence: 3}\n  quality_msgs/msg/Tree: {leaf: {string: 5}, runs: 2}\n",
+        "types_decode": _POOL
+        + "components: [+cdr_decode]\ninterfaces: [quality_msgs]\nlimits: {'*': {string: 12, sequence: 3}}\n",
+        "decode_codes": _INT32 + "components: [+cdr_decode]\nerrors: code\n",
+        "utilities": _POOL
+        + "components: [+micro_ros_utilities]\ninterfaces: [quality_msgs]\nlimits: {'*': {string: 12, sequence: 3}}\n",
         "pool": _INT32,
         "pool_block": _INT32 + "on_full: block 20 ms\n",
         "declared": _BOTH

@@ -28,7 +28,11 @@ void cdr_in_refuse(
   in->position = in->size;
 }
 
-const uint8_t * cdr_in_take(cdr_in_t * in, size_t count, uint32_t width, const char * field)
+/**
+ * Return the address of `count` values of `width` bytes (1, 2, 4 or 8), behind their padding, and move on; NULL, with
+ * the fault filled, where the body ends before.
+ */
+static inline const uint8_t * take(cdr_in_t * in, size_t count, uint32_t width, const char * field)
 {
   const uint32_t padding = (0U - in->position) & (width - 1U);
   const uint32_t left = in->size - in->position;
@@ -57,12 +61,13 @@ static void turn(uint8_t * number, size_t count, uint32_t width)
   }
 }
 
-static void get_numbers(cdr_in_t * in, void * to, size_t count, uint32_t width, const char * field)
+static inline void get_numbers(
+  cdr_in_t * in, void * to, size_t count, uint32_t width, const char * field)
 {
   if (count == 0U) {
     return;
   }
-  const uint8_t * const from = cdr_in_take(in, count, width, field);
+  const uint8_t * const from = take(in, count, width, field);
   if (from == NULL) {
     return;
   }
@@ -94,7 +99,7 @@ void cdr_get_8(cdr_in_t * in, void * to, size_t count, const char * field)
 
 void cdr_get_bool(cdr_in_t * in, bool * to, size_t count, const char * field)
 {
-  const uint8_t * const from = cdr_in_take(in, count, 1U, field);
+  const uint8_t * const from = take(in, count, 1U, field);
 
   for (size_t i = 0U; (from != NULL) && (i < count); ++i) {
     to[i] = from[i] != 0U;
@@ -103,13 +108,20 @@ void cdr_get_bool(cdr_in_t * in, bool * to, size_t count, const char * field)
 
 uint32_t cdr_in_length(cdr_in_t * in, uint32_t width, const char * field)
 {
+  const uint8_t * const from = take(in, 1U, sizeof(uint32_t), field);
   uint32_t length = 0U;
 
-  get_numbers(in, &length, 1U, 4U, field);
+  if (from == NULL) {
+    return 0U;
+  }
+  (void)memcpy(&length, from, sizeof(length));
+  if (in->swap) {
+    turn((uint8_t *)&length, 1U, sizeof(length));
+  }
   const uint32_t left = in->size - in->position;
-  if (length > (left / width)) {
+  if (((uint64_t)length * width) > left) {
     cdr_in_refuse(in, CDR_FAULT_END, field, (uint64_t)length * width, left);
-    length = 0U;
+    return 0U;
   }
   return length;
 }

@@ -97,11 +97,9 @@ void cdr_get_wstrings(
   cdr_in_t * in, rosidl_runtime_c__U16String * texts, size_t count, uint32_t bound, const char * field);
 
 /**
- * For cdr_decode*.c. cdr_in_take returns the address of `count` values of `width` bytes (1, 2, 4 or 8), behind
- * their padding, and moves on; NULL, with the fault filled, where the body ends before. cdr_in_refuse fills the
- * fault, if there is none yet, and moves to the end.
+ * For cdr_decode*.c. cdr_in_refuse fills the fault, if there is none yet, and moves to the end. cdr_in_length returns
+ * a length in elements of at least `width` bytes; 0, with the fault filled, where the body ends before them.
  */
-const uint8_t * cdr_in_take(cdr_in_t * in, size_t count, uint32_t width, const char * field);
 void cdr_in_refuse(
   cdr_in_t * in, cdr_fault_kind_t kind, const char * field, uint64_t found, uint32_t fits);
 uint32_t cdr_in_length(cdr_in_t * in, uint32_t width, const char * field);
