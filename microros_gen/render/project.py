@@ -16,6 +16,7 @@ from microros_gen.render.board import BoardView, board_view
 from microros_gen.render.example import example_view
 from microros_gen.render.types import render_types
 from microros_gen.render.types_decode import render_decoders
+from microros_gen.render.types_members import render_members
 from microros_gen.sources.runtime import ComponentFile
 
 
@@ -66,6 +67,8 @@ def render_project(
     rendered = _component_files(project, files, environment)
     rendered |= render_types(project.types, environment)
     rendered |= render_decoders(project.types, environment)
+    if project.selection.has("micro_ros_utilities"):
+        rendered |= render_members(project.types, environment)
     rendered |= render_agent_files(project)
     for path, content in _unselected_headers(unselected, environment):
         rendered.setdefault(path, content)

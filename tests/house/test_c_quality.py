@@ -84,7 +84,7 @@ def test_corpus_holds_every_source(trees: list[Tree]) -> None:
 
 def test_corpus_holds_every_template_of_types(trees: list[Tree]) -> None:
     sources = covered(trees)
-    for ending in ("functions", "type_support", "storage"):
+    for ending in ("functions", "type_support", "storage", "members"):
         assert f"quality_msgs/tree__{ending}.c" in sources
 
 

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A static library exports everything: these are empty, and exist for sources that write them. */
+#ifndef MICROROS_MICRO_ROS_UTILITIES_VISIBILITY_CONTROL_H
+#define MICROROS_MICRO_ROS_UTILITIES_VISIBILITY_CONTROL_H
+
+#define MICRO_ROS_UTILITIES_EXPORT
+#define MICRO_ROS_UTILITIES_IMPORT
+#define MICRO_ROS_UTILITIES_PUBLIC
+#define MICRO_ROS_UTILITIES_PUBLIC_TYPE
+#define MICRO_ROS_UTILITIES_LOCAL
+
+#endif /* MICROROS_MICRO_ROS_UTILITIES_VISIBILITY_CONTROL_H */
