@@ -107,7 +107,7 @@ def test_over_a_bad_line_rclpy_gets_every_reliable_sample_and_the_agent_says_wha
     builds: Builds, observer: Observer, domain: int
 ) -> None:
     built = builds.build(BOARD)
-    image = builds.application(built, "counter.c", "-DCOUNTER_LAST=100", "-DCOUNTER_PERIOD_MS=20u")
+    image = builds.application(built, "counter.c", "-DCOUNTER_LAST=200", "-DCOUNTER_PERIOD_MS=20u")
     observer.subscribe("/count", "std_msgs/msg/Int32", reliable=True)
     with (
         board(built, image) as running,
@@ -118,13 +118,13 @@ def test_over_a_bad_line_rclpy_gets_every_reliable_sample_and_the_agent_says_wha
         running.go_on()
         agent.wait_for("publisher /count")
         relay.fault = noisy(11, 400)
-        samples = values_until(observer, 100)
+        samples = values_until(observer, 200)
         running.wait_for(lambda: running.words("counter_report")[0], 30)
         statistics = report(running)
         agent.stop()
         said = agent.wait_for("faults of input")
-    assert samples[0] < 50  # DDS gives nothing of before the subscription was found
-    assert samples == list(range(samples[0], 101))
+    assert samples[0] < 150  # DDS gives nothing of before the subscription was found
+    assert samples == list(range(samples[0], 201))
     assert relay.lost > 0
     assert relay.spoiled > 0
     assert int(said.split(" faults of input")[0].rpartition(" ")[2]) > 0
