@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "0766d67eed126ece"
-#define rcl_init rcl_init__plan_0766d67eed126ece
-#define rclc_support_init rclc_support_init__plan_0766d67eed126ece
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_0766d67eed126ece
+#define MICROROS_PLAN_ID "993083e3e01bc20b"
+#define rcl_init rcl_init__plan_993083e3e01bc20b
+#define rclc_support_init rclc_support_init__plan_993083e3e01bc20b
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_993083e3e01bc20b
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u
@@ -19,7 +19,7 @@
 #define RMW_UXRCE_TRANSPORT_UDP
 #define MICROROS_AGENT_HOST "127.0.0.1"
 #define MICROROS_AGENT_PORT 8888u
-#define MICROROS_MTU 160u
+#define MICROROS_MTU 158u
 
 /* session */
 #define MICROROS_CLIENT_KEY 0x0105f4b4u
@@ -33,15 +33,17 @@
 
 /* streams */
 #define MICROROS_INPUT_SIZE 64u
-#define MICROROS_BEST_EFFORT_SIZE 160u
+#define MICROROS_BEST_EFFORT_SIZE 158u
 #define MICROROS_RELIABLE_SLOTS 4u
 #define MICROROS_RELIABLE_SLOT_SIZE 16u
+#define MICROROS_RELIABLE_FRONT 4u /* of a slot, before the first submessage */
 #define MICROROS_HEARTBEAT_PERIOD_MS 100u
 
 /* places */
 #define MICROROS_NODES_MAX 1u
 #define MICROROS_PUBLISHERS_MAX 1u
 #define MICROROS_NAME_SIZE 64u
+#define MICROROS_TYPE_NAME_SIZE 28u
 
 /* memory */
 #define MICROROS_ARENA_SIZE 0u

@@ -78,6 +78,7 @@ static inline bool cdr_refuse(cdr_fault_t * fault, const char * field, size_t fo
   fault->field = field;
   fault->found = (found > UINT32_MAX) ? UINT32_MAX : (uint32_t)found;
   fault->fits = fits;
+  fault->kind = CDR_FAULT_LIMIT;
   return false;
 }
 

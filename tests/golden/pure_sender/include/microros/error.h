@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Errors of the library. The place that fails names an error and the facts; the words are in error_text.c,
- * each an object of its own, so that what nobody names is not linked. With `errors: code` error_code.c stands
- * for it: there each is "E" and the number below. E01 is an error that the application set
- * (rcutils_set_error_state).
+ * errors: text. The place that fails names an error and the facts; the words are in error_text.c, each an object of
+ * its own, so that what nobody names is not linked.
  */
 #ifndef MICROROS_ERROR_H
 #define MICROROS_ERROR_H
@@ -14,42 +12,54 @@
 extern "C" {
 #endif
 
-extern const char microros_error_argument[];             /* 2 */
-extern const char microros_error_context_in_use[];       /* 3 */
-extern const char microros_error_transport[];            /* 4 */
-extern const char microros_error_agent_silent[];         /* 5 */
-extern const char microros_error_agent_refused[];        /* 6 */
-extern const char microros_error_address[];              /* 7 */
-extern const char microros_error_name[];                 /* 8 */
-extern const char microros_error_name_long[];            /* 9 */
-extern const char microros_error_node_undeclared[];      /* 10 */
-extern const char microros_error_node_open[];            /* 11 */
-extern const char microros_error_nodes_full[];           /* 12 */
-extern const char microros_error_publisher_undeclared[]; /* 13 */
-extern const char microros_error_publisher_open[];       /* 14 */
-extern const char microros_error_publishers_full[];      /* 15 */
-extern const char microros_error_stream_small[];         /* 16 */
-extern const char microros_error_qos[];                  /* 17 */
-extern const char microros_error_entity_silent[];        /* 18 */
-extern const char microros_error_entity_refused[];       /* 19 */
-extern const char microros_error_field[];                /* 20 */
-extern const char microros_error_stream_full[];          /* 21 */
-extern const char microros_error_no_session[];           /* 22 */
-extern const char microros_error_not_sent[];             /* 23 */
-extern const char microros_error_arena[];                /* 24 */
-extern const char microros_error_serialized[];           /* 25 */
-extern const char microros_error_domain[];               /* 26 */
+typedef const char * microros_error_t;
+
+extern const char microros_error_argument[];
+extern const char microros_error_context_in_use[];
+extern const char microros_error_transport[];
+extern const char microros_error_agent_silent[];
+extern const char microros_error_agent_refused[];
+extern const char microros_error_address[];
+extern const char microros_error_name[];
+extern const char microros_error_name_long[];
+extern const char microros_error_node_undeclared[];
+extern const char microros_error_node_open[];
+extern const char microros_error_nodes_full[];
+extern const char microros_error_publisher_undeclared[];
+extern const char microros_error_publisher_open[];
+extern const char microros_error_publishers_full[];
+extern const char microros_error_stream_small[];
+extern const char microros_error_qos[];
+extern const char microros_error_entity_silent[];
+extern const char microros_error_entity_refused[];
+extern const char microros_error_field[];
+extern const char microros_error_stream_full[];
+extern const char microros_error_no_session[];
+extern const char microros_error_not_sent[];
+extern const char microros_error_arena[];
+extern const char microros_error_serialized[];
+extern const char microros_error_domain[];
+extern const char microros_error_device[];
+extern const char microros_error_custom_unset[];
+extern const char microros_error_framing[];
+extern const char microros_error_encapsulation[];
+extern const char microros_error_not_received[];
+extern const char microros_error_body_end[];
+extern const char microros_error_value[];
+extern const char microros_error_memory_rule[];
+extern const char microros_error_memory_given[];
+extern const char microros_error_memory_buffer[];
 
 /*
  * Makes this the last error. What `name`, `detail`, `found` and `fits` mean is said beside the texts; the
  * strings are only read during the call.
  */
 void microros_error_set(
-  const char * error, const char * name, const char * detail, uint32_t found, uint32_t fits);
+  microros_error_t error, const char * name, const char * detail, uint32_t found, uint32_t fits);
 
 /* The same for microros_error_argument, and for errors with a name and nothing else. Both return `result`. */
 int32_t microros_error_refuse(int32_t result, const char * argument);
-int32_t microros_error_named(int32_t result, const char * error, const char * name);
+int32_t microros_error_named(int32_t result, microros_error_t error, const char * name);
 
 #ifdef __cplusplus
 }

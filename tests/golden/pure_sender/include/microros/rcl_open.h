@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What rclc and rcl share: opening without options of rcl. Internal; pointers are checked here, except as
- * said. */
+/* What rclc and rcl share: opening with options of rmw, or without any, which then are not linked. Internal;
+ * pointers are not NULL. */
 #ifndef MICROROS_RCL_OPEN_H
 #define MICROROS_RCL_OPEN_H
 
@@ -10,8 +10,10 @@
 extern "C" {
 #endif
 
-/* `options` NULL: as the plan says. */
 rcl_ret_t rcl_open(const rmw_init_options_t * options, rcl_context_t * context);
+
+/* The same, everything as the plan says. */
+rcl_ret_t rcl_open_as_planned(rcl_context_t * context);
 
 #ifdef __cplusplus
 }

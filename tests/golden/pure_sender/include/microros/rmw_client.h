@@ -7,8 +7,6 @@
 #include <stdint.h>
 
 #include "microros/xrce_session.h"
-#include "rmw/init.h"
-#include "rmw/init_options.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -21,10 +19,6 @@ xrce_client_t * rmw_client_instance(void);
 
 /* Returns the client when it has a session, else NULL. */
 xrce_client_t * rmw_client_connected(void);
-
-/* Where the options, or else the plan, say that the agent is. */
-const char * rmw_client_host(const rmw_uxrce_transport_params_t * params);
-uint16_t rmw_client_port(const rmw_uxrce_transport_params_t * params);
 
 /* Waits at most `timeout_ms` until nothing is unacknowledged. */
 bool rmw_client_flush(xrce_client_t * client, uint32_t timeout_ms);

@@ -9,8 +9,8 @@
 extern "C" {
 #endif
 
-/* `options` NULL: as the plan says. `context` is not NULL. */
-rmw_ret_t rmw_open(const rmw_init_options_t * options, rmw_context_t * context);
+/* rmw_init without options: everything as the plan says. `context` is not NULL. */
+rmw_ret_t rmw_open_as_planned(rmw_context_t * context);
 
 #ifdef __cplusplus
 }

@@ -6,10 +6,11 @@
 #ifndef MICROROS_XRCE_CLIENT_H
 #define MICROROS_XRCE_CLIENT_H
 
-#include "microros/xrce_entities.h"
+#include "microros/xrce_creation.h"
 #include "microros/xrce_objects.h"
 #include "microros/xrce_ping.h"
 #include "microros/xrce_session.h"
+#include "microros/xrce_session_close.h"
 #include "microros/xrce_stream_best_effort.h"
 #include "microros/xrce_stream_reliable.h"
 #include "microros_config.h"

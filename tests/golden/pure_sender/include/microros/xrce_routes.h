@@ -15,6 +15,10 @@
 extern "C" {
 #endif
 
+/* Hands a received message to its stream, which hands on its submessages when it is their turn. `size` is at least a
+ * header's. False: it is not what it should be. */
+bool xrce_route_message(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now);
+
 /* Hands a received submessage to the part that understands it; the others are ignored. `in_session` is false
  * for one that came outside of a session. */
 void xrce_route_submessage(
@@ -26,6 +30,9 @@ void xrce_route_step(xrce_client_t * client, uint32_t now);
 
 /* Starts every part again: the agent counts from 0 and may have nothing. */
 void xrce_route_connected(xrce_client_t * client, uint32_t now);
+
+/* Takes leave of the agent, where the plan has a way to, for at most client->close_timeout_ms; then closes. */
+void xrce_route_close(xrce_client_t * client);
 
 /*
  * Returns room for one submessage in the stream, or NULL when it has none; a second call without

@@ -3,9 +3,8 @@
  * The session with the agent: a state machine that never blocks. Nothing here is thread-safe; one task owns a
  * client.
  *
- * closed -> connecting (CREATE_CLIENT, repeated with growing pauses) -> ready -> closing (DELETE, answered by
- * STATUS)
- * -> closed. A session found lost goes back to connecting by itself.
+ * closed -> connecting (CREATE_CLIENT, repeated with growing pauses) -> ready -> closing (where session_close is
+ * selected: DELETE, answered by STATUS) -> closed. A session found lost goes back to connecting by itself.
  */
 #ifndef MICROROS_XRCE_SESSION_H
 #define MICROROS_XRCE_SESSION_H
@@ -36,12 +35,10 @@ typedef struct xrce_statistics_t {
 
 typedef struct xrce_session_t {
   xrce_transport_t transport;
-  const char * host; /* the caller's, or the plan's */
   uint32_t key;
   uint32_t now_ms;   /* when the last pump began */
-  uint32_t due_ms;   /* when to send the next CREATE_CLIENT or DELETE */
+  uint32_t due_ms;   /* when to send the next CREATE_CLIENT */
   uint32_t heard_ms; /* when the agent was heard last */
-  uint16_t port;
   uint16_t retry_ms;
   uint16_t request; /* the next request id */
   uint8_t state;    /* xrce_state_t */
@@ -51,15 +48,15 @@ typedef struct xrce_session_t {
   xrce_statistics_t statistics;
 } xrce_session_t;
 
-/* Starts connecting; `host` must live until the session is closed. Clears everything that the client had. */
-void xrce_session_open(xrce_client_t * client, const char * host, uint16_t port, uint32_t key);
+/* Starts connecting. Clears everything that the client had; before the first pump, say in session.transport where
+ * the agent is. */
+void xrce_session_open(xrce_client_t * client, uint32_t key);
 
 /* Waits at most `timeout_ms` for the session. False: session.refusal says whether the agent refused. */
 bool xrce_session_await(xrce_client_t * client, uint32_t timeout_ms);
 
-/* Takes leave of the agent, repeats that until it answers or `timeout_ms` are over (0: says it once), and
- * closes. */
-void xrce_session_close(xrce_client_t * client, uint32_t timeout_ms);
+/* Closes at once, on this side alone; xrce_route_close takes leave of the agent before. */
+void xrce_session_close(xrce_client_t * client);
 
 /* Gives the session up and connects again. */
 void xrce_session_lose(xrce_client_t * client, uint32_t now);
@@ -73,10 +70,12 @@ bool xrce_session_send(xrce_session_t * session, const uint8_t * message, size_t
 /* Returns a request id that no outstanding request has. */
 uint16_t xrce_session_next_request(xrce_session_t * session);
 
-/* What xrce_routes.c calls. */
+/* What xrce_routes.c and the input stream call. The first hands on the submessages of a whole message; false where the
+ * message is not what it should be. */
+bool xrce_session_take_submessages(
+  xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now);
 void xrce_session_step(xrce_client_t * client, uint32_t now);
 void xrce_session_on_status_agent(xrce_client_t * client, const uint8_t * payload, size_t size, uint32_t now);
-void xrce_session_on_status(xrce_client_t * client, const uint8_t * payload, size_t size);
 
 #ifdef __cplusplus
 }

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The reliable output stream: a ring of whole messages, encoded in place and kept until the agent
- * acknowledges them, so that sending again is only sending. Sequence numbers are modulo 2^16. While there is
- * no session the ring keeps what it holds; with the next session its messages are numbered from 0 and sent
- * again.
+ * The reliable output stream: whole messages, encoded in place and kept until the agent acknowledges them, so that
+ * sending again is only sending. Sequence numbers are modulo 2^16 and given when a message is sent first. While there
+ * is no session the stream keeps what it holds; in the next session its messages are numbered anew and sent again.
  */
 #ifndef MICROROS_XRCE_STREAM_RELIABLE_H
 #define MICROROS_XRCE_STREAM_RELIABLE_H
@@ -22,17 +21,23 @@ extern "C" {
 /* All zero is an empty stream. */
 typedef struct xrce_stream_reliable_t {
   uint32_t heartbeat_ms;  /* when the next HEARTBEAT is due, while something is unacknowledged */
-  uint16_t first;         /* sequence number of the oldest unacknowledged message */
-  uint8_t head;           /* its slot */
+  uint32_t held_until_ms; /* until then, ... */
+  bool held;              /* ... or until the agent has the writers, nothing is numbered and sent */
   uint8_t count;          /* unacknowledged messages */
-  bool held;              /* a session is new: nothing is sent until the agent has the writers again, ... */
-  uint32_t held_until_ms; /* ... or until then */
-  uint16_t size[MICROROS_RELIABLE_SLOTS];
+  uint8_t head;   /* slot of the oldest message */
+  uint16_t first; /* its sequence number; while held: the next one's */
+  uint16_t size[MICROROS_RELIABLE_SLOTS]; /* of the message without what stands before its submessages */
   uint8_t message[MICROROS_RELIABLE_SLOTS][MICROROS_RELIABLE_SLOT_SIZE];
 } xrce_stream_reliable_t;
 
-/* Returns room for MICROROS_RELIABLE_SLOT_SIZE - XRCE_MESSAGE_HEADER bytes of submessages; NULL: every slot
- * is taken. */
+/* Whether no sequence number waits for its acknowledgement. */
+static inline bool xrce_stream_reliable_is_idle(const xrce_stream_reliable_t * stream)
+{
+  return stream->count == 0u;
+}
+
+/* Returns room for MICROROS_RELIABLE_SLOT_SIZE - MICROROS_RELIABLE_FRONT bytes of submessages; NULL: every slot is
+ * taken. */
 uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream);
 
 /* Takes `size` bytes of submessages; sends them where there is a session that is not held. */
@@ -40,9 +45,10 @@ void xrce_stream_reliable_commit(
   xrce_stream_reliable_t * stream, xrce_session_t * session, size_t size, uint32_t now);
 
 /* Forgets the oldest message and tells the agent at the next step; false: there is none. */
-bool xrce_stream_reliable_drop_oldest(xrce_stream_reliable_t * stream, uint32_t now);
+bool xrce_stream_reliable_drop_oldest(
+  xrce_stream_reliable_t * stream, const xrce_session_t * session, uint32_t now);
 
-/* A session is new: numbers what is kept from 0 and holds it. */
+/* A session is new: holds what is kept, to be numbered from 0, or from what `creation: reliable` has left. */
 void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now);
 
 /* Lets go of what is held once the entities are settled, and sends a HEARTBEAT when one is due. */
@@ -53,6 +59,9 @@ void xrce_stream_reliable_step(
 bool xrce_stream_reliable_on_acknack(
   xrce_stream_reliable_t * stream, xrce_session_t * session, const uint8_t * payload, size_t size,
   uint8_t flags, uint32_t now);
+
+/* For this component alone: tells the agent which numbers can be had, `count` (not 0) from `first` on. */
+void xrce_stream_reliable_heartbeat(xrce_session_t * session, uint16_t first, uint16_t count);
 
 #ifdef __cplusplus
 }

@@ -13,11 +13,27 @@
 extern "C" {
 #endif
 
+/* How texts name the other end: xrce_transport_name, and xrce_transport_port as %n or %m. */
+#define XRCE_PLACE_N "%s:%n"
+#define XRCE_PLACE_M "%s:%m"
+
 typedef struct xrce_transport_t {
   port_udp_t udp;
+  const char * host; /* the caller's, or the plan's */
+  uint16_t port;
 } xrce_transport_t;
 
-bool xrce_transport_open(xrce_transport_t * transport, const char * host, uint16_t port);
+static inline const char * xrce_transport_name(const xrce_transport_t * transport)
+{
+  return transport->host;
+}
+
+static inline uint16_t xrce_transport_port(const xrce_transport_t * transport)
+{
+  return transport->port;
+}
+
+bool xrce_transport_open(xrce_transport_t * transport);
 
 void xrce_transport_close(xrce_transport_t * transport);
 

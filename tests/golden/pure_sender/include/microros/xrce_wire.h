@@ -18,8 +18,8 @@ extern "C" {
 enum {
   XRCE_MESSAGE_HEADER = 4,
   XRCE_SUBMESSAGE_HEADER = 4,
-  XRCE_OBJECT_PREFIX = 4, /* request id and object id */
-  XRCE_WRITE_OVERHEAD = XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER + XRCE_OBJECT_PREFIX
+  XRCE_OBJECT_PREFIX = 4,                                         /* request id and object id */
+  XRCE_WRITE_PREFIX = XRCE_SUBMESSAGE_HEADER + XRCE_OBJECT_PREFIX /* before the body of WRITE_DATA */
 };
 
 enum { XRCE_SESSION_ID = 0x81, XRCE_SESSION_NONE = 0x80 };
@@ -36,10 +36,19 @@ enum {
   XRCE_INFO = 0x06,
   XRCE_WRITE_DATA = 0x07,
   XRCE_ACKNACK = 0x0a,
-  XRCE_HEARTBEAT = 0x0b
+  XRCE_HEARTBEAT = 0x0b,
+  XRCE_FRAGMENT = 0x0d
 };
 
-enum { XRCE_FLAG_LITTLE_ENDIAN = 0x01, XRCE_FLAG_REUSE = 0x02, XRCE_FLAG_REPLACE = 0x04 };
+/* Payloads of these two. */
+enum { XRCE_ACKNACK_SIZE = 5, XRCE_HEARTBEAT_SIZE = 5 };
+
+enum {
+  XRCE_FLAG_LITTLE_ENDIAN = 0x01,
+  XRCE_FLAG_REUSE = 0x02,        /* of CREATE */
+  XRCE_FLAG_REPLACE = 0x04,      /* of CREATE */
+  XRCE_FLAG_LAST_FRAGMENT = 0x02 /* of FRAGMENT */
+};
 
 enum { XRCE_STATUS_OK = 0x00, XRCE_STATUS_OK_MATCHED = 0x01 };
 
@@ -109,6 +118,12 @@ static inline void xrce_put_submessage(uint8_t * at, uint8_t id, uint8_t flags, 
   at[0] = id;
   at[1] = flags;
   xrce_put_le16(&at[2], size);
+}
+
+/* Returns how many bytes of a message lie between two places in it; a message has less than 64 KiB. */
+static inline uint16_t xrce_size_between(const uint8_t * begin, const uint8_t * end)
+{
+  return (uint16_t)(end - begin);
 }
 
 /* Whether `deadline` is reached at `now`; both in milliseconds that start again at 0 after 2^32 - 1. */

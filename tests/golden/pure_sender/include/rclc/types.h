@@ -13,6 +13,6 @@ typedef struct {
   rcl_clock_t clock;
 } rclc_support_t;
 
-#define RCLC_UNUSED(x) (void)x
+#define RCLC_UNUSED(x) (void)(x)
 
 #endif /* MICROROS_RCLC_TYPES_H */

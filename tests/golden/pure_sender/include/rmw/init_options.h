@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "microros/rmw_transport_params.h"
 #include "rcutils/allocator.h"
 #include "rmw/domain_id.h"
 #include "rmw/localhost.h"
@@ -16,17 +17,6 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/* Room for "255.255.255.255" or a host name, and for "65535", each with its NUL. */
-#define RMW_UXRCE_MAX_HOST_SIZE 32
-#define RMW_UXRCE_MAX_PORT_SIZE 6
-
-/* Where the agent is, and the key of the session. Empty or 0: as the plan says. */
-typedef struct rmw_uxrce_transport_params_t {
-  char agent_address[RMW_UXRCE_MAX_HOST_SIZE];
-  char agent_port[RMW_UXRCE_MAX_PORT_SIZE];
-  uint32_t client_key;
-} rmw_uxrce_transport_params_t;
 
 /* Holds everything by value: there is no pool of options that could run out, and a copy is an assignment. */
 typedef struct rmw_init_options_s {

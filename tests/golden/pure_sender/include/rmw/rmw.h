@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The middleware interface, as far as applications call it. Publishing and serialization link with the
- * component `publish`.
+ * The middleware interface, as far as applications call it. Publishing and rmw_serialize link with the
+ * component `publish`, rmw_deserialize with `cdr_decode`.
  */
 #ifndef MICROROS_RMW_RMW_H
 #define MICROROS_RMW_RMW_H
@@ -50,6 +50,21 @@ rmw_ret_t rmw_get_serialized_message_size(
 rmw_ret_t rmw_serialize(
   const void * ros_message, const rosidl_message_type_support_t * type_support,
   rmw_serialized_message_t * serialized_message);
+
+/* Gives the exact size of what rmw_serialize would write of this message; RMW_RET_ERROR where it would refuse. */
+rmw_ret_t rmw_uros_get_serialized_message_size(
+  const void * ros_message, const rosidl_message_type_support_t * type_support, size_t * size);
+
+/*
+ * Reads plain CDR of either byte order into the storage that the message has: strings and sequences need `data`
+ * and `capacity`, of the application or of __bind. RMW_RET_ERROR, with the member's name, what it has and what
+ * fits as the error text: bytes that end too early, contents above a capacity, another encapsulation; what the
+ * message holds then is unspecified, its sizes within its capacities. RMW_RET_UNSUPPORTED: a type that this
+ * application only sends. Bytes behind the message are ignored, as in ROS 2. Keeps no pointer to the buffer.
+ */
+rmw_ret_t rmw_deserialize(
+  const rmw_serialized_message_t * serialized_message, const rosidl_message_type_support_t * type_support,
+  void * ros_message);
 
 #ifdef __cplusplus
 }

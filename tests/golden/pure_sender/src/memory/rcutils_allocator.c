@@ -17,7 +17,7 @@ rcutils_allocator_t rcutils_get_zero_initialized_allocator(void)
 {
   rcutils_allocator_t allocator;
 
-  memset(&allocator, 0, sizeof(allocator));
+  (void)memset(&allocator, 0, sizeof(allocator));
   return allocator;
 }
 

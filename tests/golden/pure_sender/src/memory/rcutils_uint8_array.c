@@ -7,7 +7,7 @@ rcutils_uint8_array_t rcutils_get_zero_initialized_uint8_array(void)
 {
   rcutils_uint8_array_t array;
 
-  memset(&array, 0, sizeof(array));
+  (void)memset(&array, 0, sizeof(array));
   return array;
 }
 

@@ -9,7 +9,7 @@ rcl_node_options_t rcl_node_get_default_options(void)
 {
   rcl_node_options_t options;
 
-  memset(&options, 0, sizeof(options));
+  (void)memset(&options, 0, sizeof(options));
   options.allocator = rcl_get_default_allocator();
   options.use_global_arguments = true;
   return options;

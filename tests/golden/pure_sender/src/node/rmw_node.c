@@ -17,7 +17,7 @@ static const char * place_kind(const xrce_client_t * client, uint16_t place)
 
 rmw_ret_t rmw_place_open(xrce_client_t * client, uint16_t place, const char * name)
 {
-  xrce_outcome_t outcome;
+  uint8_t outcome;
 
   xrce_entities_add(client, place);
   outcome = xrce_entities_await(client, place, client->create_timeout_ms);
@@ -25,10 +25,10 @@ rmw_ret_t rmw_place_open(xrce_client_t * client, uint16_t place, const char * na
     return RMW_RET_OK;
   }
   microros_error_set(
-    outcome == XRCE_REFUSED ? microros_error_entity_refused : microros_error_entity_silent, name,
-    place_kind(client, place), client->entities.refused_status, client->create_timeout_ms);
+    outcome == XRCE_SILENT ? microros_error_entity_silent : microros_error_entity_refused, name,
+    place_kind(client, place), outcome, client->create_timeout_ms);
   xrce_entities_remove(client, place);
-  return outcome == XRCE_REFUSED ? RMW_RET_ERROR : RMW_RET_TIMEOUT;
+  return outcome == XRCE_SILENT ? RMW_RET_TIMEOUT : RMW_RET_ERROR;
 }
 
 void rmw_place_close(xrce_client_t * client, uint16_t place)

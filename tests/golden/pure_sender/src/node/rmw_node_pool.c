@@ -35,7 +35,7 @@ uint16_t rmw_node_take(xrce_client_t * client, const char * name, const char * n
     xrce_participant_t * participant = &client->participants[i];
 
     if (!client->states[i].wanted) {
-      memcpy(names[i].name, name, microros_text_size(name) + 1u);
+      (void)memcpy(names[i].name, name, microros_text_size(name) + 1u);
       rmw_name_copy(&expanded, names[i].namespace_);
       participant->name = names[i].name;
       participant->namespace_ = names[i].namespace_;

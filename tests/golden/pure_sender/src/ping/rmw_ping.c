@@ -4,6 +4,7 @@
 #include "microros/error.h"
 #include "microros/port.h"
 #include "microros/rmw_client.h"
+#include "microros/rmw_transport.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_ping.h"
 #include "microros/xrce_wire.h"
@@ -34,15 +35,16 @@ static bool ping_in_session(xrce_client_t * client, uint32_t timeout_ms)
   }
 }
 
-static bool ping_once(xrce_transport_t * transport, uint32_t timeout_ms)
+/* `input` holds MICROROS_INPUT_SIZE bytes. */
+static bool ping_once(xrce_transport_t * transport, uint8_t * input, uint32_t timeout_ms)
 {
   const uint32_t start = port_time_ms();
-  uint8_t message[MICROROS_INPUT_SIZE];
+  uint8_t message[XRCE_PING_SIZE];
 
   xrce_ping_write(message, XRCE_SESSION_NONE);
-  (void)xrce_transport_send(transport, message, XRCE_PING_SIZE);
+  (void)xrce_transport_send(transport, message, sizeof(message));
   for (;;) {
-    if (ping_is_info(message, xrce_transport_receive(transport, message, sizeof(message)))) {
+    if (ping_is_info(input, xrce_transport_receive(transport, input, MICROROS_INPUT_SIZE))) {
       return true;
     }
     if (port_time_ms() - start >= timeout_ms) {
@@ -52,38 +54,41 @@ static bool ping_once(xrce_transport_t * transport, uint32_t timeout_ms)
   }
 }
 
-static bool ping_out_of_session(
-  const rmw_uxrce_transport_params_t * params, uint32_t timeout_ms, uint8_t attempts)
+static bool ping_out_of_session(xrce_transport_t * transport, uint32_t timeout_ms, uint8_t attempts)
 {
-  xrce_transport_t transport;
+  uint8_t input[MICROROS_INPUT_SIZE];
   bool answered = false;
 
-  if (!xrce_transport_open(&transport, rmw_client_host(params), rmw_client_port(params))) {
+  if (!xrce_transport_open(transport)) {
     return false;
   }
   for (uint8_t i = 0; i < attempts && !answered; ++i) {
-    answered = ping_once(&transport, timeout_ms);
+    answered = ping_once(transport, input, timeout_ms);
   }
-  xrce_transport_close(&transport);
+  xrce_transport_close(transport);
   return answered;
 }
 
 static rmw_ret_t ping_agent(const rmw_uxrce_transport_params_t * params, int timeout_ms, uint8_t attempts)
 {
   const uint32_t timeout = timeout_ms > 0 ? (uint32_t)timeout_ms : 0u;
-  bool answered = ping_out_of_session(params, timeout, attempts);
+  xrce_transport_t transport;
 
-  if (!answered) {
-    microros_error_set(
-      microros_error_agent_silent, rmw_client_host(params), NULL, rmw_client_port(params),
-      timeout * attempts);
+  if (!rmw_transport_prepare(&transport, params)) {
+    return RMW_RET_ERROR;
   }
-  return answered ? RMW_RET_OK : RMW_RET_ERROR;
+  if (!ping_out_of_session(&transport, timeout, attempts)) {
+    microros_error_set(
+      microros_error_agent_silent, xrce_transport_name(&transport), NULL, xrce_transport_port(&transport),
+      timeout * attempts);
+    return RMW_RET_ERROR;
+  }
+  return RMW_RET_OK;
 }
 
 rmw_ret_t rmw_uros_ping_agent(const int timeout_ms, const uint8_t attempts)
 {
-  static const rmw_uxrce_transport_params_t planned = {"", "", 0};
+  static const rmw_uxrce_transport_params_t planned = {0};
   xrce_client_t * client = rmw_client_connected();
 
   if (client == NULL) {

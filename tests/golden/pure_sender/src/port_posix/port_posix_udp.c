@@ -25,7 +25,7 @@ bool port_udp_open(port_udp_t * udp, const char * host, uint16_t port)
   struct sockaddr_in address;
   int handle;
 
-  memset(&address, 0, sizeof(address));
+  (void)memset(&address, 0, sizeof(address));
   address.sin_family = AF_INET;
   address.sin_port = htons(port);
   if (inet_pton(AF_INET, host, &address.sin_addr) != 1) {
@@ -64,7 +64,7 @@ int32_t port_udp_receive(port_udp_t * udp, uint8_t * buffer, size_t capacity)
   struct msghdr message;
   ssize_t size;
 
-  memset(&message, 0, sizeof(message));
+  (void)memset(&message, 0, sizeof(message));
   message.msg_iov = &part;
   message.msg_iovlen = 1;
   size = recvmsg((int)udp->handle, &message, 0);

@@ -21,7 +21,7 @@ rcl_publisher_options_t rcl_publisher_get_default_options(void)
 {
   rcl_publisher_options_t options;
 
-  memset(&options, 0, sizeof(options));
+  (void)memset(&options, 0, sizeof(options));
   options.qos = rmw_qos_profile_default;
   options.allocator = rcl_get_default_allocator();
   return options;

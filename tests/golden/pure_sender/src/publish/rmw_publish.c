@@ -40,7 +40,7 @@ static rmw_ret_t publish_report(const xrce_writer_t * writer, xrce_write_t outco
 
 rmw_ret_t rmw_publisher_write(const rmw_publisher_t * publisher, const void * ros_message)
 {
-  cdr_fault_t fault = {"", 0, 0};
+  cdr_fault_t fault = {"", 0, 0, CDR_FAULT_LIMIT};
   xrce_writer_t * writer = publisher->data;
   const xrce_write_t outcome = xrce_write_message(writer, ros_message, &fault);
 
@@ -61,7 +61,7 @@ rmw_ret_t rmw_publish_serialized_message(
   const rmw_publisher_t * publisher, const rmw_serialized_message_t * serialized_message,
   rmw_publisher_allocation_t * allocation)
 {
-  const cdr_fault_t fault = {"", 0, 0};
+  const cdr_fault_t fault = {"", 0, 0, CDR_FAULT_LIMIT};
   const uint8_t * bytes;
   xrce_writer_t * writer;
   size_t capacity;

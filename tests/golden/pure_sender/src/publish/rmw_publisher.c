@@ -58,11 +58,6 @@ rmw_ret_t rmw_publisher_open(
   }
   writer = &wanted.client->writers[wanted.index];
   *writer = wanted;
-  if (!xrce_entities_fits(writer)) {
-    microros_error_set(
-      microros_error_name, writer->type->dds_type_name, "too long for the stream of this plan", 0, 0);
-    return RMW_RET_ERROR;
-  }
   result = rmw_place_open(writer->client, publisher_place(writer), writer->topic);
   if (result == RMW_RET_OK) {
     *publisher = publisher_hand_out(writer);

@@ -2,6 +2,7 @@
 /* No `nodes:` in the application file: any publisher takes one of the places of `pools: {publishers: N}`. */
 #include "microros/error.h"
 #include "microros/rmw_publisher.h"
+#include "microros/text.h"
 #include "microros/xrce_client.h"
 
 bool rmw_publisher_take(xrce_writer_t * writer, const rmw_name_t * topic, const char * given)
@@ -11,6 +12,11 @@ bool rmw_publisher_take(xrce_writer_t * writer, const rmw_name_t * topic, const 
 
   if (size >= MICROROS_NAME_SIZE) {
     microros_error_set(microros_error_name_long, given, NULL, (uint32_t)size, (uint32_t)size + 1u);
+    return false;
+  }
+  if (microros_text_size(writer->type->dds_type_name) >= MICROROS_TYPE_NAME_SIZE) {
+    microros_error_set(
+      microros_error_name, writer->type->dds_type_name, "too long for the stream of this plan", 0, 0);
     return false;
   }
   for (uint16_t i = 0; i < MICROROS_PUBLISHERS_MAX; ++i) {

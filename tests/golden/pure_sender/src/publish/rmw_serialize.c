@@ -19,7 +19,7 @@ rmw_ret_t rmw_serialize(
   const void * ros_message, const rosidl_message_type_support_t * type_support,
   rmw_serialized_message_t * serialized_message)
 {
-  cdr_fault_t fault = {"", 0, 0};
+  cdr_fault_t fault = {"", 0, 0, CDR_FAULT_LIMIT};
   const microros_message_type_t * type;
   size_t size;
 
@@ -37,11 +37,30 @@ rmw_ret_t rmw_serialize(
     rmw_serialized_message_resize(serialized_message, size) != RCUTILS_RET_OK) {
     return RMW_RET_BAD_ALLOC;
   }
-  memcpy(serialized_message->buffer, encapsulation, sizeof(encapsulation));
+  (void)memcpy(serialized_message->buffer, encapsulation, sizeof(encapsulation));
   if (type->encode(ros_message, &serialized_message->buffer[sizeof(encapsulation)], &fault) == 0u) {
     return serialize_refuse(type, &fault);
   }
   serialized_message->buffer_length = size;
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_uros_get_serialized_message_size(
+  const void * ros_message, const rosidl_message_type_support_t * type_support, size_t * size)
+{
+  cdr_fault_t fault = {"", 0, 0, CDR_FAULT_LIMIT};
+  const microros_message_type_t * type;
+  uint32_t body;
+
+  if (ros_message == NULL || type_support == NULL || size == NULL) {
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "ros_message, type_support or size");
+  }
+  type = type_support->data;
+  body = type->encoded_size(ros_message, &fault);
+  if (body == 0u) {
+    return serialize_refuse(type, &fault);
+  }
+  *size = sizeof(encapsulation) + body;
   return RMW_RET_OK;
 }
 

@@ -74,6 +74,6 @@ xrce_write_t xrce_write_body(xrce_writer_t * writer, const uint8_t * body, size_
   if (outcome != XRCE_WRITTEN) {
     return outcome;
   }
-  memcpy(&room[BODY_OFFSET], body, size);
+  (void)memcpy(&room[BODY_OFFSET], body, size);
   return write_end(writer, room, size);
 }

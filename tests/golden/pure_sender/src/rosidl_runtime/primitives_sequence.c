@@ -83,7 +83,7 @@ static void sequence_deallocate(void * data)
       output->capacity = input->size; \
     } \
     if (input->size != 0u) { \
-      memcpy(output->data, input->data, input->size * sizeof(TYPE)); \
+      (void)memcpy(output->data, input->data, input->size * sizeof(TYPE)); \
     } \
     output->size = input->size; \
     return true; \

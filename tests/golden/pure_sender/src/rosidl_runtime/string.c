@@ -73,7 +73,7 @@ bool rosidl_runtime_c__String__assignn(rosidl_runtime_c__String * str, const cha
     return false;
   }
   if (str->data != string_empty()) {
-    memmove(str->data, value, n);
+    (void)memmove(str->data, value, n);
     str->data[n] = '\0';
   }
   str->size = n;

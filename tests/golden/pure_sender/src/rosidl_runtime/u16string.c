@@ -62,7 +62,7 @@ static bool string_make_room(rosidl_runtime_c__U16String * str, size_t size, boo
     return false;
   }
   if (keep && str->data != NULL) {
-    memcpy(data, str->data, str->size * sizeof(uint_least16_t));
+    (void)memcpy(data, str->data, str->size * sizeof(uint_least16_t));
   }
   string_give_back(str);
   str->data = data;
@@ -77,7 +77,7 @@ bool rosidl_runtime_c__U16String__assignn_from_char(
     return false;
   }
   if (str->data != string_empty()) {
-    memmove(str->data, value, n * sizeof(uint_least16_t));
+    (void)memmove(str->data, value, n * sizeof(uint_least16_t));
     str->data[n] = 0;
   }
   str->size = n;
@@ -117,7 +117,7 @@ bool rosidl_runtime_c__U16String__resize(rosidl_runtime_c__U16String * str, size
   }
   if (str->data != string_empty()) {
     if (n > str->size) {
-      memset(&str->data[str->size], 0, (n - str->size) * sizeof(uint_least16_t));
+      (void)memset(&str->data[str->size], 0, (n - str->size) * sizeof(uint_least16_t));
     }
     str->data[n] = 0;
   }

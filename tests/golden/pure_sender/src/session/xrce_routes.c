@@ -4,6 +4,11 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_wire.h"
 
+bool xrce_route_message(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
+{
+  return xrce_session_take_submessages(client, message, size, now);
+}
+
 void xrce_route_submessage(
   xrce_client_t * client, uint8_t id, uint8_t flags, const uint8_t * payload, size_t size, bool in_session,
   uint32_t now)
@@ -14,7 +19,7 @@ void xrce_route_submessage(
       xrce_session_on_status_agent(client, payload, size, now);
       break;
     case XRCE_STATUS:
-      xrce_session_on_status(client, payload, size);
+      xrce_session_leave_on_status(client, payload, size);
       xrce_entities_on_status(client, payload, size, now);
       break;
     case XRCE_INFO:
@@ -46,6 +51,12 @@ void xrce_route_connected(xrce_client_t * client, uint32_t now)
   xrce_ping_reset(&client->ping);
 }
 
+void xrce_route_close(xrce_client_t * client)
+{
+  xrce_session_leave(client, client->close_timeout_ms);
+  xrce_session_close(client);
+}
+
 uint8_t * xrce_route_reserve(xrce_client_t * client, bool reliable)
 {
   return reliable ? xrce_stream_reliable_reserve(&client->reliable)
@@ -63,12 +74,13 @@ bool xrce_route_commit(xrce_client_t * client, bool reliable, size_t size)
 
 size_t xrce_route_capacity(bool reliable)
 {
-  return (reliable ? MICROROS_RELIABLE_SLOT_SIZE : MICROROS_BEST_EFFORT_SIZE) - XRCE_WRITE_OVERHEAD;
+  return reliable ? MICROROS_RELIABLE_SLOT_SIZE - MICROROS_RELIABLE_FRONT - XRCE_WRITE_PREFIX
+                  : MICROROS_BEST_EFFORT_SIZE - XRCE_MESSAGE_HEADER - XRCE_WRITE_PREFIX;
 }
 
 bool xrce_route_drop_oldest(xrce_client_t * client)
 {
-  return xrce_stream_reliable_drop_oldest(&client->reliable, client->session.now_ms);
+  return xrce_stream_reliable_drop_oldest(&client->reliable, &client->session, client->session.now_ms);
 }
 
 uint16_t xrce_route_unacknowledged(const xrce_client_t * client)

@@ -8,20 +8,18 @@
 
 #include <string.h>
 
-enum { CREATE_CLIENT_SIZE = 24, DELETE_CLIENT_SIZE = 12, STATUS_SIZE = 6 };
+enum { CREATE_CLIENT_SIZE = 24 };
 
 /* One pump takes no more datagrams than this: who floods us must not stop us. */
 enum { DATAGRAMS_PER_PUMP = 32 };
 
 static const uint8_t cookie_and_version[] = {'X', 'R', 'C', 'E', 1, 0, 1, 15};
 
-void xrce_session_open(xrce_client_t * client, const char * host, uint16_t port, uint32_t key)
+void xrce_session_open(xrce_client_t * client, uint32_t key)
 {
   xrce_session_t * session = &client->session;
 
-  memset(client, 0, sizeof(*client));
-  session->host = host;
-  session->port = port;
+  (void)memset(client, 0, sizeof(*client));
   session->key = key;
   session->request = XRCE_REQUEST_FIRST;
   session->retry_ms = MICROROS_RETRY_FIRST_MS;
@@ -62,24 +60,13 @@ static void session_send_create_client(xrce_session_t * session)
 
   xrce_put_header(message, XRCE_SESSION_NONE, XRCE_STREAM_NONE, 0);
   xrce_put_submessage(&message[4], XRCE_CREATE_CLIENT, XRCE_FLAG_LITTLE_ENDIAN, CREATE_CLIENT_SIZE - 8);
-  memcpy(&message[8], cookie_and_version, sizeof(cookie_and_version));
+  (void)memcpy(&message[8], cookie_and_version, sizeof(cookie_and_version));
   xrce_put_be16(&message[16], (uint16_t)(session->key >> 16));
   xrce_put_be16(&message[18], (uint16_t)(session->key & 0xffffu));
   message[20] = XRCE_SESSION_ID;
   message[21] = 0; /* no properties */
   xrce_put_le16(&message[22], MICROROS_INPUT_SIZE);
   (void)xrce_session_send(session, message, sizeof(message)); /* a loss is what the retry is for */
-}
-
-static void session_send_delete_client(xrce_session_t * session)
-{
-  uint8_t message[DELETE_CLIENT_SIZE];
-
-  xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_NONE, 0);
-  xrce_put_submessage(&message[4], XRCE_DELETE, XRCE_FLAG_LITTLE_ENDIAN, DELETE_CLIENT_SIZE - 8);
-  xrce_put_be16(&message[8], XRCE_REQUEST_LOGOUT);
-  xrce_put_be16(&message[10], XRCE_OBJECT_CLIENT);
-  (void)xrce_session_send(session, message, sizeof(message));
 }
 
 /* Twice as long, up to MICROROS_RETRY_MOST_MS. */
@@ -93,17 +80,13 @@ void xrce_session_step(xrce_client_t * client, uint32_t now)
 {
   xrce_session_t * session = &client->session;
 
-  if (session->state == XRCE_READY || session->state == XRCE_CLOSED || !xrce_is_due(now, session->due_ms)) {
+  if (session->state != XRCE_CONNECTING || !xrce_is_due(now, session->due_ms)) {
     return;
   }
-  if (session->state == XRCE_CLOSING) {
-    session_send_delete_client(session);
-  } else {
-    if (!session->transport_open) {
-      session->transport_open = xrce_transport_open(&session->transport, session->host, session->port);
-    }
-    session_send_create_client(session);
+  if (!session->transport_open) {
+    session->transport_open = xrce_transport_open(&session->transport);
   }
+  session_send_create_client(session);
   session->due_ms = now + session->retry_ms;
   session->retry_ms = session_longer_pause(session->retry_ms);
 }
@@ -143,30 +126,11 @@ void xrce_session_on_status_agent(xrce_client_t * client, const uint8_t * payloa
   xrce_route_connected(client, now);
 }
 
-void xrce_session_on_status(xrce_client_t * client, const uint8_t * payload, size_t size)
+bool xrce_session_take_submessages(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
 {
-  xrce_session_t * session = &client->session;
-
-  if (
-    session->state == XRCE_CLOSING && size >= STATUS_SIZE &&
-    xrce_get_be16(&payload[0]) == XRCE_REQUEST_LOGOUT && xrce_get_be16(&payload[2]) == XRCE_OBJECT_CLIENT) {
-    session->state = XRCE_CLOSED;
-  }
-}
-
-/* Hands on the submessages of one message; false where the message is not what it should be. */
-static bool session_take_message(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
-{
+  const bool in_session = message[0] == XRCE_SESSION_ID;
   size_t at = XRCE_MESSAGE_HEADER;
-  bool in_session;
 
-  if (size < XRCE_MESSAGE_HEADER || (message[0] != XRCE_SESSION_ID && message[0] != XRCE_SESSION_NONE)) {
-    return false;
-  }
-  in_session = message[0] == XRCE_SESSION_ID;
-  if (in_session) {
-    client->session.heard_ms = now;
-  }
   while (at < size) {
     size_t length;
 
@@ -182,6 +146,18 @@ static bool session_take_message(xrce_client_t * client, const uint8_t * message
     at = (at + XRCE_SUBMESSAGE_HEADER + length + 3u) & ~(size_t)3u;
   }
   return true;
+}
+
+/* Hands a message to its stream; false where it is not what it should be. */
+static bool session_take_message(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
+{
+  if (size < XRCE_MESSAGE_HEADER || (message[0] != XRCE_SESSION_ID && message[0] != XRCE_SESSION_NONE)) {
+    return false;
+  }
+  if (message[0] == XRCE_SESSION_ID) {
+    client->session.heard_ms = now;
+  }
+  return xrce_route_message(client, message, size, now);
 }
 
 static void session_receive(xrce_client_t * client, uint32_t now)
@@ -226,22 +202,9 @@ bool xrce_session_await(xrce_client_t * client, uint32_t timeout_ms)
   }
 }
 
-void xrce_session_close(xrce_client_t * client, uint32_t timeout_ms)
+void xrce_session_close(xrce_client_t * client)
 {
-  xrce_session_t * session = &client->session;
-  const uint32_t start = port_time_ms();
-
-  if (session->state == XRCE_READY) {
-    session->state = XRCE_CLOSING;
-    session->retry_ms = MICROROS_RETRY_FIRST_MS;
-    session->due_ms = start;
-    xrce_session_pump(client);
-    while (session->state == XRCE_CLOSING && port_time_ms() - start < timeout_ms) {
-      port_sleep_ms(1);
-      xrce_session_pump(client);
-    }
-  }
-  session->state = XRCE_CLOSED;
-  session_close_transport(session);
-  memset(client->states, 0, sizeof(client->states)); /* whoever still has an entity has it no more */
+  client->session.state = XRCE_CLOSED;
+  session_close_transport(&client->session);
+  (void)memset(client->states, 0, sizeof(client->states)); /* whoever still has an entity has it no more */
 }

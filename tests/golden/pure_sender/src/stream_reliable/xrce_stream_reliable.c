@@ -1,11 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Every message fits one datagram: a ring of messages, each with one sequence number. */
 #include "microros/xrce_stream_reliable.h"
 
 #include "microros/xrce_wire.h"
-
-#include <string.h>
-
-enum { HEARTBEAT_SIZE = 13, ACKNACK_SIZE = 5, ACKNACK_WINDOW = 16 };
 
 /* Returns the slot of the i-th kept message. */
 static uint8_t stream_slot(const xrce_stream_reliable_t * stream, uint8_t i)
@@ -20,22 +17,17 @@ uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream)
   if (stream->count == MICROROS_RELIABLE_SLOTS) {
     return NULL;
   }
-  return &stream->message[stream_slot(stream, stream->count)][XRCE_MESSAGE_HEADER];
+  return &stream->message[stream_slot(stream, stream->count)][MICROROS_RELIABLE_FRONT];
 }
 
 /* A message that the transport does not take is one that was lost on the way: the agent asks for it. */
-static void stream_send(const xrce_stream_reliable_t * stream, xrce_session_t * session, uint8_t i)
+static void stream_send(xrce_stream_reliable_t * stream, xrce_session_t * session, uint8_t i)
 {
   const uint8_t slot = stream_slot(stream, i);
+  uint8_t * message = stream->message[slot];
 
-  (void)xrce_session_send(session, stream->message[slot], stream->size[slot]);
-}
-
-static void stream_number(xrce_stream_reliable_t * stream, uint8_t i)
-{
-  xrce_put_header(
-    stream->message[stream_slot(stream, i)], XRCE_SESSION_ID, XRCE_STREAM_RELIABLE,
-    (uint16_t)(stream->first + i));
+  xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_RELIABLE, (uint16_t)(stream->first + i));
+  (void)xrce_session_send(session, message, XRCE_MESSAGE_HEADER + (size_t)stream->size[slot]);
 }
 
 void xrce_stream_reliable_commit(
@@ -43,8 +35,7 @@ void xrce_stream_reliable_commit(
 {
   const uint8_t i = stream->count;
 
-  stream->size[stream_slot(stream, i)] = (uint16_t)(XRCE_MESSAGE_HEADER + size);
-  stream_number(stream, i);
+  stream->size[stream_slot(stream, i)] = (uint16_t)size;
   if (i == 0u) {
     stream->heartbeat_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
   }
@@ -61,12 +52,19 @@ static void stream_free(xrce_stream_reliable_t * stream, uint8_t count)
   stream->count = (uint8_t)(stream->count - count);
 }
 
-bool xrce_stream_reliable_drop_oldest(xrce_stream_reliable_t * stream, uint32_t now)
+bool xrce_stream_reliable_drop_oldest(
+  xrce_stream_reliable_t * stream, const xrce_session_t * session, uint32_t now)
 {
+  const uint16_t first = stream->first;
+
+  (void)session;
   if (stream->count == 0u) {
     return false;
   }
   stream_free(stream, 1);
+  if (stream->held) {
+    stream->first = first; /* what is held has no number yet */
+  }
   stream->heartbeat_ms = now;
   return true;
 }
@@ -74,23 +72,8 @@ bool xrce_stream_reliable_drop_oldest(xrce_stream_reliable_t * stream, uint32_t 
 void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now)
 {
   stream->first = 0;
-  for (uint8_t i = 0; i < stream->count; ++i) {
-    stream_number(stream, i);
-  }
   stream->held = true;
   stream->held_until_ms = now + MICROROS_CREATE_TIMEOUT_MS;
-}
-
-static void stream_send_heartbeat(const xrce_stream_reliable_t * stream, xrce_session_t * session)
-{
-  uint8_t message[HEARTBEAT_SIZE];
-
-  xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_NONE, 0);
-  xrce_put_submessage(&message[4], XRCE_HEARTBEAT, XRCE_FLAG_LITTLE_ENDIAN, HEARTBEAT_SIZE - 8);
-  xrce_put_le16(&message[8], stream->first);
-  xrce_put_le16(&message[10], (uint16_t)(stream->first + stream->count - 1u));
-  message[12] = XRCE_STREAM_RELIABLE;
-  (void)xrce_session_send(session, message, sizeof(message)); /* the next one follows */
 }
 
 static void stream_release(xrce_stream_reliable_t * stream, xrce_session_t * session, uint32_t now)
@@ -113,7 +96,7 @@ void xrce_stream_reliable_step(
     stream_release(stream, session, now);
   }
   if (stream->count != 0u && !stream->held && xrce_is_due(now, stream->heartbeat_ms)) {
-    stream_send_heartbeat(stream, session);
+    xrce_stream_reliable_heartbeat(session, stream->first, stream->count);
     stream->heartbeat_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
   }
 }
@@ -123,10 +106,10 @@ bool xrce_stream_reliable_on_acknack(
   uint8_t flags, uint32_t now)
 {
   uint16_t expected;
-  uint16_t missing;
-  uint16_t accepted;
+  uint32_t missing;
+  uint16_t place;
 
-  if (size < ACKNACK_SIZE) {
+  if (size < XRCE_ACKNACK_SIZE) {
     return false;
   }
   if (payload[4] != XRCE_STREAM_RELIABLE || session->state != XRCE_READY || stream->held) {
@@ -134,19 +117,19 @@ bool xrce_stream_reliable_on_acknack(
   }
   expected = xrce_get_u16(&payload[0], flags);
   missing = xrce_get_be16(&payload[2]);
-  accepted = (uint16_t)(expected - stream->first);
-  if (accepted <= stream->count) {
-    stream_free(stream, (uint8_t)accepted);
+  place = (uint16_t)(expected - stream->first);
+  if (place <= stream->count) {
+    stream_free(stream, (uint8_t)place);
+    place = 0;
   } else if (missing != 0u) {
     stream->heartbeat_ms = now; /* it waits for what was dropped: tell it not to */
   }
-  for (uint32_t i = 0; i < ACKNACK_WINDOW; ++i) {
-    const uint16_t place = (uint16_t)(expected + i - stream->first);
-
-    if (((uint32_t)missing >> i & 1u) != 0u && place < stream->count) {
+  for (; missing != 0u; missing >>= 1) {
+    if ((missing & 1u) != 0u && place < stream->count) {
       stream_send(stream, session, (uint8_t)place);
       ++session->statistics.resent;
     }
+    ++place;
   }
   return true;
 }

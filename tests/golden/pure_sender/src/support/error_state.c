@@ -1,21 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error_state.h"
 
-#include "microros/error.h"
-
 #include <stddef.h>
 #include <string.h>
-
-int32_t microros_error_named(int32_t result, const char * error, const char * name)
-{
-  microros_error_set(error, name, NULL, 0, 0);
-  return result;
-}
-
-int32_t microros_error_refuse(int32_t result, const char * argument)
-{
-  return microros_error_named(result, microros_error_argument, argument);
-}
 
 rcutils_error_state_t * microros_error_state(void)
 {
@@ -38,7 +25,7 @@ rcutils_error_string_t rcutils_get_error_string(void)
 {
   rcutils_error_string_t text;
 
-  memcpy(text.str, microros_error_state()->message, sizeof(text.str));
+  (void)memcpy(text.str, microros_error_state()->message, sizeof(text.str));
   return text;
 }
 

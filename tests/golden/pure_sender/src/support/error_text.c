@@ -2,6 +2,7 @@
 /* errors: text. All words of the library are here. */
 #include "microros/error.h"
 #include "microros/error_state.h"
+#include "microros/xrce_transport.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -12,9 +13,9 @@
  */
 const char microros_error_argument[] = "%s: NULL or not initialized";
 const char microros_error_context_in_use[] = "a context is open already: there is one session";
-const char microros_error_transport[] = "no transport to %s:%n";
-const char microros_error_agent_silent[] = "no agent answers at %s:%n within %m ms";
-const char microros_error_agent_refused[] = "the agent at %s:%m refuses the session: %a";
+const char microros_error_transport[] = "no transport to " XRCE_PLACE_N;
+const char microros_error_agent_silent[] = "no agent answers at " XRCE_PLACE_N " within %m ms";
+const char microros_error_agent_refused[] = "the agent at " XRCE_PLACE_M " refuses the session: %a";
 const char microros_error_address[] = "address %s or port %d is not valid (host: up to %m bytes)";
 const char microros_error_name[] = "name '%s': %d";
 const char microros_error_name_long[] = "name '%s' takes %n bytes: set pools: {name_size: %m}%y";
@@ -29,7 +30,7 @@ const char microros_error_stream_small[] =
   "%t takes %n bytes and its stream holds %m: declare the publisher with its qos%y";
 const char microros_error_qos[] = "publisher %s: XRCE carries no such QoS: %d";
 const char microros_error_entity_silent[] = "%d %s: no answer of the agent within %m ms";
-const char microros_error_entity_refused[] = "%d %s: the agent refuses it: %a";
+const char microros_error_entity_refused[] = "%d %s: the agent refuses it: %a (entities%y)";
 const char microros_error_field[] = "%t.%d: %n, limit %m: raise limits%y";
 const char microros_error_stream_full[] =
   "publisher %s: stream full, %n unacknowledged: raise pools: {history: %m}%y";
@@ -38,10 +39,21 @@ const char microros_error_not_sent[] = "publisher %s: the transport takes nothin
 const char microros_error_arena[] = "no memory for %n bytes: raise memory: {arena: %m}%y";
 const char microros_error_serialized[] = "serialized message: not little endian CDR, or %n bytes above %m";
 const char microros_error_domain[] = "domain %n is above %m";
+const char microros_error_device[] = "serial device %s: more than %m bytes, or none";
+const char microros_error_custom_unset[] =
+  "rmw_uros_set_custom_transport was not called before, or refused its arguments";
+const char microros_error_encapsulation[] = "%t: representation %n is not plain CDR (0 or %m)";
+const char microros_error_not_received[] = "%t has no decoder: no profile that receives it";
+const char microros_error_body_end[] = "%t.%d: the message ends: %n bytes needed, %m left";
+const char microros_error_value[] = "%t.%d: %n is above %m";
+const char microros_error_memory_rule[] = "memory rule '%d' names no string or sequence of %t";
+const char microros_error_memory_given[] = "the allocator gives no memory for %n bytes";
+const char microros_error_memory_buffer[] = "the buffer has %n bytes and the message takes %m";
+const char microros_error_framing[] = "custom transport: set transport: {framing: %d}%y";
 
 /* From status 0x80 on (OMG DDS-XRCE 1.0, 7.7.2). */
-static const char statuses[] =
-  "DDS_ERROR\0MISMATCH\0ALREADY_EXISTS\0DENIED\0UNKNOWN_REFERENCE\0INVALID_DATA\0INCOMPATIBLE\0RESOURCES";
+static const char * const statuses[] = {"DDS_ERROR",         "MISMATCH",     "ALREADY_EXISTS", "DENIED",
+                                        "UNKNOWN_REFERENCE", "INVALID_DATA", "INCOMPATIBLE",   "RESOURCES"};
 
 enum { STATUS_FIRST = 0x80, STATUS_LAST = 0x87 };
 
@@ -96,20 +108,10 @@ static void text_put_type(text_t * text, const char * dds_type)
   }
 }
 
-/* Returns the string that `count` others stand before. */
-static const char * text_skip(const char * strings, uint32_t count)
-{
-  while (count != 0u) {
-    count -= *strings == '\0' ? 1u : 0u;
-    ++strings;
-  }
-  return strings;
-}
-
 static void text_put_status(text_t * text, uint32_t status)
 {
   if (status >= STATUS_FIRST && status <= STATUS_LAST) {
-    text_put_string(text, text_skip(statuses, status - STATUS_FIRST));
+    text_put_string(text, statuses[status - STATUS_FIRST]);
   } else {
     text_put_number(text, status);
   }
@@ -126,7 +128,7 @@ static text_t error_begin(const char * file, size_t line_number)
 }
 
 void microros_error_set(
-  const char * error, const char * name, const char * detail, uint32_t found, uint32_t fits)
+  microros_error_t error, const char * name, const char * detail, uint32_t found, uint32_t fits)
 {
   text_t text = error_begin(NULL, 0);
 
@@ -172,4 +174,15 @@ void rcutils_set_error_state(const char * error_string, const char * file, size_
 
   text_put_string(&text, error_string);
   *text.at = '\0';
+}
+
+int32_t microros_error_named(int32_t result, microros_error_t error, const char * name)
+{
+  microros_error_set(error, name, NULL, 0, 0);
+  return result;
+}
+
+int32_t microros_error_refuse(int32_t result, const char * argument)
+{
+  return microros_error_named(result, microros_error_argument, argument);
 }

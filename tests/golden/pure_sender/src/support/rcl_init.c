@@ -7,10 +7,21 @@
 
 #include <stddef.h>
 
+static rmw_context_t the_context; /* one session, so one context: what rcl_context_t.impl points to */
+
 rcl_ret_t rcl_open(const rmw_init_options_t * options, rcl_context_t * context)
 {
-  static rmw_context_t the_context; /* one session, so one context: what rcl_context_t.impl points to */
-  const rcl_ret_t result = rmw_open(options, &the_context);
+  const rcl_ret_t result = rmw_init(options, &the_context);
+
+  if (result == RCL_RET_OK) {
+    context->impl = &the_context;
+  }
+  return result;
+}
+
+rcl_ret_t rcl_open_as_planned(rcl_context_t * context)
+{
+  const rcl_ret_t result = rmw_open_as_planned(&the_context);
 
   if (result == RCL_RET_OK) {
     context->impl = &the_context;

@@ -23,7 +23,7 @@ rcl_init_options_t rcl_get_zero_initialized_init_options(void)
 {
   rcl_init_options_t options;
 
-  memset(&options, 0, sizeof(options));
+  (void)memset(&options, 0, sizeof(options));
   return options;
 }
 

@@ -18,21 +18,3 @@ xrce_client_t * rmw_client_connected(void)
 {
   return instance.session.state == XRCE_READY ? &instance : NULL;
 }
-
-const char * rmw_client_host(const rmw_uxrce_transport_params_t * params)
-{
-  return params->agent_address[0] != '\0' ? params->agent_address : MICROROS_AGENT_HOST;
-}
-
-uint16_t rmw_client_port(const rmw_uxrce_transport_params_t * params)
-{
-  uint16_t port = 0;
-
-  if (params->agent_port[0] == '\0') {
-    return MICROROS_AGENT_PORT;
-  }
-  for (const char * at = params->agent_port; *at != '\0'; ++at) {
-    port = (uint16_t)(port * 10u + (uint16_t)(*at - '0'));
-  }
-  return port;
-}

@@ -5,9 +5,12 @@
 #include "microros/port.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_open.h"
+#include "microros/rmw_transport.h"
 #include "microros/xrce_client.h"
+#include "microros/xrce_routes.h"
 #include "rmw/rmw.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 const char * rmw_get_implementation_identifier(void)
@@ -24,54 +27,52 @@ rmw_context_t rmw_get_zero_initialized_context(void)
 {
   rmw_context_t context;
 
-  memset(&context, 0, sizeof(context));
+  (void)memset(&context, 0, sizeof(context));
   return context;
 }
 
 static rmw_ret_t init_report(const xrce_client_t * client)
 {
   const xrce_session_t * session = &client->session;
+  const char * const name = xrce_transport_name(&session->transport);
+  const uint16_t port = xrce_transport_port(&session->transport);
 
   if (session->refusal != 0u) {
-    microros_error_set(microros_error_agent_refused, session->host, NULL, session->refusal, session->port);
+    microros_error_set(microros_error_agent_refused, name, NULL, session->refusal, port);
     return RMW_RET_ERROR;
   }
   if (!session->transport_open) {
-    microros_error_set(microros_error_transport, session->host, NULL, session->port, 0);
+    microros_error_set(microros_error_transport, name, NULL, port, 0);
     return RMW_RET_ERROR;
   }
-  microros_error_set(
-    microros_error_agent_silent, session->host, NULL, session->port, MICROROS_CONNECT_TIMEOUT_MS);
+  microros_error_set(microros_error_agent_silent, name, NULL, port, MICROROS_CONNECT_TIMEOUT_MS);
   return RMW_RET_TIMEOUT;
 }
 
-/* The options must live as long as the session, so the context keeps them. */
-static void init_keep_options(const rmw_init_options_t * options, rmw_context_t * context)
+/* There is one client, so one session. */
+static bool init_is_free(void)
 {
-  if (options != NULL) {
-    context->options = *options;
-  } else {
-    memset(&context->options, 0, sizeof(context->options));
-    context->options.domain_id = RMW_DEFAULT_DOMAIN_ID;
+  const bool is_free = rmw_client_instance()->session.state == XRCE_CLOSED;
+
+  if (!is_free) {
+    microros_error_set(microros_error_context_in_use, NULL, NULL, 0, 0);
   }
+  return is_free;
 }
 
-rmw_ret_t rmw_open(const rmw_init_options_t * options, rmw_context_t * context)
+/* Opens a session as context->options say. */
+static rmw_ret_t init_open(rmw_context_t * context)
 {
   xrce_client_t * client = rmw_client_instance();
   const rmw_uxrce_transport_params_t * params = &context->options.transport_params;
+  rmw_ret_t result = RMW_RET_ERROR;
 
-  if (client->session.state != XRCE_CLOSED) {
-    return microros_error_named(RMW_RET_ERROR, microros_error_context_in_use, NULL);
+  xrce_session_open(client, params->client_key != 0u ? params->client_key : MICROROS_CLIENT_KEY);
+  if (rmw_transport_prepare(&client->session.transport, params)) {
+    result = xrce_session_await(client, MICROROS_CONNECT_TIMEOUT_MS) ? RMW_RET_OK : init_report(client);
   }
-  init_keep_options(options, context);
-  xrce_session_open(
-    client, rmw_client_host(params), rmw_client_port(params),
-    params->client_key != 0u ? params->client_key : MICROROS_CLIENT_KEY);
-  if (!xrce_session_await(client, MICROROS_CONNECT_TIMEOUT_MS)) {
-    const rmw_ret_t result = init_report(client);
-
-    xrce_session_close(client, 0);
+  if (result != RMW_RET_OK) {
+    xrce_session_close(client);
     return result;
   }
   ++context->instance_id;
@@ -82,12 +83,26 @@ rmw_ret_t rmw_open(const rmw_init_options_t * options, rmw_context_t * context)
   return RMW_RET_OK;
 }
 
+rmw_ret_t rmw_open_as_planned(rmw_context_t * context)
+{
+  if (!init_is_free()) {
+    return RMW_RET_ERROR;
+  }
+  (void)memset(&context->options, 0, sizeof(context->options));
+  context->options.domain_id = RMW_DEFAULT_DOMAIN_ID;
+  return init_open(context);
+}
+
 rmw_ret_t rmw_init(const rmw_init_options_t * options, rmw_context_t * context)
 {
   if (options == NULL || context == NULL || options->implementation_identifier == NULL) {
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "options or context");
   }
-  return rmw_open(options, context);
+  if (!init_is_free()) {
+    return RMW_RET_ERROR;
+  }
+  context->options = *options; /* they must live as long as the session, so the context keeps them */
+  return init_open(context);
 }
 
 rmw_ret_t rmw_shutdown(rmw_context_t * context)
@@ -95,7 +110,7 @@ rmw_ret_t rmw_shutdown(rmw_context_t * context)
   if (context == NULL || context->impl == NULL) {
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "context");
   }
-  xrce_session_close(context->impl, context->impl->close_timeout_ms);
+  xrce_route_close(context->impl);
   context->impl = NULL;
   return RMW_RET_OK;
 }

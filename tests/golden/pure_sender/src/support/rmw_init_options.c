@@ -10,7 +10,7 @@ rmw_init_options_t rmw_get_zero_initialized_init_options(void)
 {
   rmw_init_options_t options;
 
-  memset(&options, 0, sizeof(options));
+  (void)memset(&options, 0, sizeof(options));
   return options;
 }
 
@@ -19,7 +19,7 @@ rmw_ret_t rmw_init_options_init(rmw_init_options_t * init_options, rcutils_alloc
   if (init_options == NULL || init_options->implementation_identifier != NULL) {
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "init_options");
   }
-  memset(init_options, 0, sizeof(*init_options));
+  (void)memset(init_options, 0, sizeof(*init_options));
   init_options->implementation_identifier = rmw_implementation_identifier;
   init_options->domain_id = RMW_DEFAULT_DOMAIN_ID;
   init_options->allocator = allocator;

@@ -2,9 +2,9 @@
 /* One datagram is one message (OMG DDS-XRCE 1.0, 11.2). */
 #include "microros/xrce_transport.h"
 
-bool xrce_transport_open(xrce_transport_t * transport, const char * host, uint16_t port)
+bool xrce_transport_open(xrce_transport_t * transport)
 {
-  return port_udp_open(&transport->udp, host, port);
+  return port_udp_open(&transport->udp, transport->host, transport->port);
 }
 
 void xrce_transport_close(xrce_transport_t * transport)
