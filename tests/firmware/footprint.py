@@ -7,7 +7,7 @@ import json
 import re
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from runtime.fake_agent import FakeAgent
 
@@ -163,7 +163,8 @@ def bounded_stack(built: Built) -> int:
 
 def work(builds: Builds, name: str, sender: Sender) -> Work:
     """Count the instructions of `sender` on board `name`, with the agent of c/measured.c."""
-    built = builds.build(name, sender.application.replace("errors:", "transport: {type: udp}\nerrors:"))
+    transport = sender.transport.replace("serial", "udp") or "{type: udp}"
+    built = builds.build(name, replace(sender, transport=transport).application)
     suffix = "default" if sender.reliability == "reliable" else "best_effort"
     image = builds.application(built, "measured.c", f"-DBENCH_INIT=rclc_publisher_init_{suffix}")
     emulator = target(name).emulator
