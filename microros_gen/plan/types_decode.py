@@ -8,7 +8,7 @@ constants here.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Union
 
@@ -38,7 +38,7 @@ class Number:
 
 @dataclass(frozen=True)
 class Row:
-    """Numbers of one size, `width` bytes, that follow each other on the wire and in C on the usual targets."""
+    """Numbers of one size, `width` bytes, that follow each other on the wire and, as the C code asserts, in C."""
 
     width: int
     numbers: tuple[Number, ...]
@@ -82,7 +82,8 @@ class Strings:
 class Messages:
     """An array (`count`) or a sequence (`bound`) of messages.
 
-    `row`: size and count of an element's numbers, where all have one size and no bool is among them.
+    `row`: size and count of an element's numbers, where all have one size and no bool is among them; they are
+    read at once then.
     """
 
     member: str
@@ -114,7 +115,7 @@ class DecodePlan:
     @property
     def calls(self) -> tuple[TypeName, ...]:
         """Types whose decoders are called, sorted."""
-        return tuple(sorted({s.type for s in self.steps if isinstance(s, (Messages, Part))}))
+        return tuple(sorted(set(_called(self.steps))))
 
 
 def decode_files(files: TypeFiles) -> tuple[str, str]:
@@ -138,10 +139,17 @@ def plan_decoders(
         if name in steps:
             continue
         steps[name] = tuple(_Reader(facts).steps(name))
-        found = {s.type for s in steps[name] if isinstance(s, (Messages, Part))}
+        found = set(_called(steps[name]))
         called |= found
         pending += sorted(found)
     return {n: DecodePlan(steps[n], n in received, n in called) for n in messages if n in steps}
+
+
+def _called(steps: Iterable[DecodeStep]) -> Iterator[TypeName]:
+    """Yield the types whose decoders the steps call."""
+    for step in steps:
+        if isinstance(step, Part) or (isinstance(step, Messages) and step.row is None):
+            yield step.type
 
 
 class _Reader:
@@ -208,6 +216,8 @@ class _Reader:
 
 def row_of(facts: TypeFacts, name: TypeName) -> tuple[int, int] | None:
     """Return size and count of the numbers of a type that has nothing else, all of one size; else None."""
+    if not facts.fixed(name):
+        return None
     leaves = list(facts.leaves(name))
     sizes = set(_sizes(leaves))
     if len(sizes) != 1 or 0 in sizes:

@@ -27,14 +27,10 @@ from microros_gen.plan.types_names import c_name, guard, include_path, type_file
 
 @dataclass(frozen=True)
 class StepView:
-    """One step: `condition` chooses between two lists of statements, or (empty) `lines` are all there is.
-
-    A statement is a line; `for` loops are lines with their braces.
-    """
+    """One step: `lines` are its statements; `shown` is what must be true of the layout in memory, or empty."""
 
     lines: tuple[str, ...]
-    condition: str = ""
-    otherwise: tuple[str, ...] = ()
+    shown: str = ""
 
 
 @dataclass(frozen=True)
@@ -88,16 +84,12 @@ def _decoder_view(plan: TypePlan) -> DecoderView:
 
 
 def _row(owner: str, row: Row) -> StepView:
-    each = tuple(_number(row.width, number) for number in row.numbers)
     if len(row.numbers) == 1:
-        return StepView(each)
+        return StepView((_number(row.width, row.numbers[0]),))
     first, last = row.numbers[0].member, row.numbers[-1].member
     start = f"(uint8_t *)message + offsetof({owner}, {first})"
-    return StepView(
-        (_call(f"get_{row.width}", start, f"{row.count}U", first),),
-        f"CDR_IS_ROW({owner}, {first}, {last}, {row.count * row.width}U)",
-        each,
-    )
+    call = _call(f"get_{row.width}", start, f"{row.count}U", first)
+    return StepView((call,), f"CDR_IS_ROW({owner}, {first}, {last}, {row.count * row.width}U)")
 
 
 def _number(width: int, number: Number) -> str:
@@ -147,12 +139,11 @@ def _messages(_owner: str, step: Messages) -> StepView:
     if step.row is None:
         return StepView((*start, *loop))
     width, numbers = step.row
-    each = f"{member}[]" if sequence else step.member
-    total = (
-        (f"{count} * {numbers}U" if sequence else f"{(step.count or 0) * numbers}U") if numbers > 1 else count
-    )
-    whole = _call(f"get_{width}", data, total, each.removeprefix("message->"))
-    return StepView((*start, whole), f"CDR_IS_ROW_OF({name}, {width * numbers}U)", (*start, *loop))
+    total = f"{(step.count or 0) * numbers}U"
+    if sequence:
+        total = f"{count} * {numbers}U" if numbers > 1 else count
+    whole = _call(f"get_{width}", data, total, f"{step.member}[]")
+    return StepView((*start, whole), f"CDR_IS_ROW_OF({name}, {width * numbers}U)")
 
 
 def _part(_owner: str, step: Part) -> StepView:

@@ -3,8 +3,6 @@
 
 #include <string.h>
 
-#include "microros/cdr.h"
-
 /* What every sequence is: rosidl_runtime_c's differ only in what `data` points to. */
 typedef struct sequence_t {
   void * data;
@@ -15,8 +13,7 @@ typedef struct sequence_t {
 CDR_STATIC_ASSERT(cdr_assert_pointers_have_one_size, sizeof(void *) == sizeof(double *));
 CDR_STATIC_ASSERT(cdr_assert_bool_has_8_bits, sizeof(bool) == 1U);
 
-void cdr_in_refuse(
-  cdr_in_t * in, cdr_fault_kind_t kind, const char * field, uint64_t found, uint32_t fits)
+void cdr_in_refuse(cdr_in_t * in, cdr_fault_kind_t kind, const char * field, uint64_t found, uint32_t fits)
 {
   if (!in->failed) {
     in->failed = true;
@@ -48,21 +45,20 @@ static inline const uint8_t * take(cdr_in_t * in, size_t count, uint32_t width, 
 }
 
 /** Turn the bytes of each of `count` numbers round. */
-static void turn(uint8_t * number, size_t count, uint32_t width)
+static void turn(uint8_t * numbers, size_t count, uint32_t width)
 {
   for (size_t i = 0U; i < count; ++i) {
+    uint8_t * const number = &numbers[i * width];
     for (uint32_t first = 0U; first < (width / 2U); ++first) {
       const uint32_t last = (width - 1U) - first;
       const uint8_t byte = number[first];
       number[first] = number[last];
       number[last] = byte;
     }
-    number = &number[width];
   }
 }
 
-static inline void get_numbers(
-  cdr_in_t * in, void * to, size_t count, uint32_t width, const char * field)
+static inline void get_numbers(cdr_in_t * in, void * to, size_t count, uint32_t width, const char * field)
 {
   if (count == 0U) {
     return;
@@ -109,15 +105,17 @@ void cdr_get_bool(cdr_in_t * in, bool * to, size_t count, const char * field)
 uint32_t cdr_in_length(cdr_in_t * in, uint32_t width, const char * field)
 {
   const uint8_t * const from = take(in, 1U, sizeof(uint32_t), field);
-  uint32_t length = 0U;
+  uint8_t bytes[sizeof(uint32_t)];
+  uint32_t length;
 
   if (from == NULL) {
     return 0U;
   }
-  (void)memcpy(&length, from, sizeof(length));
+  (void)memcpy(bytes, from, sizeof(bytes));
   if (in->swap) {
-    turn((uint8_t *)&length, 1U, sizeof(length));
+    turn(bytes, 1U, sizeof(bytes));
   }
+  (void)memcpy((uint8_t *)&length, bytes, sizeof(length));
   const uint32_t left = in->size - in->position;
   if (((uint64_t)length * width) > left) {
     cdr_in_refuse(in, CDR_FAULT_END, field, (uint64_t)length * width, left);

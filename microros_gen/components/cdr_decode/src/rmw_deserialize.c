@@ -4,7 +4,6 @@
 #include "rmw/rmw.h"
 
 #include <stddef.h>
-#include <string.h>
 
 /* Representation identifier and options; CDR_BE and CDR_LE are 0 and 1 (OMG DDS-XTypes 1.3, 7.6.3.1.2). */
 enum { ENCAPSULATION_SIZE = 4, CDR_LITTLE_ENDIAN = 1 };
@@ -12,10 +11,8 @@ enum { ENCAPSULATION_SIZE = 4, CDR_LITTLE_ENDIAN = 1 };
 static bool is_little_endian_here(void)
 {
   const uint16_t one = 1u;
-  uint8_t first;
 
-  (void)memcpy(&first, &one, sizeof(first));
-  return first != 0u;
+  return *(const uint8_t *)&one != 0u;
 }
 
 static rmw_ret_t deserialize_refuse(const microros_message_type_t * type, const cdr_fault_t * fault)

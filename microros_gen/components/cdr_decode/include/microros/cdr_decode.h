@@ -21,6 +21,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "microros/cdr.h"
 #include "microros/message_type.h"
 #include "rosidl_runtime_c/string.h"
 #include "rosidl_runtime_c/u16string.h"
@@ -44,7 +45,7 @@ typedef struct cdr_in_t {
 
 /**
  * Whether the numbers of `type` from `first` to `last`, all of one size and `bytes` together, lie in memory one
- * after the other as they do on the wire. A constant expression: one branch is dropped.
+ * after the other as they do on the wire. A constant expression.
  */
 #define CDR_IS_ROW(type, first, last, bytes) \
   ((offsetof(type, last) + sizeof(((const type *)0)->last)) - offsetof(type, first) == (bytes))
@@ -100,8 +101,7 @@ void cdr_get_wstrings(
  * For cdr_decode*.c. cdr_in_refuse fills the fault, if there is none yet, and moves to the end. cdr_in_length returns
  * a length in elements of at least `width` bytes; 0, with the fault filled, where the body ends before them.
  */
-void cdr_in_refuse(
-  cdr_in_t * in, cdr_fault_kind_t kind, const char * field, uint64_t found, uint32_t fits);
+void cdr_in_refuse(cdr_in_t * in, cdr_fault_kind_t kind, const char * field, uint64_t found, uint32_t fits);
 uint32_t cdr_in_length(cdr_in_t * in, uint32_t width, const char * field);
 
 /** The smaller one of a bound and a capacity. */
