@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The steps that an encoder consists of. A decoder walks the same steps."""
+"""The steps that an encoder consists of; plan/types_decode.py has those of a decoder."""
 
 from __future__ import annotations
 
