@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`make bench`: times of generate and build, instructions of publish and encode, footprint of firmware.
+"""`make bench`: times of generate and build, instructions of publish, encode and decode, flash of types and firmware.
 
 Times depend on the machine; so each stands beside a peer that ran in the same minutes. Instruction counts come
 from callgrind and repeat exactly with one compiler.
@@ -20,6 +20,7 @@ from pathlib import Path
 
 from footprint import bench_footprint
 from instructions import bench_instructions
+from type_flash import bench_type_flash
 
 ROOT = Path(__file__).resolve().parents[2]
 IDL = ROOT / "microros_gen" / "idl"
@@ -41,7 +42,9 @@ COMMON_INTERFACES = (
 def main() -> int:
     """Run the selected parts and print one table each."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("parts", nargs="*", default=["generate", "build", "instructions", "footprint"])
+    parser.add_argument(
+        "parts", nargs="*", default=["generate", "build", "instructions", "types", "footprint"]
+    )
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         work = Path(folder)
@@ -51,6 +54,8 @@ def main() -> int:
             bench_build(work)
         if "instructions" in options.parts:
             bench_instructions(work)
+        if "types" in options.parts:
+            bench_type_flash(work)
         if "footprint" in options.parts:
             bench_footprint(work / "footprint")
     return 0
