@@ -85,12 +85,15 @@ def _full_description(
 ) -> dict[str, Any]:
     references = referenced_types(message, closure)
     return {
-        "type_description": _individual(message, defaults),
-        "referenced_type_descriptions": [_individual(closure[name], defaults) for name in references],
+        "type_description": individual_type_description(message, defaults),
+        "referenced_type_descriptions": [
+            individual_type_description(closure[name], defaults) for name in references
+        ],
     }
 
 
-def _individual(message: Message, defaults: bool) -> dict[str, Any]:
+def individual_type_description(message: Message, defaults: bool = True) -> dict[str, Any]:
+    """Return type_description_interfaces/msg/IndividualTypeDescription of `message` as data, without its parts."""
     fields = message.fields or (Field(EMPTY_MEMBER, Primitive.UINT8),)
     return {"type_name": str(message.name), "fields": [_field(field, defaults) for field in fields]}
 

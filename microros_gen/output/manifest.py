@@ -12,6 +12,7 @@ from typing import Any
 
 from microros_gen import __version__
 from microros_gen.model.application import Memory
+from microros_gen.model.type_description import individual_type_description
 from microros_gen.model.types import Message, NamedType, TypeName, element_of
 from microros_gen.plan.project import Project
 from microros_gen.render.project import without_folder
@@ -20,6 +21,7 @@ from microros_gen.render.project import without_folder
 def manifest(project: Project, inputs: Mapping[str, bytes], outputs: Mapping[str, bytes]) -> bytes:
     """Return the manifest as JSON: keys sorted, UTF-8, one line end at its end.
 
+    `types` holds the description of each type (REP-2016: `fields`, and in `parts` the types that it is made of).
     `inputs` are named by what they are (`microros.yaml`, `sensor_msgs/msg/Imu`), not by where they lie.
     """
     data = {
@@ -37,6 +39,7 @@ def manifest(project: Project, inputs: Mapping[str, bytes], outputs: Mapping[str
             str(plan.name): {
                 "hash": plan.type_hash,
                 "max_encoded_size": plan.max_encoded_size,
+                "fields": individual_type_description(plan.message)["fields"],
                 "parts": sorted(str(part) for part in closure(plan.name, project.messages)),
             }
             for plan in project.types
