@@ -27,9 +27,9 @@ pytestmark = pytest.mark.skipif(
 
 SANITIZE = "-fsanitize=address,undefined"
 VARIANTS: Mapping[str, tuple[str, ...]] = {
-    "gcc": ("gcc", "-O1", SANITIZE, "-fno-sanitize-recover=all"),
-    "clang": ("clang", "-O1", SANITIZE, "-fno-sanitize-recover=all"),
-    "gcc -m32": ("gcc", "-m32", "-Os", "-fsanitize=undefined", "-fno-sanitize-recover=all"),
+    "gcc": ("gcc", "-O0", SANITIZE, "-fno-sanitize-recover=all"),
+    "clang": ("clang", "-O0", SANITIZE, "-fno-sanitize-recover=all"),
+    "gcc -m32": ("gcc", "-m32", "-O0", "-fsanitize=undefined", "-fno-sanitize-recover=all"),
 }
 POINTER = {"gcc": 8, "clang": 8, "gcc -m32": 4}
 
