@@ -50,6 +50,7 @@ def main() -> int:
         work = Path(folder)
         if "generate" in options.parts:
             bench_generate(work)
+            bench_scaling(work)
         if "build" in options.parts:
             bench_build(work)
         if "instructions" in options.parts:
@@ -109,6 +110,54 @@ def bench_generate(work: Path) -> None:
     row("from nothing", timed(command, environment, 5, out), "1 s", peer)
     row("unchanged", timed(command, environment, 5), "0.2 s", peer)
     print()
+
+
+def bench_scaling(work: Path) -> None:
+    """`generate` of more and more interfaces: the time has to grow as they do."""
+    print("generate: packages of N messages of six members each, and every interface that the wheels install")
+    print("  wall time of the whole process, from nothing; median of 3")
+    print(f"{'':58} {'':10}  {'ms each':8}")
+    environment = {**os.environ, "XDG_CACHE_HOME": str(work / "cache")}
+    start = generate_time(work, environment, synthetic(work, 1), ["synthetic_1"])
+    row("1 message", start, "")
+    for count in (10, 100, 1000):
+        seconds = generate_time(work, environment, synthetic(work, count), [f"synthetic_{count}"])
+        each = (seconds - start) / count * 1000
+        print(f"{f'{count} messages':<58} {seconds:8.2f} s  {each:8.2f}")
+    packages, files = installed_interfaces()
+    if files:
+        seconds = generate_time(work, environment, None, packages)
+        row(f"{files} interface files of the wheels, services and actions too", seconds, "1.5 s")
+    print()
+
+
+def synthetic(work: Path, count: int) -> Path:
+    """Write a package of `count` messages, each of its neighbour and of common types."""
+    folder = work / f"synthetic_{count}" / "msg"
+    folder.mkdir(parents=True, exist_ok=True)
+    for i in range(count):
+        neighbour = f"Type{i - 1} neighbour\n" if i % 10 else ""
+        members = "std_msgs/Header header\nstring name\nfloat64[9] matrix\nint32[] counts\nbool valid\n"
+        (folder / f"Type{i}.msg").write_text(members + neighbour)
+    return folder.parent
+
+
+def installed_interfaces() -> tuple[list[str], int]:
+    """Return the packages of this environment that have interfaces, and how many files those are."""
+    share = Path(sys.prefix) / "share"
+    files = [f for kind in ("msg", "srv", "action") for f in share.glob(f"*/{kind}/*.{kind}")]
+    return sorted({f.parent.parent.name for f in files}), len(files)
+
+
+def generate_time(work: Path, environment: dict[str, str], path: Path | None, packages: list[str]) -> float:
+    """Return the median seconds of a generation of `packages`, those below `path` among them."""
+    config, out = work / "scale.yaml", work / "scale"
+    config.write_text(
+        f"version: 1\nprofiles: [pure_sender]\ninterfaces: [{', '.join(packages)}]\npools: {{publishers: 4}}\n"
+        "transport: {type: udp, mtu: 60000}\nlimits: {'*': {string: 12, sequence: 3}}\n"
+    )
+    command = tool("generate", "-c", str(config), "-o", str(out))
+    return timed([*command, "--interface-path", str(path)] if path else command, environment, 3, out)
 
 
 def peer_rosidl(work: Path) -> float | None:
