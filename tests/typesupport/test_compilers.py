@@ -9,12 +9,13 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from ts_build import WARNINGS, Generated, run, unity
+from ts_build import DECODING, WARNINGS, Generated, run, unity
 from ts_selfcheck import write_selfcheck
 
 pytestmark = pytest.mark.ros
 
-COMPILED = ("__type_support.c", "__storage.c", "__functions.c")
+COMPILED = ("__type_support.c", "__storage.c", "__functions.c", "__decode.c")
+DECODERS = "".join(f'#include "{source}"\n' for source in DECODING)
 GARBAGE = ["-ffunction-sections", "-fdata-sections", "-Wl,--gc-sections"]
 """What the program does not call needs the allocator, which it does not have."""
 
@@ -27,7 +28,7 @@ def needs(program: str) -> None:
 def build(generated: Generated, name: str, command: list[str]) -> Path:
     """Compile the self-check; only the generated code has to be free of warnings, on its own."""
     output = generated.folder / name
-    source = unity(generated, f"{name}_unity.c", *COMPILED)
+    source = unity(generated, f"{name}_unity.c", *COMPILED, extra=DECODERS)
     objects = generated.folder / f"{name}.o"
     run([*command, *WARNINGS, *GARBAGE, *generated.includes, "-c", source, "-o", objects])
     main = write_selfcheck(generated)
@@ -76,7 +77,7 @@ def test_32_bit_writes_the_same(limits_case: Generated, baseline: str, tmp_path:
 def test_cortex_m_compiles(limits_case: Generated) -> None:
     """Sizes of structs and storage under the Arm EABI are those of the plan (asserted in the code)."""
     needs("arm-none-eabi-gcc")
-    source = unity(limits_case, "arm.c", *COMPILED)
+    source = unity(limits_case, "arm.c", *COMPILED, extra=DECODERS)
     command = ["arm-none-eabi-gcc", "-mcpu=cortex-m4", "-mthumb", *WARNINGS, *limits_case.includes]
     run([*command, "-fsyntax-only", source])
 

@@ -27,7 +27,7 @@ MODES = ("empty", "full", "random", "random")
 SANITIZERS = "-fsanitize=address,undefined,implicit-conversion"
 GARBAGE = "-Wl,--gc-sections"
 FUZZ_RUNS = 60_000
-FUZZ_SECONDS = 600
+FUZZ_SECONDS = int(os.environ.get("MICROROS_FUZZ_SECONDS", "600"))
 
 
 def needs(*programs: str) -> None:
