@@ -35,19 +35,29 @@ def manifest(project: Project, inputs: Mapping[str, bytes], outputs: Mapping[str
         "entities": _entities(project),
         "pools": _pools(project),
         "memory": _memory(project.application.memory),
-        "types": {
-            str(plan.name): {
-                "hash": plan.type_hash,
-                "max_encoded_size": plan.max_encoded_size,
-                "fields": individual_type_description(plan.message)["fields"],
-                "parts": sorted(str(part) for part in closure(plan.name, project.messages)),
-            }
-            for plan in project.types
-        },
         "inputs": {name: _sha256(content) for name, content in inputs.items()},
         "outputs": {name: _sha256(content) for name, content in outputs.items()},
     }
-    return (json.dumps(data, indent=2, sort_keys=True, ensure_ascii=False) + "\n").encode()
+    types = {
+        str(plan.name): {
+            "hash": plan.type_hash,
+            "max_encoded_size": plan.max_encoded_size,
+            "fields": individual_type_description(plan.message)["fields"],
+            "parts": sorted(str(part) for part in closure(plan.name, project.messages)),
+        }
+        for plan in project.types
+    }
+    return _text(data, types).encode()
+
+
+def _text(data: Mapping[str, Any], types: Mapping[str, Any]) -> str:
+    """Print `data` over many lines and, as its last key, each type on one: that is quick, and a change is one line."""
+    head = json.dumps(data, indent=2, sort_keys=True, ensure_ascii=False).removesuffix("\n}")
+    lines = ",\n".join(
+        f"    {json.dumps(name)}: {json.dumps(entry, sort_keys=True, ensure_ascii=False)}"
+        for name, entry in sorted(types.items())
+    )
+    return f'{head},\n  "types": {{\n{lines}\n  }}\n}}\n'
 
 
 def _transport(project: Project) -> dict[str, Any]:
