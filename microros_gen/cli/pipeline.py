@@ -13,6 +13,7 @@ from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.model.application import Application, EndpointDecl, Named, Transport
 from microros_gen.model.component import Catalogue, Profile
 from microros_gen.model.derived import declaring_name
+from microros_gen.model.names import expand_topic_name
 from microros_gen.model.selection import Selection
 from microros_gen.model.target import Target
 from microros_gen.model.types import TypeName
@@ -277,8 +278,14 @@ def _capacities(resolved: Resolved, interfaces: InterfaceSet, diagnostics: Diagn
     request, application = resolved.request, resolved.request.application
     room = (application.transport.mtu or DEFAULT_MTU[resolved.selection.transport]) - WRITE_DATA_OVERHEAD
     declared = [
-        Root(type_name(endpoint.type), endpoint.limits, endpoint.type_span or endpoint.span, room)
-        for _, _, endpoint in publisher_declarations(application)
+        Root(
+            type_name(endpoint.type),
+            endpoint.limits,
+            endpoint.type_span or endpoint.span,
+            room,
+            expand_topic_name(endpoint.topic, node.name, node.namespace),
+        )
+        for _, node, endpoint in publisher_declarations(application)
     ]
     known = {root.type for root in declared}
     roots = declared + [

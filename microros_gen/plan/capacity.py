@@ -13,7 +13,8 @@ in each of the two:
 A bound in the interface file caps whatever a rule says. Where no rule speaks, the default holds and is
 recorded as such; with defaults switched off a bound is the capacity, and without one the field is an error.
 
-One type has one type support, so two entities of one type share its capacities: the larger of both holds.
+One type has one type support, so two entities of one type share its limits: the larger of both holds. Their
+storage has their own.
 """
 
 from __future__ import annotations
@@ -61,12 +62,14 @@ class Root:
     """A declared type: by an endpoint (`rules` are its own limits) or by `interfaces:`.
 
     `room` is the largest body that its stream takes, bytes; None where the stream follows the message.
+    `topic` is the expanded name of an endpoint's topic, empty for `interfaces:`.
     """
 
     type: TypeName
     rules: tuple[LimitRule, ...] = ()
     span: Span | None = None
     room: int | None = None
+    topic: str = ""
 
 
 @dataclass(frozen=True)
@@ -90,11 +93,24 @@ class Capacity:
 
 
 @dataclass(frozen=True)
+class EntityLimits:
+    """The limits of one topic's messages, which are lower than those of their type."""
+
+    type: TypeName
+    topic: str
+    limits: TypeLimits
+
+
+@dataclass(frozen=True)
 class Capacities:
-    """The limits of each root (None: nothing of variable length in it), and how each came about."""
+    """The limits of each root (None: nothing of variable length in it), and how each came about.
+
+    `entities`: topics whose own limits are not those of their type, because others of the type have larger ones.
+    """
 
     limits: Mapping[TypeName, TypeLimits | None]
     decided: tuple[Capacity, ...]
+    entities: tuple[EntityLimits, ...] = ()
 
     @property
     def defaulted(self) -> tuple[Capacity, ...]:
@@ -119,6 +135,7 @@ def plan_capacities(
     limits: dict[TypeName, TypeLimits | None] = {}
     decided: dict[tuple[TypeName, tuple[str, ...], str], Capacity] = {}
     shared = _Tier(application)
+    own: dict[tuple[TypeName, str], TypeLimits | None] = {}
     for root in roots:
         checker.check(root.rules, root.type)
         tiers = [_Tier(root.rules, root.type), shared] if root.rules else [shared]
@@ -126,11 +143,19 @@ def plan_capacities(
         found = walk.type_limits(root.type, (), (str(root.type),))
         walk.report_unset(found, diagnostics)
         limits[root.type] = _larger(limits[root.type], found) if root.type in limits else found
+        if root.topic:
+            entity = (root.type, root.topic)
+            own[entity] = _larger(own[entity], found) if entity in own else found
         for capacity in walk.decided:
             key = (capacity.root, capacity.path, capacity.kind)
             if key not in decided or decided[key].value < capacity.value:
                 decided[key] = capacity
-    return Capacities(limits, tuple(decided.values()))
+    entities = tuple(
+        EntityLimits(name, topic, found)
+        for (name, topic), found in own.items()
+        if found is not None and found != limits[name]
+    )
+    return Capacities(limits, tuple(decided.values()), entities)
 
 
 class _Tier:

@@ -32,7 +32,8 @@ class TypePlan:
     `received`: its handle has a decoder; `decoder` is None where neither it nor a type that contains it is
     received. Encoded sizes are bytes of the CDR body under the limits (0 for a part
     that is never a root and whose limits differ from use to use). `struct_sizes` and `storage_sizes` are
-    bytes for each of DATA_MODELS; `storage_sizes` is empty for a type without storage.
+    bytes for each of DATA_MODELS; `storage_sizes` is empty for a type without storage, and `topic_sizes` holds
+    those of storage for one topic, by the name of its struct.
     """
 
     name: TypeName
@@ -52,6 +53,7 @@ class TypePlan:
     storage: tuple[StorageUnit, ...]
     struct_sizes: tuple[int, ...]
     storage_sizes: tuple[int, ...]
+    topic_sizes: Mapping[str, tuple[int, ...]]
 
     def struct_size(self, model: DataModel) -> int:
         """Return the size of the struct for one of DATA_MODELS, bytes."""
@@ -60,6 +62,11 @@ class TypePlan:
     def storage_size(self, model: DataModel) -> int:
         """Return the size of the static storage for one of DATA_MODELS, bytes; 0 where it needs none."""
         return self.storage_sizes[DATA_MODELS.index(model)] if self.storage_sizes else 0
+
+    def storage_name(self, topic: str) -> str:
+        """Return what the names of the storage for messages on `topic` begin with: `sensor_msgs__msg__Imu`."""
+        own = (u.name.removesuffix("__Storage") for u in self.storage if u.topic == topic and not u.private)
+        return next(own, self.c_name)
 
     @property
     def headers(self) -> tuple[str, ...]:
@@ -94,7 +101,7 @@ def plan_types(
     _check_primitives(messages.values(), diagnostics)
     decoders = plan_decoders(messages, received)
     wires = plan_wire(messages, capacities.limits)
-    storages = plan_storage(messages, capacities.limits, wires.home_limits, diagnostics)
+    storages = plan_storage(messages, capacities.limits, wires.home_limits, diagnostics, capacities.entities)
     sizes = WireSizes(messages)
     layouts = [StructLayouts(messages, model) for model in DATA_MODELS]
     extents = [storage_extents(storages, layout) for layout in layouts]
@@ -122,6 +129,11 @@ def plan_types(
                 storage=units,
                 struct_sizes=tuple(layout.extent(name).size for layout in layouts),
                 storage_sizes=tuple(known[units[-1].name].size for known in extents) if units else (),
+                topic_sizes={
+                    unit.name: tuple(known[unit.name].size for known in extents)
+                    for unit in units
+                    if unit.topic and not unit.private
+                },
             )
         )
     _check_sizes(plans, diagnostics)

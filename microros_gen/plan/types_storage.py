@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Static storage of a message under its limits: one typed struct, and the steps that bind a message to it."""
+"""Static storage of a message under its limits: one typed struct, and the steps that bind a message to it.
+
+A topic whose own limits are lower than those of its type has a struct and a bind function of its own.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Union
 
@@ -20,6 +23,7 @@ from microros_gen.model.types import (
     TypeName,
     element_of,
 )
+from microros_gen.plan.capacity import EntityLimits
 from microros_gen.plan.layout import Extent, StructLayouts, struct_extent
 from microros_gen.plan.types_names import c_name
 from microros_gen.plan.types_size import PLACEHOLDER, FieldLimits, TypeLimits
@@ -127,7 +131,8 @@ BindStep = Union[  # noqa: UP007
 
 @dataclass(frozen=True)
 class StorageUnit:
-    """One struct and its bind function. `private`: only for the use at `path` of a root."""
+    """One struct and its bind function. `private`: only for the use at `path` of a root; `topic`: for the
+    messages of this topic (empty: of the type)."""
 
     name: str
     bind: str
@@ -137,6 +142,7 @@ class StorageUnit:
     members: tuple[StorageMember, ...]
     steps: tuple[BindStep, ...]
     uses: tuple[TypeName, ...]
+    topic: str = ""
 
 
 def plan_storage(
@@ -144,8 +150,13 @@ def plan_storage(
     roots: Mapping[TypeName, TypeLimits | None],
     homes: Mapping[TypeName, TypeLimits | None],
     diagnostics: Diagnostics,
+    entities: Sequence[EntityLimits] = (),
 ) -> Mapping[TypeName, tuple[StorageUnit, ...]]:
-    """Return the units of each root's storage file, inner ones first, and of the types that they share."""
+    """Return the units of each root's storage file, and of the types that they share.
+
+    In a file those of `entities` come first, inner units before those that contain them; the type's own is the
+    last.
+    """
     planned: dict[TypeName, tuple[StorageUnit, ...]] = {}
     pending = [name for name, limits in roots.items() if limits is not None]
     while pending:
@@ -153,11 +164,24 @@ def plan_storage(
         limits = homes.get(name)
         if name in planned or limits is None:
             continue
-        planner = _Planner(messages, homes, name, diagnostics)
-        planner.unit(name, limits, "")
-        planned[name] = tuple(planner.units)
-        pending += planner.shared
+        units: list[StorageUnit] = []
+        for base, topic, own in [*_entity_units(name, entities), (c_name(name), "", limits)]:
+            planner = _Planner(messages, homes, base, topic, diagnostics)
+            planner.unit(name, own, "")
+            units += planner.units
+            pending += planner.shared
+        planned[name] = tuple(units)
     return planned
+
+
+def _entity_units(name: TypeName, entities: Sequence[EntityLimits]) -> Iterator[tuple[str, str, TypeLimits]]:
+    """Yield the name in C, the topic and the limits of each entity of the type; every name once."""
+    taken: dict[str, int] = {}
+    for entity in entities:
+        if entity.type == name:
+            base = f"{c_name(name)}__on__{entity.topic.strip('/').replace('/', '_')}"
+            taken[base] = taken.get(base, 0) + 1
+            yield base if taken[base] == 1 else f"{base}__{taken[base]}", entity.topic, entity.limits
 
 
 def storage_extents(
@@ -203,14 +227,16 @@ class _Planner:
         self,
         messages: Mapping[TypeName, Message],
         homes: Mapping[TypeName, TypeLimits | None],
-        owner: TypeName,
+        base: str,
+        topic: str,
         diagnostics: Diagnostics,
     ) -> None:
         self.units: list[StorageUnit] = []
         self.shared: list[TypeName] = []
         self._messages = messages
         self._homes = homes
-        self._owner = owner
+        self._base = base
+        self._topic = topic
         self._diagnostics = diagnostics
 
     def unit(self, name: TypeName, limits: TypeLimits, path: str) -> str:
@@ -218,7 +244,7 @@ class _Planner:
         if path and self._homes.get(name) == limits:
             self.shared.append(name)
             return f"{c_name(name)}__Storage"
-        base = c_name(self._owner) + (f"__{path.replace('.', '__')}" if path else "")
+        base = self._base + (f"__{path.replace('.', '__')}" if path else "")
         builder = _UnitBuilder(self, self._messages, self._diagnostics, path)
         builder.fields(name, limits, "")
         uses = tuple(dict.fromkeys(builder.uses))
@@ -234,6 +260,7 @@ class _Planner:
                 tuple(builder.members),
                 tuple(builder.steps),
                 uses,
+                self._topic,
             )
         )
         return f"{base}__Storage"

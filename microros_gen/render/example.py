@@ -36,7 +36,7 @@ class PublisherView:
     type: str
     c_type: str
     topic: str
-    storage: bool
+    storage: str
     stamps: tuple[str, ...]
     values: tuple[MemberValue, ...]
     texts: tuple[MemberValue, ...]
@@ -102,13 +102,19 @@ def _publishers(
         declared = [endpoint for _, _, endpoint in publisher_declarations(project.application)]
         return [
             _publisher(
-                project, types[p.type], nodes[p.node], p.index, declared[p.index].topic, declared[p.index].qos
+                project,
+                types[p.type],
+                nodes[p.node],
+                p.index,
+                declared[p.index].topic,
+                declared[p.index].qos,
+                types[p.type].storage_name(p.topic),
             )
             for p in runtime.publishers
         ]
     roots = project.roots[: runtime.publishers_max] if project.selection.has("publish") else ()
     return [
-        _publisher(project, types[root], nodes[0], index, topic, Qos())
+        _publisher(project, types[root], nodes[0], index, topic, Qos(), types[root].c_name)
         for index, (root, topic) in enumerate(example_topics(roots))
     ]
 
@@ -135,7 +141,7 @@ def _init(qos: Qos) -> tuple[str, tuple[str, ...]]:
 
 
 def _publisher(
-    project: Project, plan: TypePlan, node: NodeView, index: int, topic: str, qos: Qos
+    project: Project, plan: TypePlan, node: NodeView, index: int, topic: str, qos: Qos, storage: str
 ) -> _Publisher:
     filling = plan_filling(plan.message, project.messages, node.name)
     name = f"{snake_case(plan.name.name)}_{index}"
@@ -151,7 +157,7 @@ def _publisher(
         type=plan.name.name,
         c_type=plan.c_name,
         topic=topic,
-        storage=bool(plan.storage),
+        storage=storage if plan.storage else "",
         stamps=filling.stamps,
         values=filling.values,
         texts=filling.texts if plan.storage else (),

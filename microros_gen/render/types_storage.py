@@ -50,6 +50,8 @@ class UnitView:
     wide_defaults: tuple[WideDefault, ...]
     is_unused: bool
     steps: tuple[BindView, ...]
+    topic: str
+    size_assertion: str
 
 
 @dataclass(frozen=True)
@@ -69,7 +71,7 @@ class StorageView:
 
 def storage_view(plan: TypePlan, plans: Mapping[TypeName, TypePlan]) -> StorageView:
     """Return the view of a type that has storage."""
-    units = tuple(_unit(unit, plan.c_name) for unit in plan.storage)
+    units = tuple(_unit(unit, plan) for unit in plan.storage)
     steps = [step for unit in plan.storage for step in unit.steps]
     uses = sorted({name for unit in plan.storage for name in unit.uses})
     shared = {include_path(type_files(name).storage) for name in uses if plans[name].storage}
@@ -93,8 +95,12 @@ def storage_view(plan: TypePlan, plans: Mapping[TypeName, TypePlan]) -> StorageV
     )
 
 
-def _unit(unit: StorageUnit, owner: str) -> UnitView:
-    comment = f"Storage of {unit.path} of {owner}." if unit.private else "Storage of one message."
+def _unit(unit: StorageUnit, plan: TypePlan) -> UnitView:
+    sizes = plan.topic_sizes.get(unit.name)
+    on = f" on {unit.topic}" if unit.topic else ""
+    comment = (
+        f"Storage of {unit.path} of {plan.c_name}{on}." if unit.private else f"Storage of one message{on}."
+    )
     is_unused = [member.name for member in unit.members] == [PLACEHOLDER.name]
     return UnitView(
         name=unit.name,
@@ -106,6 +112,8 @@ def _unit(unit: StorageUnit, owner: str) -> UnitView:
         wide_defaults=tuple(wide for step in unit.steps for wide in _wide(step)),
         is_unused=is_unused,
         steps=tuple(_step(step) for step in unit.steps),
+        topic="" if unit.private else unit.topic,
+        size_assertion=f"sizeof({unit.name}) == {cdr_size(sizes)}" if sizes else "",
     )
 
 
