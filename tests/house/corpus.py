@@ -39,7 +39,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "types": _POOL + "interfaces: [quality_msgs]\nlimits: {'*': {string: 12, sequence: 3}}\n",
         "types_nodes": _NODES
         + "      - {topic: tree, type: quality_msgs/msg/Tree}\n"
-        + "      - {topic: shrub, type: quality_msgs/msg/Tree, limits: {leaf: {string: 2}, runs: 1}}\n"
+        + "      - {topic: shrub, type: quality_msgs/msg/Tree, limits: {leaf: {string: 2}, durations: 1}}\n"
         + "limits:\n  '*': {string: 12, sequence: 3}\n  quality_msgs/msg/Tree: {leaf: {string: 5}, runs: 2}\n",
         "types_decode": _POOL
         + "components: [+cdr_decode]\ninterfaces: [quality_msgs]\nlimits: {'*': {string: 12, sequence: 3}}\n",
