@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -51,6 +53,30 @@ def test_the_console_example_prints_what_it_shows(tmp_path: Path) -> None:
     )
     assert result.returncode == 0, result.stderr
     assert masked(result.stdout) == masked(shown)
+
+
+def test_the_firmware_of_the_example_is_built_and_measured(tmp_path: Path) -> None:
+    """The lines of the microcontroller; what `run` does with the same image is in tests/firmware/test_run.py."""
+    if shutil.which("arm-none-eabi-gcc") is None:
+        pytest.skip("no arm-none-eabi-gcc: apt-get install gcc-arm-none-eabi")
+    lines = re.findall(r"(?m)^    microros-gen (.*build/firmware)$", README)
+    assert [line.split()[0] for line in lines] == ["build", "run", "size"]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(tmp_path / "cache")}
+    for line in (lines[0], lines[2]):
+        command = [sys.executable, "-m", "microros_gen", *shlex.split(line)]
+        done = subprocess.run(
+            command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 0, done.stdout + done.stderr
+    assert "Worst stack with every interrupt on top" in done.stdout
+
+
+def test_the_figures_of_the_firmware_are_the_ceilings_of_the_suite() -> None:
+    (row,) = re.findall(r"(?m)^\| here \| (.*) \|$", README)
+    text, ram, _, ready, publish = (int(figure.replace(",", "")) for figure in row.split(" | "))
+    kept = json.loads((ROOT / "tests/firmware/footprint.json").read_text())["qemu-mps2-an386"]["senders"]
+    sender = kept["pure_sender binary reliable code"]
+    assert [text, ram, ready, publish] == [sender[key] for key in ("text", "ram", "ready", "publish")]
 
 
 @pytest.mark.parametrize("command", list(_COMMANDS))
