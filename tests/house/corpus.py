@@ -160,7 +160,8 @@ def units(trees: Sequence[Tree]) -> list[Unit]:
     rendered = {path.name.removesuffix(".j2") for path in components_folder().rglob("*.c.j2")}
 
     def preprocess(tree: Tree, source: str) -> str:
-        done = run(["gcc", "-std=c99", "-E", "-P", "-Iinclude", source], tree.out)
+        # -dD keeps the definitions of macros: a finding may be in one.
+        done = run(["gcc", "-std=c99", "-E", "-P", "-dD", "-Iinclude", source], tree.out)
         assert done.returncode == 0, f"{tree.name}: {done.stderr}"
         return hashlib.sha256((source + done.stdout).encode()).hexdigest()
 
