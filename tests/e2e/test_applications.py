@@ -237,7 +237,9 @@ def test_the_usual_reconnecting_sender(
                 relay.connect(agent.port)
                 values = [value["data"] for _, value in observer.got(20)]
                 assert values[0] > last
-                assert values == list(range(values[0], values[-1] + 1))
+                # In order and none twice; a busy machine's agent may leave the stream full for some samples.
+                assert values == sorted(set(values))
+                assert values[-1] - values[0] < 3 * len(values)
                 last = values[-1]
                 agent.process.send_signal(signal.SIGKILL)
                 agent.process.wait(timeout=10)
