@@ -17,8 +17,8 @@ from rosidl_idl_pipeline import RosMessage, ros_c_compiles, ros_idl
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.model.derived import messages_of
 from microros_gen.model.idl_text import idl_text
-from microros_gen.model.type_description import type_description
-from microros_gen.model.types import Message, NamedType, element_of
+from microros_gen.model.type_description import individual_type_description
+from microros_gen.model.types import Message
 from microros_gen.parse.idl import IdlFile, read_idl
 
 pytestmark = pytest.mark.ros
@@ -26,14 +26,6 @@ pytestmark = pytest.mark.ros
 
 def read(text: str, kind: str = "msg") -> IdlFile:
     return read_idl(Source("Foo.idl", text), "pkg_a", kind, Diagnostics())
-
-
-def described(message: Message) -> dict[str, Any]:
-    """Return the message's own description; the types it names stand as empty ones."""
-    names = (element_of(f.type) for f in message.fields)
-    closure = {n.name: Message(n.name, ()) for n in names if isinstance(n, NamedType)}
-    description: dict[str, Any] = type_description(message, closure)["type_description"]
-    return description
 
 
 def meaning(description: dict[str, Any]) -> dict[str, Any]:
@@ -48,7 +40,7 @@ def meaning(description: dict[str, Any]) -> dict[str, Any]:
 
 
 def check_equal(ours: Message, theirs: RosMessage, *, documented: bool) -> None:
-    assert meaning(described(ours)) == meaning(theirs.description)
+    assert meaning(individual_type_description(ours)) == meaning(theirs.description)
     assert tuple((c.name, c.value) for c in ours.constants) == theirs.constants
     if documented:
         comments = (

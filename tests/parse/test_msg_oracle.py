@@ -15,8 +15,8 @@ from msg_corpus import BAD, DIFFERENCES, GOOD, RIGHT_NAMES, WRONG_NAMES, Differe
 from rosidl_pipeline import adapter_message, ros_message
 
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.model.type_description import type_description
-from microros_gen.model.types import Message, NamedType, TypeName, element_of
+from microros_gen.model.type_description import individual_type_description
+from microros_gen.model.types import Message, TypeName
 from microros_gen.parse.msg import parse_msg
 
 pytestmark = pytest.mark.ros
@@ -26,14 +26,6 @@ INSTALLED = sorted((Path(sys.prefix) / "share").glob("*/msg/*.msg"))
 
 def read(text: str, name: TypeName = NAME) -> Message | None:
     return parse_msg(Source("Foo.msg", text), name, Diagnostics())
-
-
-def described(message: Message) -> dict[str, Any]:
-    """Return the message's own description; the types it names stand as empty ones."""
-    names = (element_of(f.type) for f in message.fields)
-    closure = {n.name: Message(n.name, ()) for n in names if isinstance(n, NamedType)}
-    description: dict[str, Any] = type_description(message, closure)["type_description"]
-    return description
 
 
 def meaning(description: dict[str, Any]) -> dict[str, Any]:
@@ -50,7 +42,7 @@ def test_good_text_is_read_as_ros_reads_it(text: str, tmp_path: Path) -> None:
     ours, theirs = read(text), ros_message(text, tmp_path)
     assert theirs is not None, "the corpus is wrong: Jazzy refuses this text"
     assert ours is not None
-    assert meaning(described(ours)) == meaning(theirs.description)
+    assert meaning(individual_type_description(ours)) == meaning(theirs.description)
     assert [(c.name, c.value) for c in ours.constants] == [(c.name, c.value) for c in theirs.constants]
 
 
@@ -129,7 +121,7 @@ def test_lines_made_at_random_are_taken_or_refused_as_by_ros(line: str, tmp_path
     ours, theirs = read(line), ros_message(line, tmp_path)
     assert (ours is None) == (theirs is None)
     if ours is not None and theirs is not None:
-        assert meaning(described(ours)) == meaning(theirs.description)
+        assert meaning(individual_type_description(ours)) == meaning(theirs.description)
         assert [(c.name, c.value) for c in ours.constants] == [(c.name, c.value) for c in theirs.constants]
 
 
