@@ -218,12 +218,16 @@ def test_another_plan_does_not_link(acknack_image: Image, none_image: Image, tmp
 # The usual code
 
 
+ROOMY = "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\npools: {history: 16}\n"
+"""Room for what an agent on a busy machine acknowledges late; a full stream refuses samples."""
+
+
 @pytest.mark.ros
 def test_the_usual_reconnecting_sender(
-    profile_image: Image, relay: Relay, observer: Observer, domain: int, tmp_path: Path
+    images: Images, relay: Relay, observer: Observer, domain: int, tmp_path: Path
 ) -> None:
     """Compiles as it is, waits for the agent, publishes, and finds back to an agent that was killed."""
-    program = profile_image.application(
+    program = images.build(relay.port, ROOMY).application(
         C_FILES / "reconnect.c", tmp_path / "usual", "-std=c11", "-Wall", "-Wextra", "-Werror"
     )
     observer.subscribe("/usual_count", "std_msgs/msg/Int32", reliable=False)
@@ -237,9 +241,7 @@ def test_the_usual_reconnecting_sender(
                 relay.connect(agent.port)
                 values = [value["data"] for _, value in observer.got(20)]
                 assert values[0] > last
-                # In order and none twice; a busy machine's agent may leave the stream full for some samples.
-                assert values == sorted(set(values))
-                assert values[-1] - values[0] < 3 * len(values)
+                assert values == list(range(values[0], values[-1] + 1))
                 last = values[-1]
                 agent.process.send_signal(signal.SIGKILL)
                 agent.process.wait(timeout=10)
