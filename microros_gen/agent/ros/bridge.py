@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from microros_gen.agent.representation.description import Qos, Topic
+from microros_gen.agent.representation.description import Qos, Service, Topic
 from microros_gen.agent.wire.constants import Status
 
 
@@ -31,6 +31,48 @@ class Writer(Protocol):
         """Leave the ROS graph; nothing else is called afterwards."""
 
 
+class Source(Protocol):
+    """Something of a client that ROS 2 gives data to: a reader, a replier or a requester.
+
+    `take` of each returns what came next, None when nothing is there. `Bridge.ready` names a source again only after
+    it had nothing: who stops taking before None has to come back by itself.
+    """
+
+    @property
+    def label(self) -> str:
+        """Names and types on the ROS side, for the log."""
+
+    def destroy(self) -> None:
+        """Leave the ROS graph; nothing else is called afterwards."""
+
+
+class Reader(Source, Protocol):
+    """A ROS subscription of a client."""
+
+    def take(self) -> bytes | None:
+        """Return the next sample: encapsulation header (4 bytes), then CDR body. May raise BridgeError."""
+
+
+class Replier(Source, Protocol):
+    """A ROS service of a client: the client answers."""
+
+    def take(self) -> tuple[bytes, bytes] | None:
+        """Return the next request: SampleIdentity as on the XRCE wire (24 bytes), and encapsulation with CDR body."""
+
+    def reply(self, identity: bytes, serialized: bytes) -> None:
+        """Answer the request that had `identity`: encapsulation header, then CDR body. May raise BridgeError."""
+
+
+class Requester(Source, Protocol):
+    """A ROS service client of a client: the client asks."""
+
+    def request(self, serialized: bytes) -> int:
+        """Send a request (encapsulation header, then CDR body); return the number that its reply will have."""
+
+    def take(self) -> tuple[int, bytes] | None:
+        """Return the next reply: the number of its request, and encapsulation with CDR body."""
+
+
 class Node(Protocol):
     """A ROS node of a client."""
 
@@ -41,8 +83,17 @@ class Node(Protocol):
     def create_writer(self, topic: Topic, qos: Qos) -> Writer:
         """Create a publisher; BridgeError when names or type are not possible."""
 
+    def create_reader(self, topic: Topic, qos: Qos) -> Reader:
+        """Create a subscription; BridgeError as above."""
+
+    def create_replier(self, service: Service) -> Replier:
+        """Create a service; BridgeError as above."""
+
+    def create_requester(self, service: Service) -> Requester:
+        """Create a service client; BridgeError as above."""
+
     def destroy(self) -> None:
-        """Leave the ROS graph, after all writers of the node have."""
+        """Leave the ROS graph, after everything else of the node has."""
 
 
 class Bridge(Protocol):
@@ -50,6 +101,12 @@ class Bridge(Protocol):
 
     def create_node(self, name: str, domain: int) -> Node:
         """Create a node; `name` is `node` or `namespace/node`, in any characters; may raise BridgeError."""
+
+    def fileno(self) -> int:
+        """Return the descriptor that is readable while `ready` has something to name."""
+
+    def ready(self) -> list[Source]:
+        """Return the sources that got something since they were last named here, each once. Never waits."""
 
     def close(self) -> None:
         """Give everything back; nodes are destroyed before."""
