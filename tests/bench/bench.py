@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`make bench`: times of generate and build, instructions of publish, encode and decode, flash of types and firmware.
+"""`make bench`: times of generate and build, of encode and decode beside Fast CDR, instructions, flash of types, firmware.
 
 Times depend on the machine; so each stands beside a peer that ran in the same minutes. Instruction counts come
 from callgrind and repeat exactly with one compiler.
@@ -18,6 +18,7 @@ import tempfile
 import time
 from pathlib import Path
 
+from codec import bench_codec
 from footprint import bench_footprint
 from instructions import bench_instructions
 from type_flash import bench_type_flash
@@ -43,7 +44,7 @@ def main() -> int:
     """Run the selected parts and print one table each."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument(
-        "parts", nargs="*", default=["generate", "build", "instructions", "types", "footprint"]
+        "parts", nargs="*", default=["generate", "build", "instructions", "codec", "types", "footprint"]
     )
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
@@ -55,6 +56,8 @@ def main() -> int:
             bench_build(work)
         if "instructions" in options.parts:
             bench_instructions(work)
+        if "codec" in options.parts:
+            bench_codec(work / "codec")
         if "types" in options.parts:
             bench_type_flash(work)
         if "footprint" in options.parts:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Instructions of publish, encode and decode on this host, counted by callgrind inside one function."""
+"""Instructions of publish on this host, counted by callgrind inside rcl_publish."""
 
 from __future__ import annotations
 
@@ -13,38 +13,19 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 IDL = HERE.parents[1] / "microros_gen" / "idl"
-# Bare instructions of the peers on x86-64 (-O2), from the mission's figures: not run here.
-MESSAGES = {
-    "Int32": ("std_msgs/msg/Int32", (353, 120), (343, 118)),
-    "String": ("std_msgs/msg/String, 32 characters", (454, 240), (941, 230)),
-    "Imu": ("sensor_msgs/msg/Imu", (1222, 1593), (1389, 1618)),
-    "JointState": ("sensor_msgs/msg/JointState, 6 joints", (1711, 2320), (6142, 2360)),
-    "LaserScan": ("sensor_msgs/msg/LaserScan, 360 ranges", (1113, 1402), (1817, 1460)),
-    "TwistStamped": ("geometry_msgs/msg/TwistStamped", (828, 924), (1038, 939)),
-}
 APPLICATION = """\
 version: 1
 profiles: [pure_sender]
-components: [+cdr_decode]
 nodes:
   - name: bench
     publishers:
       - {topic: best_effort, type: std_msgs/msg/Int32, qos: {reliability: best_effort}}
       - {topic: reliable, type: std_msgs/msg/Int32}
-interfaces:
-  - std_msgs/msg/String
-  - sensor_msgs/msg/Imu
-  - sensor_msgs/msg/JointState
-  - sensor_msgs/msg/LaserScan
-  - geometry_msgs/msg/TwistStamped
-limits:
-  "*": {string: 32, sequence: 6}
-  sensor_msgs/msg/LaserScan: {ranges: 360, intensities: 360}
 """
 
 
 def bench_instructions(work: Path) -> None:
-    """Build a program for both and print its tables."""
+    """Build a program and print its table."""
     if shutil.which("valgrind") is None:
         sys.exit("instructions need valgrind: apt-get install valgrind")
     out = work / "instructions"
@@ -61,14 +42,6 @@ def bench_instructions(work: Path) -> None:
         print(f"{'publish of std_msgs/msg/Int32':<58} {'here':>8}")
         for name in ("best_effort", "reliable"):
             print(f"  {name.replace('_', ' '):<56} {count(program, name, 'rcl_publish', work):8.0f}")
-    for what in ("encode", "decode"):
-        title = f"{what}, through the type support handle"
-        print(f"{title:<58} {'here':>8} {'Fast CDR':>9} {'Micro-CDR':>10}")
-        for name, (label, encode, decode) in MESSAGES.items():
-            instructions = count(program, name, f"bench_{what}", work)
-            fast_cdr, micro_cdr = encode if what == "encode" else decode
-            print(f"  {label:<56} {instructions:8.0f} {fast_cdr:9} {micro_cdr:10}")
-    print("  (the peers' columns are recorded figures, docs/figures.md, not of this run)")
     print()
 
 
