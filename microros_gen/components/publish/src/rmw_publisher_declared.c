@@ -7,21 +7,21 @@
 #include "microros/text.h"
 #include "microros/xrce_client.h"
 
-bool rmw_publisher_take(xrce_writer_t * writer, const rmw_name_t * topic, const char * given)
+bool rmw_publisher_take(xrce_endpoint_t * writer, const rmw_name_t * topic, const char * given)
 {
   const char * type = writer->type->dds_type_name;
   microros_error_t error = microros_error_publisher_undeclared;
 
   for (uint16_t i = 0; i < MICROROS_PUBLISHERS_MAX; ++i) {
-    const microros_declared_publisher_t * declared = &microros_declared_publishers[i];
+    const microros_declared_endpoint_t * declared = &microros_declared_endpoints[i];
 
     if (
-      declared->node != writer->participant || !rmw_name_equals(topic, declared->topic) ||
+      declared->node != writer->participant || !rmw_name_equals(topic, declared->name) ||
       !microros_text_equals(declared->dds_type, type)) {
       continue;
     }
     if (!writer->client->states[MICROROS_NODES_MAX + i].wanted) {
-      writer->topic = declared->topic;
+      writer->name = declared->name;
       writer->index = i;
       return true;
     }

@@ -34,7 +34,7 @@ rmw_ret_t rmw_publisher_write(const rmw_publisher_t * publisher, const void * ro
 
 /* Finds a free place for the writer and fills its topic and index in; false, with a text: there is none.
  * `given` is the topic as the caller wrote it. */
-bool rmw_publisher_take(xrce_writer_t * writer, const rmw_name_t * topic, const char * given);
+bool rmw_publisher_take(xrce_endpoint_t * writer, const rmw_name_t * topic, const char * given);
 
 /* Gives the flags and depth that XRCE carries for `qos`; returns NULL, or the name of a policy that it cannot
  * carry. */

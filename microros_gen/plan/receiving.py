@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Endpoints that receive: their places, the queues in which samples wait, and the largest sample of each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.model.application import Application, EndpointDecl, Qos
+from microros_gen.model.selection import Selection
+from microros_gen.model.types import TypeName
+from microros_gen.plan.capacity import EntityLimits
+from microros_gen.plan.declared import full_name, pool, subscription_declarations, type_name
+from microros_gen.plan.names import dds_topic
+from microros_gen.plan.runtime import QueuePlan, SubscriptionPlan
+from microros_gen.plan.streams import Received
+from microros_gen.plan.types import TypePlan
+from microros_gen.plan.types_size import WireSizes
+
+LARGEST_DEFAULT_QUEUE = 4
+_SLOT_ALIGNMENT = 4
+
+
+@dataclass(frozen=True)
+class Receiving:
+    """`queues` has one entry for each place that receives, in the order of the places."""
+
+    subscriptions: tuple[SubscriptionPlan, ...] = ()
+    subscriptions_max: int = 0
+    queues: tuple[QueuePlan, ...] = ()
+    received: tuple[Received, ...] = ()
+
+
+def plan_receiving(
+    application: Application,
+    selection: Selection,
+    types: Mapping[TypeName, TypePlan],
+    roots: tuple[TypeName, ...],
+    entities: Iterable[EntityLimits],
+    diagnostics: Diagnostics,
+) -> Receiving:
+    """Plan the subscriptions; without `nodes:` each of the pool can have any of the `roots`.
+
+    A slot holds the largest sample under the subscription's own limits, which are those of its topic.
+    """
+    if not selection.has("subscribe"):
+        return Receiving()
+    if not application.nodes:
+        return _pooled(application, types, roots, diagnostics)
+    sizes = _Sizes(types, entities)
+    subscriptions, queues, received = [], [], []
+    for index, (node_index, node, endpoint) in enumerate(subscription_declarations(application)):
+        topic, name = full_name(node, endpoint), type_name(endpoint.type)
+        reliable = endpoint.qos.reliability == "reliable"
+        storage = types[name].storage_name(topic) if types[name].storage else ""
+        size = sizes.largest(name, topic)
+        subscriptions.append(
+            SubscriptionPlan(index, node_index, topic, dds_topic(topic), name, reliable, storage)
+        )
+        queues.append(_queue(endpoint, size))
+        received.append(
+            Received(
+                f"{endpoint.type} on {topic}",
+                size,
+                reliable,
+                not reliable,
+                endpoint.type_span or endpoint.span,
+            )
+        )
+    queues = queues or [QueuePlan(1, _SLOT_ALIGNMENT)]
+    return Receiving(tuple(subscriptions), len(queues), tuple(queues), tuple(received))
+
+
+def default_queue(qos: Qos) -> int:
+    """Return how many samples wait where the application file does not say."""
+    return LARGEST_DEFAULT_QUEUE if qos.history == "keep_all" else min(qos.depth, LARGEST_DEFAULT_QUEUE)
+
+
+def _queue(endpoint: EndpointDecl, size: int) -> QueuePlan:
+    return QueuePlan(endpoint.queue or default_queue(endpoint.qos), _slot(size))
+
+
+def _pooled(
+    application: Application,
+    types: Mapping[TypeName, TypePlan],
+    roots: tuple[TypeName, ...],
+    diagnostics: Diagnostics,
+) -> Receiving:
+    places = pool(application, "subscriptions", len(roots), diagnostics)
+    slots = application.pools.get("queue", LARGEST_DEFAULT_QUEUE)
+    largest = max((types[root].max_encoded_size for root in roots), default=0)
+    received = tuple(Received(str(r), types[r].max_encoded_size, True, True) for r in roots)
+    queue = QueuePlan(slots, _slot(largest))
+    return Receiving((), max(places, 1), (queue,) * max(places, 1), received)
+
+
+def _slot(size: int) -> int:
+    """Return the bytes of a slot: a body, padded as some writers do."""
+    return (max(size, 1) + _SLOT_ALIGNMENT - 1) // _SLOT_ALIGNMENT * _SLOT_ALIGNMENT
+
+
+class _Sizes:
+    """Largest bodies, under the limits of a topic where it has its own."""
+
+    def __init__(self, types: Mapping[TypeName, TypePlan], entities: Iterable[EntityLimits]) -> None:
+        self._types = types
+        self._own = {(e.type, e.topic): e.limits for e in entities}
+        self._wire = WireSizes({name: plan.message for name, plan in types.items()})
+
+    def largest(self, name: TypeName, topic: str) -> int:
+        """Return the largest body of the type on the topic, bytes."""
+        own = self._own.get((name, topic))
+        return self._types[name].max_encoded_size if own is None else self._wire.largest(name, own)
