@@ -3,19 +3,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.model.application import Application, EndpointDecl, Qos
 from microros_gen.model.selection import Selection
-from microros_gen.model.types import TypeName
+from microros_gen.model.types import (
+    ArrayType,
+    Message,
+    NamedType,
+    SequenceType,
+    StringType,
+    TypeName,
+    element_of,
+)
 from microros_gen.plan.capacity import EntityLimits
 from microros_gen.plan.declared import full_name, pool, subscription_declarations, type_name
 from microros_gen.plan.names import dds_topic
 from microros_gen.plan.runtime import QueuePlan, SubscriptionPlan
 from microros_gen.plan.streams import Received
 from microros_gen.plan.types import TypePlan
+from microros_gen.plan.types_names import include_path
 from microros_gen.plan.types_size import WireSizes
 
 LARGEST_DEFAULT_QUEUE = 4
@@ -53,11 +62,9 @@ def plan_receiving(
     for index, (node_index, node, endpoint) in enumerate(subscription_declarations(application)):
         topic, name = full_name(node, endpoint), type_name(endpoint.type)
         reliable = endpoint.qos.reliability == "reliable"
-        storage = types[name].storage_name(topic) if types[name].storage else ""
         size = sizes.largest(name, topic)
-        subscriptions.append(
-            SubscriptionPlan(index, node_index, topic, dds_topic(topic), name, reliable, storage)
-        )
+        plan = SubscriptionPlan(index, node_index, topic, dds_topic(topic), name, reliable)
+        subscriptions.append(_with_storage(plan, types))
         queues.append(_queue(endpoint, size))
         received.append(
             Received(
@@ -70,6 +77,33 @@ def plan_receiving(
         )
     queues = queues or [QueuePlan(1, _SLOT_ALIGNMENT)]
     return Receiving(tuple(subscriptions), len(queues), tuple(queues), tuple(received))
+
+
+def _with_storage(plan: SubscriptionPlan, types: Mapping[TypeName, TypePlan]) -> SubscriptionPlan:
+    type_ = types[plan.type]
+    if not type_.storage:
+        return plan
+    messages = {name: known.message for name, known in types.items()}
+    return replace(
+        plan,
+        storage=type_.storage_name(plan.topic),
+        header=include_path(type_.files.storage),
+        c_type=type_.c_name,
+        buffers=tuple(_buffers(type_.message, messages, "")),
+    )
+
+
+def _buffers(message: Message, messages: Mapping[TypeName, Message], prefix: str) -> Iterator[str]:
+    """Yield the strings and sequences that are there in a message without elements: `header.frame_id`."""
+    for field in message.fields:
+        element = element_of(field.type)
+        indices = range(field.type.size) if isinstance(field.type, ArrayType) else (None,)
+        for index in indices:
+            member = f"{prefix}{field.name}" + ("" if index is None else f"[{index}]")
+            if isinstance(field.type, SequenceType) or isinstance(element, StringType):
+                yield member
+            elif isinstance(element, NamedType):
+                yield from _buffers(messages[element.name], messages, f"{member}.")
 
 
 def default_queue(qos: Qos) -> int:

@@ -46,8 +46,9 @@ class PublisherPlan:
 class SubscriptionPlan:
     """A declared subscription, as PublisherPlan.
 
-    `index` counts subscriptions alone. `storage` is what the names of its message's storage begin with in C, empty for
-    a message of fixed size.
+    `index` counts subscriptions alone. For a message of variable length, `storage` is what the names of its storage
+    begin with in C, `header` declares it, `c_type` is its struct and `buffers` are the members that have memory of their
+    own.
     """
 
     index: int
@@ -57,6 +58,9 @@ class SubscriptionPlan:
     type: TypeName
     reliable: bool
     storage: str = ""
+    header: str = ""
+    c_type: str = ""
+    buffers: tuple[str, ...] = ()
 
     @property
     def dds_type(self) -> str:

@@ -37,8 +37,8 @@ static uint8_t * xml_put_topic(
   uint8_t * at, const xrce_endpoint_t * endpoint, const char * before, const char * behind)
 {
   const char * const texts[] = {
-    before,        "<name>rt", endpoint->name, "</name><dataType>", endpoint->type->dds_type_name,
-    "</dataType>", behind,     NULL};
+    before, "<name>rt", endpoint->name, "</name><dataType>", endpoint->type->dds_type_name, "</dataType>",
+    behind, NULL};
 
   return xml_put(at, texts);
 }

@@ -11,7 +11,8 @@
 /* Bytes 00 01 00 00: XCDR1, little endian, no options (OMG DDS-XTypes 1.3, 7.6.3.1.2). */
 enum { ENCAPSULATION_SIZE = 4, CDR_LITTLE_ENDIAN = 1 };
 
-static rmw_ret_t publish_report(const xrce_endpoint_t * writer, xrce_write_t outcome, const cdr_fault_t * fault)
+static rmw_ret_t publish_report(
+  const xrce_endpoint_t * writer, xrce_write_t outcome, const cdr_fault_t * fault)
 {
   uint32_t waiting;
 

@@ -4,6 +4,7 @@
 #include "microros/error.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_node.h"
+#include "microros/rmw_qos.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_routes.h"
 #include "microros/xrce_wire.h"

@@ -36,10 +36,6 @@ rmw_ret_t rmw_publisher_write(const rmw_publisher_t * publisher, const void * ro
  * `given` is the topic as the caller wrote it. */
 bool rmw_publisher_take(xrce_endpoint_t * writer, const rmw_name_t * topic, const char * given);
 
-/* Gives the flags and depth that XRCE carries for `qos`; returns NULL, or the name of a policy that it cannot
- * carry. */
-const char * rmw_qos_to_xrce(const rmw_qos_profile_t * qos, uint8_t * flags, uint16_t * depth);
-
 #ifdef __cplusplus
 }
 #endif
