@@ -1,42 +1,81 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The bridge on rclpy: one context per domain, a bare node per participant, raw publishers.
+"""The bridge on rclpy and rmw_fastrtps_cpp: one context per domain, a bare node per participant, raw endpoints.
 
-Nodes and publishers are rclpy's handles, not its `Node` class: a client's node shows in the graph with what
-the client declared, without parameter services and their topics, and takes 2 KiB instead of 450.
+Nodes and what they have are rclpy's handles, not its `Node` class: a client's node shows in the graph with what
+the client declared, without parameter services and their topics, and takes 2 KiB instead of 450. Types are those of
+`raw_types`: no Python package of them is needed, none is imported.
 """
 
 from __future__ import annotations
 
 import importlib
-import importlib.util
 import os
-from pathlib import Path
+from collections.abc import Callable
 from typing import Any
 
-from microros_gen.agent.representation.description import Durability, Qos, Topic
-from microros_gen.agent.ros.bridge import Bridge, BridgeError, Node, Writer
-from microros_gen.agent.ros.names import TypeName, ros_node, ros_topic, ros_type
+from microros_gen.agent.representation.description import Durability, Qos, Service, Topic
+from microros_gen.agent.ros.bridge import (
+    Bridge,
+    BridgeError,
+    Node,
+    Reader,
+    Replier,
+    Requester,
+    Source,
+    Writer,
+)
+from microros_gen.agent.ros.endpoints import (
+    FAILURES,
+    RawReader,
+    RawReplier,
+    RawRequester,
+    RawWriter,
+    Ros,
+    first_line,
+)
+from microros_gen.agent.ros.libraries import Libraries
+from microros_gen.agent.ros.names import ServiceName, TypeName, ros_node, ros_service, ros_topic, ros_type
+from microros_gen.agent.ros.raw_types import raw_types
 from microros_gen.agent.wire.constants import Status
 from microros_gen.diagnostics import Diagnostic, UserError
 
 MAXIMUM_DOMAIN = 232
 """Largest ROS domain id: the ports of larger ones do not exist (RTPS 2.2, 9.6.1)."""
-_FAILURES = (RuntimeError, ValueError, TypeError, OSError)
-"""What rclpy's handles raise: RCLError is a RuntimeError, refused names are ValueErrors."""
-
-
 DOMAIN_OF_AGENT = 255
 """Clients that ask for this domain (a convention of the public client) get the agent's own, ROS_DOMAIN_ID."""
+RMW = "rmw_fastrtps_cpp"
+"""The one RMW implementation whose type supports are made here."""
+SERVICE_DEPTH = 1000
+"""Requests, and replies, that wait for a client that takes none; ROS 2's default of 10 loses those of a burst."""
+
+HashOf = Callable[[str], "str | None"]
+"""Gives the type hash (RIHS01_…) of `pkg/msg/Type`, `pkg/srv/Type`, `pkg/srv/Type_Request` and so on, or None."""
 
 
-def open_bridge(maximum_domains: int, domain: int | None = None) -> Bridge:
-    """Return the bridge; UserError when rclpy is missing or does not load.
+def open_bridge(maximum_domains: int, domain: int | None = None, hash_of: HashOf | None = None) -> Bridge:
+    """Return the bridge; UserError when rclpy is missing, does not load, or is not the one that is needed.
 
-    `domain` (0 to 232) puts every client into that ROS domain, whichever it asks for.
+    `domain` (0 to 232) puts every client into that ROS domain, whichever it asks for. `hash_of` knows type hashes;
+    without one for a type, its publishers and subscriptions announce none.
     """
+    handles = _import_rclpy()
+    implementation = handles.rclpy_get_rmw_implementation_identifier()
+    if implementation != RMW:
+        hint = (
+            f"Unset RMW_IMPLEMENTATION, or set it to {RMW}; nodes with another one are reached all the same"
+        )
+        reason = f"the agent needs {RMW}, but RMW_IMPLEMENTATION chooses {implementation}"
+        raise UserError([Diagnostic(reason, hint=hint)])
+    libraries = Libraries()
+    return RclpyBridge(
+        handles, Ros(libraries, raw_types(libraries)), maximum_domains, domain, hash_of or _no_hash
+    )
+
+
+def _import_rclpy() -> Any:
     try:
         importlib.import_module("rclpy")
-        handles = importlib.import_module("rclpy.impl.implementation_singleton").rclpy_implementation
+        return importlib.import_module("rclpy.impl.implementation_singleton").rclpy_implementation
     except ImportError as error:
         missing = isinstance(error, ModuleNotFoundError) and error.name == "rclpy"
         reason = (
@@ -44,19 +83,26 @@ def open_bridge(maximum_domains: int, domain: int | None = None) -> Bridge:
         )
         hint = "Run: pip install 'microros-gen[ros]', or source a ROS 2 installation"
         raise UserError([Diagnostic(f"the agent needs ROS 2: {reason}", hint=hint)]) from error
-    return RclpyBridge(handles, maximum_domains, domain)
+
+
+def _no_hash(_type_name: str) -> str | None:
+    return None
 
 
 class RclpyBridge:
     """Contexts by domain; one that no node uses stays open until its place is needed."""
 
-    def __init__(self, handles: Any, maximum_domains: int, domain: int | None) -> None:
+    def __init__(
+        self, handles: Any, ros: Ros, maximum_domains: int, domain: int | None, hash_of: HashOf
+    ) -> None:
         self._handles = handles
+        self._ros = ros
         self._domain = domain
+        self._hash_of = hash_of
         self._maximum_domains = maximum_domains
         self._contexts: dict[int, _Context] = {}
 
-    def create_node(self, name: str, domain: int) -> Node:
+    def create_node(self, name: str, domain: int, hash_of: HashOf | None = None) -> Node:
         """See Bridge."""
         node, namespace = ros_node(name)
         if domain == DOMAIN_OF_AGENT:
@@ -64,16 +110,25 @@ class RclpyBridge:
         context = self._context(domain if self._domain is None else self._domain)
         try:
             handle = self._handles.Node(node, namespace, context.handle, None, False, False)
-        except _FAILURES as error:
-            raise BridgeError(f"node '{name}': {_first_line(error)}") from error
+        except FAILURES as error:
+            raise BridgeError(f"node '{name}': {first_line(error)}") from error
         context.nodes += 1
-        return _Node(self._handles, handle, context)
+        return _Node(self._handles, handle, context, self._ros, hash_of or self._hash_of)
+
+    def fileno(self) -> int:
+        """See Bridge."""
+        return self._ros.wakeups.fileno()
+
+    def ready(self) -> list[Source]:
+        """See Bridge."""
+        return self._ros.wakeups.drain()
 
     def close(self) -> None:
         """See Bridge."""
         for context in self._contexts.values():
             context.close()
         self._contexts = {}
+        self._ros.close()
 
     def _context(self, domain: int) -> _Context:
         if not 0 <= domain <= MAXIMUM_DOMAIN:
@@ -98,8 +153,8 @@ class _Context:
         self._context = context_class()
         try:
             self._context.init(args=[], domain_id=domain, initialize_logging=False)
-        except _FAILURES as error:
-            raise BridgeError(f"domain {domain}: {_first_line(error)}") from error
+        except FAILURES as error:
+            raise BridgeError(f"domain {domain}: {first_line(error)}") from error
         self.handle = self._context.handle
         self.nodes = 0
 
@@ -109,69 +164,50 @@ class _Context:
 
 
 class _Node:
-    def __init__(self, handles: Any, handle: Any, context: _Context) -> None:
+    def __init__(self, handles: Any, handle: Any, context: _Context, ros: Ros, hash_of: HashOf) -> None:
         self._handles = handles
         self._handle = handle
         self._context = context
+        self._ros = ros
+        self._hash_of = hash_of
         self.label: str = handle.get_fully_qualified_name()
 
     def create_writer(self, topic: Topic, qos: Qos) -> Writer:
         name, type_name = ros_topic(topic.name), ros_type(topic.type_name)
-        message_class = load_message(type_name)
-        try:
-            handle = self._handles.Publisher(self._handle, message_class, name, _profile(qos))
-        except _FAILURES as error:
-            raise BridgeError(f"publisher {name} [{type_name}]: {_first_line(error)}") from error
-        return _Writer(handle, f"{name} [{type_name}]")
+        handle = self._create(self._handles.Publisher, self._message_class(type_name), name, _profile(qos))
+        return RawWriter(handle, f"{name} [{type_name}]")
+
+    def create_reader(self, topic: Topic, qos: Qos) -> Reader:
+        name, type_name = ros_topic(topic.name), ros_type(topic.type_name)
+        handle = self._create(self._handles.Subscription, self._message_class(type_name), name, _profile(qos))
+        return RawReader(handle, f"{name} [{type_name}]", self._ros)
+
+    def create_replier(self, service: Service) -> Replier:
+        name = ros_service(service)
+        handle = self._create(self._handles.Service, self._service_class(name), name.name, _service_profile())
+        return RawReplier(handle, str(name), self._ros)
+
+    def create_requester(self, service: Service) -> Requester:
+        name = ros_service(service)
+        handle = self._create(self._handles.Client, self._service_class(name), name.name, _service_profile())
+        return RawRequester(handle, str(name), self._ros)
 
     def destroy(self) -> None:
         self._handle.destroy_when_not_in_use()
         self._context.nodes -= 1
 
-
-class _Writer:
-    def __init__(self, handle: Any, label: str) -> None:
-        self._handle = handle
-        self._publish = handle.publish_raw
-        self.label = label
-
-    def publish(self, serialized: bytes) -> None:
+    def _create(self, kind: Any, type_class: Any, name: str, profile: Any) -> Any:
         try:
-            self._publish(serialized)
-        except _FAILURES as error:
-            raise BridgeError(f"publish on {self.label}: {_first_line(error)}") from error
+            return kind(self._handle, type_class, name, profile)
+        except FAILURES as error:
+            raise BridgeError(f"{kind.__name__.lower()} {name}: {first_line(error)}") from error
 
-    def destroy(self) -> None:
-        self._handle.destroy_when_not_in_use()
+    def _message_class(self, name: TypeName) -> Any:
+        return self._ros.types.message_class(name, self._hash_of(str(name)))
 
-
-def load_message(type_name: TypeName) -> Any:
-    """Return the Python class of a ROS message; BridgeError when there is none.
-
-    The name comes from the network, so only a package with rosidl's type support in it is imported.
-    """
-    package = type_name.package
-    try:
-        where = importlib.util.find_spec(package)
-    except (ImportError, ValueError):
-        where = None
-    folders = list(where.submodule_search_locations or ()) if where else []
-    if not any(next(Path(f).glob(f"{package}_s__rosidl_typesupport*"), None) for f in folders):
-        raise BridgeError(
-            f"type {type_name} is not known: package '{package}' is not installed for this Python;"
-            " install it, or source the workspace that has it, before the agent starts"
-        )
-    try:
-        message_class = getattr(importlib.import_module(f"{package}.msg"), type_name.name, None)
-        if message_class is not None:
-            importlib.import_module("rclpy.type_support").check_is_valid_msg_type(message_class)
-    except (ImportError, AttributeError, *_FAILURES) as error:
-        raise BridgeError(f"type {type_name} does not load: {_first_line(error)}") from error
-    if message_class is None:
-        raise BridgeError(
-            f"type {type_name} is not known: the installed package '{package}' has no such message"
-        )
-    return message_class
+    def _service_class(self, name: ServiceName) -> Any:
+        hashes = [self._hash_of(str(part)) for part in (name.type, name.request, name.response)]
+        return self._ros.types.service_class(name, hashes[0], hashes[1], hashes[2])
 
 
 def _profile(qos: Qos) -> Any:
@@ -193,10 +229,10 @@ def _profile(qos: Qos) -> Any:
     return profile.get_c_qos_profile()
 
 
+def _service_profile() -> Any:
+    return importlib.import_module("rclpy.qos").QoSProfile(depth=SERVICE_DEPTH).get_c_qos_profile()
+
+
 def _own_domain() -> int:
     text = os.environ.get("ROS_DOMAIN_ID", "0").strip() or "0"
     return int(text) if text.isascii() and text.isdigit() else 0
-
-
-def _first_line(error: Exception) -> str:
-    return (str(error) or type(error).__name__).splitlines()[0]
