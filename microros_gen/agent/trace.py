@@ -26,9 +26,9 @@ class TracedTransport:
         self.close = inner.close
 
     @property
-    def writing(self) -> bool:
+    def ready(self) -> bool:
         """See Transport."""
-        return self._inner.writing
+        return self._inner.ready
 
     def pump(self, receive: Receive) -> None:
         """See Transport."""

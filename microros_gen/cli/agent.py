@@ -23,7 +23,8 @@ from microros_gen.agent.ros.rclpy_bridge import MAXIMUM_DOMAIN, open_bridge
 from microros_gen.agent.server import Server, stopped_by_signals
 from microros_gen.agent.trace import TracedTransport
 from microros_gen.agent.transport.base import Transport
-from microros_gen.agent.transport.udp4 import Udp4
+from microros_gen.agent.transport.sockets import UDP4
+from microros_gen.agent.transport.udp import Udp
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, UserError
 from microros_gen.parse.preconfigured import parse_preconfigured
 
@@ -193,7 +194,7 @@ def udp4(port: int, host: str, **common: Any) -> None:
     microros-gen agent udp4 --port 8888
     microros-gen agent udp4 --bind 0.0.0.0 --client-timeout 10 -v
     """
-    _Common(**common).serve(lambda _log: [Udp4(host, port)])
+    _Common(**common).serve(lambda _log: [Udp(UDP4, host, port)])
 
 
 @command.command()
