@@ -7,6 +7,7 @@ The calls keep Python's lock (PyDLL): the agent has one thread, and ROS 2's own 
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Callable
 from ctypes import POINTER, byref, c_bool, c_char_p, c_int, c_int64, c_size_t, c_void_p
 from typing import Any
 
@@ -31,6 +32,12 @@ from microros_gen.diagnostics import Diagnostic, UserError
 OK, TIMEOUT, BAD_ALLOC = 0, 2, 10
 """rcl_ret_t (rcl/types.h)."""
 SUBSCRIPTION_TAKE_FAILED, CLIENT_TAKE_FAILED, SERVICE_TAKE_FAILED = 401, 501, 601
+FAILURES = (RuntimeError, ValueError, TypeError, OSError)
+"""What rclpy's handles raise: RCLError is a RuntimeError, refused names are ValueErrors."""
+new_bytes: Callable[[int, int], bytes] = ctypes.PYFUNCTYPE(ctypes.py_object, c_void_p, ctypes.c_ssize_t)(
+    ("PyBytes_FromStringAndSize", ctypes.pythonapi)
+)
+"""Return bytes made of a number of bytes at an address."""
 _SAMPLE = "rcl_interfaces", "ListParameters"
 """A service that every rclpy brings, with type supports of the kinds that are made here."""
 _CDR_ROOM = 4096
@@ -68,23 +75,15 @@ class Libraries:
             ctypes.PyDLL(f"lib{self.INTROSPECTION.decode()}.so"), self.INTROSPECTION
         )
         self.service_handle_function = _address(runtime.get_service_typesupport_handle_function)
-        self.eventfd_write = _address(ctypes.PyDLL(None).eventfd_write)
+        libc = ctypes.PyDLL(None)
+        self.eventfd_write = _address(libc.eventfd_write)
+        self.timerfd_create = _function(libc, "timerfd_create", c_int, c_int, c_int)
+        self.timerfd_settime = _function(libc, "timerfd_settime", c_int, c_int, c_int, c_void_p, c_void_p)
         self.default_allocator = _function(self._utils, "rcutils_get_default_allocator", Allocator)
         self.free_message = _function(
             self._utils, "rcutils_uint8_array_fini", c_int, POINTER(SerializedMessage)
         )
-        self.publish = _function(
-            rcl, "rcl_publish_serialized_message", c_int, c_void_p, POINTER(SerializedMessage), c_void_p
-        )
-        self.take = _function(
-            rcl,
-            "rcl_take_serialized_message",
-            c_int,
-            c_void_p,
-            POINTER(SerializedMessage),
-            c_void_p,
-            c_void_p,
-        )
+        self.take = _function(rcl, "rcl_take_serialized_message", c_int, *(c_void_p,) * 4)
         self.take_request = _function(
             rcl, "rcl_take_request_with_info", c_int, c_void_p, POINTER(ServiceInfo), c_void_p
         )
@@ -196,6 +195,11 @@ class Libraries:
         _expect(len(places), 1, "references to its buffer in a Cdr of libfastcdr")
         self._buffer_offset = places[0] * _WORD
         _expect(get_pointer(cdr), room, "Cdr of libfastcdr")
+
+
+def first_line(error: Exception) -> str:
+    """Return what an exception says, without the lines of context that rcl adds."""
+    return (str(error) or type(error).__name__).splitlines()[0]
 
 
 def _function(library: ctypes.PyDLL, name: str, result: Any, *arguments: Any) -> Any:

@@ -43,6 +43,11 @@ class TypeName:
         return f"{self.package}/{self.kind}/{self.name}"
 
     @property
+    def dds(self) -> str:
+        """The name in DDS."""
+        return f"{self.namespace}::dds_::{self.name}_"
+
+    @property
     def namespace(self) -> str:
         """The C++ namespace, as type supports have it."""
         return f"{self.package}::{self.kind}"
@@ -67,6 +72,16 @@ class ServiceName:
 
     def __str__(self) -> str:
         return f"{self.name} [{self.type}]"
+
+    @property
+    def request_topic(self) -> str:
+        """The DDS topic of its requests."""
+        return f"rq{self.name}Request"
+
+    @property
+    def reply_topic(self) -> str:
+        """The DDS topic of its replies."""
+        return f"rr{self.name}Reply"
 
 
 def ros_topic(dds_name: str) -> str:

@@ -79,7 +79,7 @@ class RawTypes:
     def __init__(self, libraries: Libraries) -> None:
         """Use the type support identifiers of `libraries`; UserError when their layout is another one."""
         libraries.check_layout()
-        self._libraries = libraries
+        self.libraries = libraries
         self._taken = b""
         self._messages: dict[tuple[TypeName, str | None], _Message] = {}
         self._services: dict[tuple[TypeName, tuple[str | None, ...]], _Service] = {}
@@ -155,8 +155,8 @@ class RawTypes:
             description=self._description(str(name)),
         )
         for member, identifier, data in (
-            ("support", self._libraries.fastrtps_identifier, _Message.callbacks.offset),
-            ("introspection", self._libraries.introspection_identifier, _Message.members.offset),
+            ("support", self.libraries.fastrtps_identifier, _Message.callbacks.offset),
+            ("introspection", self.libraries.introspection_identifier, _Message.members.offset),
         ):
             support = MessageSupport(
                 identifier,
@@ -176,9 +176,9 @@ class RawTypes:
             description=self._description(str(name)),
         )
         made.support = ServiceSupport(
-            identifier=self._libraries.fastrtps_identifier,
+            identifier=self.libraries.fastrtps_identifier,
             data=addressof(made) + _Service.callbacks.offset,
-            func=self._libraries.service_handle_function,
+            func=self.libraries.service_handle_function,
             request=request,
             response=response,
             get_type_hash=self._function("service_hash"),
@@ -197,36 +197,36 @@ class RawTypes:
         return description
 
     def _class(self, handle: int) -> Any:
-        return type("RawType", (), {"_TYPE_SUPPORT": self._libraries.capsule(handle)})()
+        return type("RawType", (), {"_TYPE_SUPPORT": self.libraries.capsule(handle)})()
 
     def _function(self, name: str) -> int:
         return int(ctypes.cast(self._functions[name], c_void_p).value or 0)
 
     def _handle_of(self, handle: int, identifier: bytes) -> int | None:
-        if identifier == self._libraries.FASTRTPS:
+        if identifier == self.libraries.FASTRTPS:
             return handle
-        return handle + _Message.introspection.offset if identifier == self._libraries.INTROSPECTION else None
+        return handle + _Message.introspection.offset if identifier == self.libraries.INTROSPECTION else None
 
     def _serialize(self, message: int, cdr: int) -> bool:
         """Copy a message behind the encapsulation header that is there already, and that header as well."""
         raw = RawMessage.from_address(message)
-        buffer = self._libraries.cdr_buffer(cdr)
+        buffer = self.libraries.cdr_buffer(cdr)
         body = raw.size - ENCAPSULATION_BYTES
-        if body < 0 or buffer.size < raw.size or not self._libraries.cdr_skip(cdr, body):
+        if body < 0 or buffer.size < raw.size or not self.libraries.cdr_skip(cdr, body):
             return False
         ctypes.memmove(buffer.bytes, raw.bytes, raw.size)
         return True
 
     def _deserialize(self, cdr: int, _message: int) -> bool:
-        buffer = self._libraries.cdr_buffer(cdr)
+        buffer = self.libraries.cdr_buffer(cdr)
         self._taken = ctypes.string_at(buffer.bytes, buffer.size)
         return True
 
 
 @functools.cache
-def raw_types(libraries: Libraries) -> RawTypes:
-    """Return the process's type supports."""
-    return RawTypes(libraries)
+def raw_types() -> RawTypes:
+    """Return the process's type supports; UserError when ROS 2 is not as expected. rclpy has been imported before."""
+    return RawTypes(Libraries())
 
 
 def _offset(bytes_behind: int) -> Callable[[int], int]:

@@ -13,29 +13,13 @@ import os
 from collections.abc import Callable
 from typing import Any
 
-from microros_gen.agent.representation.description import Durability, Qos, Service, Topic
-from microros_gen.agent.ros.bridge import (
-    Bridge,
-    BridgeError,
-    Node,
-    Reader,
-    Replier,
-    Requester,
-    Source,
-    Writer,
-)
-from microros_gen.agent.ros.endpoints import (
-    FAILURES,
-    RawReader,
-    RawReplier,
-    RawRequester,
-    RawWriter,
-    Ros,
-    first_line,
-)
-from microros_gen.agent.ros.libraries import Libraries
-from microros_gen.agent.ros.names import ServiceName, TypeName, ros_node, ros_service, ros_topic, ros_type
-from microros_gen.agent.ros.raw_types import raw_types
+from microros_gen.agent.ros.bridge import Bridge, BridgeError, GraphReport, HashOf, HashUnknown, Node, Source
+from microros_gen.agent.ros.endpoints import Ros
+from microros_gen.agent.ros.graph import Comparison, Watcher
+from microros_gen.agent.ros.libraries import FAILURES, first_line
+from microros_gen.agent.ros.names import ros_node
+from microros_gen.agent.ros.node import RawNode
+from microros_gen.agent.ros.raw_types import MAXIMUM_HANDLES, raw_types
 from microros_gen.agent.wire.constants import Status
 from microros_gen.diagnostics import Diagnostic, UserError
 
@@ -45,31 +29,32 @@ DOMAIN_OF_AGENT = 255
 """Clients that ask for this domain (a convention of the public client) get the agent's own, ROS_DOMAIN_ID."""
 RMW = "rmw_fastrtps_cpp"
 """The one RMW implementation whose type supports are made here."""
-SERVICE_DEPTH = 1000
-"""Requests, and replies, that wait for a client that takes none; ROS 2's default of 10 loses those of a burst."""
-
-HashOf = Callable[[str], "str | None"]
-"""Gives the type hash (RIHS01_…) of `pkg/msg/Type`, `pkg/srv/Type`, `pkg/srv/Type_Request` and so on, or None."""
 
 
-def open_bridge(maximum_domains: int, domain: int | None = None, hash_of: HashOf | None = None) -> Bridge:
+def open_bridge(
+    maximum_domains: int,
+    domain: int | None = None,
+    hash_of: HashOf | None = None,
+    report: Callable[[GraphReport], None] | None = None,
+) -> Bridge:
     """Return the bridge; UserError when rclpy is missing, does not load, or is not the one that is needed.
 
     `domain` (0 to 232) puts every client into that ROS domain, whichever it asks for. `hash_of` knows type hashes;
-    without one for a type, its publishers and subscriptions announce none.
+    without one for a type, its endpoints announce none. `report` is told what happens in the ROS graph.
     """
     handles = _import_rclpy()
     implementation = handles.rclpy_get_rmw_implementation_identifier()
     if implementation != RMW:
         hint = (
-            f"Unset RMW_IMPLEMENTATION, or set it to {RMW}; nodes with another one are reached all the same"
+            f"Unset RMW_IMPLEMENTATION, or set it to {RMW}; nodes with another DDS are reached all the same"
         )
         reason = f"the agent needs {RMW}, but RMW_IMPLEMENTATION chooses {implementation}"
         raise UserError([Diagnostic(reason, hint=hint)])
-    libraries = Libraries()
-    return RclpyBridge(
-        handles, Ros(libraries, raw_types(libraries)), maximum_domains, domain, hash_of or _no_hash
-    )
+    return RclpyBridge(handles, Ros(raw_types()), maximum_domains, domain, hash_of, report or _ignore)
+
+
+def _ignore(_report: GraphReport) -> None:
+    pass
 
 
 def _import_rclpy() -> Any:
@@ -85,22 +70,27 @@ def _import_rclpy() -> Any:
         raise UserError([Diagnostic(f"the agent needs ROS 2: {reason}", hint=hint)]) from error
 
 
-def _no_hash(_type_name: str) -> str | None:
-    return None
-
-
 class RclpyBridge:
     """Contexts by domain; one that no node uses stays open until its place is needed."""
 
     def __init__(
-        self, handles: Any, ros: Ros, maximum_domains: int, domain: int | None, hash_of: HashOf
+        self,
+        handles: Any,
+        ros: Ros,
+        maximum_domains: int,
+        domain: int | None,
+        hash_of: HashOf | None,
+        report: Callable[[GraphReport], None],
     ) -> None:
         self._handles = handles
         self._ros = ros
         self._domain = domain
         self._hash_of = hash_of
+        self._report = report
+        self._comparison = Comparison(handles, ros.wakeups, ros.libraries, report)
         self._maximum_domains = maximum_domains
         self._contexts: dict[int, _Context] = {}
+        self._without_hash: set[str] = set()
 
     def create_node(self, name: str, domain: int, hash_of: HashOf | None = None) -> Node:
         """See Bridge."""
@@ -113,7 +103,13 @@ class RclpyBridge:
         except FAILURES as error:
             raise BridgeError(f"node '{name}': {first_line(error)}") from error
         context.nodes += 1
-        return _Node(self._handles, handle, context, self._ros, hash_of or self._hash_of)
+
+        def known_hash(type_name: str) -> str | None:
+            return self._known_hash(type_name, hash_of)
+
+        return RawNode(
+            self._handles, handle, self._ros, known_hash, self._comparison, self._report, context.leave
+        )
 
     def fileno(self) -> int:
         """See Bridge."""
@@ -121,7 +117,13 @@ class RclpyBridge:
 
     def ready(self) -> list[Source]:
         """See Bridge."""
-        return self._ros.wakeups.drain()
+        sources: list[Source] = []
+        for woken in self._ros.wakeups.drain():
+            if isinstance(woken, Watcher):
+                woken.look()
+            else:
+                sources.append(woken)
+        return sources
 
     def close(self) -> None:
         """See Bridge."""
@@ -129,6 +131,21 @@ class RclpyBridge:
             context.close()
         self._contexts = {}
         self._ros.close()
+
+    def _known_hash(self, type_name: str, hash_of: HashOf | None) -> str | None:
+        """Return a type's hash: by the client's manifest, else by the interface files; None is told once."""
+        for known in (hash_of, self._hash_of):
+            found = known(type_name) if known else None
+            if found is not None:
+                return found
+        if (
+            self._hash_of
+            and type_name not in self._without_hash
+            and len(self._without_hash) < MAXIMUM_HANDLES
+        ):
+            self._without_hash.add(type_name)
+            self._report(HashUnknown(type_name))
+        return None
 
     def _context(self, domain: int) -> _Context:
         if not 0 <= domain <= MAXIMUM_DOMAIN:
@@ -158,79 +175,13 @@ class _Context:
         self.handle = self._context.handle
         self.nodes = 0
 
+    def leave(self) -> None:
+        """One node less."""
+        self.nodes -= 1
+
     def close(self) -> None:
         self._context.try_shutdown()
         self._context.destroy()
-
-
-class _Node:
-    def __init__(self, handles: Any, handle: Any, context: _Context, ros: Ros, hash_of: HashOf) -> None:
-        self._handles = handles
-        self._handle = handle
-        self._context = context
-        self._ros = ros
-        self._hash_of = hash_of
-        self.label: str = handle.get_fully_qualified_name()
-
-    def create_writer(self, topic: Topic, qos: Qos) -> Writer:
-        name, type_name = ros_topic(topic.name), ros_type(topic.type_name)
-        handle = self._create(self._handles.Publisher, self._message_class(type_name), name, _profile(qos))
-        return RawWriter(handle, f"{name} [{type_name}]")
-
-    def create_reader(self, topic: Topic, qos: Qos) -> Reader:
-        name, type_name = ros_topic(topic.name), ros_type(topic.type_name)
-        handle = self._create(self._handles.Subscription, self._message_class(type_name), name, _profile(qos))
-        return RawReader(handle, f"{name} [{type_name}]", self._ros)
-
-    def create_replier(self, service: Service) -> Replier:
-        name = ros_service(service)
-        handle = self._create(self._handles.Service, self._service_class(name), name.name, _service_profile())
-        return RawReplier(handle, str(name), self._ros)
-
-    def create_requester(self, service: Service) -> Requester:
-        name = ros_service(service)
-        handle = self._create(self._handles.Client, self._service_class(name), name.name, _service_profile())
-        return RawRequester(handle, str(name), self._ros)
-
-    def destroy(self) -> None:
-        self._handle.destroy_when_not_in_use()
-        self._context.nodes -= 1
-
-    def _create(self, kind: Any, type_class: Any, name: str, profile: Any) -> Any:
-        try:
-            return kind(self._handle, type_class, name, profile)
-        except FAILURES as error:
-            raise BridgeError(f"{kind.__name__.lower()} {name}: {first_line(error)}") from error
-
-    def _message_class(self, name: TypeName) -> Any:
-        return self._ros.types.message_class(name, self._hash_of(str(name)))
-
-    def _service_class(self, name: ServiceName) -> Any:
-        hashes = [self._hash_of(str(part)) for part in (name.type, name.request, name.response)]
-        return self._ros.types.service_class(name, hashes[0], hashes[1], hashes[2])
-
-
-def _profile(qos: Qos) -> Any:
-    module = importlib.import_module("rclpy.qos")
-    duration = importlib.import_module("rclpy.duration").Duration
-    lasting = qos.durability is not Durability.VOLATILE  # ROS has no more than transient local
-    profile = module.QoSProfile(
-        reliability=module.ReliabilityPolicy.RELIABLE
-        if qos.reliable
-        else module.ReliabilityPolicy.BEST_EFFORT,
-        durability=module.DurabilityPolicy.TRANSIENT_LOCAL if lasting else module.DurabilityPolicy.VOLATILE,
-        history=module.HistoryPolicy.KEEP_LAST if qos.keep_last else module.HistoryPolicy.KEEP_ALL,
-        depth=qos.depth or 1,
-    )
-    if qos.deadline_ms:
-        profile.deadline = duration(nanoseconds=qos.deadline_ms * 1_000_000)
-    if qos.lifespan_ms:
-        profile.lifespan = duration(nanoseconds=qos.lifespan_ms * 1_000_000)
-    return profile.get_c_qos_profile()
-
-
-def _service_profile() -> Any:
-    return importlib.import_module("rclpy.qos").QoSProfile(depth=SERVICE_DEPTH).get_c_qos_profile()
 
 
 def _own_domain() -> int:

@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What happens in the ROS graph around the entities of clients: who matches, who cannot, whose type is another one.
+
+ROS 2 tells by events, so nothing is polled. A type hash is compared a moment after a match, since the name of the node
+that an endpoint belongs to comes later than the endpoint.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from microros_gen.agent.ros.bridge import (
+    BridgeError,
+    GraphReport,
+    HashMismatch,
+    Incompatible,
+    Matched,
+    TypeMismatch,
+)
+from microros_gen.agent.ros.libraries import FAILURES, OK, Libraries
+from microros_gen.agent.ros.wakeups import Wakeups
+from microros_gen.agent.wire.constants import Status
+
+CHECK_AFTER_S = 0.5
+"""From a match to the comparison of hashes."""
+CHECKS = 6
+"""How often an endpoint is looked at whose node has no name yet, `CHECK_AFTER_S` apart."""
+_UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
+"""What rmw calls a node whose name it does not know yet."""
+_CLOCK_MONOTONIC = 1
+
+
+class _Timer(ctypes.Structure):
+    """itimerspec of Linux on 64-bit machines; the interval comes first."""
+
+    _fields_ = tuple((name, ctypes.c_long) for name in ("every_s", "every_ns", "first_s", "first_ns"))
+
+
+@dataclass(frozen=True, eq=False)
+class Endpoint:
+    """A ROS endpoint of a client, as reports name it.
+
+    `topic` and `type` are its names in the graph; with `mangled` those in DDS, as the two topics of a service have.
+    `hash` is None when nobody knows it.
+    """
+
+    node: str
+    kind: str
+    label: str
+    topic: str
+    type: str
+    hash: str | None
+    mangled: bool = False
+
+
+@dataclass(eq=False)
+class _Watched:
+    """Events of an endpoint, and what was seen of them: ROS 2's own changes start anew when a callback is set."""
+
+    matched: Any
+    refused: Any
+    mistyped: Any
+    counts: tuple[int, int] = (0, 0)
+    refusals: int = 0
+
+    def events(self) -> tuple[Any, ...]:
+        return self.matched, self.refused, self.mistyped
+
+
+class Destroyable(Protocol):
+    """An entity of a node."""
+
+    def destroy(self) -> None:
+        """Leave the ROS graph."""
+
+
+class Watcher:
+    """Something that is woken up and is no source of data."""
+
+    def look(self) -> None:
+        """See what has happened, and report it."""
+        raise NotImplementedError
+
+
+class Comparison(Watcher):
+    """Compares types and type hashes of endpoints with those that other nodes announce for the same topic."""
+
+    def __init__(
+        self, handles: Any, wakeups: Wakeups[Any], libraries: Libraries, report: Callable[[GraphReport], None]
+    ) -> None:
+        self._handles = handles
+        self._libraries = libraries
+        self._report = report
+        self._due: dict[Endpoint, tuple[Any, int]] = {}
+        self._told: dict[Endpoint, set[GraphReport]] = {}
+        self._descriptor = libraries.timerfd_create(_CLOCK_MONOTONIC, os.O_NONBLOCK | os.O_CLOEXEC)
+        if self._descriptor < 0:
+            raise BridgeError("no file descriptor is left: raise the limit (ulimit -n)", Status.RESOURCES)
+        wakeups.watch(self._descriptor, self)
+
+    def soon(self, node: Any, endpoint: Endpoint) -> None:
+        """Compare `endpoint` in a moment; `node` is the handle of its node."""
+        self._told.setdefault(endpoint, set())
+        if endpoint not in self._due:
+            self._set_timer()
+            self._due[endpoint] = node, CHECKS
+
+    def forget(self, endpoint: Endpoint) -> None:
+        """Do not look at an endpoint any more."""
+        self._due.pop(endpoint, None)
+        self._told.pop(endpoint, None)
+
+    def look(self) -> None:
+        """See Watcher."""
+        due, self._due = self._due, {}
+        for endpoint, (node, tries) in due.items():
+            nameless = False
+            for found in self._others(node, endpoint):
+                if found["node_name"] == _UNKNOWN_NODE and tries > 1:
+                    nameless = True
+                    continue
+                report = _difference(endpoint, found)
+                if report is not None and report not in self._told[endpoint]:
+                    self._told[endpoint].add(report)
+                    self._report(report)
+            if nameless:
+                self._due[endpoint] = node, tries - 1
+        if self._due:
+            self._set_timer()
+
+    def _others(self, node: Any, endpoint: Endpoint) -> Iterator[dict[str, Any]]:
+        """Give all endpoints of the other direction, and of ours: who publishes with us may have another type too."""
+        for get in (
+            self._handles.rclpy_get_publishers_info_by_topic,
+            self._handles.rclpy_get_subscriptions_info_by_topic,
+        ):
+            try:
+                yield from get(node, endpoint.topic, endpoint.mangled)
+            except FAILURES:  # the graph cannot be asked now: the next match compares again
+                return
+
+    def _set_timer(self) -> None:
+        timer = _Timer(first_s=int(CHECK_AFTER_S), first_ns=round(CHECK_AFTER_S % 1 * 1e9))
+        self._libraries.timerfd_settime(self._descriptor, 0, ctypes.byref(timer), None)
+
+
+class Events(Watcher):
+    """Events of the publishers and subscriptions of one node."""
+
+    def __init__(
+        self,
+        handles: Any,
+        node: Any,
+        wakeups: Wakeups[Any],
+        libraries: Libraries,
+        comparison: Comparison,
+        report: Callable[[GraphReport], None],
+    ) -> None:
+        self._handles = handles
+        self._node = node
+        self._wakeups = wakeups
+        self._libraries = libraries
+        self._comparison = comparison
+        self._report = report
+        self._watched: dict[Endpoint, _Watched] = {}
+        self._descriptor = -1
+        self.entities: set[Destroyable] = set()
+        """What the node has."""
+
+    def watch(self, endpoint: Endpoint, handle: Any) -> None:
+        """Report what happens to an endpoint until `release`; ROS 2 has events for publishers and subscriptions."""
+        self.compare(endpoint)
+        if endpoint.mangled:
+            return
+        if self._descriptor < 0:
+            self._descriptor = self._wakeups.add(self)
+        kinds, prefix, incompatible = (
+            (self._handles.rcl_publisher_event_type_t, "RCL_PUBLISHER", "OFFERED_INCOMPATIBLE_QOS")
+            if endpoint.kind == "publisher"
+            else (
+                self._handles.rcl_subscription_event_type_t,
+                "RCL_SUBSCRIPTION",
+                "REQUESTED_INCOMPATIBLE_QOS",
+            )
+        )
+        events = tuple(
+            self._handles.EventHandle(handle, getattr(kinds, f"{prefix}_{name}"))
+            for name in ("MATCHED", incompatible, "INCOMPATIBLE_TYPE")
+        )
+        watched = self._watched[endpoint] = _Watched(*events)
+        for event in watched.events():
+            pointer = event.pointer
+            if self._libraries.notify_event(pointer, self._libraries.eventfd_write, self._descriptor) != OK:
+                raise BridgeError(f"{endpoint.label}: {self._libraries.error()}")
+        os.eventfd_write(self._descriptor, 1)  # look once at what happened before
+
+    def compare(self, endpoint: Endpoint) -> None:
+        """Compare the type of `endpoint` with that of others in a moment."""
+        self._comparison.soon(self._node, endpoint)
+
+    def release(self, endpoints: Iterable[Endpoint]) -> None:
+        """Forget endpoints before they are destroyed."""
+        for endpoint in endpoints:
+            self._comparison.forget(endpoint)
+            watched = self._watched.pop(endpoint, None)
+            for event in watched.events() if watched else ():
+                event.destroy_when_not_in_use()
+
+    def close(self) -> None:
+        """Destroy what the node still has, and give the descriptor back: only then nobody writes to it."""
+        for entity in list(self.entities):
+            entity.destroy()
+        if self._descriptor >= 0:
+            self._wakeups.remove(self._descriptor)
+            self._descriptor = -1
+
+    def look(self) -> None:
+        """See Watcher."""
+        for endpoint, watched in list(self._watched.items()):
+            status = watched.matched.take_event()
+            counts = (status.total_count, status.current_count) if status else watched.counts
+            if counts != watched.counts:
+                before, watched.counts = watched.counts, counts
+                self._report(Matched(endpoint.node, endpoint.kind, endpoint.label, counts[1]))
+                if counts[0] > before[0]:
+                    self.compare(endpoint)
+            status = watched.refused.take_event()
+            if status is not None and status.total_count != watched.refusals:
+                watched.refusals = status.total_count
+                policy = status.last_policy_kind.name.removeprefix("RMW_QOS_POLICY_").lower()
+                self._report(
+                    Incompatible(endpoint.node, endpoint.kind, endpoint.label, policy, status.total_count)
+                )
+            status = watched.mistyped.take_event()
+            if status is not None and status.total_count_change:
+                self.compare(endpoint)
+
+
+def _difference(endpoint: Endpoint, found: dict[str, Any]) -> GraphReport | None:
+    """Return what is different in `found`, an endpoint of the same topic, or None."""
+    other = f"{found['node_namespace'].rstrip('/')}/{found['node_name']}"
+    if found["topic_type"] != endpoint.type:
+        return TypeMismatch(endpoint.node, endpoint.label, other, found["topic_type"])
+    announced = found["topic_type_hash"]
+    if endpoint.hash is None or announced["version"] != 1:
+        return None
+    text = f"RIHS01_{bytes(announced['value']).hex()}"
+    if text == endpoint.hash:
+        return None
+    return HashMismatch(endpoint.node, endpoint.label, endpoint.hash, other, text)
