@@ -11,7 +11,16 @@ from lark import Token
 
 from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.model.type_description import EMPTY_MEMBER
-from microros_gen.model.types import Constant, Field, Message, Primitive, StringType, TypeName
+from microros_gen.model.types import (
+    Constant,
+    Field,
+    FieldType,
+    Message,
+    Primitive,
+    StringType,
+    TypeName,
+    element_of,
+)
 from microros_gen.parse.idl_annotations import Annotations, read_annotations
 from microros_gen.parse.idl_syntax import Syntax
 from microros_gen.parse.idl_types import Scope, Written, declared_type, resolved, written_type
@@ -184,10 +193,22 @@ def _field(declarator: SyntaxNode, written: Written, annotations: Annotations, s
     field_type = resolved(written, scope)
     if field_type is None:
         return None
+    span = span_of(declarator, scope.source)
+    _check_type_support(field_type, span)
     default = annotations.default
     value = None if default is None else checked_default(field_type, default.value, default.span)
-    span = span_of(declarator, scope.source)
     return Field(str(declarator.children[0]), field_type, value, annotations.comment, span)
+
+
+def _check_type_support(field_type: FieldType, span: Span) -> None:
+    """Refuse what rosidl_typesupport_fastrtps_c stops at, so that no package of ROS 2 Jazzy can have it."""
+    if element_of(field_type) is Primitive.WCHAR and field_type is not Primitive.WCHAR:
+        raise IdlError(
+            span,
+            "ROS 2 Jazzy has single members of type wchar only: its type support for C stops at an array or a "
+            "sequence of them",
+            "Take uint16, which has the same bytes, or wstring for text",
+        )
 
 
 def _warn_of_size(declarator: SyntaxNode, size: int, scope: Scope) -> None:

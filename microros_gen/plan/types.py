@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.model.types import Message, Primitive, TypeName, element_of
+from microros_gen.model.types import Message, TypeName
 from microros_gen.plan.capacity import Capacities
 from microros_gen.plan.layout import I386, ILP32, LP64, DataModel, StructLayouts
 from microros_gen.plan.names import dds_type
@@ -98,7 +98,6 @@ def plan_types(
 
     `received`: the roots that need a decoder.
     """
-    _check_primitives(messages.values(), diagnostics)
     decoders = plan_decoders(messages, received)
     wires = plan_wire(messages, capacities.limits)
     storages = plan_storage(messages, capacities.limits, wires.home_limits, diagnostics, capacities.entities)
@@ -138,20 +137,6 @@ def plan_types(
         )
     _check_sizes(plans, diagnostics)
     return tuple(plans)
-
-
-def _check_primitives(messages: Iterable[Message], diagnostics: Diagnostics) -> None:
-    """Report members of a type that .idl files alone have: they can be read and hashed, and not encoded."""
-    for message in messages:
-        for field in message.fields:
-            element = element_of(field.type)
-            if isinstance(element, Primitive) and not element.in_msg:
-                name = element.value.removeprefix("idl ")
-                diagnostics.error(
-                    f"{message.name}.{field.name}: the IDL type '{name}' is not generated in C by this version",
-                    field.span or message.span,
-                    "Types that .msg files have too are: int8, uint8, wstring, double and the like",
-                )
 
 
 def _check_sizes(plans: Iterable[TypePlan], diagnostics: Diagnostics) -> None:

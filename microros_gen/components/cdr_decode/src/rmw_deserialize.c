@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/cdr_decode.h"
 #include "microros/error.h"
 #include "microros/message_type.h"
 #include "rmw/rmw.h"
@@ -63,7 +64,7 @@ rmw_ret_t rmw_deserialize(
   size -= (size_t)ENCAPSULATION_SIZE;
   size = (size > UINT32_MAX) ? UINT32_MAX : size;
   const bool swap = (representation == (uint32_t)CDR_LITTLE_ENDIAN) != is_little_endian_here();
-  if (!type->decode(bytes, (uint32_t)size, swap, ros_message, &fault)) {
+  if (!cdr_decode(type, bytes, (uint32_t)size, swap, ros_message, &fault)) {
     return deserialize_refuse(type, &fault);
   }
   return RMW_RET_OK;
