@@ -20,11 +20,13 @@ from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.representation import References
 from microros_gen.agent.representation.reference_file import read_references
 from microros_gen.agent.ros.rclpy_bridge import MAXIMUM_DOMAIN, open_bridge
+from microros_gen.agent.ros.reports import graph_reporter
 from microros_gen.agent.server import Server, stopped_by_signals
 from microros_gen.agent.trace import TracedTransport
 from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.transport.sockets import UDP4
 from microros_gen.agent.transport.udp import Udp
+from microros_gen.cli.type_hashes import type_hashes
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, UserError
 from microros_gen.parse.preconfigured import parse_preconfigured
 
@@ -88,6 +90,15 @@ _COMMON = (
         " OUT/agent/entities.json. May be given several times.",
     ),
     click.option(
+        "--interface-path",
+        "interface_paths",
+        multiple=True,
+        type=click.Path(path_type=Path),
+        metavar="DIR",
+        help="Interface files of the clients' types: a package, a folder of packages or a colcon workspace; searched"
+        " before ament, pip and the shipped set. Any type is bridged; with its file, its type hash is announced too.",
+    ),
+    click.option(
         "-v",
         "--verbose",
         count=True,
@@ -112,6 +123,7 @@ class _Common:
     max_clients: int
     references: tuple[Path, ...]
     entities: tuple[Path, ...]
+    interface_paths: tuple[Path, ...]
     verbose: int
     log_format: str
 
@@ -119,10 +131,11 @@ class _Common:
         """Serve until a signal comes; a ready line for each transport goes to stdout. Files are read first."""
         limits = replace(_DEFAULTS, clients=self.max_clients, client_timeout_s=self.client_timeout)
         references, preconfigured = self._files()
+        hashes = type_hashes(self.interface_paths)
         log = EventLog(sys.stderr, self.log_format == "json", self.verbose)
         transports = open_transports(log)
         try:
-            bridge = open_bridge(limits.domains, self.domain)
+            bridge = open_bridge(limits.domains, self.domain, hashes, graph_reporter(log))
         except UserError:
             for transport in transports:
                 transport.close()
