@@ -7,6 +7,7 @@ from collections.abc import Hashable
 from dataclasses import dataclass
 
 from microros_gen.agent.clients import Client, ClientTable
+from microros_gen.agent.deliveries import Deliveries
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.objects import ObjectTree
@@ -14,6 +15,7 @@ from microros_gen.agent.operations import agent_info, tell_outcome
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.representation import References
 from microros_gen.agent.ros.bridge import Bridge
+from microros_gen.agent.services import Calls
 from microros_gen.agent.session import Session
 from microros_gen.agent.streams_out import Link
 from microros_gen.agent.transport.base import Transport
@@ -51,13 +53,20 @@ class Lobby:
     """Lets clients in and out; keeps the client table."""
 
     def __init__(
-        self, clients: ClientTable, bridge: Bridge, log: EventLog, limits: Limits, held: Held
+        self,
+        clients: ClientTable,
+        bridge: Bridge,
+        log: EventLog,
+        limits: Limits,
+        held: Held,
+        deliveries: Deliveries,
     ) -> None:
         self._clients = clients
         self._bridge = bridge
         self._log = log
         self._limits = limits
         self._held = held
+        self._deliveries = deliveries
         self._never_adopted: set[bytes] = set()
         self._strangers: dict[tuple[Transport, Hashable], float] = {}
         """Who sends samples without a session, and since when; the oldest first."""
@@ -97,7 +106,7 @@ class Lobby:
                 raise MalformedError("no_session", f"{submessage.ID.name} without a session")
         return None
 
-    def move(self, client: Client, transport: Transport, address: Hashable) -> None:
+    def move(self, client: Client, transport: Transport, address: Hashable, now: float) -> None:
         """Note that `client` sends from another address now."""
         before = client.place
         evicted = self._clients.move(client, transport, address)
@@ -123,6 +132,7 @@ class Lobby:
     def dismiss(self, client: Client, why: str) -> None:
         """Forget a client; its entities leave the ROS graph."""
         self._clients.remove(client)
+        self._deliveries.forget(client)
         client.objects.clear()
         self._tell(client, "client_gone", "client {client} " + why)
 
@@ -135,13 +145,15 @@ class Lobby:
         """Take the entities of a client that is not heard out of the ROS graph; its session stays."""
         client.asleep = True
         client.objects.suspend()
+        self._deliveries.refresh(client, client.heard)
         text = "client {client} was not heard for {seconds} s: its entities left the ROS graph"
         self._tell(client, "client_silent", text, seconds=client.timeout_s)
 
-    def wake(self, client: Client) -> None:
+    def wake(self, client: Client, now: float) -> None:
         """Bring the entities of a client back that is heard again."""
         client.asleep = False
         failed = client.objects.resume()
+        self._deliveries.refresh(client, now)
         self._tell(client, "client_back", "client {client} is heard again: its entities are back")
         for entity, reason in failed:
             text = "client {client}: object {object} could not be made again: {reason}"
@@ -199,7 +211,9 @@ class Lobby:
             return None
         name = f"xrce_client_{link.key.hex().upper()}"
         objects = ObjectTree(self._bridge, self._held.references, self._limits.objects, name)
-        new = Client(Session(link, self._limits), objects, transport, address, timeout_s, heard=now)
+        calls = Calls(self._log, self._limits.requests, link.key.hex().upper())
+        session = Session(link, self._limits)
+        new = Client(session, objects, transport, address, timeout_s, heard=now, calls=calls, opened=now)
         self._clients.add(new)
         return new
 
@@ -253,14 +267,16 @@ class Lobby:
     def _welcome_back(
         self, client: Client, link: Link, address: Hashable, transport: Transport, now: float
     ) -> None:
+        self._deliveries.forget(client)  # whoever starts again has not asked for anything yet
         client.session.reset(link)
         client.unacknowledged.clear()
-        client.heard = now
+        client.objects.forget_requests()
+        client.heard = client.opened = now
         client.adopted = False
         if client.address != address:
-            self.move(client, transport, address)
+            self.move(client, transport, address, now)
         if client.asleep:
-            self.wake(client)
+            self.wake(client, now)
         self._tell(client, "client_again", "client {client} connected again, its entities are kept")
         self._give(client)
 

@@ -12,17 +12,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from microros_gen.agent.representation import (
-    Description,
-    Endpoint,
-    Participant,
-    References,
-    Topic,
-    describe,
-)
+from microros_gen.agent.entities import Entity, Outcome
+from microros_gen.agent.representation import Description, Endpoint, References, describe
 from microros_gen.agent.representation.description import UnsupportedKindError
 from microros_gen.agent.representation.reference import UnknownReferenceError
-from microros_gen.agent.ros.bridge import Bridge, BridgeError, Node, Writer
+from microros_gen.agent.ros.bridge import Bridge, BridgeError
 from microros_gen.agent.wire.constants import ObjectKind, Status
 from microros_gen.agent.wire.entity_messages import Create
 from microros_gen.agent.wire.errors import MalformedError
@@ -35,6 +29,9 @@ _SERVED = frozenset(
         ObjectKind.PUBLISHER,
         ObjectKind.SUBSCRIBER,
         ObjectKind.DATAWRITER,
+        ObjectKind.DATAREADER,
+        ObjectKind.REQUESTER,
+        ObjectKind.REPLIER,
     )
 )
 _CONTAINER = {
@@ -42,47 +39,10 @@ _CONTAINER = {
     ObjectKind.PUBLISHER: ObjectKind.PARTICIPANT,
     ObjectKind.SUBSCRIBER: ObjectKind.PARTICIPANT,
     ObjectKind.DATAWRITER: ObjectKind.PUBLISHER,
+    ObjectKind.DATAREADER: ObjectKind.SUBSCRIBER,
+    ObjectKind.REQUESTER: ObjectKind.PARTICIPANT,
+    ObjectKind.REPLIER: ObjectKind.PARTICIPANT,
 }
-
-
-@dataclass(eq=False)
-class Entity:
-    """One object. `sources`: what it was made from, its container first; `node`, `writer`: its ROS side."""
-
-    id: int
-    description: Description
-    sources: tuple[Entity, ...]
-    node: Node | None = None
-    writer: Writer | None = None
-
-    @property
-    def kind(self) -> int:
-        """Kind of object."""
-        return self.id & 0x0F
-
-    @property
-    def participant(self) -> Entity:
-        """The participant that it belongs to, or is."""
-        return self.sources[0].participant if self.sources else self
-
-    def inside(self, container: Entity) -> bool:
-        """Return whether it is a part of `container`, at any depth."""
-        return bool(self.sources) and (self.sources[0] is container or self.sources[0].inside(container))
-
-    @property
-    def label(self) -> str:
-        """Name for the log; empty for what has no place in ROS."""
-        side = self.node or self.writer
-        return side.label if side else ""
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """What a CREATE came to; `reason` says why it failed, `entity` is what was made."""
-
-    status: Status
-    reason: str = ""
-    entity: Entity | None = None
 
 
 @dataclass(frozen=True)
@@ -120,6 +80,10 @@ class ObjectTree:
 
     def __iter__(self) -> Iterator[Entity]:
         return iter(self._objects.values())
+
+    def find(self, object_id: int) -> Entity | None:
+        """Return the object with an id, or None."""
+        return self._objects.get(object_id)
 
     def create(self, create: Create) -> Outcome:
         """Carry out a CREATE by the table of creation modes (DDS-XRCE 1.0, table 7)."""
@@ -161,6 +125,12 @@ class ObjectTree:
         """Drop everything; the ROS graph loses it at once."""
         self._remove(list(self._objects.values()))
         self._gone_with_container.clear()
+
+    def forget_requests(self) -> None:
+        """Let nobody wait for the replies to requests any more: the client does not know of them."""
+        for entity in self:
+            if entity.kind == ObjectKind.REQUESTER:
+                entity.outstanding.clear()
 
     def suspend(self) -> None:
         """Leave the ROS graph and keep the descriptions."""
@@ -224,24 +194,13 @@ class ObjectTree:
         return found
 
     def _enter(self, entity: Entity) -> None:
-        description = entity.description
-        if isinstance(description, Participant) and entity.node is None:
-            name = description.name.strip("/") or self._fallback_name
-            entity.node = self._bridge.create_node(name, description.domain)
-        elif isinstance(description, Endpoint) and entity.writer is None:
-            node = entity.participant.node
-            topic = description.topic or entity.sources[1].description
-            if node is None or not isinstance(topic, Topic):
-                raise BridgeError("what it was made from is not there")
-            entity.writer = node.create_writer(topic, description.qos)
-            self.publish[entity.id] = entity.writer.publish
+        entity.enter(self._bridge, self._fallback_name)
+        if entity.writer is not None:
+            self.publish[entity.id] = entity.publish
 
     def _leave(self, entity: Entity) -> None:
         self.publish.pop(entity.id, None)
-        side = entity.writer or entity.node
-        if side is not None:
-            side.destroy()
-            entity.writer = entity.node = None
+        entity.leave()
 
     def _remove(self, entities: list[Entity]) -> None:
         for entity in reversed(entities):

@@ -6,7 +6,7 @@ from __future__ import annotations
 import pytest
 
 from agent import captured
-from agent.client import dds_type, participant_blob, topic_blob, writer_blob
+from agent.client import dds_type, participant_blob, reader_blob, topic_blob, writer_blob
 from agent.fakes import FakeBridge
 from microros_gen.agent.objects import ObjectTree
 from microros_gen.agent.representation import References
@@ -93,9 +93,9 @@ def test_creation_modes(form: str, mode: str, same: Status, different: Status) -
         (make(0x22, "<dds><topic><name>rt/a</name></topic></dds>", NODE), Status.INVALID_DATA),
         (make(0x21, "<!DOCTYPE a [<!ENTITY b 'c'>]><dds/>"), Status.INVALID_DATA),
         (make(0x21, "default", form=Format.REFERENCE), Status.DDS_ERROR),
-        (make(READER, WRITER_A, SUBSCRIBER), Status.DENIED),
-        (make(0x17, b"", NODE), Status.DENIED),
-        (make(0x18, b"", NODE), Status.DENIED),
+        (make(READER, reader_blob(TOPIC, 3, 10), 0x24), Status.UNKNOWN_REFERENCE),
+        (make(0x17, b"", NODE), Status.INVALID_DATA),
+        (make(0x18, b"", NODE), Status.INVALID_DATA),
         (make(0x1A, "x"), Status.DENIED),
         (make(0x1B, "x"), Status.DENIED),
         (make(0x1C, "x"), Status.DENIED),

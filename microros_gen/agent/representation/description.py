@@ -58,11 +58,16 @@ class Group:
 
 @dataclass(frozen=True)
 class Endpoint:
-    """A data writer or reader; its topic is described in place (XML) or is the object `topic_id` (binary)."""
+    """A data writer or reader; its topic is described in place (XML) or is the object `topic_id` (binary).
+
+    `separation_ms`: a reader's time-based filter. `content_filter`: what it asks for, which ROS 2 does not have.
+    """
 
     topic: Topic | None
     topic_id: int
     qos: Qos
+    separation_ms: int = 0
+    content_filter: str = ""
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One object of a client, and its side in ROS 2."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from microros_gen.agent.representation import Description, Endpoint, Participant, Service, Topic
+from microros_gen.agent.ros.bridge import Bridge, BridgeError, Node, Reader, Replier, Requester, Writer
+from microros_gen.agent.wire.constants import ObjectKind, Status
+
+Readable = Reader | Replier | Requester
+
+
+@dataclass(eq=False)
+class Entity:
+    """One object. `sources`: what it was made from, its container first; `node`, `writer`, `source`: its ROS side."""
+
+    id: int
+    description: Description
+    sources: tuple[Entity, ...]
+    node: Node | None = None
+    writer: Writer | None = None
+    source: Readable | None = None
+    """What ROS 2 gives data to: a reader, a replier or a requester."""
+    written: int = 0
+    """Samples, requests or replies that a client sent through it."""
+    delivered: int = 0
+    """Samples, requests or replies that went to the client."""
+    outstanding: dict[bytes | int, bytes] = field(default_factory=dict)
+    """What waits for an answer, the oldest first: numbers of requests with the ids (request, object) that a client gave
+    them, or identities of requests that a client is to answer."""
+
+    @property
+    def kind(self) -> int:
+        """Kind of object."""
+        return self.id & 0x0F
+
+    @property
+    def participant(self) -> Entity:
+        """The participant that it belongs to, or is."""
+        return self.sources[0].participant if self.sources else self
+
+    def inside(self, container: Entity) -> bool:
+        """Return whether it is a part of `container`, at any depth."""
+        return bool(self.sources) and (self.sources[0] is container or self.sources[0].inside(container))
+
+    @property
+    def label(self) -> str:
+        """Name for the log; empty for what has no place in ROS."""
+        side = self.node or self.writer or self.source
+        return side.label if side else ""
+
+    @property
+    def separation_s(self) -> float:
+        """Least time between two samples that are handed on (time-based filter), in seconds; 0: none."""
+        return self.description.separation_ms / 1000 if isinstance(self.description, Endpoint) else 0.0
+
+    def publish(self, serialized: bytes) -> None:
+        """Publish a sample of a data writer: encapsulation header, then CDR body. May raise BridgeError."""
+        self.writer.publish(serialized)  # type: ignore[union-attr]
+        self.written += 1
+
+    def enter(self, bridge: Bridge, fallback_name: str) -> None:
+        """Take its place in the ROS graph unless it has it; BridgeError when ROS 2 refuses.
+
+        `fallback_name` is for participants without a name.
+        """
+        if self.node or self.writer or self.source:
+            return
+        description = self.description
+        if isinstance(description, Participant):
+            self.node = bridge.create_node(description.name.strip("/") or fallback_name, description.domain)
+        elif isinstance(description, Endpoint):
+            self._enter_endpoint(description)
+        elif isinstance(description, Service):
+            node = self._home()
+            replier = self.kind == ObjectKind.REPLIER
+            make: Callable[[Service], Replier | Requester] = (
+                node.create_replier if replier else node.create_requester
+            )
+            self.source = make(description)
+
+    def leave(self) -> None:
+        """Leave the ROS graph; what waits for an answer gets none."""
+        side = self.writer or self.source or self.node
+        if side is not None:
+            side.destroy()
+        self.writer = self.source = self.node = None
+        self.outstanding.clear()
+
+    def _enter_endpoint(self, description: Endpoint) -> None:
+        topic = description.topic or self.sources[1].description
+        node = self._home()
+        if not isinstance(topic, Topic):
+            raise BridgeError("its topic is not there")
+        if self.kind == ObjectKind.DATAWRITER:
+            self.writer = node.create_writer(topic, description.qos)
+        else:
+            self.source = node.create_reader(topic, description.qos)
+
+    def _home(self) -> Node:
+        node = self.participant.node
+        if node is None:
+            raise BridgeError("its participant is not there")
+        return node
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a CREATE came to; `reason` says why it failed, `entity` is what was made."""
+
+    status: Status
+    reason: str = ""
+    entity: Entity | None = None
