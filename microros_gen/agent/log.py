@@ -45,7 +45,7 @@ class EventLog:
         """Return whether events of `level` are written: whoever builds costly ones asks first."""
         return level <= self._limit
 
-    def emit(self, level: Level, event: str, text: str, **fields: Value) -> None:
+    def emit(self, level: Level, event: str, text: str, /, **fields: Value) -> None:
         """Write one event: `text`, for people, is a format string over `fields`; JSON has both."""
         if level > self._limit:
             return
@@ -58,7 +58,7 @@ class EventLog:
         else:
             self.line(message if level is Level.INFO else f"{level.name.lower()}: {message}")
 
-    def count(self, kind: str, text: str, **fields: Value) -> None:
+    def count(self, kind: str, text: str, /, **fields: Value) -> None:
         """Count a fault of input; write it the first time that its `kind` occurs."""
         self.counters[kind] += 1
         if kind not in self._seen:
