@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The loop: waits for transports, feeds the agent, ends cleanly on SIGINT and SIGTERM.
 
-One thread and one epoll descriptor (Linux; a transport with several descriptors nests its own in it). A turn reads
-a batch of each transport that has something, then sends what is to be acknowledged. Nothing is looked up or asked in
-a turn that did not change: descriptors are registered once.
+One thread and one epoll descriptor (Linux; a transport with several descriptors nests its own in it, as ROS 2 does). A
+turn reads a batch of each transport that has something, takes what ROS 2 has, then sends what is to be acknowledged.
+Descriptors are registered once: a turn costs a system call and the agent's answer when it wants to be called.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from microros_gen.agent.core import Agent
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.transport.base import Transport
 
-TICK_S = 0.05
-"""Seconds between two looks at time-outs and at devices that are not there."""
+TICK_S = 0.1
+"""Seconds between two looks at what transports wait for: devices that are not there, connections that say nothing."""
 
 Ready = Callable[[Transport], None]
 
@@ -59,14 +59,19 @@ class Server:
 
     def _serve(self, epoll: select.epoll, ready: Ready, clock: Callable[[], float]) -> None:
         handlers = self._register(epoll)
-        poll, flush = epoll.poll, self._agent.flush
-        tick_at = clock()
+        poll, flush, due = epoll.poll, self._agent.flush, self._agent.due
+        care_at = clock()
         while not self._stop:
             now = clock()
-            if now >= tick_at:
-                tick_at = now + TICK_S
-                self._tick(now, ready)
-            for descriptor, _ in poll(tick_at - now):
+            if now >= care_at:
+                care_at = now + TICK_S
+                self._care(now, ready)
+            wanted = due()
+            if wanted is not None and wanted <= now:
+                self._agent.tick()
+                wanted = due()
+            wait = (care_at if wanted is None or wanted > care_at else wanted) - now
+            for descriptor, _ in poll(wait if wait > 0 else 0):
                 handlers[descriptor]()
             flush()
 
@@ -75,6 +80,7 @@ class Server:
         handlers: dict[int, Callable[[], object]] = {self._wake: self._noted}
         for transport in self._transports:
             handlers[transport.fileno()] = partial(transport.pump, self._agent.receive)
+        handlers[self._agent.fileno()] = self._agent.take
         for descriptor in handlers:
             epoll.register(descriptor, select.EPOLLIN)
         return handlers
@@ -82,10 +88,9 @@ class Server:
     def _noted(self) -> None:
         """Nothing: `_stop` says it."""
 
-    def _tick(self, now: float, ready: Ready) -> None:
+    def _care(self, now: float, ready: Ready) -> None:
         for transport in self._transports:
             transport.tick(now)
-        self._agent.tick()
         if self._waiting:
             now_ready = [transport for transport in self._waiting if transport.ready]
             self._waiting = [transport for transport in self._waiting if transport not in now_ready]
@@ -101,8 +106,9 @@ class Server:
         self._log.emit(
             Level.INFO,
             "stopped",
-            "agent stopped: {samples} samples, {clients} clients at the end, {faults} faults of input",
+            "agent stopped: {samples} samples in, {delivered} out, {clients} clients, {faults} faults of input",
             samples=self._agent.samples,
+            delivered=self._agent.delivered,
             clients=clients,
             faults=faults,
             **{f"fault_{kind}": count for kind, count in sorted(self._log.counters.items())},
