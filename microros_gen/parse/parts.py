@@ -34,10 +34,27 @@ def parse_parts(
     messages: list[Message] = []
     for part, start, end in zip(_names(parts, len(starts)), starts, ends, strict=True):
         messages.append(parse_part(source, start + 1, lines[start:end], derived_name(name, part), found))
+    _check_equal_constants(messages, found)
     diagnostics.extend(found)
     if found.has_errors():
         return None
     return make_declaration(name, tuple(messages), messages[0].comment, Span(source, 1, 1))
+
+
+def _check_equal_constants(messages: Sequence[Message], diagnostics: Diagnostics) -> None:
+    """Report a constant that two parts declare alike: rosidl_parser gives both to the first part."""
+    first: dict[tuple[object, ...], TypeName] = {}
+    for message in messages:
+        for constant in message.constants:
+            key = (constant.name, constant.type, constant.value, constant.comment)
+            earlier = first.setdefault(key, message.name)
+            if earlier != message.name:
+                diagnostics.error(
+                    f"ROS 2 Jazzy takes '{constant.name}' for a constant of {earlier.name} too, since both are "
+                    "declared alike, and its C does not compile",
+                    constant.span,
+                    "Give one of them another name or comment",
+                )
 
 
 def _names(parts: Sequence[str], count: int) -> list[str]:
