@@ -106,7 +106,7 @@ def generate(out: Path, case: Case) -> list[str]:
     config = out.with_suffix(".yaml")
     config.write_text(
         f"version: 1\nprofiles: [pure_sender]\ninterfaces: [{', '.join(case.packages)}]\npools: {{publishers: 4}}\n"
-        "transport: {type: udp, mtu: 60000}\nlimits: {'*': {string: 8, sequence: 2}}\n"
+        "transport: {type: udp, mtu: 60000}\nlimits: {'*': {string: 12, sequence: 3}}\n"
     )
     command = tool("generate", "-c", str(config), "-o", str(out))
     return [*command, "--interface-path", str(case.path)] if case.path else command
