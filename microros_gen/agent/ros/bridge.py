@@ -97,7 +97,18 @@ class HashUnknown:
         return f"type {self.type}: no interface file is known, so no type hash is announced"
 
 
-GraphReport = Matched | Incompatible | HashMismatch | TypeMismatch | HashUnknown
+@dataclass(frozen=True)
+class NoServer:
+    """A request was dropped: its service was not there for some seconds."""
+
+    node: str
+    endpoint: str
+
+    def __str__(self) -> str:
+        return f"client {self.endpoint} of {self.node}: a request was dropped, nobody serves it"
+
+
+GraphReport = NoServer | Matched | Incompatible | HashMismatch | TypeMismatch | HashUnknown
 """What a bridge tells about the ROS graph, from within `ready` and when an entity is made; its text is for people."""
 
 
@@ -151,7 +162,10 @@ class Requester(Source, Protocol):
     """A ROS service client of a client: the client asks."""
 
     def request(self, serialized: bytes) -> int:
-        """Send a request (encapsulation header, then CDR body); return the number that its reply will have."""
+        """Send a request (encapsulation header, then CDR body); return the number that its reply will have.
+
+        A request before the service was first there waits for it some seconds: XRCE clients cannot see whether it is.
+        """
 
     def take(self) -> tuple[int, bytes] | None:
         """Return the next reply: the number of its request, and encapsulation with CDR body."""

@@ -3,40 +3,30 @@
 
 from __future__ import annotations
 
-import ctypes
 import os
-import struct
 from collections.abc import Callable
-from ctypes import addressof, byref, c_char_p, c_int64, c_void_p
+from ctypes import addressof, byref
 from typing import Any
 
-from microros_gen.agent.ros.bridge import BridgeError
+from microros_gen.agent.ros.bridge import BridgeError, GraphReport
 from microros_gen.agent.ros.graph import Endpoint, Events
-from microros_gen.agent.ros.layout import RawMessage, RequestId, SerializedMessage, ServiceInfo
+from microros_gen.agent.ros.layout import SerializedMessage
 from microros_gen.agent.ros.libraries import (
-    CLIENT_TAKE_FAILED,
     FAILURES,
     OK,
-    SERVICE_TAKE_FAILED,
     SUBSCRIPTION_TAKE_FAILED,
-    TIMEOUT,
     first_line,
     new_bytes,
 )
-from microros_gen.agent.ros.raw_types import ENCAPSULATION_BYTES, RawTypes
+from microros_gen.agent.ros.raw_types import RawTypes
 from microros_gen.agent.ros.wakeups import Notify, Wakeups
-from microros_gen.agent.wire.constants import Status
-
-IDENTITY_BYTES = 24
-"""SampleIdentity of DDS-RPC: GUID, then the sequence number as signed high and unsigned low word."""
-_GUID_BYTES = 16
-_NUMBER = struct.Struct("<iI")
 
 
 class Ros:
     """What all entities of a bridge share: the libraries, the wake-ups, and one buffer that samples are taken into."""
 
-    def __init__(self, types: RawTypes) -> None:
+    def __init__(self, types: RawTypes, report: Callable[[GraphReport], None]) -> None:
+        self.report = report
         self.libraries = types.libraries
         self.types = types
         self.wakeups: Wakeups[Any] = Wakeups()
@@ -48,7 +38,7 @@ class Ros:
         self.libraries.free_message(byref(self.taken))
 
 
-class _Entity:
+class Entity:
     """A handle of rclpy and the endpoints that it stands for. Destroying it again does nothing."""
 
     def __init__(self, handle: Any, events: Events, endpoints: tuple[Endpoint, ...]) -> None:
@@ -69,7 +59,7 @@ class _Entity:
         self._handle.destroy_when_not_in_use()
 
 
-class RawWriter(_Entity):
+class RawWriter(Entity):
     """See Writer."""
 
     def __init__(self, handle: Any, events: Events, endpoints: tuple[Endpoint, ...]) -> None:
@@ -84,7 +74,7 @@ class RawWriter(_Entity):
             raise BridgeError(f"publish on {self.label}: {first_line(error)}") from error
 
 
-class _RawSource(_Entity):
+class RawSource(Entity):
     """What ROS 2 wakes up the agent for, until it is destroyed."""
 
     def __init__(
@@ -108,11 +98,12 @@ class _RawSource(_Entity):
         super()._leave()
         self._wakeups.remove(descriptor)
 
-    def _failed(self, doing: str) -> BridgeError:
+    def failed(self, doing: str) -> BridgeError:
+        """Return the error that ROS 2 gave while `doing` something."""
         return BridgeError(f"{doing} on {self.label}: {self._libraries.error()}")
 
 
-class RawReader(_RawSource):
+class RawReader(RawSource):
     """See Reader."""
 
     def __init__(self, handle: Any, ros: Ros, events: Events, endpoints: tuple[Endpoint, ...]) -> None:
@@ -130,116 +121,4 @@ class RawReader(_RawSource):
             return new_bytes(self._message.buffer, self._message.length)
         if result == SUBSCRIPTION_TAKE_FAILED:
             return None
-        raise self._failed("take")
-
-
-class _RawService(_RawSource):
-    """A service or a service client.
-
-    Taking one may give nothing although more is there: replies to other clients of the service come here as well, and
-    ROS 2 passes over them one by one. So as many are taken as were told of.
-    """
-
-    def __init__(
-        self,
-        handle: Any,
-        ros: Ros,
-        notify: Notify,
-        take: Callable[..., int],
-        events: Events,
-        endpoints: tuple[Endpoint, ...],
-    ) -> None:
-        super().__init__(handle, ros, notify, events, endpoints)
-        self._compared = False
-        self._types = ros.types
-        self._take = take
-        self._told = 0
-        self._info = ServiceInfo()
-        self._ignored = RawMessage()
-        self._arguments = (self._pointer, byref(self._info), byref(self._ignored))
-
-    def _take_next(self) -> bytes | None:
-        while self._descriptor >= 0:
-            if not self._told:
-                try:
-                    self._told = os.eventfd_read(self._descriptor)
-                except BlockingIOError:
-                    return None
-            self._told -= 1
-            result = self._take(*self._arguments)
-            if result == OK:
-                self._compare()
-                return self._types.taken()
-            if result not in (SERVICE_TAKE_FAILED, CLIENT_TAKE_FAILED):
-                raise self._failed("take")
-        return None
-
-    def _compare(self) -> None:
-        """ROS 2 has no events of services: the first message shows that somebody is there to compare with."""
-        if not self._compared:
-            self._compared = True
-            for endpoint in self._endpoints:
-                self._events.compare(endpoint)
-
-    def _check_alive(self) -> None:
-        if self._descriptor < 0:
-            raise BridgeError(f"{self.label} is gone")
-
-
-class RawReplier(_RawService):
-    """See Replier."""
-
-    def __init__(self, handle: Any, ros: Ros, events: Events, endpoints: tuple[Endpoint, ...]) -> None:
-        libraries = ros.libraries
-        super().__init__(handle, ros, libraries.notify_service, libraries.take_request, events, endpoints)
-
-    def take(self) -> tuple[bytes, bytes] | None:
-        """See Replier."""
-        message = self._take_next()
-        if message is None:
-            return None
-        request = self._info.request
-        return bytes(request.guid) + _NUMBER.pack(request.number >> 32, request.number & 0xFFFFFFFF), message
-
-    def reply(self, identity: bytes, serialized: bytes) -> None:
-        """See Replier."""
-        if len(identity) != IDENTITY_BYTES:
-            raise BridgeError(f"a sample identity of {len(identity)} bytes", Status.INVALID_DATA)
-        high, low = _NUMBER.unpack_from(identity, _GUID_BYTES)
-        request = RequestId(number=high << 32 | low)
-        request.guid[:] = identity[:_GUID_BYTES]
-        self._check_alive()
-        result = self._libraries.send_response(self._pointer, byref(request), byref(raw_message(serialized)))
-        if result == TIMEOUT:
-            raise BridgeError(f"reply on {self.label}: the client that asked is not there to receive it")
-        if result != OK:
-            raise self._failed("reply")
-
-
-class RawRequester(_RawService):
-    """See Requester."""
-
-    def __init__(self, handle: Any, ros: Ros, events: Events, endpoints: tuple[Endpoint, ...]) -> None:
-        libraries = ros.libraries
-        super().__init__(handle, ros, libraries.notify_client, libraries.take_response, events, endpoints)
-
-    def request(self, serialized: bytes) -> int:
-        """See Requester."""
-        self._check_alive()
-        number = c_int64()
-        message = raw_message(serialized)
-        if self._libraries.send_request(self._pointer, byref(message), byref(number)) != OK:
-            raise self._failed("request")
-        return number.value
-
-    def take(self) -> tuple[int, bytes] | None:
-        """See Requester."""
-        message = self._take_next()
-        return None if message is None else (self._info.request.number, message)
-
-
-def raw_message(serialized: bytes) -> RawMessage:
-    """Return a message that borrows `serialized`, which the caller keeps while it is used."""
-    if len(serialized) < ENCAPSULATION_BYTES:
-        raise BridgeError(f"a message of {len(serialized)} bytes has no encapsulation", Status.INVALID_DATA)
-    return RawMessage(ctypes.cast(c_char_p(serialized), c_void_p), len(serialized))
+        raise self.failed("take")

@@ -7,7 +7,6 @@ that an endpoint belongs to comes later than the endpoint.
 
 from __future__ import annotations
 
-import ctypes
 import os
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -22,8 +21,7 @@ from microros_gen.agent.ros.bridge import (
     TypeMismatch,
 )
 from microros_gen.agent.ros.libraries import FAILURES, OK, Libraries
-from microros_gen.agent.ros.wakeups import Wakeups
-from microros_gen.agent.wire.constants import Status
+from microros_gen.agent.ros.wakeups import Wakeups, Watcher
 
 CHECK_AFTER_S = 0.5
 """From a match to the comparison of hashes."""
@@ -31,13 +29,6 @@ CHECKS = 6
 """How often an endpoint is looked at whose node has no name yet, `CHECK_AFTER_S` apart."""
 _UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
 """What rmw calls a node whose name it does not know yet."""
-_CLOCK_MONOTONIC = 1
-
-
-class _Timer(ctypes.Structure):
-    """itimerspec of Linux on 64-bit machines; the interval comes first."""
-
-    _fields_ = tuple((name, ctypes.c_long) for name in ("every_s", "every_ns", "first_s", "first_ns"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,35 +69,22 @@ class Destroyable(Protocol):
         """Leave the ROS graph."""
 
 
-class Watcher:
-    """Something that is woken up and is no source of data."""
-
-    def look(self) -> None:
-        """See what has happened, and report it."""
-        raise NotImplementedError
-
-
 class Comparison(Watcher):
     """Compares types and type hashes of endpoints with those that other nodes announce for the same topic."""
 
-    def __init__(
-        self, handles: Any, wakeups: Wakeups[Any], libraries: Libraries, report: Callable[[GraphReport], None]
-    ) -> None:
+    def __init__(self, handles: Any, wakeups: Wakeups[Any], report: Callable[[GraphReport], None]) -> None:
         self._handles = handles
-        self._libraries = libraries
+        self._wakeups = wakeups
         self._report = report
         self._due: dict[Endpoint, tuple[Any, int]] = {}
         self._told: dict[Endpoint, set[GraphReport]] = {}
-        self._descriptor = libraries.timerfd_create(_CLOCK_MONOTONIC, os.O_NONBLOCK | os.O_CLOEXEC)
-        if self._descriptor < 0:
-            raise BridgeError("no file descriptor is left: raise the limit (ulimit -n)", Status.RESOURCES)
-        wakeups.watch(self._descriptor, self)
+        self._timer = wakeups.add_timer(self)
 
     def soon(self, node: Any, endpoint: Endpoint) -> None:
         """Compare `endpoint` in a moment; `node` is the handle of its node."""
         self._told.setdefault(endpoint, set())
         if endpoint not in self._due:
-            self._set_timer()
+            self._wakeups.set_timer(self._timer, CHECK_AFTER_S)
             self._due[endpoint] = node, CHECKS
 
     def forget(self, endpoint: Endpoint) -> None:
@@ -130,7 +108,7 @@ class Comparison(Watcher):
             if nameless:
                 self._due[endpoint] = node, tries - 1
         if self._due:
-            self._set_timer()
+            self._wakeups.set_timer(self._timer, CHECK_AFTER_S)
 
     def _others(self, node: Any, endpoint: Endpoint) -> Iterator[dict[str, Any]]:
         """Give all endpoints of the other direction, and of ours: who publishes with us may have another type too."""
@@ -142,10 +120,6 @@ class Comparison(Watcher):
                 yield from get(node, endpoint.topic, endpoint.mangled)
             except FAILURES:  # the graph cannot be asked now: the next match compares again
                 return
-
-    def _set_timer(self) -> None:
-        timer = _Timer(first_s=int(CHECK_AFTER_S), first_ns=round(CHECK_AFTER_S % 1 * 1e9))
-        self._libraries.timerfd_settime(self._descriptor, 0, ctypes.byref(timer), None)
 
 
 class Events(Watcher):

@@ -75,10 +75,7 @@ class Libraries:
             ctypes.PyDLL(f"lib{self.INTROSPECTION.decode()}.so"), self.INTROSPECTION
         )
         self.service_handle_function = _address(runtime.get_service_typesupport_handle_function)
-        libc = ctypes.PyDLL(None)
-        self.eventfd_write = _address(libc.eventfd_write)
-        self.timerfd_create = _function(libc, "timerfd_create", c_int, c_int, c_int)
-        self.timerfd_settime = _function(libc, "timerfd_settime", c_int, c_int, c_int, c_void_p, c_void_p)
+        self.eventfd_write = _address(ctypes.PyDLL(None).eventfd_write)
         self.default_allocator = _function(self._utils, "rcutils_get_default_allocator", Allocator)
         self.free_message = _function(
             self._utils, "rcutils_uint8_array_fini", c_int, POINTER(SerializedMessage)

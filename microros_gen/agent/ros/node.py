@@ -10,17 +10,17 @@ from typing import Any, TypeVar
 from microros_gen.agent.representation.description import Durability, Qos, Service, Topic
 from microros_gen.agent.ros.bridge import (
     BridgeError,
-    GraphReport,
     HashOf,
     Reader,
     Replier,
     Requester,
     Writer,
 )
-from microros_gen.agent.ros.endpoints import RawReader, RawReplier, RawRequester, RawWriter, Ros
+from microros_gen.agent.ros.endpoints import RawReader, RawWriter, Ros
 from microros_gen.agent.ros.graph import Comparison, Endpoint, Events
 from microros_gen.agent.ros.libraries import FAILURES, first_line
 from microros_gen.agent.ros.names import ServiceName, ros_service, ros_topic, ros_type
+from microros_gen.agent.ros.services import RawReplier, RawRequester, Servers
 from microros_gen.agent.wire.constants import Status
 
 Entity = TypeVar("Entity", RawWriter, RawReader, RawReplier, RawRequester)
@@ -38,7 +38,7 @@ class RawNode:
         ros: Ros,
         hash_of: HashOf,
         comparison: Comparison,
-        report: Callable[[GraphReport], None],
+        servers: Servers,
         leave: Callable[[], None],
     ) -> None:
         self._handles = handles
@@ -46,7 +46,8 @@ class RawNode:
         self._ros = ros
         self._hash_of = hash_of
         self._leave = leave
-        self._events = Events(handles, handle, ros.wakeups, ros.libraries, comparison, report)
+        self._events = Events(handles, handle, ros.wakeups, ros.libraries, comparison, ros.report)
+        self._servers = servers
         self.label: str = handle.get_fully_qualified_name()
 
     def create_writer(self, topic: Topic, qos: Qos) -> Writer:
@@ -68,7 +69,7 @@ class RawNode:
         """See Node."""
         handle, endpoints = self._create_service("client", self._handles.Client, service)
         return self._attach(
-            handle, endpoints, lambda: RawRequester(handle, self._ros, self._events, endpoints)
+            handle, endpoints, lambda: RawRequester(handle, self._ros, self._servers, self._events, endpoints)
         )
 
     def destroy(self) -> None:

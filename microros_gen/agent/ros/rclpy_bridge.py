@@ -15,11 +15,13 @@ from typing import Any
 
 from microros_gen.agent.ros.bridge import Bridge, BridgeError, GraphReport, HashOf, HashUnknown, Node, Source
 from microros_gen.agent.ros.endpoints import Ros
-from microros_gen.agent.ros.graph import Comparison, Watcher
+from microros_gen.agent.ros.graph import Comparison
 from microros_gen.agent.ros.libraries import FAILURES, first_line
 from microros_gen.agent.ros.names import ros_node
 from microros_gen.agent.ros.node import RawNode
 from microros_gen.agent.ros.raw_types import MAXIMUM_HANDLES, raw_types
+from microros_gen.agent.ros.services import Servers
+from microros_gen.agent.ros.wakeups import Watcher
 from microros_gen.agent.wire.constants import Status
 from microros_gen.diagnostics import Diagnostic, UserError
 
@@ -50,7 +52,7 @@ def open_bridge(
         )
         reason = f"the agent needs {RMW}, but RMW_IMPLEMENTATION chooses {implementation}"
         raise UserError([Diagnostic(reason, hint=hint)])
-    return RclpyBridge(handles, Ros(raw_types()), maximum_domains, domain, hash_of, report or _ignore)
+    return RclpyBridge(handles, Ros(raw_types(), report or _ignore), maximum_domains, domain, hash_of)
 
 
 def _ignore(_report: GraphReport) -> None:
@@ -80,14 +82,13 @@ class RclpyBridge:
         maximum_domains: int,
         domain: int | None,
         hash_of: HashOf | None,
-        report: Callable[[GraphReport], None],
     ) -> None:
         self._handles = handles
         self._ros = ros
         self._domain = domain
         self._hash_of = hash_of
-        self._report = report
-        self._comparison = Comparison(handles, ros.wakeups, ros.libraries, report)
+        self._comparison = Comparison(handles, ros.wakeups, ros.report)
+        self._servers = Servers(ros.wakeups)
         self._maximum_domains = maximum_domains
         self._contexts: dict[int, _Context] = {}
         self._without_hash: set[str] = set()
@@ -108,7 +109,7 @@ class RclpyBridge:
             return self._known_hash(type_name, hash_of)
 
         return RawNode(
-            self._handles, handle, self._ros, known_hash, self._comparison, self._report, context.leave
+            self._handles, handle, self._ros, known_hash, self._comparison, self._servers, context.leave
         )
 
     def fileno(self) -> int:
@@ -144,7 +145,7 @@ class RclpyBridge:
             and len(self._without_hash) < MAXIMUM_HANDLES
         ):
             self._without_hash.add(type_name)
-            self._report(HashUnknown(type_name))
+            self._ros.report(HashUnknown(type_name))
         return None
 
     def _context(self, domain: int) -> _Context:

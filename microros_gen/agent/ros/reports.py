@@ -13,6 +13,7 @@ from microros_gen.agent.ros.bridge import (
     HashUnknown,
     Incompatible,
     Matched,
+    NoServer,
     TypeMismatch,
 )
 
@@ -21,6 +22,7 @@ _EVENTS = {
     Incompatible: (Level.WARNING, "incompatible_qos"),
     HashMismatch: (Level.WARNING, "type_hash_mismatch"),
     TypeMismatch: (Level.WARNING, "type_mismatch"),
+    NoServer: (Level.WARNING, "no_server"),
     HashUnknown: (Level.WARNING, "type_hash_unknown"),
 }
 

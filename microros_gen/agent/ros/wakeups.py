@@ -8,6 +8,7 @@ to be read: a write is an edge, also when the count was not 0.
 
 from __future__ import annotations
 
+import ctypes
 import os
 import select
 from collections.abc import Callable
@@ -17,8 +18,23 @@ from microros_gen.agent.ros.bridge import BridgeError
 from microros_gen.agent.wire.constants import Status
 
 T = TypeVar("T")
+_CLOCK_MONOTONIC = 1
 Notify = Callable[[int, int | None, int | None], int]
 """One of rcl's `…set…callback` functions: entity, function (address), its first argument."""
+
+
+class Watcher:
+    """Something that is woken up and is no source of data."""
+
+    def look(self) -> None:
+        """See what has happened, and do what it needs."""
+        raise NotImplementedError
+
+
+class _Time(ctypes.Structure):
+    """itimerspec of Linux on 64-bit machines."""
+
+    _fields_ = tuple((name, ctypes.c_long) for name in ("every_s", "every_ns", "first_s", "first_ns"))
 
 
 class Wakeups(Generic[T]):
@@ -45,9 +61,23 @@ class Wakeups(Generic[T]):
         return descriptor
 
     def watch(self, descriptor: int, what: T) -> None:
-        """Let a descriptor of somebody else stand for `what`."""
+        """Let a descriptor stand for `what`; it is closed with the others."""
         self._known[descriptor] = what
         self._epoll.register(descriptor, select.EPOLLIN | select.EPOLLET)
+
+    def add_timer(self, what: T) -> int:
+        """Return a timer that stands for `what` and rests until `set_timer`; BridgeError as above."""
+        descriptor = int(_libc().timerfd_create(_CLOCK_MONOTONIC, os.O_NONBLOCK | os.O_CLOEXEC))
+        if descriptor < 0:
+            raise BridgeError("no file descriptor is left: raise the limit (ulimit -n)", Status.RESOURCES)
+        self.watch(descriptor, what)
+        return descriptor
+
+    @staticmethod
+    def set_timer(descriptor: int, seconds: float) -> None:
+        """Let a timer wake up once, so many seconds from now."""
+        moment = _Time(first_s=int(seconds), first_ns=round(seconds % 1 * 1e9))
+        _libc().timerfd_settime(descriptor, 0, ctypes.byref(moment), None)
 
     def remove(self, descriptor: int) -> None:
         """Close an eventfd that nobody writes to any more."""
@@ -64,3 +94,7 @@ class Wakeups(Generic[T]):
         for descriptor in list(self._known):
             self.remove(descriptor)
         self._epoll.close()
+
+
+def _libc() -> ctypes.CDLL:
+    return ctypes.CDLL(None)
