@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from microros_gen.agent.objects import ObjectTree
-from microros_gen.agent.session import Session
 from microros_gen.agent.services import Calls
+from microros_gen.agent.session import Session
 from microros_gen.agent.transport.base import Transport
 
 if TYPE_CHECKING:
@@ -62,6 +62,12 @@ class Client:
     def send(self, message: bytes) -> None:
         """Send one message."""
         self.transport.send(message, self.address)
+
+    def acknowledge(self) -> None:
+        """Send the acknowledgements that are due."""
+        for stream in self.unacknowledged:
+            self.send(self.session.acknack(stream))
+        self.unacknowledged.clear()
 
 
 class ClientTable:

@@ -100,9 +100,7 @@ class Agent:
     def flush(self) -> None:
         """Send the acknowledgements of what was received since the last call."""
         for client in self._to_acknowledge:
-            for stream in client.unacknowledged:
-                client.send(client.session.acknack(stream))
-            client.unacknowledged.clear()
+            client.acknowledge()
         self._to_acknowledge.clear()
 
     def tick(self) -> None:
@@ -150,7 +148,9 @@ class Agent:
             client.second, client.messages = now + 1.0, 0
         client.messages += 1
         if client.messages > self._limits.messages_per_second:
-            raise MalformedError("too_many_messages", f"more than {self._limits.messages_per_second} in a second")
+            raise MalformedError(
+                "too_many_messages", f"more than {self._limits.messages_per_second} in a second"
+            )
         client.heard = now
         if start == 8 and client.address != address:
             self._lobby.move(client, transport, address, now)

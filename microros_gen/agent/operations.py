@@ -62,7 +62,7 @@ NAMES = {
 
 
 class Operations:
-    """Dispatches by submessage; answers go out at once, acknowledgements with the agent's next flush."""
+    """Dispatches by submessage; answers go out at once, after the acknowledgements that are due."""
 
     def __init__(self, log: EventLog, deliveries: Deliveries) -> None:
         self._log = log
@@ -212,6 +212,7 @@ class Operations:
         client.send(client.session.unnumbered(TimestampReply(sent, received, submessage.transmit)))
 
     def _answer(self, client: Client, request: int, object_id: int, status: Status, now: float) -> None:
+        client.acknowledge()  # before the answer: a client that goes on with it needs the room of its request
         stream = STREAM_RELIABLE if is_reliable(client.stream) else STREAM_BEST_EFFORT
         messages = client.session.send(stream, StatusReply(request, object_id, status), now)
         if messages is None:

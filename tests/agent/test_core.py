@@ -209,7 +209,7 @@ def test_several_clients_have_objects_of_their_own() -> None:
 def test_status_comes_on_the_same_kind_of_stream(stream: int, answer_stream: str) -> None:
     bench = connected()
     answers = bench.say(message(entities()[0], stream=stream))
-    assert answers[0] == f"81 {answer_stream} 00 00 05 01 06 00 00 0a 00 11 00 00"
+    assert answers[-1] == f"81 {answer_stream} 00 00 05 01 06 00 00 0a 00 11 00 00"
     if stream >= 0x80:
         assert answers[1:] == [f"81 00 00 00 0a 01 05 00 01 00 00 00 {stream:02x}"]
 
@@ -253,8 +253,8 @@ def test_delete_of_objects() -> None:
 def test_reading_what_is_not_there_is_refused_aloud() -> None:
     bench = publishing()
     assert bench.say("81 80 00 00" + captured.SUBMESSAGES["READ_DATA"]) == [
+        "81 00 00 00 0a 01 05 00 01 00 00 00 80",  # first: with the answer the client needs room for what follows
         "81 80 00 00 05 01 06 00 00 11 00 16 84 00",
-        "81 00 00 00 0a 01 05 00 01 00 00 00 80",
     ]
     assert "reading from 0x0016 refused (UNKNOWN_REFERENCE)" in bench.text.getvalue()
 
