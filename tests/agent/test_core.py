@@ -211,7 +211,7 @@ def test_status_comes_on_the_same_kind_of_stream(stream: int, answer_stream: str
     answers = bench.say(message(entities()[0], stream=stream))
     assert answers[-1] == f"81 {answer_stream} 00 00 05 01 06 00 00 0a 00 11 00 00"
     if stream >= 0x80:
-        assert answers[1:] == [f"81 00 00 00 0a 01 05 00 01 00 00 00 {stream:02x}"]
+        assert answers[:-1] == [f"81 00 00 00 0a 01 05 00 01 00 00 00 {stream:02x}"]
 
 
 def test_a_recorded_dialogue() -> None:
@@ -253,7 +253,7 @@ def test_delete_of_objects() -> None:
 def test_reading_what_is_not_there_is_refused_aloud() -> None:
     bench = publishing()
     assert bench.say("81 80 00 00" + captured.SUBMESSAGES["READ_DATA"]) == [
-        "81 00 00 00 0a 01 05 00 01 00 00 00 80",  # first: with the answer the client needs room for what follows
+        "81 00 00 00 0a 01 05 00 01 00 00 00 80",  # first: see acknowledge
         "81 80 00 00 05 01 06 00 00 11 00 16 84 00",
     ]
     assert "reading from 0x0016 refused (UNKNOWN_REFERENCE)" in bench.text.getvalue()
