@@ -19,6 +19,7 @@ from microros_gen.model.types import (
     Primitive,
     StringType,
     TypeName,
+    Value,
     element_of,
 )
 from microros_gen.parse.idl_annotations import Annotations, read_annotations
@@ -32,7 +33,7 @@ from microros_gen.parse.idl_values import (
     span_of,
 )
 from microros_gen.parse.msg_declarations import SyntaxNode
-from microros_gen.parse.msg_names import C_KEYWORDS, CPP_KEYWORDS, field_name_warning
+from microros_gen.parse.msg_names import C_KEYWORDS, CPP_KEYWORDS, field_name_warning, value_warning
 
 CONSTANTS_SUFFIX = "_Constants"
 """A module `Name_Constants` holds the constants of the struct `Name` (rosidl)."""
@@ -196,7 +197,10 @@ def _field(declarator: SyntaxNode, written: Written, annotations: Annotations, s
     span = span_of(declarator, scope.source)
     _check_type_support(field_type, span)
     default = annotations.default
-    value = None if default is None else checked_default(field_type, default.value, default.span)
+    value: Value | None = None
+    if default is not None:
+        value = checked_default(field_type, default.value, default.span)
+        _warn_of_value(field_type, value, default.span, scope)
     return Field(str(declarator.children[0]), field_type, value, annotations.comment, span)
 
 
@@ -209,6 +213,12 @@ def _check_type_support(field_type: FieldType, span: Span) -> None:
             "sequence of them",
             "Take uint16, which has the same bytes, or wstring for text",
         )
+
+
+def _warn_of_value(kind: FieldType, value: Value, span: Span, scope: Scope) -> None:
+    warning = value_warning(kind, value)
+    if warning is not None:
+        scope.diagnostics.warning(warning[0], span, warning[1])
 
 
 def _warn_of_size(declarator: SyntaxNode, size: int, scope: Scope) -> None:
@@ -230,6 +240,7 @@ def _constant(node: SyntaxNode, scope: Scope) -> Constant | None:
         kind = _constant_type(type_node, scope)
         value = literal_value(value_node, scope.constants, source)
         checked = checked_scalar(kind, value, span_of(value_node, source))
+        _warn_of_value(kind, checked, span_of(value_node, source), scope)
         if isinstance(kind, StringType):
             kind = StringType(kind.wide)
         if _check_name(name, scope):

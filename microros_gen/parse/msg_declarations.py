@@ -145,6 +145,10 @@ def _field(tree: SyntaxNode, line: Line, package: str, diagnostics: Diagnostics)
     with _reported(diagnostics):
         default = _default(field_type, rest[0], line, diagnostics) if rest else None
         field_type = _as_jazzy_reads(field_type, line, diagnostics)
+        warning = None if default is None else msg_names.value_warning(field_type, default)
+        if warning is not None:
+            place = line.span(line.text.rindex("[") + 1, len(line.text) + 1)
+            diagnostics.warning(warning[0], place, warning[1])
         return Declaration(Field(str(name), field_type, default, span=_whole(line, name)), line.span_of(name))
     return None
 

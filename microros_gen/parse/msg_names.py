@@ -6,6 +6,8 @@ from __future__ import annotations
 import keyword
 import re
 
+from microros_gen.model.types import FieldType, Primitive, Value, element_of
+
 _LOWER = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
 _UPPER = re.compile(r"[A-Z][A-Z0-9]*(?:_[A-Z0-9]+)*")
 _CAMEL = re.compile(r"[A-Z][A-Za-z0-9]*")
@@ -74,6 +76,20 @@ def field_name_warning(name: str) -> tuple[str, str] | None:
     """Return a warning and its hint for a name that only Python nodes cannot use, or None."""
     if keyword.iskeyword(name):
         return f"'{name}' is a keyword of Python: rclpy cannot use this message", "Take another name"
+    return None
+
+
+def value_warning(kind: FieldType, value: Value) -> tuple[str, str] | None:
+    """Return a warning and its hint for a constant or default that rosidl_generator_py stops at, or None.
+
+    C and C++ come out of it; Python, which a package has unless it leaves it out, does not.
+    """
+    if kind is Primitive.WCHAR:
+        return "ROS 2 Jazzy makes no Python of a value of type wchar", "Take uint16, which has the same bytes"
+    if kind is Primitive.IDL_CHAR and isinstance(value, int) and value < 0:
+        return "ROS 2 Jazzy makes no Python of a char below 0", "Take int8, which has the same bytes"
+    if value == () and isinstance(element_of(kind), Primitive):
+        return "the Python that ROS 2 Jazzy makes of an empty default is none", "Remove it: it says nothing"
     return None
 
 
