@@ -24,6 +24,8 @@ READ_BYTES = 16_384
 """Bytes that are read from a connection before it is another one's turn."""
 ACCEPTS = 16
 """Connections that are taken before it is the others' turn."""
+WAITING = 128
+"""Connections that may wait to be taken; the system makes who comes then try again later."""
 CARE_S = 0.5
 """Seconds between two looks for connections whose time is up."""
 SYSTEM_BUFFER_BYTES = 131_072
@@ -80,7 +82,7 @@ class Tcp:
         self._limits = limits or TcpLimits()
         self._listener = open_socket(protocol, host, port)
         self._listener.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SYSTEM_BUFFER_BYTES)
-        self._listener.listen(min(self._limits.connections, 128))
+        self._listener.listen(WAITING)
         self.protocol = protocol
         self.host, self.port = self._listener.getsockname()[:2]
         self._epoll = select.epoll()
@@ -220,10 +222,10 @@ class Tcp:
             if self._make_room():
                 self._add(made, place_name(peer))
             else:
-                made.close()
                 text = "{transport} has {count} connections already: {peer} was refused"
                 fields = {"transport": self.label, "peer": place_name(peer)}
                 self._log.count("tcp_refused", text, count=len(self._connections), **fields)
+                made.close()
 
     def _add(self, made: socket.socket, peer: str) -> None:
         made.setblocking(False)
