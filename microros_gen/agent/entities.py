@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from microros_gen.agent.representation import Description, Endpoint, Participant, Service, Topic
 from microros_gen.agent.ros.bridge import Bridge, BridgeError, Node, Reader, Replier, Requester, Writer
 from microros_gen.agent.wire.constants import ObjectKind, Status
+from microros_gen.agent.wire.entity_messages import Representation
 
 Readable = Reader | Replier | Requester
 
@@ -24,8 +25,12 @@ class Entity:
     writer: Writer | None = None
     source: Readable | None = None
     """What ROS 2 gives data to: a reader, a replier or a requester."""
+    representation: Representation | None = None
+    """How the client described it; None for one that the agent's files gave it."""
     written: int = 0
     """Samples, requests or replies that a client sent through it."""
+    held: bytes | None = None
+    """A sample that was taken from ROS and did not fit the message before."""
     delivered: int = 0
     """Samples, requests or replies that went to the client."""
     outstanding: dict[bytes | int, bytes] = field(default_factory=dict)
@@ -88,6 +93,7 @@ class Entity:
         if side is not None:
             side.destroy()
         self.writer = self.source = self.node = None
+        self.held = None
         self.outstanding.clear()
 
     def _enter_endpoint(self, description: Endpoint) -> None:

@@ -157,7 +157,12 @@ class ObjectTree:
         if create.kind not in _SERVED:
             raise _RefusedError(Status.DENIED, f"objects of kind {_kind_name(create.kind)} are not served")
         description = describe(create, self._references)
-        return self._place(_Wanted(object_id, create.parent, description, create.reuse, create.replace))
+        outcome = self._place(
+            _Wanted(object_id, create.parent, description, create.reuse, create.replace)
+        )
+        if outcome.status is Status.OK and outcome.entity is not None:
+            outcome.entity.representation = create.representation
+        return outcome
 
     def _place(self, wanted: _Wanted) -> Outcome:
         object_id = wanted.id

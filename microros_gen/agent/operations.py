@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from types import MappingProxyType
 
 from microros_gen.agent.clients import Client
@@ -18,6 +19,8 @@ from microros_gen.agent.wire.cdr import Reader
 from microros_gen.agent.wire.constants import (
     DATA_FORMAT_MASK,
     FLAG_LITTLE,
+    INFO_ACTIVITY,
+    INFO_CONFIG,
     STREAM_BEST_EFFORT,
     STREAM_NONE,
     STREAM_RELIABLE,
@@ -43,10 +46,12 @@ from microros_gen.agent.wire.session_messages import (
     AgentConfig,
     GetInfo,
     Info,
+    ReaderActivity,
     Timestamp,
     TimestampReply,
+    WriterActivity,
 )
-from microros_gen.agent.wire.submessages import Submessage
+from microros_gen.agent.wire.submessages import Submessage, encode
 
 Handler = Callable[[Client, Submessage, float], None]
 CALLS = (ObjectKind.REQUESTER, ObjectKind.REPLIER)
@@ -181,7 +186,18 @@ class Operations:
 
     def _get_info(self, client: Client, submessage: Submessage, now: float) -> None:
         assert isinstance(submessage, GetInfo)
-        client.send(client.session.unnumbered(agent_info(submessage, in_session=True)))
+        if submessage.object & 0x0F in (ObjectKind.AGENT, ObjectKind.CLIENT):
+            client.send(client.session.unnumbered(agent_info(submessage, in_session=True)))
+            return
+        info = object_info(client, submessage)
+        entity = client.objects.find(submessage.object)
+        little = entity is None or entity.representation is None or entity.representation.little
+        if len(encode(info, little)) > client.session.link.room() and not is_reliable(client.stream):
+            info = replace(info, config=None)  # there is no room for it, nor a stream for fragments
+        if client.stream == STREAM_NONE:
+            client.send(client.session.unnumbered(info, little))
+        else:
+            self._send(client, info, now, little)
 
     def _acknack(self, client: Client, submessage: Submessage, now: float) -> None:
         assert isinstance(submessage, Acknack)
@@ -212,13 +228,17 @@ class Operations:
         client.send(client.session.unnumbered(TimestampReply(sent, received, submessage.transmit)))
 
     def _answer(self, client: Client, request: int, object_id: int, status: Status, now: float) -> None:
-        client.acknowledge()  # before the answer: a client that goes on with it needs the room of its request
+        self._send(client, StatusReply(request, object_id, status), now)
+
+    def _send(self, client: Client, answer: Submessage, now: float, little: bool = True) -> None:
+        """Answer on the built-in stream of the kind that the question came on."""
         stream = STREAM_RELIABLE if is_reliable(client.stream) else STREAM_BEST_EFFORT
-        messages = client.session.send(stream, StatusReply(request, object_id, status), now)
+        messages = client.session.output(stream).push(encode(answer, little), now)
         if messages is None:
             self._log.count(
                 "output_full", "client {client} does not acknowledge: answers are dropped", client=client.name
             )
+        client.acknowledge()  # some clients need that slot for their next request before they look further
         for message in messages or ():
             client.send(message)
 
@@ -238,6 +258,26 @@ def _check_reading(entity: Entity | None, wanted: ReadData) -> tuple[Status, str
 def agent_info(question: GetInfo, in_session: bool) -> Info:
     """Return the answer to a GET_INFO; whatever object and mask it names, the agent tells about itself."""
     return Info(question.request, question.object, Status.OK, int(in_session), AgentConfig(), AgentActivity())
+
+
+def object_info(client: Client, question: GetInfo) -> Info:
+    """Return the answer to a GET_INFO on an object of `client` (7.8.3.3): what the mask asks for, as far as there is."""
+    entity = client.objects.find(question.object)
+    if entity is None:
+        return Info(question.request, question.object, Status.UNKNOWN_REFERENCE, 1)
+    config = entity.representation if question.mask & INFO_CONFIG else None
+    activity: WriterActivity | ReaderActivity | None = None
+    if question.mask & INFO_ACTIVITY and entity.kind == ObjectKind.DATAWRITER:
+        activity = WriterActivity(entity.written, _signed(client.session.last_received()))
+    elif question.mask & INFO_ACTIVITY and entity.kind == ObjectKind.DATAREADER:
+        reading = client.readings.get(entity.id)
+        stream = reading.stream if reading else STREAM_RELIABLE
+        activity = ReaderActivity(_signed(client.session.last_acknowledged(stream)))
+    return Info(question.request, question.object, Status.OK, 1, config, activity)
+
+
+def _signed(number: int) -> int:
+    return number - 0x10000 if number >= 0x8000 else number
 
 
 def tell_outcome(log: EventLog, client: Client, object_id: int, outcome: Outcome) -> None:

@@ -79,8 +79,6 @@ class Reading:
         self._next_at = now
         self._apart_s = entity.separation_s
         self._heard_at = -NEVER
-        self._held: bytes | None = None
-        """Taken from ROS, and did not fit the message before."""
 
     def attach(self, source: Readable | None) -> None:
         """Take from `source` from now on."""
@@ -146,8 +144,9 @@ class Reading:
 
     def _take(self) -> bytes | None:
         """Return the next sample of a reader."""
-        if self._held is not None:
-            held, self._held = self._held, None
+        entity = self.entity
+        if entity.held is not None:
+            held, entity.held = entity.held, None
             return held
         return self._from_ros()  # type: ignore[no-any-return]
 
@@ -185,7 +184,7 @@ class Reading:
             sizes.append(len(sample.body))
             fits = size_bound(self._format, sizes) <= room and taken[1] & FLAG_LITTLE == little
             if not fits or not packs(samples[0].info, sample.info):
-                self._held = taken
+                self.entity.held = taken
                 break
             samples.append(sample)
         writer = Writer(bool(little))

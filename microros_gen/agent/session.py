@@ -76,9 +76,19 @@ class Session:
         first, missing = reliable.missing() if reliable else (0, 0)
         return self.unnumbered(Acknack(first, missing, stream))
 
-    def unnumbered(self, submessage: Submessage) -> bytes:
+    def last_received(self) -> int:
+        """Return the number of the last message that was taken from the client's built-in reliable stream."""
+        reliable = self._reliable_in.get(STREAM_RELIABLE)
+        return (reliable.next - 1) & 0xFFFF if reliable else 0xFFFF
+
+    def last_acknowledged(self, stream: int) -> int:
+        """Return the number of the last message that the client acknowledged on a reliable stream."""
+        output = self._outputs.get(stream)
+        return output.last_acknowledged() if isinstance(output, ReliableOut) else 0xFFFF
+
+    def unnumbered(self, submessage: Submessage, little: bool = True) -> bytes:
         """Return a message on stream 0 with one submessage."""
-        return self.link.header(STREAM_NONE, 0) + encode(submessage)
+        return self.link.header(STREAM_NONE, 0) + encode(submessage, little)
 
     def output(self, stream: int) -> BestEffortOut | ReliableOut:
         """Return the stream to the client with an id (1 to 255); it comes into being when it is first asked for."""
@@ -89,10 +99,6 @@ class Session:
         """Return whether a stream to the client is open, or there may be one more of its kind."""
         alike = sum(is_reliable(known) == is_reliable(stream) for known in self._outputs)
         return stream in self._outputs or alike < self._limits.streams
-
-    def send(self, stream: int, submessage: Submessage, now: float) -> list[bytes] | None:
-        """Queue a submessage on `stream`; return the messages to send now, None when it was dropped."""
-        return self.output(stream).push(encode(submessage), now)
 
     def acknowledged(self, stream: int, first: int, missing: int, now: float) -> list[bytes]:
         """Take what an ACKNACK says; return the messages to send now."""

@@ -61,10 +61,6 @@ class BestEffortOut:
         """Return the HEARTBEAT that is due: none."""
         return None
 
-    def last(self) -> int:
-        """Return the sequence number of the last message."""
-        return (self._sequence - 1) & 0xFFFF
-
 
 class ReliableOut:
     """Window of unacknowledged messages, and behind it a backlog of at most `backlog_bytes`.
@@ -123,10 +119,6 @@ class ReliableOut:
 
     def _first(self) -> int:
         return (self._sequence - len(self._unacknowledged)) & 0xFFFF
-
-    def last(self) -> int:
-        """Return the sequence number of the last message."""
-        return (self._sequence - 1) & 0xFFFF
 
     def last_acknowledged(self) -> int:
         """Return the sequence number before the first message that is not acknowledged."""

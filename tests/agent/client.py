@@ -312,7 +312,9 @@ def writer_blob(topic: int, flags: int, depth: int) -> bytes:
     return blob.flag(False).flag(False).flag(False).flag(False).content()
 
 
-def reader_blob(topic: int, flags: int, depth: int, separation_ms: int = 0, content_filter: str = "") -> bytes:
+def reader_blob(
+    topic: int, flags: int, depth: int, separation_ms: int = 0, content_filter: str = ""
+) -> bytes:
     """Return the binary form of a data reader; as `writer_blob`, and with its filters."""
     blob = Writer().raw(writer_blob(topic, flags, depth)[:-1])
     blob.optional(blob.u32, separation_ms or None)

@@ -71,7 +71,7 @@ class FakeSource:
 
 @dataclass(eq=False)
 class FakeReader(FakeSource):
-    qos: Qos = Qos()
+    qos: Qos = field(default_factory=Qos)
 
 
 @dataclass(eq=False)
@@ -184,6 +184,7 @@ class FakeTransport:
     sent: list[tuple[Hashable, bytes]] = field(default_factory=list)
     label: str = "fake"
     writing: bool = False
+    ready: bool = True
 
     def tick(self, now: float) -> None:
         """Time brings nothing."""

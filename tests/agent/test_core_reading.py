@@ -25,7 +25,9 @@ LABEL = "/a [std_msgs/msg/Int32]"
 FOREVER = DeliveryControl(0xFFFF)
 
 
-def subscribing(limits: Limits | None = None, mtu: int = 508, references: Any = None, **filters: Any) -> Bench:
+def subscribing(
+    limits: Limits | None = None, mtu: int = 508, references: Any = None, **filters: Any
+) -> Bench:
     """Return a bench whose client has reader 0x16 on /a."""
     bench = Bench(limits)
     (answer,) = bench.say(CREATE_CLIENT.replace("fc 01", mtu.to_bytes(2, "little").hex(" ")))
@@ -43,7 +45,9 @@ def reader_entities(number: int = 1, topic: str = "a", **filters: Any) -> list[C
         Create(10, node, 1, Format.BINARY, participant_blob("a"), 0, 0, True, True),
         Create(11, topic_id, 2, Format.BINARY, topic_blob(f"rt/{topic}", int32), node, 0, True, True),
         Create(12, subscriber, 4, Format.BINARY, b"\0\0", node, 0, True, True),
-        Create(13, reader, 6, Format.BINARY, reader_blob(topic_id, 3, 10, **filters), subscriber, 0, True, True),
+        Create(
+            13, reader, 6, Format.BINARY, reader_blob(topic_id, 3, 10, **filters), subscriber, 0, True, True
+        ),
     ]
 
 
@@ -108,7 +112,10 @@ def put(bench: Bench, *numbers: int) -> None:
 def test_data_as_the_public_agent_sends_it() -> None:
     """xrce-facts 5: the request id is that of READ_DATA, the body has no encapsulation header; no STATUS."""
     bench = subscribing()
-    assert bench.say("81 01 10 00" + captured.SUBMESSAGES["READ_DATA"].replace("80 00 00 01", "01 00 00 01")) == []
+    assert (
+        bench.say("81 01 10 00" + captured.SUBMESSAGES["READ_DATA"].replace("80 00 00 01", "01 00 00 01"))
+        == []
+    )
     put(bench, 42, 43)
     assert bench.take() == [
         "81 01 04 00 09 01 08 00 00 11 00 16 2a 00 00 00",
@@ -139,7 +146,9 @@ def test_what_came_before_the_request_is_delivered_with_it() -> None:
     assert values(Listener(bench).read()) == [1, 2]
 
 
-@pytest.mark.parametrize(("control", "wanted"), [(None, [0]), (DeliveryControl(3), [0, 1, 2]), (FOREVER, [0, 1, 2, 3, 4])])
+@pytest.mark.parametrize(
+    ("control", "wanted"), [(None, [0]), (DeliveryControl(3), [0, 1, 2]), (FOREVER, [0, 1, 2, 3, 4])]
+)
 def test_max_samples(control: DeliveryControl | None, wanted: list[int]) -> None:
     """7.8.5.1, table 9; without delivery control it is one."""
     bench = subscribing()

@@ -14,7 +14,7 @@ from agent import captured
 from agent.strategies import BY_NAME
 from microros_gen.agent.wire.cdr import Reader
 from microros_gen.agent.wire.constants import SubmessageId
-from microros_gen.agent.wire.entity_messages import Acknack, Create, Heartbeat
+from microros_gen.agent.wire.entity_messages import Acknack, Create, Heartbeat, Representation
 from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.message import Header, header_size, join, split
 from microros_gen.agent.wire.session_messages import CreateClient, Info, Locator
@@ -70,6 +70,8 @@ def test_round_trip(name: str, little: bool, data: st.DataObject) -> None:
     submessage = data.draw(BY_NAME[name])
     if isinstance(submessage, Create):
         submessage = replace(submessage, little=little)
+    if isinstance(submessage, Info) and isinstance(submessage.config, Representation):
+        submessage = replace(submessage, config=replace(submessage.config, little=little))
     message = encode(submessage, little)
     assert message[0] == SubmessageId[name]
     assert message[1] & 1 == little
@@ -142,7 +144,7 @@ def test_bad_strings(payload: str, kind: str) -> None:
         ("01 07 08 00 000a 0011 01 04 0000", "representation"),
         ("01 07 0c 00 000a 001d 0d 03 0000 00000000", "object_kind"),
         ("00 01 10 00 58524345 0100 010f a1b2c3d4 81 02 fc01", "boolean"),
-        ("06 01 08 00 000a fffd 0000 01 01", "info_kind"),
+        ("06 01 09 00 000a fffd 0000 00 01 01", "info_kind"),
         ("06 01 16 00 000a fffd 0000 00 01 0d 00 0100 01000000 09 0000 0000 00", "locator"),
     ],
 )

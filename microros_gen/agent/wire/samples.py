@@ -112,9 +112,7 @@ def _read_delta(reader: Reader, base: SampleInfo) -> SampleInfo:
     sequence = None if base.sequence is None else (base.sequence + steps) & 0xFFFFFFFF
     if base.offset_ms is None:
         return SampleInfo(state, sequence)
-    return SampleInfo(
-        state, sequence, (base.offset_ms + later * MILLISECONDS_A_DECISECOND) & 0xFFFFFFFF
-    )
+    return SampleInfo(state, sequence, (base.offset_ms + later * MILLISECONDS_A_DECISECOND) & 0xFFFFFFFF)
 
 
 def _write_delta(writer: Writer, base: SampleInfo, sample: Sample) -> None:
@@ -144,7 +142,7 @@ def _read_data_sequence(reader: Reader) -> tuple[Sample, ...]:
         pass
     counted = Reader(whole, 0, len(whole), reader.little)
     count = counted.u32()
-    size, left = divmod(counted.remaining(), count) if count else (0, counted.remaining())
-    if not count or left:
+    size, left = divmod(counted.remaining(), count) if count else (0, 0)
+    if not size or left:
         raise MalformedError("data_sequence", f"{count} samples in {counted.remaining()} bytes")
     return tuple(Sample(counted.raw(size)) for _ in range(count))
