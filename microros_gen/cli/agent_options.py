@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
@@ -18,6 +19,8 @@ from microros_gen.parse.agent_file import DISCOVERY_PORT, parse_agent_file
 DEFAULTS = Limits()
 MAXIMUM_DOMAIN = 232
 """Largest ROS domain id: the ports of larger ones do not exist (RTPS 2.2, 9.6.1)."""
+
+_VALUE = re.compile(r"[\w.+-]+")
 
 
 def _file_option(name: str, text: str, metavar: str = "FILE") -> Callable[..., Any]:
@@ -161,7 +164,7 @@ def _one_each(given: Sequence[dict[str, Any]]) -> dict[str, Any]:
                 continue
             if isinstance(value, tuple) or name == "verbose":
                 joined[name] = before + value
-            elif before in (None, False, value):
+            elif before is None or before is False or before == value:
                 joined[name] = value
             else:
                 option = "--" + name.replace("_", "-")
@@ -230,11 +233,12 @@ def _limit(name: str, value: str, diagnostics: Diagnostics) -> float | None:
         hint = nearest(name, names) or f"Known are {', '.join(names)}"
         diagnostics.error(f"there is no limit '{name}'", hint=hint)
         return None
+    if not _VALUE.fullmatch(value):
+        diagnostics.error(f"'limits.{name}' must be a number", hint=f"Write --limit {name}=NUMBER")
+        return None
     found = Diagnostics()
     source = Source("--limit", f"version: 1\nlimits: {{{name}: {value}}}")
     limits = dict(parse_agent_file(source, found).limits)
     for diagnostic in found:
         diagnostics.error(diagnostic.message, hint=diagnostic.hint)
-    if not found.has_errors() and name not in limits:
-        diagnostics.error(f"'limits.{name}' must be a number", hint=f"Write --limit {name}=NUMBER")
     return limits.get(name)
