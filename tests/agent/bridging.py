@@ -50,6 +50,11 @@ class Bridged:
                 while take and (taken := source.take()) is not None:  # type: ignore[attr-defined]
                     take(taken)
 
+    def wait_for(self, seconds: float) -> None:
+        """Let the bridge work for some time."""
+        end = time.monotonic() + seconds
+        self.wait(lambda: time.monotonic() > end)
+
     def named(self, timeout_s: float = 0.0) -> list[Source]:
         """Return what the bridge names when its descriptor is readable."""
         readable, _, _ = select.select([self.bridge.fileno()], [], [], timeout_s)

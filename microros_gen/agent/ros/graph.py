@@ -22,6 +22,7 @@ from microros_gen.agent.ros.bridge import (
 )
 from microros_gen.agent.ros.libraries import FAILURES, OK, Libraries
 from microros_gen.agent.ros.wakeups import Wakeups, Watcher
+from microros_gen.agent.wire.constants import Status
 
 CHECK_AFTER_S = 0.5
 """From a match to the comparison of hashes."""
@@ -60,6 +61,34 @@ class _Watched:
 
     def events(self) -> tuple[Any, ...]:
         return self.matched, self.refused, self.mistyped
+
+
+class TopicTypes:
+    """The types of the agent's topics in one domain: all its clients there are one DDS participant, which has one type
+    for a topic. (rmw_fastrtps refuses another one too, with a text that says nothing of it.)"""
+
+    def __init__(self) -> None:
+        self._by_topic: dict[str, set[Endpoint]] = {}
+
+    def claim(self, endpoints: Iterable[Endpoint]) -> None:
+        """Note what will be created; BridgeError when a topic has another type already."""
+        for endpoint in endpoints:
+            other = next(iter(self._by_topic.get(endpoint.topic, ())), None)
+            if other is not None and other.type != endpoint.type:
+                raise BridgeError(
+                    f"{endpoint.kind} {endpoint.label}: {other.node} has this topic with the type {other.type},"
+                    " and an agent has one type for a topic",
+                    Status.INCOMPATIBLE,
+                )
+        for endpoint in endpoints:
+            self._by_topic.setdefault(endpoint.topic, set()).add(endpoint)
+
+    def release(self, endpoint: Endpoint) -> None:
+        """Forget an endpoint."""
+        left = self._by_topic.get(endpoint.topic, set())
+        left.discard(endpoint)
+        if not left:
+            self._by_topic.pop(endpoint.topic, None)
 
 
 class Destroyable(Protocol):
@@ -132,6 +161,7 @@ class Events(Watcher):
         wakeups: Wakeups[Any],
         libraries: Libraries,
         comparison: Comparison,
+        topics: TopicTypes,
         report: Callable[[GraphReport], None],
     ) -> None:
         self._handles = handles
@@ -139,6 +169,7 @@ class Events(Watcher):
         self._wakeups = wakeups
         self._libraries = libraries
         self._comparison = comparison
+        self.topics = topics
         self._report = report
         self._watched: dict[Endpoint, _Watched] = {}
         self._descriptor = -1
@@ -180,6 +211,7 @@ class Events(Watcher):
         """Forget endpoints before they are destroyed."""
         for endpoint in endpoints:
             self._comparison.forget(endpoint)
+            self.topics.release(endpoint)
             watched = self._watched.pop(endpoint, None)
             for event in watched.events() if watched else ():
                 event.destroy_when_not_in_use()

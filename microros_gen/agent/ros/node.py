@@ -17,9 +17,9 @@ from microros_gen.agent.ros.bridge import (
     Writer,
 )
 from microros_gen.agent.ros.endpoints import RawReader, RawWriter, Ros
-from microros_gen.agent.ros.graph import Comparison, Endpoint, Events
+from microros_gen.agent.ros.graph import Comparison, Endpoint, Events, TopicTypes
 from microros_gen.agent.ros.libraries import FAILURES, first_line
-from microros_gen.agent.ros.names import ServiceName, ros_service, ros_topic, ros_type
+from microros_gen.agent.ros.names import ros_service, ros_topic, ros_type
 from microros_gen.agent.ros.services import RawReplier, RawRequester, Servers
 from microros_gen.agent.wire.constants import Status
 
@@ -39,6 +39,7 @@ class RawNode:
         hash_of: HashOf,
         comparison: Comparison,
         servers: Servers,
+        topics: TopicTypes,
         leave: Callable[[], None],
     ) -> None:
         self._handles = handles
@@ -46,7 +47,7 @@ class RawNode:
         self._ros = ros
         self._hash_of = hash_of
         self._leave = leave
-        self._events = Events(handles, handle, ros.wakeups, ros.libraries, comparison, ros.report)
+        self._events = Events(handles, handle, ros.wakeups, ros.libraries, comparison, topics, ros.report)
         self._servers = servers
         self.label: str = handle.get_fully_qualified_name()
 
@@ -82,18 +83,29 @@ class RawNode:
         name, type_name = ros_topic(topic.name), ros_type(topic.type_name)
         type_hash = self._hash_of(str(type_name))
         message_class = self._ros.types.message_class(type_name, type_hash)
-        handle = self._create(kind, make, message_class, name, _profile(qos))
         label = f"{name} [{type_name}]"
-        return handle, (
-            Endpoint(self.label, kind, label, handle.get_topic_name(), str(type_name), type_hash),
-        )
+        endpoints = (Endpoint(self.label, kind, label, name, str(type_name), type_hash),)
+        return self._create(make, message_class, name, _profile(qos), endpoints), endpoints
 
     def _create_service(self, kind: str, make: Any, service: Service) -> tuple[Any, tuple[Endpoint, ...]]:
         name = ros_service(service)
         hashes = [self._hash_of(str(part)) for part in (name.type, name.request, name.response)]
         service_class = self._ros.types.service_class(name, hashes[0], hashes[1], hashes[2])
-        handle = self._create(kind, make, service_class, name.name, _service_profile())
-        return handle, self._service_endpoints(kind, name, hashes[1], hashes[2])
+        endpoints = (
+            Endpoint(self.label, kind, str(name), name.request_topic, name.request.dds, hashes[1], True),
+            Endpoint(self.label, kind, str(name), name.reply_topic, name.response.dds, hashes[2], True),
+        )
+        return self._create(make, service_class, name.name, _service_profile(), endpoints), endpoints
+
+    def _create(
+        self, make: Any, type_class: Any, name: str, profile: Any, endpoints: tuple[Endpoint, ...]
+    ) -> Any:
+        self._events.topics.claim(endpoints)
+        try:
+            return make(self._handle, type_class, name, profile)
+        except FAILURES as error:
+            self._events.release(endpoints)
+            raise BridgeError(f"{endpoints[0].kind} {endpoints[0].label}: {first_line(error)}") from error
 
     def _attach(self, handle: Any, endpoints: tuple[Endpoint, ...], make: Callable[[], Entity]) -> Entity:
         """Watch the endpoints of a new handle and make its entity; nothing of it stays when that fails."""
@@ -108,21 +120,6 @@ class RawNode:
             raise BridgeError(
                 f"{endpoints[0].kind} {endpoints[0].label}: {first_line(error)}", status
             ) from error
-
-    def _service_endpoints(
-        self, kind: str, name: ServiceName, request_hash: str | None, response_hash: str | None
-    ) -> tuple[Endpoint, ...]:
-        label = str(name)
-        return (
-            Endpoint(self.label, kind, label, name.request_topic, name.request.dds, request_hash, True),
-            Endpoint(self.label, kind, label, name.reply_topic, name.response.dds, response_hash, True),
-        )
-
-    def _create(self, kind: str, make: Any, type_class: Any, name: str, profile: Any) -> Any:
-        try:
-            return make(self._handle, type_class, name, profile)
-        except FAILURES as error:
-            raise BridgeError(f"{kind} {name}: {first_line(error)}") from error
 
 
 def _profile(qos: Qos) -> Any:

@@ -15,7 +15,7 @@ from typing import Any
 
 from microros_gen.agent.ros.bridge import Bridge, BridgeError, GraphReport, HashOf, HashUnknown, Node, Source
 from microros_gen.agent.ros.endpoints import Ros
-from microros_gen.agent.ros.graph import Comparison
+from microros_gen.agent.ros.graph import Comparison, TopicTypes
 from microros_gen.agent.ros.libraries import FAILURES, first_line
 from microros_gen.agent.ros.names import ros_node
 from microros_gen.agent.ros.node import RawNode
@@ -109,7 +109,14 @@ class RclpyBridge:
             return self._known_hash(type_name, hash_of)
 
         return RawNode(
-            self._handles, handle, self._ros, known_hash, self._comparison, self._servers, context.leave
+            self._handles,
+            handle,
+            self._ros,
+            known_hash,
+            self._comparison,
+            self._servers,
+            context.topics,
+            context.leave,
         )
 
     def fileno(self) -> int:
@@ -175,6 +182,7 @@ class _Context:
             raise BridgeError(f"domain {domain}: {first_line(error)}") from error
         self.handle = self._context.handle
         self.nodes = 0
+        self.topics = TopicTypes()
 
     def leave(self) -> None:
         """One node less."""
