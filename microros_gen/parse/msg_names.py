@@ -22,6 +22,13 @@ constexpr decltype delete dynamic_cast explicit export false friend mutable name
 nullptr operator or or_eq private protected public reinterpret_cast static_assert static_cast template this
 thread_local throw true try typeid typename using virtual wchar_t xor xor_eq"""
 
+_PYTHON_LISTS = (Primitive.BOOL, Primitive.BYTE, Primitive.IDL_CHAR)  # of any other number: array.array
+_MACROS = {
+    "errno": "a macro of <errno.h>, which C++ of ROS 2 Jazzy includes: the file does not compile there",
+    "linux": "a macro of compilers on Linux: the file does not compile there",
+    "unix": "a macro of compilers on Linux: the file does not compile there",
+}
+
 C_KEYWORDS = frozenset(_C99.split())
 """ISO/IEC 9899:1999 6.4.1, those that a field's name can be (lower case, no leading underscore)."""
 
@@ -73,7 +80,9 @@ def field_name_fault(name: str) -> tuple[str, str | None] | None:
 
 
 def field_name_warning(name: str) -> tuple[str, str] | None:
-    """Return a warning and its hint for a name that only Python nodes cannot use, or None."""
+    """Return a warning and its hint for a name that some nodes of ROS 2 cannot use, or None."""
+    if name in _MACROS:
+        return f"'{name}' is {_MACROS[name]}", "Take another name"
     if keyword.iskeyword(name):
         return f"'{name}' is a keyword of Python: rclpy cannot use this message", "Take another name"
     return None
@@ -88,7 +97,8 @@ def value_warning(kind: FieldType, value: Value) -> tuple[str, str] | None:
         return "ROS 2 Jazzy makes no Python of a value of type wchar", "Take uint16, which has the same bytes"
     if kind is Primitive.IDL_CHAR and isinstance(value, int) and value < 0:
         return "ROS 2 Jazzy makes no Python of a char below 0", "Take int8, which has the same bytes"
-    if value == () and isinstance(element_of(kind), Primitive):
+    element = element_of(kind)
+    if value == () and isinstance(element, Primitive) and element not in _PYTHON_LISTS:
         return "the Python that ROS 2 Jazzy makes of an empty default is none", "Remove it: it says nothing"
     return None
 
