@@ -205,8 +205,8 @@ class Agent:
             return False
         if identifier == SubmessageId.FRAGMENT and whole:
             raise MalformedError("nested_fragment")
-        if identifier == SubmessageId.INFO:
-            return True  # a sign of life; what it says is not needed
+        if identifier == SubmessageId.INFO or (identifier == SubmessageId.CREATE_CLIENT and at == end):
+            return True  # a sign of life; the public client's answer to a probe lacks its submessage header: zeros
         if identifier == SubmessageId.HEARTBEAT:
             self._to_acknowledge.add(client)
         self._operations.run(client, decode(identifier, flags, data, at, end), self._clock())
