@@ -19,7 +19,7 @@ from microros_gen.model.target import Target
 from microros_gen.model.types import TypeName
 from microros_gen.parse.application import parse_agent_address, parse_application
 from microros_gen.plan.agent_files import check_entities
-from microros_gen.plan.capacity import Capacities, Defaults, Root, plan_capacities
+from microros_gen.plan.capacity import Capacities, Defaults, Entity, Root, plan_capacities
 from microros_gen.plan.project import Project, plan_project, publisher_declarations, type_name
 from microros_gen.plan.streams import DEFAULT_MTU, WRITE_DATA_OVERHEAD
 from microros_gen.plan.types import plan_types
@@ -283,9 +283,14 @@ def _capacities(resolved: Resolved, interfaces: InterfaceSet, diagnostics: Diagn
             endpoint.limits,
             endpoint.type_span or endpoint.span,
             room,
-            expand_topic_name(endpoint.topic, node.name, node.namespace),
+            Entity(
+                endpoint.kind,
+                index,
+                expand_topic_name(endpoint.topic, node.name, node.namespace),
+                expand_topic_name("~", node.name, node.namespace),
+            ),
         )
-        for _, node, endpoint in publisher_declarations(application)
+        for index, (_, node, endpoint) in enumerate(publisher_declarations(application))
     ]
     known = {root.type for root in declared}
     roots = declared + [

@@ -39,8 +39,6 @@ FORMATS = {
     Primitive.UINT32: "I",
     Primitive.INT64: "q",
     Primitive.UINT64: "Q",
-    Primitive.IDL_CHAR: "b",
-    Primitive.WCHAR: "H",
 }
 Tree = Mapping[str, Any]
 
