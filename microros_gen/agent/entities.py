@@ -7,11 +7,38 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from microros_gen.agent.representation import Description, Endpoint, Participant, Service, Topic
-from microros_gen.agent.ros.bridge import Bridge, BridgeError, Node, Reader, Replier, Requester, Writer
+from microros_gen.agent.ros.bridge import (
+    Bridge,
+    BridgeError,
+    HashOf,
+    Node,
+    Reader,
+    Replier,
+    Requester,
+    Writer,
+)
 from microros_gen.agent.wire.constants import ObjectKind, Status
 from microros_gen.agent.wire.entity_messages import Representation
 
 Readable = Reader | Replier | Requester
+
+
+@dataclass(frozen=True)
+class Home:
+    """Where the objects of one client go in ROS 2.
+
+    `fallback_name` is for participants without a name; `hash_of` returns what tells the hashes of its types, by the
+    name of its node (see Manifests).
+    """
+
+    bridge: Bridge
+    fallback_name: str
+    hash_of: Callable[[str], HashOf | None] = lambda node: None
+
+    def node(self, participant: Participant) -> Node:
+        """Create the node of a participant; may raise BridgeError."""
+        name = participant.name.strip("/") or self.fallback_name
+        return self.bridge.create_node(name, participant.domain, self.hash_of(name))
 
 
 @dataclass(eq=False)
@@ -67,16 +94,13 @@ class Entity:
         self.writer.publish(serialized)  # type: ignore[union-attr]
         self.written += 1
 
-    def enter(self, bridge: Bridge, fallback_name: str) -> None:
-        """Take its place in the ROS graph unless it has it; BridgeError when ROS 2 refuses.
-
-        `fallback_name` is for participants without a name.
-        """
+    def enter(self, home: Home) -> None:
+        """Take its place in the ROS graph unless it has it; BridgeError when ROS 2 refuses."""
         if self.node or self.writer or self.source:
             return
         description = self.description
         if isinstance(description, Participant):
-            self.node = bridge.create_node(description.name.strip("/") or fallback_name, description.domain)
+            self.node = home.node(description)
         elif isinstance(description, Endpoint):
             self._enter_endpoint(description)
         elif isinstance(description, Service):

@@ -12,11 +12,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from microros_gen.agent.entities import Entity, Outcome
+from microros_gen.agent.entities import Entity, Home, Outcome
 from microros_gen.agent.representation import Description, Endpoint, References, describe
 from microros_gen.agent.representation.description import UnsupportedKindError
 from microros_gen.agent.representation.reference import UnknownReferenceError
-from microros_gen.agent.ros.bridge import Bridge, BridgeError
+from microros_gen.agent.ros.bridge import BridgeError
 from microros_gen.agent.wire.constants import ObjectKind, Status
 from microros_gen.agent.wire.entity_messages import Create
 from microros_gen.agent.wire.errors import MalformedError
@@ -65,11 +65,10 @@ class _RefusedError(Exception):
 class ObjectTree:
     """Objects by id, in the order of their creation, which has sources before what is made from them."""
 
-    def __init__(self, bridge: Bridge, references: References, maximum: int, fallback_name: str) -> None:
-        self._bridge = bridge
+    def __init__(self, home: Home, references: References, maximum: int) -> None:
+        self._home = home
         self._references = references
         self._maximum = maximum
-        self._fallback_name = fallback_name
         self._objects: dict[int, Entity] = {}
         self._gone_with_container: set[int] = set()
         self.publish: dict[int, Publish] = {}
@@ -157,9 +156,7 @@ class ObjectTree:
         if create.kind not in _SERVED:
             raise _RefusedError(Status.DENIED, f"objects of kind {_kind_name(create.kind)} are not served")
         description = describe(create, self._references)
-        outcome = self._place(
-            _Wanted(object_id, create.parent, description, create.reuse, create.replace)
-        )
+        outcome = self._place(_Wanted(object_id, create.parent, description, create.reuse, create.replace))
         if outcome.status is Status.OK and outcome.entity is not None:
             outcome.entity.representation = create.representation
         return outcome
@@ -199,7 +196,7 @@ class ObjectTree:
         return found
 
     def _enter(self, entity: Entity) -> None:
-        entity.enter(self._bridge, self._fallback_name)
+        entity.enter(self._home)
         if entity.writer is not None:
             self.publish[entity.id] = entity.publish
 

@@ -261,7 +261,7 @@ def agent_info(question: GetInfo, in_session: bool) -> Info:
 
 
 def object_info(client: Client, question: GetInfo) -> Info:
-    """Return the answer to a GET_INFO on an object of `client` (7.8.3.3): what the mask asks for, as far as there is."""
+    """Return the answer to a GET_INFO on an object (7.8.3.3): what the mask asks for, where there is any."""
     entity = client.objects.find(question.object)
     if entity is None:
         return Info(question.request, question.object, Status.UNKNOWN_REFERENCE, 1)

@@ -7,16 +7,20 @@ from microros_gen.agent.limits import Limits
 from microros_gen.agent.streams_in import BestEffortIn, Reassembly, ReliableIn
 from microros_gen.agent.streams_out import BestEffortOut, Link, ReliableOut
 from microros_gen.agent.wire.constants import (
+    FLAG_LITTLE,
     INFO_ACTIVITY,
     OBJECT_CLIENT,
     STREAM_NONE,
     STREAM_RELIABLE,
+    SubmessageId,
     is_reliable,
 )
-from microros_gen.agent.wire.entity_messages import Acknack, Fragment, Heartbeat
+from microros_gen.agent.wire.entity_messages import Fragment, Heartbeat
 from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.session_messages import GetInfo
 from microros_gen.agent.wire.submessages import Submessage, encode
+
+ACKNACK = int(SubmessageId.ACKNACK)
 
 
 class Session:
@@ -74,7 +78,9 @@ class Session:
         """Return the message that tells the client what arrived on reliable stream `stream`."""
         reliable = self._reliable_in.get(stream)
         first, missing = reliable.missing() if reliable else (0, 0)
-        return self.unnumbered(Acknack(first, missing, stream))
+        # One goes out for every reliable message: its bytes are put together here.
+        told = (ACKNACK, FLAG_LITTLE, 5, 0, first & 0xFF, first >> 8, missing >> 8, missing & 0xFF, stream)
+        return self.link.header(STREAM_NONE, 0) + bytes(told)
 
     def last_received(self) -> int:
         """Return the number of the last message that was taken from the client's built-in reliable stream."""

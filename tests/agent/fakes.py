@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 from microros_gen.agent.core import Agent
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog
+from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.representation import Qos, References, Service, Topic
 from microros_gen.agent.ros.bridge import BridgeError, HashOf, Source
@@ -143,11 +144,13 @@ class FakeBridge:
     published: list[tuple[str, bytes]] = field(default_factory=list)
     sources: list[FakeSource] = field(default_factory=list)
     named: list[FakeSource] = field(default_factory=list)
+    hashes: list[HashOf | None] = field(default_factory=list)
     closed: bool = False
     descriptor: int = -1
 
     def create_node(self, name: str, domain: int, hash_of: HashOf | None = None) -> FakeNode:
         node, namespace = ros_node(name)
+        self.hashes.append(hash_of)
         label = f"{domain}:{namespace.rstrip('/')}/{node}"
         self.graph.append(label)
         return FakeNode(self, label)
@@ -214,6 +217,7 @@ class Bench:
         verbosity: int = 0,
         references: References | None = None,
         preconfigured: Preconfigured | None = None,
+        manifests: Manifests | None = None,
     ) -> None:
         self.now = 1000.0
         self.bridge = FakeBridge()
@@ -221,7 +225,13 @@ class Bench:
         self.text = io.StringIO()
         self.log = EventLog(self.text, verbosity=verbosity)
         self.agent = Agent(
-            self.bridge, self.log, limits or Limits(), references, preconfigured, clock=lambda: self.now
+            self.bridge,
+            self.log,
+            limits or Limits(),
+            references,
+            preconfigured,
+            clock=lambda: self.now,
+            manifests=manifests,
         )
 
     def say(self, data: bytes | str, address: Hashable = "a") -> list[str]:

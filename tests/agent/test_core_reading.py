@@ -206,7 +206,7 @@ def test_min_pace_period() -> None:
     put(bench, *range(10))
     assert values(listener.take()) == [0]
     start = bench.now
-    times = []
+    times: list[float] = []
     while len(times) < 9:
         bench.transport.sent.clear()
         due = bench.agent.due()

@@ -8,6 +8,7 @@ import pytest
 from agent import captured
 from agent.client import dds_type, participant_blob, reader_blob, topic_blob, writer_blob
 from agent.fakes import FakeBridge
+from microros_gen.agent.entities import Home
 from microros_gen.agent.objects import ObjectTree
 from microros_gen.agent.representation import References
 from microros_gen.agent.wire.constants import Format, ObjectKind, Status
@@ -19,7 +20,7 @@ NODE, TOPIC, PUBLISHER, SUBSCRIBER, WRITER, READER = 0x11, 0x12, 0x13, 0x14, 0x1
 
 def tree(maximum: int = 100) -> tuple[ObjectTree, FakeBridge]:
     bridge = FakeBridge()
-    return ObjectTree(bridge, References(), maximum, "fallback"), bridge
+    return ObjectTree(Home(bridge, "fallback"), References(), maximum), bridge
 
 
 def make(
@@ -230,7 +231,7 @@ def test_what_cannot_return_is_dropped_with_what_hangs_on_it(monkeypatch: pytest
     objects, bridge = complete()
     objects.suspend()
 
-    def refuse(name: str, domain: int) -> None:
+    def refuse(name: str, domain: int, hash_of: object = None) -> None:
         raise BridgeError("no")
 
     monkeypatch.setattr(bridge, "create_node", refuse)
