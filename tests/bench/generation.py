@@ -6,6 +6,7 @@ from __future__ import annotations
 import importlib.util
 import json
 import os
+import resource
 import shutil
 import statistics
 import subprocess
@@ -14,6 +15,7 @@ import time
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 SHIPPED = Path(__file__).resolve().parents[2] / "microros_gen" / "idl"
 COMMON_INTERFACES = (
@@ -41,18 +43,36 @@ class Case:
     files: int
 
 
-def timed(command: list[str], environment: dict[str, str], repeat: int, fresh: Path | None = None) -> float:
-    """Return the median seconds of `command`; `fresh` is removed before each run."""
+class Seconds(NamedTuple):
+    """Wall time, and that of the processor, which other work on the machine changes less."""
+
+    wall: float
+    cpu: float
+
+
+def timed(command: list[str], environment: dict[str, str], repeat: int, fresh: Path | None = None) -> Seconds:
+    """Return the medians for `command` with all that it starts; `fresh` is removed before each run."""
     times = []
     for _ in range(repeat):
         if fresh is not None:
             shutil.rmtree(fresh, ignore_errors=True)
-        start = time.perf_counter()
+        start, before = time.perf_counter(), children()
         result = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
-        times.append(time.perf_counter() - start)
+        times.append(Seconds(time.perf_counter() - start, children() - before))
         if result.returncode != 0:
             sys.exit(f"{' '.join(command)} failed:\n{result.stdout}{result.stderr}")
-    return statistics.median(times)
+    return median(times)
+
+
+def median(times: Sequence[Seconds]) -> Seconds:
+    """Return the median of each."""
+    return Seconds(statistics.median(t.wall for t in times), statistics.median(t.cpu for t in times))
+
+
+def children() -> float:
+    """Return seconds of the processor of all processes that ended."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
 
 
 def tool(*arguments: str) -> list[str]:
@@ -60,10 +80,10 @@ def tool(*arguments: str) -> list[str]:
     return [sys.executable, "-m", "microros_gen", *arguments]
 
 
-def row(what: str, seconds: float, target: str = "", peer: float | None = None) -> None:
-    """Print a line of a table of times."""
-    ratio = f"{seconds / peer:8.4f}" if peer else f"{'':8}"
-    print(f"{what:<70} {seconds:8.2f} s  {ratio}  {target}".rstrip())
+def row(what: str, seconds: Seconds, target: str = "", peer: Seconds | None = None) -> None:
+    """Print a line of a table of times; the ratio is of the processor's time."""
+    ratio = f"{seconds.cpu / peer.cpu:8.4f}" if peer else f"{'':8}"
+    print(f"{what:<62} {seconds.wall:7.2f} {seconds.cpu:7.2f} s  {ratio}  {target}".rstrip())
 
 
 def bench_generate(work: Path) -> None:
@@ -75,9 +95,11 @@ def bench_generate(work: Path) -> None:
     if installed.files:
         cases.append((installed, "1.5 s", "0.25 s"))
     peer = peer_rosidl(work, installed.packages)
-    print("generate: wall time of the whole process, interpreter start included; median of 5")
+    print(
+        "generate: wall time and processor time of the whole process, interpreter start included; median of 5"
+    )
     print("  peer: ROS 2's own pipeline for C in one process, by step, after its start; once")
-    print(f"{'':70} {'':10}  {'to peer':8}  target")
+    print(f"{'':62} {'wall':>7} {'cpu':>7}    {'to peer':8}  target")
     row("the interpreter alone", timed([sys.executable, "-c", "pass"], environment, 5))
     for case, target, target_unchanged in cases:
         print(f"{case.label}, {case.files} files")
@@ -91,14 +113,14 @@ def bench_generate(work: Path) -> None:
 
 def bench_growth(work: Path, environment: dict[str, str]) -> None:
     """`generate` of more and more interfaces: the time has to grow as they do."""
-    print("packages of N messages of six members each, from nothing")
-    start = 0.0
+    print("packages of N messages of six members each, from nothing; processor time of each beyond the first")
+    start = None
     for count in (1, 10, 100, 1000):
         case = Case("", [f"synthetic_{count}"], synthetic(work, count), count)
         seconds = timed(generate(work / "generate", case), environment, 3, work / "generate")
         start = start or seconds
-        each = f"  {(seconds - start) / (count - 1) * 1000:.2f} ms for each more than 1" if count > 1 else ""
-        print(f"{f'  {count} messages':<70} {seconds:8.2f} s{each}")
+        each = f"{(seconds.cpu - start.cpu) / (count - 1) * 1000:.2f} ms" if count > 1 else ""
+        row(f"  {count} messages", seconds, each)
 
 
 def generate(out: Path, case: Case) -> list[str]:
@@ -131,7 +153,7 @@ def installed_interfaces() -> Case:
     return Case("every interface of the wheels, services and actions too", packages, None, len(files))
 
 
-def peer_rosidl(work: Path, packages: Sequence[str]) -> dict[str, dict[str, float]]:
+def peer_rosidl(work: Path, packages: Sequence[str]) -> dict[str, dict[str, Seconds]]:
     """Return seconds of the peer by step and package; nothing where it is not installed."""
     if not packages or importlib.util.find_spec("rosidl_typesupport_fastrtps_c") is None:
         return {}
@@ -140,17 +162,23 @@ def peer_rosidl(work: Path, packages: Sequence[str]) -> dict[str, dict[str, floa
     result = subprocess.run(command, capture_output=True, text=True, check=False)
     if result.returncode != 0:
         sys.exit(f"the peer failed:\n{result.stdout}{result.stderr}")
-    seconds: dict[str, dict[str, float]] = json.loads(result.stdout)
-    return seconds
+    found = json.loads(result.stdout)
+    return {step: {name: Seconds(*times) for name, times in each.items()} for step, each in found.items()}
 
 
-def print_peer(peer: dict[str, dict[str, float]], packages: Iterable[str]) -> float | None:
+def print_peer(peer: dict[str, dict[str, Seconds]], packages: Iterable[str]) -> Seconds | None:
     """Print the peer's steps for these packages and return their sum; None without a peer."""
     if not peer:
         return None
-    steps = {name: sum(seconds[p] for p in packages) for name, seconds in peer.items()}
-    whole = sum(steps.values())
+    steps = {name: total(each[package] for package in packages) for name, each in peer.items()}
+    whole = total(steps.values())
     for name, seconds in steps.items():
         row(f"  peer, {name}", seconds)
     row("  peer, the four steps", whole, "", whole)
     return whole
+
+
+def total(times: Iterable[Seconds]) -> Seconds:
+    """Return the sum of each."""
+    walls, cpus = zip(*times, strict=True)
+    return Seconds(sum(walls), sum(cpus))

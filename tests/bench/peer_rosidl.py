@@ -4,8 +4,8 @@
 The steps that `generate` does too: .msg, .srv and .action to .idl (rosidl_adapter), hashes and descriptions
 (rosidl_generator_type_description), structs and functions (rosidl_generator_c), type support for Fast CDR
 (rosidl_typesupport_fastrtps_c). They run in one process, where a colcon build starts one for each package and step.
-Prints seconds as JSON: step, package, seconds. Introspection, C++ and Python, which a build makes besides, are left
-out.
+Prints wall and processor seconds as JSON, by step and package. Introspection, C++ and Python, which a build makes
+besides, are left out.
 """
 
 from __future__ import annotations
@@ -93,18 +93,18 @@ def main() -> None:
         "rosidl_generator_c": Package.structs,
         "rosidl_typesupport_fastrtps_c": Package.support,
     }
-    seconds: dict[str, dict[str, float]] = {}
+    seconds: dict[str, dict[str, tuple[float, float]]] = {}
     for name, step in steps.items():
         seconds[name] = {package.name: timed(step, package) for package in packages}
     print(json.dumps(seconds))
 
 
-def timed(step: Callable[[Package], None], package: Package) -> float:
-    """Return the seconds of one step of one package."""
-    start = time.perf_counter()
+def timed(step: Callable[[Package], None], package: Package) -> tuple[float, float]:
+    """Return wall and processor seconds of one step of one package."""
+    start, before = time.perf_counter(), time.process_time()
     with contextlib.redirect_stdout(io.StringIO()):  # they print what they read
         step(package)
-    return time.perf_counter() - start
+    return time.perf_counter() - start, time.process_time() - before
 
 
 if __name__ == "__main__":
