@@ -126,29 +126,32 @@ class Libraries:
             raise _unsuitable(f"its type supports are not as in ROS 2 Jazzy: {error}") from error
 
     def _check_messages(self) -> None:
+        """The identifier comes first, by its address: what is behind other members is read only after it."""
+        fast = self._sample(self.FASTRTPS)
+        _expect(fast.identifier, self.fastrtps_identifier, "identifier")
+        callbacks = MessageCallbacks.from_address(fast.data)
+        package, service = (part.encode() for part in _SAMPLE)
+        _expect(callbacks.namespace, package + b"::srv", "namespace")
+        _expect(callbacks.name, service + b"_Request", "name")
+        part_of, handle = ctypes.CFUNCTYPE(c_void_p, c_void_p), ctypes.addressof(fast)
+        type_hash = TypeHash.from_address(part_of(fast.get_type_hash)(handle))
+        _expect(type_hash.version, HASH_RIHS01, "hash")
+        described = TypeDescription.from_address(part_of(fast.get_type_description)(handle))
+        _expect((described.fields.size, described.referenced.size), (2, 0), "description")
+        described_name = ctypes.string_at(described.type_name.data, described.type_name.size)
+        _expect(described_name, b"/".join((package, b"srv", service + b"_Request")), "description")
+        introspection = self._sample(self.INTROSPECTION)
+        _expect(introspection.identifier, self.introspection_identifier, "identifier")
+        members = MessageMembers.from_address(introspection.data)
+        _expect(members.namespace, package + b"__srv", "namespace")
+        _expect((members.name, members.count), (service + b"_Request", 2), "members")
+
+    def _sample(self, identifier: bytes) -> MessageSupport:
         package, service = _SAMPLE
-        name = f"{package}__srv__{service}_Request"
-        for identifier in (self.FASTRTPS, self.INTROSPECTION):
-            text = identifier.decode()
-            library = ctypes.PyDLL(f"lib{package}__{text}.so")
-            get = _function(library, f"{text}__get_message_type_support_handle__{name}", c_void_p)
-            support = MessageSupport.from_address(get())
-            _expect(ctypes.string_at(support.identifier), identifier, "identifier")
-            kind = MessageCallbacks if identifier == self.FASTRTPS else MessageMembers
-            data = kind.from_address(support.data)
-            separator = b"::" if identifier == self.FASTRTPS else b"__"
-            _expect(data.namespace, separator.join((package.encode(), b"srv")), "namespace")
-            _expect(data.name, f"{service}_Request".encode(), "name")
-            if identifier == self.INTROSPECTION:
-                _expect((data.count, data.has_key), (2, False), "members")
-                continue
-            of = ctypes.CFUNCTYPE(c_void_p, c_void_p)
-            handle = ctypes.addressof(support)
-            _expect(TypeHash.from_address(of(support.get_type_hash)(handle)).version, HASH_RIHS01, "hash")
-            described = TypeDescription.from_address(of(support.get_type_description)(handle))
-            described_name = ctypes.string_at(described.type_name.data, described.type_name.size)
-            _expect(described_name, f"{package}/srv/{service}_Request".encode(), "description")
-            _expect((described.fields.size, described.referenced.size), (2, 0), "description")
+        text = identifier.decode()
+        library = ctypes.PyDLL(f"lib{package}__{text}.so")
+        name = f"{text}__get_message_type_support_handle__{package}__srv__{service}_Request"
+        return MessageSupport.from_address(_function(library, name, c_void_p)())
 
     def _check_service(self) -> None:
         package, service = _SAMPLE
@@ -158,7 +161,7 @@ class Libraries:
             library, f"{text}__get_service_type_support_handle__{package}__srv__{service}", c_void_p
         )
         support = ServiceSupport.from_address(get())
-        _expect(ctypes.string_at(support.identifier), self.FASTRTPS, "identifier of a service")
+        _expect(support.identifier, self.fastrtps_identifier, "identifier of a service")
         data = ServiceCallbacks.from_address(support.data)
         _expect((data.namespace, data.name), (f"{package}::srv".encode(), service.encode()), "service")
         for handle, ending in ((data.request, b"_Request"), (data.response, b"_Response")):

@@ -44,19 +44,25 @@ def open_bridge(
     `domain` (0 to 232) puts every client into that ROS domain, whichever it asks for. `hash_of` knows type hashes;
     without one for a type, its endpoints announce none. `report` is told what happens in the ROS graph.
     """
+    _check_implementation(
+        os.environ.get("RMW_IMPLEMENTATION") or RMW
+    )  # to load rclpy with a wrong one may exit
     handles = _import_rclpy()
-    implementation = handles.rclpy_get_rmw_implementation_identifier()
+    _check_implementation(handles.rclpy_get_rmw_implementation_identifier())
+    return RclpyBridge(handles, Ros(raw_types(), report or _ignore), maximum_domains, domain, hash_of)
+
+
+def _ignore(_report: GraphReport) -> None:
+    pass
+
+
+def _check_implementation(implementation: str) -> None:
     if implementation != RMW:
         hint = (
             f"Unset RMW_IMPLEMENTATION, or set it to {RMW}; nodes with another DDS are reached all the same"
         )
         reason = f"the agent needs {RMW}, but RMW_IMPLEMENTATION chooses {implementation}"
         raise UserError([Diagnostic(reason, hint=hint)])
-    return RclpyBridge(handles, Ros(raw_types(), report or _ignore), maximum_domains, domain, hash_of)
-
-
-def _ignore(_report: GraphReport) -> None:
-    pass
 
 
 def _import_rclpy() -> Any:
