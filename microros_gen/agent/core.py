@@ -16,7 +16,6 @@ from microros_gen.agent.deliveries import Deliveries
 from microros_gen.agent.limits import PROBES, Limits
 from microros_gen.agent.lobby import Held, Lobby
 from microros_gen.agent.log import EventLog
-from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.operations import Operations
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.representation import References
@@ -52,7 +51,6 @@ class Agent:
         references: References | None = None,
         preconfigured: Preconfigured | None = None,
         clock: Callable[[], float] = time.monotonic,
-        manifests: Manifests | None = None,
     ) -> None:
         self._bridge = bridge
         self._log = log
@@ -61,7 +59,7 @@ class Agent:
         self._to_acknowledge: set[Client] = set()
         self._ticked = clock()
         self.clients = ClientTable()
-        held = Held(references or References(), preconfigured or Preconfigured(), manifests or Manifests())
+        held = Held(references or References(), preconfigured or Preconfigured())
         self._deliveries = Deliveries(log)
         self._lobby = Lobby(self.clients, bridge, log, limits, held, self._deliveries)
         self._operations = Operations(log, self._deliveries)
@@ -207,8 +205,8 @@ class Agent:
             return False
         if identifier == SubmessageId.FRAGMENT and whole:
             raise MalformedError("nested_fragment")
-        if identifier == SubmessageId.INFO:
-            return True  # a sign of life; what it says is not needed
+        if identifier == SubmessageId.INFO or (identifier == SubmessageId.CREATE_CLIENT and at == end):
+            return True  # a sign of life; the public client's answer to a probe lacks its submessage header: zeros
         if identifier == SubmessageId.HEARTBEAT:
             self._to_acknowledge.add(client)
         self._operations.run(client, decode(identifier, flags, data, at, end), self._clock())

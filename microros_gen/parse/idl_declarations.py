@@ -33,7 +33,13 @@ from microros_gen.parse.idl_values import (
     span_of,
 )
 from microros_gen.parse.msg_declarations import SyntaxNode
-from microros_gen.parse.msg_names import C_KEYWORDS, CPP_KEYWORDS, field_name_warning, value_warning
+from microros_gen.parse.msg_names import (
+    C_KEYWORDS,
+    CPP_KEYWORDS,
+    constant_name_warning,
+    field_name_warning,
+    value_warning,
+)
 
 CONSTANTS_SUFFIX = "_Constants"
 """A module `Name_Constants` holds the constants of the struct `Name` (rosidl)."""
@@ -244,6 +250,9 @@ def _constant(node: SyntaxNode, scope: Scope) -> Constant | None:
         if isinstance(kind, StringType):
             kind = StringType(kind.wide)
         if _check_name(name, scope):
+            warning = constant_name_warning(str(name))
+            if warning is not None:
+                scope.diagnostics.warning(warning[0], span_of(name, source), warning[1])
             return Constant(str(name), kind, checked, annotations.comment, span_of(name, source))
     return None
 

@@ -123,6 +123,9 @@ def _constant(tree: SyntaxNode, line: Line, diagnostics: Diagnostics) -> Declara
         name_ok = _check_name(name, line, msg_names.constant_name_fault)
     if kind is None or not name_ok:
         return None
+    warning = msg_names.constant_name_warning(str(name))
+    if warning is not None:
+        diagnostics.warning(warning[0], line.span_of(name), warning[1])
     with _reported(diagnostics):
         value = _scalar(kind, rest[0] if rest else None, line, diagnostics)
         return Declaration(Constant(str(name), kind, value, span=_whole(line, name)), line.span_of(name))

@@ -13,6 +13,7 @@ from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.model.derived import derived_name, make_declaration
 from microros_gen.model.types import Action, Message, Service, TypeName
 from microros_gen.parse.msg import checked_source, parse_part
+from microros_gen.parse.msg_names import interface_name_warning
 
 SEPARATOR = "---"
 
@@ -27,6 +28,9 @@ def parse_parts(
     """
     found = Diagnostics()
     source = checked_source(source, name.package, (f"{name.name}_{part}" for part in parts), found)
+    warning = interface_name_warning(name.name, parts)
+    if warning is not None:
+        found.warning(warning[0], Span(source, 1, 1), warning[1])
     lines = source.text.splitlines()
     borders = _borders(source, lines, parts, found)
     starts = [0, *(border + 1 for border in borders)]

@@ -171,6 +171,19 @@ def test_names_of_services(name: str) -> None:
     assert all("is not a message type" in d.message for d in diagnostics)
 
 
+@pytest.mark.parametrize(
+    ("kind", "name"), [("srv", "Request"), ("srv", "Event"), ("action", "Goal"), ("action", "Feedback")]
+)
+def test_an_interface_with_the_name_of_a_part_has_a_warning(kind: str, name: str) -> None:
+    """A C++ class cannot hold a type of its own name."""
+    found, said = read("---\n---" if kind == "action" else "---", kind, name)
+    assert found is not None
+    assert said == [
+        f"1:1: warning: the C++ that ROS 2 Jazzy makes of an interface named '{name}' does not compile. Rename it"
+    ]
+    assert not read("---\n---" if kind == "action" else "---", kind, f"{name}s")[1]
+
+
 def test_a_byte_order_mark_is_told_once() -> None:
     diagnostics = Diagnostics()
     assert parse_srv(Source("F", "\ufeff---\n"), TypeName("pkg_a", "srv", "Foo"), diagnostics) is not None

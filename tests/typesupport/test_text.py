@@ -10,7 +10,6 @@ from pathlib import Path
 import pytest
 from ts_build import TEST_RULES, WARNINGS, Generated, generate, run
 
-from microros_gen.diagnostics import UserError
 from microros_gen.model.types import Primitive
 from microros_gen.plan.types_names import snake_case
 from microros_gen.render.environment import make_environment
@@ -162,16 +161,3 @@ def test_rendering_is_repeatable_and_fast(everything: Generated) -> None:
     elapsed = time.perf_counter() - start
     assert files == everything.files
     assert elapsed < 1.0
-
-
-def test_types_of_idl_alone_are_refused_by_name(tmp_path: Path) -> None:
-    """`char` and `wchar` are read and hashed; they have no encoding here."""
-    (tmp_path / "a/msg").mkdir(parents=True)
-    members = "char one; wchar two[3]; sequence<char> three; octet four;"
-    text = f"module a {{ module msg {{ struct A {{ {members} }}; }}; }};"
-    (tmp_path / "a/msg/A.idl").write_text(text, encoding="utf-8")
-    with pytest.raises(UserError) as raised:
-        generate(["a"], (), tmp_path / "out", [tmp_path])
-    said = [d.message for d in raised.value.diagnostics]
-    assert [line.split(": ", 1)[0] for line in said] == ["a/msg/A.one", "a/msg/A.two", "a/msg/A.three"]
-    assert "the IDL type 'char' is not generated" in said[2]

@@ -42,6 +42,8 @@ C_TYPES: dict[Primitive, Any] = {
     Primitive.UINT32: ctypes.c_uint32,
     Primitive.INT64: ctypes.c_int64,
     Primitive.UINT64: ctypes.c_uint64,
+    Primitive.IDL_CHAR: ctypes.c_int8,
+    Primitive.WCHAR: ctypes.c_uint16,
 }
 FLOAT_EDGES = {
     Primitive.FLOAT32: (0.0, -0.0, -1.5, math.inf, -math.inf, 2.0**-149, -(2.0**-126), 3.4e38),
@@ -98,7 +100,7 @@ class Randomizer:
         if primitive in (Primitive.FLOAT32, Primitive.FLOAT64):
             value = self._random.choice([*FLOAT_EDGES[primitive], self._random.uniform(-1e6, 1e6)])
             return struct.unpack("<f", struct.pack("<f", value))[0] if bits == 32 else value
-        signed = primitive.value.startswith("int")
+        signed = primitive.value.startswith("int") or primitive is Primitive.IDL_CHAR
         low, high = (-(1 << bits - 1), (1 << bits - 1) - 1) if signed else (0, (1 << bits) - 1)
         return self._random.choice([low, high, self._random.randint(low, high)])
 
