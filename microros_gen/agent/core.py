@@ -16,6 +16,7 @@ from microros_gen.agent.deliveries import Deliveries
 from microros_gen.agent.limits import PROBES, Limits
 from microros_gen.agent.lobby import Held, Lobby
 from microros_gen.agent.log import EventLog
+from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.operations import Operations
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.representation import References
@@ -51,6 +52,7 @@ class Agent:
         references: References | None = None,
         preconfigured: Preconfigured | None = None,
         clock: Callable[[], float] = time.monotonic,
+        manifests: Manifests | None = None,
     ) -> None:
         self._bridge = bridge
         self._log = log
@@ -59,7 +61,7 @@ class Agent:
         self._to_acknowledge: set[Client] = set()
         self._ticked = clock()
         self.clients = ClientTable()
-        held = Held(references or References(), preconfigured or Preconfigured())
+        held = Held(references or References(), preconfigured or Preconfigured(), manifests or Manifests())
         self._deliveries = Deliveries(log)
         self._lobby = Lobby(self.clients, bridge, log, limits, held, self._deliveries)
         self._operations = Operations(log, self._deliveries)
