@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The public client with hard liveliness, as recorded: a CREATE_CLIENT and an answer that the standard does not have."""
+"""The public client with hard liveliness, as recorded: its CREATE_CLIENT and its answer are not as in the standard."""
 
 from __future__ import annotations
 
@@ -34,6 +34,7 @@ def test_its_answer_is_a_sign_of_life_and_no_fault() -> None:
     for _ in range(6):
         assert any(" 02 01 08 00 " in asked for asked in bench.wait(1.5)), "the agent asks"
         assert bench.say(ANSWER) == []
-    assert "not heard" not in bench.text.getvalue() and "malformed" not in bench.text.getvalue()
+    assert "not heard" not in bench.text.getvalue()
+    assert "malformed" not in bench.text.getvalue()
     bench.wait(2.5)
     assert "client 00A1C10F was not heard for 2.0 s" in bench.text.getvalue()
