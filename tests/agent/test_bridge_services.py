@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import time
+
 import pytest
 
 from agent.bridging import (
@@ -130,6 +132,36 @@ def test_services_of_the_graph(bridged: Bridged, bridge_observer: Observer) -> N
     bridged.wait(seen)
     node.destroy()
     bridge_observer.see(lambda g: "/robot/services" not in g["nodes"])
+
+
+def test_a_client_that_vanished_is_waited_for_once(bridged: Bridged) -> None:
+    """ROS 2 waits 100 ms for a client that it does not know; many replies to one that is gone must not add up."""
+    node = bridged.bridge.create_node("forsaken", bridged.domain)
+    asker = bridged.bridge.create_node("leaving", bridged.domain)
+    replier = node.create_replier(get_types("forsaken"))
+    requester = asker.create_requester(get_types("forsaken"))
+    for _ in range(5):
+        requester.request(names_body(["a"]))
+    bridged.wait(requester.find_server)
+    asker.destroy()
+    bridged.wait_for(0.2)
+    identities = [identity for identity, _ in iter(replier.take, None)]
+    assert len(identities) == 5
+    start = time.monotonic()
+    for identity in identities:
+        with pytest.raises(BridgeError, match="not there to receive it"):
+            replier.reply(identity, types_body([1]))
+    assert time.monotonic() - start < 0.35
+    # Who was only not discovered in time is answered as soon as the graph has it.
+    asker = bridged.bridge.create_node("staying", bridged.domain)
+    requester = asker.create_requester(get_types("forsaken"))
+    number = requester.request(names_body(["abc"]))
+    [(identity, _)] = bridged.take(replier, 1)
+    replier._vanished[identity[:16]] = None  # type: ignore[attr-defined]
+    replier.reply(identity, types_body([3]))
+    assert [(n, read_types(reply)) for n, reply in bridged.take(requester, 1)] == [(number, [3])]
+    asker.destroy()
+    node.destroy()
 
 
 def test_what_cannot_be_answered_or_asked_is_said(bridged: Bridged) -> None:

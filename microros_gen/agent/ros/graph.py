@@ -207,6 +207,12 @@ class Events(Watcher):
         """Compare the type of `endpoint` with that of others in a moment."""
         self._comparison.soon(self._node, endpoint)
 
+    def has_reader(self, endpoint: Endpoint, gid: bytes) -> bool:
+        """Return whether the graph has a reader of the topic of `endpoint` with this GUID (16 bytes)."""
+        get = self._handles.rclpy_get_subscriptions_info_by_topic
+        found = get(self._node, endpoint.topic, endpoint.mangled)
+        return any(bytes(reader["endpoint_gid"][: len(gid)]) == gid for reader in found)
+
     def release(self, endpoints: Iterable[Endpoint]) -> None:
         """Forget endpoints before they are destroyed."""
         for endpoint in endpoints:

@@ -27,6 +27,8 @@ WAIT_FOR_SERVER_S = 5.0
 """How long a request waits for a service that has not been there yet."""
 HELD_REQUESTS = 16
 """Requests of one service client that wait for it."""
+VANISHED_CLIENTS = 256
+"""Clients of a service that are remembered as unknown to the graph."""
 _LOOK_AGAIN_S = 0.05
 _GUID_BYTES = 16
 _NUMBER = struct.Struct("<iI")
@@ -107,11 +109,16 @@ class _RawService(RawSource):
 
 
 class RawReplier(_RawService):
-    """See Replier."""
+    """See Replier.
+
+    ROS 2 waits (100 ms) for a client that it does not know, since it may be about to be discovered. It is waited for
+    once; after that only when the graph has it.
+    """
 
     def __init__(self, handle: Any, ros: Ros, events: Events, endpoints: tuple[Endpoint, ...]) -> None:
         libraries = ros.libraries
         super().__init__(handle, ros, libraries.notify_service, libraries.take_request, events, endpoints)
+        self._vanished: dict[bytes, None] = {}
 
     def take(self) -> tuple[bytes, bytes] | None:
         """See Replier."""
@@ -125,15 +132,27 @@ class RawReplier(_RawService):
         """See Replier."""
         if len(identity) != IDENTITY_BYTES:
             raise BridgeError(f"a sample identity of {len(identity)} bytes", Status.INVALID_DATA)
+        guid = identity[:_GUID_BYTES]
+        if guid in self._vanished:
+            if not self._events.has_reader(self._endpoints[1], guid):
+                raise self._nobody()
+            del self._vanished[guid]
         high, low = _NUMBER.unpack_from(identity, _GUID_BYTES)
         request = RequestId(number=high << 32 | low)
-        request.guid[:] = identity[:_GUID_BYTES]
+        request.guid[:] = guid
         self._check_alive()
         result = self._libraries.send_response(self._pointer, byref(request), byref(raw_message(serialized)))
         if result == TIMEOUT:
-            raise BridgeError(f"reply on {self.label}: the client that asked is not there to receive it")
+            self._vanished[guid] = None
+            if len(self._vanished) > VANISHED_CLIENTS:
+                del self._vanished[next(iter(self._vanished))]
+            self._libraries.error()  # forget it: it says less
+            raise self._nobody()
         if result != OK:
             raise self.failed("reply")
+
+    def _nobody(self) -> BridgeError:
+        return BridgeError(f"reply on {self.label}: the client that asked is not there to receive it")
 
 
 class RawRequester(_RawService):
