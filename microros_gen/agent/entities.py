@@ -72,7 +72,10 @@ class Entity:
     @property
     def participant(self) -> Entity:
         """The participant that it belongs to, or is."""
-        return self.sources[0].participant if self.sources else self
+        found = self
+        while found.kind != ObjectKind.PARTICIPANT and found.sources:
+            found = found.sources[0]
+        return found
 
     def inside(self, container: Entity) -> bool:
         """Return whether it is a part of `container`, at any depth."""

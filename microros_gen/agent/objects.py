@@ -9,12 +9,23 @@ order a client cleans up. A writer outlives the DELETE of its topic: micro-ROS d
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from microros_gen.agent.entities import Entity, Home, Outcome
-from microros_gen.agent.representation import Description, Endpoint, References, describe
-from microros_gen.agent.representation.description import UnsupportedKindError
+from microros_gen.agent.representation import (
+    Application,
+    Description,
+    Endpoint,
+    Group,
+    Known,
+    QosProfile,
+    References,
+    Topic,
+    describe,
+)
+from microros_gen.agent.representation.description import UnknownNameError, UnsupportedKindError
 from microros_gen.agent.representation.reference import UnknownReferenceError
 from microros_gen.agent.ros.bridge import BridgeError
 from microros_gen.agent.wire.constants import ObjectKind, Status
@@ -32,6 +43,9 @@ _SERVED = frozenset(
         ObjectKind.DATAREADER,
         ObjectKind.REQUESTER,
         ObjectKind.REPLIER,
+        ObjectKind.TYPE,
+        ObjectKind.QOSPROFILE,
+        ObjectKind.APPLICATION,
     )
 )
 _CONTAINER = {
@@ -54,6 +68,8 @@ class _Wanted:
     description: Description
     reuse: bool
     replace: bool
+    within: Entity | None = None
+    """The application that it is a part of."""
 
 
 class _RefusedError(Exception):
@@ -104,6 +120,8 @@ class ObjectTree:
             return Outcome(Status.INVALID_DATA, str(error))
         except UnknownReferenceError as error:
             return Outcome(Status.DDS_ERROR, str(error))
+        except UnknownNameError as error:
+            return Outcome(Status.UNKNOWN_REFERENCE, str(error))
         except UnsupportedKindError as error:
             return Outcome(Status.DENIED, f"{error} are not served")
 
@@ -155,7 +173,7 @@ class ObjectTree:
             return Outcome(Status.ALREADY_EXISTS, "the object exists")
         if create.kind not in _SERVED:
             raise _RefusedError(Status.DENIED, f"objects of kind {_kind_name(create.kind)} are not served")
-        description = describe(create, self._references)
+        description = describe(create, self._references, self._known(create.parent))
         outcome = self._place(_Wanted(object_id, create.parent, description, create.reuse, create.replace))
         if outcome.status is Status.OK and outcome.entity is not None:
             outcome.entity.representation = create.representation
@@ -164,6 +182,11 @@ class ObjectTree:
     def _place(self, wanted: _Wanted) -> Outcome:
         object_id = wanted.id
         present = self._objects.get(object_id)
+        if wanted.within and present and not wanted.replace:
+            raise _RefusedError(
+                Status.ALREADY_EXISTS, f"object {object_id:#06x} exists, which is to be a part of it"
+            )
+        _check_ros(wanted.description)
         entity = Entity(object_id, wanted.description, self._sources(wanted))
         if present and wanted.reuse:
             if (present.description, present.sources) == (entity.description, entity.sources):
@@ -177,12 +200,45 @@ class ObjectTree:
         self._enter(entity)
         self._objects[object_id] = entity
         self._gone_with_container.discard(object_id)
+        if isinstance(wanted.description, Application):
+            self._fill(entity, wanted.description, wanted.replace)
         return Outcome(Status.OK, entity=entity)
+
+    def _fill(self, application: Entity, description: Application, replace: bool) -> None:
+        """Make the parts of an application: all of them, or none and not the application either (7.8.3.1).
+
+        The n-th part of a kind (from 0) has the number of the application plus n.
+        """
+        counts: Counter[int] = Counter()
+        made: list[int] = []
+        try:
+            for part in description.parts:
+                number = (application.id >> 4) + counts[part.kind] & 0xFFF
+                counts[part.kind] += 1
+                parent = 0 if part.container is None else made[part.container]
+                made.append(number << 4 | part.kind)
+                self._place(_Wanted(made[-1], parent, part.description, False, replace, within=application))
+        except Exception:
+            self._remove([application, *(e for e in self if e.inside(application))])
+            raise
+
+    def _known(self, parent: int) -> Known:
+        """Return what a description may name: all qualities, and the topics of the participant of `parent`."""
+        container = self._objects.get(parent)
+        home = container.participant if container else None
+        held = {name: d for (_, name), d in self._references.known.items() if isinstance(d, QosProfile)}
+        own = {e.description.name: e.description for e in self if isinstance(e.description, QosProfile)}
+        topics = {
+            e.description.name: e.description
+            for e in self
+            if isinstance(e.description, Topic) and e.participant is home
+        }
+        return Known({**held, **own}, topics)
 
     def _sources(self, wanted: _Wanted) -> tuple[Entity, ...]:
         kind, description = ObjectKind(wanted.id & 0x0F), wanted.description
-        if kind == ObjectKind.PARTICIPANT:
-            return ()
+        if kind not in _CONTAINER:
+            return (wanted.within,) if wanted.within else ()
         container = self._find(wanted.parent, _CONTAINER[kind])
         if isinstance(description, Endpoint) and description.topic is None:
             return container, self._find(description.topic_id, ObjectKind.TOPIC)
@@ -215,6 +271,16 @@ class ObjectTree:
             if any(s in made for s in entity.sources):
                 made.append(entity)
         return made[1:]
+
+
+def _check_ros(description: Description) -> None:
+    """Refuse what ROS 2 cannot carry instead of leaving it out silently."""
+    if isinstance(description, Endpoint) and description.content_filter:
+        reason = f"ROS 2 cannot filter by content: '{description.content_filter}'"
+        raise _RefusedError(Status.INCOMPATIBLE, reason)
+    if isinstance(description, Group) and any(description.partitions):
+        reason = f"ROS 2 has no partitions: '{', '.join(description.partitions)}'"
+        raise _RefusedError(Status.INCOMPATIBLE, reason)
 
 
 def _kind_name(kind: int) -> str:

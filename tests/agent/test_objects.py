@@ -97,9 +97,13 @@ def test_creation_modes(form: str, mode: str, same: Status, different: Status) -
         (make(READER, reader_blob(TOPIC, 3, 10), 0x24), Status.UNKNOWN_REFERENCE),
         (make(0x17, b"", NODE), Status.INVALID_DATA),
         (make(0x18, b"", NODE), Status.INVALID_DATA),
-        (make(0x1A, "x"), Status.DENIED),
-        (make(0x1B, "x"), Status.DENIED),
-        (make(0x1C, "x"), Status.DENIED),
+        (make(0x1A, "x"), Status.INVALID_DATA),
+        (make(0x1B, "<types/>"), Status.INVALID_DATA),
+        (make(0x1C, "<application_library/>"), Status.INVALID_DATA),
+        (make(0x1A, b"x"), Status.DENIED),
+        (make(0x1B, "x", form=Format.REFERENCE), Status.DDS_ERROR),
+        (make(0x16, reader_blob(TOPIC, 3, 10, content_filter="x > 5"), SUBSCRIBER), Status.INCOMPATIBLE),
+        (make(0x23, bytes.fromhex("00 01 01 00 01000000 02000000 6100 00"), NODE), Status.INCOMPATIBLE),
     ],
 )
 def test_refused_with_a_reason_and_nothing_changed(create: Create, status: Status) -> None:

@@ -81,7 +81,48 @@ class Service:
     reply_topic: str = ""
 
 
-Description = Participant | Topic | Group | Endpoint | Service
+@dataclass(frozen=True)
+class TypeDefinition:
+    """A type by its full name; `text` is its definition in XML, empty for one that is named only.
+
+    ROS 2 knows its types by name, so a definition is kept and compared, and not used.
+    """
+
+    name: str
+    text: str = ""
+
+
+@dataclass(frozen=True)
+class QosProfile:
+    """A named quality of service (`Library::Profile`) for writers and for readers; None: it does not say."""
+
+    name: str
+    writer: Qos | None = None
+    reader: Qos | None = None
+
+
+@dataclass(frozen=True)
+class Part:
+    """An object within an application: its kind, and the place of its container among the parts (None: none)."""
+
+    kind: int
+    container: int | None
+    description: Participant | Topic | Group | Endpoint
+
+
+@dataclass(frozen=True)
+class Application:
+    """Several objects that are made together, containers before what they contain."""
+
+    name: str
+    parts: tuple[Part, ...] = ()
+
+
+Description = Participant | Topic | Group | Endpoint | Service | TypeDefinition | QosProfile | Application
+
+
+class UnknownNameError(Exception):
+    """A description names a topic or a quality of service that is not there; the text is for people."""
 
 
 class UnsupportedKindError(Exception):
