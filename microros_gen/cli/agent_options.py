@@ -12,6 +12,7 @@ from typing import Any
 import click
 
 from microros_gen.agent.limits import Limits
+from microros_gen.cli.agent_types import ManifestOf
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, UserError, nearest
 from microros_gen.model.agent_file import AgentFile, NamedPath, PtyChoice, SerialChoice, TransportChoice
 from microros_gen.parse.agent_file import DISCOVERY_PORT, parse_agent_file
@@ -81,9 +82,12 @@ _COMMON = (
         "Entities (JSON) to make for clients that create none, when they open their session; `build` writes"
         " OUT/agent/entities.json.",
     ),
-    _file_option(
+    click.option(
         "--manifest",
-        "OUT/manifest.json of a client: ROS 2 is told its type hashes, and a difference is reported by name.",
+        multiple=True,
+        metavar="[KEY=]FILE",
+        help="OUT/manifest.json of a client (of the nodes in it, or of the client with this key, as 0xA1B2C3D4): ROS 2"
+        " is told its type hashes, and a difference is reported by name. May be repeated.",
     ),
     _file_option(
         "--interface-path",
@@ -122,7 +126,7 @@ class AgentOptions:
     limits: Limits = DEFAULTS
     references: tuple[Path, ...] = ()
     entities: tuple[Path, ...] = ()
-    manifests: tuple[Path, ...] = ()
+    manifests: tuple[ManifestOf, ...] = ()
     interface_paths: tuple[Path, ...] = ()
     log_format: str = "text"
     verbose: int = 0
@@ -147,7 +151,10 @@ class AgentOptions:
             limits=_limits(file, one),
             references=_paths(folder, file.references, one["references"]),
             entities=_paths(folder, file.entities, one["entities"]),
-            manifests=_paths(folder, file.manifests, one["manifest"]),
+            manifests=(
+                *(ManifestOf.of(named.path, folder) for named in file.manifests),
+                *(ManifestOf.of(text, Path()) for text in one["manifest"]),
+            ),
             interface_paths=_paths(folder, file.interface_paths, one["interface_path"]),
             log_format=one["log_format"] or file.log_format or "text",
             verbose=one["verbose"] or file.verbose or 0,

@@ -7,7 +7,7 @@ import os
 import sys
 import time
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,7 @@ import click
 
 from microros_gen.agent.core import Agent
 from microros_gen.agent.log import EventLog, Level
+from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.readiness import notify
 from microros_gen.agent.representation import References
@@ -25,7 +26,7 @@ from microros_gen.agent.server import Server, stopped_by_signals
 from microros_gen.agent.trace import TracedTransport
 from microros_gen.agent.transport.base import Transport
 from microros_gen.cli.agent_options import AgentOptions, read_sources
-from microros_gen.cli.agent_types import HashOf, TypeHashes, read_manifests
+from microros_gen.cli.agent_types import ClientTypes, HashOf, TypeHashes, read_manifests
 from microros_gen.cli.type_hashes import type_hashes
 from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
 from microros_gen.model.agent_file import PtyChoice, SerialChoice, TransportChoice
@@ -34,10 +35,10 @@ from microros_gen.parse.preconfigured import parse_preconfigured
 
 def serve(options: AgentOptions) -> None:
     """Serve until a signal comes; a ready line for each transport goes to stdout. UserError: it cannot start."""
-    references, preconfigured, hashes = _files(options)
+    files = _files(options)
     as_json = options.log_format == "json"
     log = EventLog(sys.stderr, as_json, options.verbose)
-    for name in hashes.differences():
+    for name in files.hashes.differences(files.clients):
         text = (
             "{type}: its definition on this machine is not the one that a client was generated with; ROS 2 nodes that"
             " use the one here will misread it"
@@ -45,11 +46,12 @@ def serve(options: AgentOptions) -> None:
         log.emit(Level.WARNING, "type_hash_differs", text, type=name)
     transports = open_transports(options.transports, options.discovery, log)
     try:
-        bridge = open_bridge(options.limits.domains, options.domain, hashes, graph_reporter(log))
+        bridge = open_bridge(options.limits.domains, options.domain, files.hashes, graph_reporter(log))
     except UserError:
         _close(transports)
         raise
-    agent = Agent(bridge, log, options.limits, references, preconfigured)
+    manifests = Manifests(files.clients.by_client)
+    agent = Agent(bridge, log, options.limits, files.references, files.preconfigured, manifests=manifests)
     if options.verbose:
         transports = [TracedTransport(transport, log) for transport in transports]
     server = Server(agent, transports, log)
@@ -116,13 +118,23 @@ def _close(transports: Sequence[Transport]) -> None:
         transport.close()
 
 
-def _files(options: AgentOptions) -> tuple[References, Preconfigured, TypeHashes]:
+@dataclass(frozen=True)
+class _Files:
+    """What the files say."""
+
+    references: References
+    preconfigured: Preconfigured
+    clients: ClientTypes
+    hashes: TypeHashes
+
+
+def _files(options: AgentOptions) -> _Files:
     """Return what the files say; UserError with the faults of all of them."""
     diagnostics = Diagnostics()
     references, preconfigured = References(), Preconfigured()
     profiles = read_sources(options.references, diagnostics)
     entities = read_sources(options.entities, diagnostics)
-    manifests = read_manifests(options.manifests, diagnostics)
+    clients = read_manifests(options.manifests, diagnostics)
     of_files: HashOf = _nobody
     try:
         of_files = type_hashes(options.interface_paths)
@@ -139,7 +151,7 @@ def _files(options: AgentOptions) -> tuple[References, Preconfigured, TypeHashes
     diagnostics.check()
     for diagnostic in diagnostics:  # warnings
         click.echo(diagnostic.render(), err=True)
-    return references, preconfigured, TypeHashes(of_files, manifests)
+    return _Files(references, preconfigured, clients, TypeHashes(of_files, clients.common))
 
 
 def _nobody(_type_name: str) -> None:

@@ -60,7 +60,9 @@ def _transport(kind: str, node: YamlNode) -> TransportChoice:
         return PtyChoice(text_of(child(node, "link")))
     port = int_of(child(node, "port"))
     limits = tuple((key, value) for key, value in _numbers(node) if key in _TCP_LIMITS)
-    return SocketChoice(kind, SocketChoice.port if port is None else port, text_of(child(node, "bind")), limits)
+    return SocketChoice(
+        kind, SocketChoice.port if port is None else port, text_of(child(node, "bind")), limits
+    )
 
 
 def _discovery(node: YamlNode | None) -> int | None:

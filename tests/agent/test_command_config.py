@@ -11,9 +11,10 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from microros_gen.agent.limits import Limits
+from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.transport.tcp import TcpLimits
 from microros_gen.cli.agent_options import AgentOptions, _one_each
-from microros_gen.cli.agent_types import TypeHashes, read_manifests
+from microros_gen.cli.agent_types import ManifestOf, TypeHashes, read_manifests
 from microros_gen.cli.type_hashes import type_hashes
 from microros_gen.diagnostics import Diagnostics, Source, UserError
 from microros_gen.model.agent_file import PtyChoice, SerialChoice, SocketChoice
@@ -50,7 +51,7 @@ domain: 7
 limits: {clients: 3, client_timeout_s: 1.5, message_bytes: 1000}
 references: [refs.xml]
 entities: [a.json, /b.json]
-manifests: [m.json]
+manifests: [m.json, 0x1=n.json]
 interface_paths: [idl]
 log: {format: json, verbose: 2}
 """
@@ -79,7 +80,7 @@ def test_everything_that_a_file_can_say(tmp_path: Path) -> None:
         limits=Limits(clients=3, client_timeout_s=1.5, message_bytes=1000),
         references=(tmp_path / "refs.xml",),
         entities=(tmp_path / "a.json", Path("/b.json")),
-        manifests=(tmp_path / "m.json",),
+        manifests=(ManifestOf(tmp_path / "m.json"), ManifestOf(tmp_path / "n.json", "0x1")),
         interface_paths=(tmp_path / "idl",),
         log_format="json",
         verbose=2,
@@ -212,9 +213,14 @@ def test_the_example_holds(tmp_path: Path) -> None:
     assert said.transports
 
 
-def manifest(path: Path, **types: str) -> Path:
-    path.write_text(json.dumps({"types": {f"p/msg/{name}": {"hash": told} for name, told in types.items()}}))
-    return path
+def manifest(path: Path, *nodes: str, **types: str) -> ManifestOf:
+    places = [node.rpartition("/")[::2] for node in nodes]
+    told = {
+        "types": {f"p/msg/{name}": {"hash": value} for name, value in types.items()},
+        "entities": {"nodes": [{"namespace": space or "/", "name": name} for space, name in places]},
+    }
+    path.write_text(json.dumps(told))
+    return ManifestOf(path)
 
 
 ONE, TWO = "RIHS01_" + "1" * 64, "RIHS01_" + "2" * 64
@@ -222,38 +228,67 @@ ONE, TWO = "RIHS01_" + "1" * 64, "RIHS01_" + "2" * 64
 
 def test_hashes_of_clients_come_before_those_of_files(tmp_path: Path) -> None:
     diagnostics = Diagnostics()
-    paths = [manifest(tmp_path / "a.json", A=ONE), manifest(tmp_path / "b.json", A=ONE, B=TWO)]
-    hashes = TypeHashes({"p/msg/B": ONE, "p/msg/C": TWO}.get, read_manifests(paths, diagnostics))
+    manifests = [manifest(tmp_path / "a.json", A=ONE), manifest(tmp_path / "b.json", A=ONE, B=TWO)]
+    clients = read_manifests(manifests, diagnostics)
     diagnostics.check()
+    hashes = TypeHashes({"p/msg/B": ONE, "p/msg/C": TWO}.get, clients.common)
     assert [hashes(f"p/msg/{name}") for name in "ABCD"] == [ONE, TWO, TWO, None]
-    assert hashes.differences() == ["p/msg/B"]
+    assert hashes.differences(clients) == ["p/msg/B"]
+
+
+def test_a_manifest_is_of_its_nodes_or_of_a_key(tmp_path: Path) -> None:
+    """Two clients may have two definitions of a type; the agent's core asks by key and node."""
+    diagnostics = Diagnostics()
+    first = manifest(tmp_path / "a.json", "/imu", "/ns/other", A=ONE)
+    second = manifest(tmp_path / "b.json", "/imu", A=TWO)
+    keyed = ManifestOf.of("0xA1B2C3D4=b.json", tmp_path)
+    assert keyed == ManifestOf(second.path, "0xA1B2C3D4")
+    clients = read_manifests([first, keyed], diagnostics)
+    diagnostics.check()
+    assert clients.common == {}
+    found = Manifests(clients.by_client)
+    asked = found.hash_of(b"\1\2\3\4", "imu")
+    assert asked is not None
+    assert asked("p/msg/A") == ONE
+    asked = found.hash_of(b"\1\2\3\4", "ns/other")
+    assert asked is not None
+    assert asked("p/msg/A") == ONE
+    asked = found.hash_of(b"\xa1\xb2\xc3\xd4", "imu")
+    assert asked is not None
+    assert asked("p/msg/A") == TWO
+    assert found.hash_of(b"\1\2\3\4", "nobody") is None
+    assert TypeHashes({"p/msg/A": ONE}.get, {}).differences(clients) == ["p/msg/A"]
 
 
 def test_hashes_of_a_real_manifest_are_those_of_the_shipped_files() -> None:
     golden = Path(__file__).resolve().parents[1] / "golden/static_configured_sender/manifest.json"
     diagnostics = Diagnostics()
-    hashes = TypeHashes(type_hashes(), read_manifests([golden], diagnostics))
+    clients = read_manifests([ManifestOf(golden)], diagnostics)
     diagnostics.check()
+    hashes = TypeHashes(type_hashes(), clients.common)
     assert str(hashes("std_msgs/msg/Int32")).startswith("RIHS01_b6578ded")
-    assert hashes.differences() == []
+    assert hashes.differences(clients) == []
     assert hashes("std_msgs/msg/../../Int32") is None
 
 
 def test_manifests_that_do_not_hold(tmp_path: Path) -> None:
     diagnostics = Diagnostics()
     (tmp_path / "no.json").write_text("[]")
-    paths = [
+    manifests = [
         manifest(tmp_path / "a.json", A=ONE),
         manifest(tmp_path / "b.json", A=TWO),
         manifest(tmp_path / "c.json", A="RIHS01_x"),
-        tmp_path / "no.json",
-        tmp_path / "missing.json",
+        manifest(tmp_path / "d.json", "/n", A=ONE),
+        manifest(tmp_path / "e.json", "/n", A=TWO),
+        ManifestOf(tmp_path / "no.json"),
+        ManifestOf(tmp_path / "missing.json"),
     ]
-    read_manifests(paths, diagnostics)
+    read_manifests(manifests, diagnostics)
     told = [d.message.replace(f"{tmp_path}/", "") for d in diagnostics]
     assert told == [
         "b.json and a.json have different definitions of p/msg/A",
         "c.json is no manifest of microros-gen",
+        "e.json and d.json have different definitions of p/msg/A",
         "no.json is no manifest of microros-gen",
         "missing.json cannot be read: No such file or directory",
     ]

@@ -91,6 +91,27 @@ def _free_port() -> int:
 
 
 @pytest.mark.ros
+def test_a_client_of_another_definition_is_named(tmp_path: Path) -> None:
+    """Its manifest says a hash that neither this machine nor the subscriber has."""
+    told = {"std_msgs/msg/Int32": {"hash": "RIHS01_" + "12" * 32}}
+    path = tmp_path / "manifest.json"
+    path.write_text(json.dumps({"types": told, "entities": {"nodes": [{"namespace": "/", "name": "old"}]}}))
+    with running_agent(DOMAIN, "--manifest", str(path)) as agent, XrceClient(agent.port) as client:
+        client.connect()
+        client.publisher("old", "aged", INT32, DOMAIN)
+        client.publisher("new", "fresh", INT32, DOMAIN, number=2)
+        with observing(DOMAIN) as observer:
+            observer.subscribe("/aged", INT32)
+            observer.subscribe("/fresh", INT32)
+            line = agent.wait_for("was generated with the type RIHS01_1212")
+            assert "/aged" in line
+            assert "/observer has RIHS01_b6578ded" in line
+            agent.stop()
+        rest = agent.wait_for("agent stopped")
+        assert not [line for line in (*agent.log, rest) if "/fresh" in line and "differ" in line]
+
+
+@pytest.mark.ros
 def test_every_message_as_json() -> None:
     """Both directions, decoded, and the bytes themselves."""
     with running_agent(DOMAIN, "-vv", "--log-format", "json") as agent, XrceClient(agent.port) as client:
