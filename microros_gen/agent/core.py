@@ -37,6 +37,8 @@ from microros_gen.agent.wire.submessages import decode
 
 WRITE_DATA = int(SubmessageId.WRITE_DATA)
 ACKNACK = int(SubmessageId.ACKNACK)
+ANSWERED = (SubmessageId.CREATE, SubmessageId.READ_DATA)
+"""Whoever sends these waits for a STATUS when they are refused, also for what cannot be read."""
 TICK_S = 0.05
 """Seconds between two looks at time-outs while there are clients."""
 
@@ -211,7 +213,15 @@ class Agent:
             return True  # a sign of life; the public client's answer to a probe lacks its submessage header: zeros
         if identifier == SubmessageId.HEARTBEAT:
             self._to_acknowledge.add(client)
-        self._operations.run(client, decode(identifier, flags, data, at, end), self._clock())
+        now = self._clock()
+        try:
+            submessage = decode(identifier, flags, data, at, end)
+        except MalformedError:
+            if identifier in ANSWERED and end - at >= DATA_PREFIX:
+                ids = data[at] << 8 | data[at + 1], data[at + 2] << 8 | data[at + 3]
+                self._operations.refuse(client, *ids, now)
+            raise
+        self._operations.run(client, submessage, now)
         return True
 
     def _refuse(self, error: Exception, data: bytes, address: Hashable, transport: Transport) -> None:

@@ -113,6 +113,10 @@ class Operations:
             status=status.name,
         )
 
+    def refuse(self, client: Client, request: int, object_id: int, now: float) -> None:
+        """Answer a request that cannot be read: STATUS_ERR_INVALID_DATA (table 2)."""
+        self._answer(client, request, object_id, Status.INVALID_DATA, now)
+
     def write(self, client: Client, data: bytes, at: int, end: int, flags: int) -> int:
         """Carry out a WRITE_DATA that is no plain sample of a data writer; return how much went to ROS 2."""
         if end - at < DATA_PREFIX:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from hypothesis import strategies as st
 
 from microros_gen.agent.wire.constants import ObjectKind
@@ -72,7 +74,7 @@ def creates(draw: st.DrawFn) -> Create:
     )
 
 
-BY_NAME = {
+BY_NAME: dict[str, st.SearchStrategy[Any]] = {
     "CREATE_CLIENT": st.builds(CreateClient, four(4), u8, u16, properties, four(4), four(2), four(2)),
     "CREATE": creates(),
     "GET_INFO": st.builds(GetInfo, u16, u16, u32),

@@ -244,6 +244,24 @@ def test_a_recorded_dialogue() -> None:
             sequence += 1
 
 
+@pytest.mark.parametrize(
+    ("said", "kind"),
+    [
+        ("01 07 08 00 00 0a 00 1d 0d 03 00 00", "truncated"),
+        ("01 07 0c 00 00 0a 00 1d 0d 03 00 00 00 00 00 00", "object_kind"),
+        ("01 07 0c 00 00 0a 00 1d 09 02 00 00 00 00 00 00", "object_kind"),
+        ("01 07 06 00 00 0a 00 1d 01 07", "representation"),
+        ("08 01 05 00 00 0a 00 1d 01", "truncated"),
+        ("08 01 08 00 00 0a 00 1d 01 00 02 00", "boolean"),
+    ],
+)
+def test_a_request_that_cannot_be_read_is_answered(said: str, kind: str) -> None:
+    """Table 2: STATUS_ERR_INVALID_DATA; whoever created or read something waits for a STATUS."""
+    bench = publishing()
+    assert bench.say("81 01 04 00" + said) == ["81 01 04 00 05 01 06 00 00 0a 00 1d 85 00"]
+    assert bench.log.counters == {kind: 1}
+
+
 def test_delete_of_objects() -> None:
     bench = publishing()
     assert bench.say("81 01 04 00 03 01 04 00 00 20 00 15") == ["81 01 04 00 05 01 06 00 00 20 00 15 00 00"]

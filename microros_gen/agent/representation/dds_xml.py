@@ -66,24 +66,31 @@ def read_types(root: Element, text: str) -> TypeDefinition:
 def read_qos_library(root: Element, known: Known) -> QosProfile:
     """Return the one profile of a `qos_library`."""
     _expect(root, "qos_library")
-    profile = _only(root, "qos_profile")
-    name = f"{_name(root)}::{_name(profile)}"
+    return read_qos_profile(_name(root), _only(root, "qos_profile"), known)
+
+
+def read_qos_profile(library: str, profile: Element, known: Known) -> QosProfile:
+    """Return a profile of the library with a name."""
     base = _profile(profile.get("base_name", ""), known)
     return QosProfile(
-        name,
+        f"{library}::{_name(profile)}",
         _qos(profile.find("data_writer_qos"), base.writer or WRITER, known),
         _qos(profile.find("data_reader_qos"), base.reader or READER, known),
     )
 
 
-def read_application(root: Element, known: Known) -> Application:
+def read_application_library(root: Element, known: Known) -> Application:
     """Return the one application of an `application_library`, with everything in it."""
     _expect(root, "application_library")
-    application = _only(root, "application")
+    return read_application(_name(root), _only(root, "application"), known)
+
+
+def read_application(library: str, application: Element, known: Known) -> Application:
+    """Return an application of the library with a name."""
     parts: list[Part] = []
     for element in application.findall("domain_participant"):
         _add_participant(parts, element, known)
-    return Application(f"{_name(root)}::{_name(application)}", tuple(parts))
+    return Application(f"{library}::{_name(application)}", tuple(parts))
 
 
 def read_participant(root: Element, domain: int) -> Participant:

@@ -15,7 +15,7 @@ from microros_gen.agent.representation.dds_xml import (
     Known,
     check_alone,
     is_standard,
-    read_application,
+    read_application_library,
     read_endpoint,
     read_participant,
     read_qos_library,
@@ -59,7 +59,7 @@ def from_xml(kind: int, text: str, domain: int, known: Known | None = None) -> D
     if kind == ObjectKind.QOSPROFILE:
         return read_qos_library(_parse(text), known)
     if kind == ObjectKind.APPLICATION:
-        return read_application(_parse(text), known)
+        return read_application_library(_parse(text), known)
     if kind not in _READERS:
         raise UnsupportedKindError(f"XML objects of kind {kind:#04x}")
     tag, read = _READERS[kind]
