@@ -13,6 +13,9 @@ from microros_gen.agent.reading import Reading
 from microros_gen.agent.ros.bridge import Source
 from microros_gen.agent.wire.data_messages import ReadData
 
+CROWDED = 256
+"""Moments that are noted before those of readings that are over are thrown out."""
+
 
 class Deliveries:
     """Starts, wakes and ends readings; one at most for each object."""
@@ -23,6 +26,7 @@ class Deliveries:
         """By the identity of the source, which its reading keeps alive."""
         self._later: list[tuple[float, int, Reading]] = []
         self._order = 0
+        self._crowded = CROWDED
         self.delivered = 0
         """Samples, requests and replies that went to clients."""
 
@@ -46,7 +50,7 @@ class Deliveries:
         still = []
         for _ in range(len(client.waiting)):
             reading = client.waiting.popleft()
-            if reading.over or reading.has_room():
+            if reading.has_room():
                 reading.waiting = False
                 self._go(reading, now)
             else:
@@ -97,6 +101,10 @@ class Deliveries:
             reading.scheduled = True
             self._order += 1
             heapq.heappush(self._later, (at, self._order, reading))
+            if len(self._later) > self._crowded:
+                self._later = [item for item in self._later if not item[2].over]
+                heapq.heapify(self._later)
+                self._crowded = max(CROWDED, 2 * len(self._later))
 
     def _attach(self, reading: Reading, source: Readable | None) -> None:
         if reading.source is not None:
@@ -110,3 +118,6 @@ class Deliveries:
         if reading is not None:
             reading.over = True
             self._attach(reading, None)
+            if reading.waiting:
+                client.waiting.remove(reading)
+                reading.waiting = False

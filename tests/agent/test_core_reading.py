@@ -499,3 +499,20 @@ def test_a_fault_of_the_bridge_is_survived(monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setattr(bench.bridge, "ready", broken)
     assert bench.take() == []
     assert bench.log.counters == {"internal_KeyError": 1}
+
+
+def test_readings_that_are_replaced_leave_nothing_behind() -> None:
+    """READ_DATA over and over, never acknowledged, or with the longest pace: nothing grows."""
+    bench = subscribing(Limits(client_timeout_s=1_000.0))
+    listener = Listener(bench)
+    put(bench, *range(2_000))
+    (client,) = bench.agent.clients
+    for _ in range(500):
+        listener.read(stream=0x80)
+        listener.read(stream=0x81, control=DeliveryControl(0xFFFF, min_pace_period=0xFFFF))
+    assert len(client.readings) == 1
+    assert len(client.waiting) <= 1
+    for _ in range(1_000):
+        listener.read(stream=1, control=DeliveryControl(0xFFFF, min_pace_period=0xFFFF))
+    assert len(bench.agent._deliveries._later) <= 300
+    assert values(listener.pass_time(66.0)) != [], "the last one goes on"
