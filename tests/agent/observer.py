@@ -2,6 +2,7 @@
 """An ordinary rclpy process that takes part in the ROS graph; answers commands, one JSON object a line.
 
 {"do": "subscribe", "topic": "/a", "type": "std_msgs/msg/Int32", "reliable": true, "transient_local": false}
+{"do": "matched", "topic": "/a"}                   subscriptions that the publisher above has found
 {"do": "subscribe_raw", "topic": "/a", "type": "any_pkg/msg/Any", "hash": null}   samples as hexadecimal text
 {"do": "publish", "topic": "/a", "type": "std_msgs/msg/Int32", "values": [{"data": 1}], "transient_local": false}
                    one sample a value, the publisher stays; answers the samples as rclpy serializes them, in hexadecimal
@@ -155,6 +156,9 @@ class _Peer:
         for message in messages:
             self._publishers[topic].publish(message)
         return [serialize_message(message).hex() for message in messages]
+
+    def matched(self, topic: str) -> int:
+        return int(self._publishers[topic].get_subscription_count())
 
     def subscribe_raw(self, topic: str, type: str, hash: str | None) -> bool:
         from rclpy.impl.implementation_singleton import rclpy_implementation

@@ -19,7 +19,7 @@ from agent.bridging import (
 from agent.observer import Observer
 from microros_gen.agent.ros import services
 from microros_gen.agent.ros.bridge import BridgeError, NoServer
-from microros_gen.agent.ros.services import HELD_REQUESTS
+from microros_gen.agent.ros.services import HELD_BYTES, HELD_REQUESTS
 
 pytestmark = pytest.mark.ros
 
@@ -88,6 +88,8 @@ def test_a_big_endian_request_is_understood(bridged: Bridged, bridge_observer: O
 def test_requests_wait_for_a_service_that_comes_later(bridged: Bridged, bridge_observer: Observer) -> None:
     node = bridged.bridge.create_node("early", bridged.domain)
     requester = node.create_requester(get_types("later"))
+    with pytest.raises(BridgeError, match="nobody serves it"):
+        requester.request(names_body(["n" * HELD_BYTES]))
     numbers = [requester.request(names_body(["n" * i])) for i in range(HELD_REQUESTS)]
     with pytest.raises(BridgeError, match="nobody serves it"):
         requester.request(names_body([]))

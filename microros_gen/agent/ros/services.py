@@ -25,8 +25,8 @@ IDENTITY_BYTES = 24
 """SampleIdentity of DDS-RPC: GUID, then the sequence number as signed high and unsigned low word."""
 WAIT_FOR_SERVER_S = 5.0
 """How long a request waits for a service that has not been there yet."""
-HELD_REQUESTS = 16
-"""Requests of one service client that wait for it."""
+HELD_REQUESTS, HELD_BYTES = 64, 262_144
+"""Requests of one service client that wait for it, and their size together."""
 VANISHED_CLIENTS = 256
 """Clients of a service that are remembered as unknown to the graph."""
 _LOOK_AGAIN_S = 0.05
@@ -178,7 +178,8 @@ class RawRequester(_RawService):
         raw_message(serialized)
         if self.find_server():
             return self._send(serialized)
-        if len(self._held) >= HELD_REQUESTS:
+        held_bytes = sum(len(held) for _, held in self._held)
+        if len(self._held) >= HELD_REQUESTS or held_bytes + len(serialized) > HELD_BYTES:
             raise BridgeError(f"request on {self.label}: nobody serves it", Status.RESOURCES)
         self._held.append((time.monotonic() + WAIT_FOR_SERVER_S, serialized))
         self._servers.wait_for(self)
