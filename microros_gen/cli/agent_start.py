@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 import time
 from collections.abc import Sequence
@@ -25,6 +24,7 @@ from microros_gen.agent.ros.reports import graph_reporter
 from microros_gen.agent.server import Server, stopped_by_signals
 from microros_gen.agent.trace import TracedTransport
 from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.transport.sockets import PROTOCOLS
 from microros_gen.cli.agent_options import AgentOptions, read_sources
 from microros_gen.cli.agent_types import ClientTypes, HashOf, TypeHashes, read_manifests
 from microros_gen.cli.type_hashes import type_hashes
@@ -35,6 +35,7 @@ from microros_gen.parse.preconfigured import parse_preconfigured
 
 def serve(options: AgentOptions) -> None:
     """Serve until a signal comes; a ready line for each transport goes to stdout. UserError: it cannot start."""
+    _check_system()
     files = _files(options)
     as_json = options.log_format == "json"
     log = EventLog(sys.stderr, as_json, options.verbose)
@@ -78,16 +79,14 @@ def open_transports(
 
 
 def _open(choice: TransportChoice, log: EventLog) -> Transport:
-    if isinstance(choice, SerialChoice):
-        line: Transport = _posix("serial lines").serial_line(choice.device, choice.baud, log)
-        return line
-    if isinstance(choice, PtyChoice):
-        pty: Transport = _posix("pseudo-terminals").Pty(log, Path(choice.link) if choice.link else None)
-        return pty
-    from microros_gen.agent.transport.sockets import PROTOCOLS
+    from microros_gen.agent.transport.serial import Pty, serial_line  # not on every system
     from microros_gen.agent.transport.tcp import Tcp, TcpLimits
     from microros_gen.agent.transport.udp import Udp
 
+    if isinstance(choice, SerialChoice):
+        return serial_line(choice.device, choice.baud, log)
+    if isinstance(choice, PtyChoice):
+        return Pty(log, Path(choice.link) if choice.link else None)
     protocol = PROTOCOLS[choice.kind]
     host = choice.bind or protocol.loopback
     if not protocol.stream:
@@ -104,13 +103,14 @@ def _discovery(opened: Sequence[Transport], log: EventLog, port: int) -> Transpo
     return Discovery([t for t in opened if isinstance(t, Udp | Tcp)], log, port)
 
 
-def _posix(what: str) -> Any:
-    if os.name != "posix":
-        hint = "Under Windows run the agent in WSL 2 and hand the device on to it (usbipd attach --wsl)"
-        raise UserError([Diagnostic(f"{what} need Linux, macOS or another POSIX system", hint=hint)])
-    from microros_gen.agent.transport import serial
-
-    return serial
+def _check_system() -> None:
+    """ROS 2's packages, and the system calls that the agent waits with, are Linux's."""
+    if sys.platform != "linux":
+        hint = (
+            "Under Windows run it in WSL 2 (usbipd attach --wsl hands serial devices on), on macOS in a virtual"
+            " machine; clients reach it over UDP, TCP or a serial line"
+        )
+        raise UserError([Diagnostic("the agent needs Linux", hint=hint)])
 
 
 def _close(transports: Sequence[Transport]) -> None:

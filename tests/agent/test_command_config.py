@@ -14,6 +14,7 @@ from microros_gen.agent.limits import Limits
 from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.transport.tcp import TcpLimits
 from microros_gen.cli.agent_options import AgentOptions, _one_each
+from microros_gen.cli.agent_start import serve
 from microros_gen.cli.agent_types import ManifestOf, TypeHashes, read_manifests
 from microros_gen.cli.type_hashes import type_hashes
 from microros_gen.diagnostics import Diagnostics, Source, UserError
@@ -292,3 +293,9 @@ def test_manifests_that_do_not_hold(tmp_path: Path) -> None:
         "no.json is no manifest of microros-gen",
         "missing.json cannot be read: No such file or directory",
     ]
+
+
+def test_another_system_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.platform", "win32")
+    with pytest.raises(UserError, match="the agent needs Linux"):
+        serve(AgentOptions(transports=(PtyChoice(),)))
