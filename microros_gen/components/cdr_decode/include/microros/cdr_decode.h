@@ -31,8 +31,8 @@
 extern "C" {
 #endif
 
-/** The bound of a string or sequence without one: none has the bound 0. */
-#define CDR_UNBOUNDED 0U
+/** The bound of a string or sequence without one. */
+#define CDR_UNBOUNDED UINT32_MAX
 
 /** The body that is being read. `position` is never above `size`. */
 typedef struct cdr_in_t {
@@ -117,9 +117,7 @@ uint32_t cdr_in_length(cdr_in_t * in, uint32_t width, const char * field);
 /** The smaller one of a bound and a capacity. */
 static inline uint32_t cdr_in_limit(size_t capacity, uint32_t bound)
 {
-  const uint32_t most = (bound == CDR_UNBOUNDED) ? UINT32_MAX : bound;
-
-  return (capacity < most) ? (uint32_t)capacity : most;
+  return (capacity < bound) ? (uint32_t)capacity : bound;
 }
 
 #ifdef __cplusplus
