@@ -6,10 +6,15 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Hashable, Iterator
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from microros_gen.agent.objects import ObjectTree
+from microros_gen.agent.services import Calls
 from microros_gen.agent.session import Session
 from microros_gen.agent.transport.base import Transport
+
+if TYPE_CHECKING:
+    from microros_gen.agent.reading import Reading
 
 
 @dataclass(eq=False)
@@ -22,6 +27,9 @@ class Client:
     address: Hashable
     timeout_s: float
     heard: float
+    calls: Calls
+    opened: float = 0.0
+    """When its session began; times of samples count from there."""
     probed: float = 0.0
     asleep: bool = False
     """Not heard for `timeout_s`: its entities are not in the ROS graph, and return when it is heard."""
@@ -33,6 +41,13 @@ class Client:
     """To be processed: message, offset of its first submessage, its stream, whether fragments made it."""
     stream: int = 0
     """Stream of the message that is processed now."""
+    readings: dict[int, Reading] = field(default_factory=dict)
+    """What it reads, by object id."""
+    waiting: deque[Reading] = field(default_factory=deque)
+    """Readings that wait for room on a reliable stream."""
+    second: float = 0.0
+    """End of the second in which `messages` are counted."""
+    messages: int = 0
 
     @property
     def name(self) -> str:
@@ -47,6 +62,12 @@ class Client:
     def send(self, message: bytes) -> None:
         """Send one message."""
         self.transport.send(message, self.address)
+
+    def acknowledge(self) -> None:
+        """Send the acknowledgements that are due."""
+        for stream in self.unacknowledged:
+            self.send(self.session.acknack(stream))
+        self.unacknowledged.clear()
 
 
 class ClientTable:

@@ -12,13 +12,16 @@ from collections.abc import Callable, Hashable
 from pathlib import Path
 
 from microros_gen.agent.clients import Client, ClientTable
+from microros_gen.agent.deliveries import Deliveries
 from microros_gen.agent.limits import PROBES, Limits
 from microros_gen.agent.lobby import Held, Lobby
 from microros_gen.agent.log import EventLog
+from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.operations import Operations
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.representation import References
 from microros_gen.agent.ros.bridge import Bridge, BridgeError
+from microros_gen.agent.services import ENCAPSULATION
 from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.wire.constants import (
     DATA_FORMAT_MASK,
@@ -33,8 +36,11 @@ from microros_gen.agent.wire.message import header_size, split
 from microros_gen.agent.wire.submessages import decode
 
 WRITE_DATA = int(SubmessageId.WRITE_DATA)
-ENCAPSULATION = (b"\x00\x00\x00\x00", b"\x00\x01\x00\x00")
-"""What a sample gets in front for DDS, by the byte order flag of its WRITE_DATA: XCDR1, big or little."""
+ACKNACK = int(SubmessageId.ACKNACK)
+ANSWERED = (SubmessageId.CREATE, SubmessageId.READ_DATA)
+"""Whoever sends these waits for a STATUS when they are refused, also for what cannot be read."""
+TICK_S = 0.05
+"""Seconds between two looks at time-outs while there are clients."""
 
 
 class Agent:
@@ -48,18 +54,45 @@ class Agent:
         references: References | None = None,
         preconfigured: Preconfigured | None = None,
         clock: Callable[[], float] = time.monotonic,
+        manifests: Manifests | None = None,
     ) -> None:
         self._bridge = bridge
         self._log = log
         self._limits = limits
         self._clock = clock
         self._to_acknowledge: set[Client] = set()
+        self._ticked = clock()
         self.clients = ClientTable()
-        held = Held(references or References(), preconfigured or Preconfigured())
-        self._lobby = Lobby(self.clients, bridge, log, limits, held)
-        self._operations = Operations(log, limits)
+        held = Held(references or References(), preconfigured or Preconfigured(), manifests or Manifests())
+        self._deliveries = Deliveries(log)
+        self._lobby = Lobby(self.clients, bridge, log, limits, held, self._deliveries)
+        self._operations = Operations(log, self._deliveries)
         self.samples = 0
-        """Samples that were handed to ROS 2."""
+        """Samples, requests and replies that were handed to ROS 2."""
+
+    @property
+    def delivered(self) -> int:
+        """Return how many samples, requests and replies went to clients."""
+        return self._deliveries.delivered
+
+    def fileno(self) -> int:
+        """Return the descriptor that is readable when ROS 2 has something: then `take` is due."""
+        return self._bridge.fileno()
+
+    def due(self) -> float | None:
+        """Return the moment (of the clock) at which `tick` is due; None: not before a message or data come."""
+        later = self._deliveries.due()
+        if not len(self.clients):
+            return later
+        tick = self._ticked + TICK_S
+        return tick if later is None else min(tick, later)
+
+    def take(self) -> None:
+        """Hand on what ROS 2 has for the clients. Never raises."""
+        try:
+            self._deliveries.ready(self._bridge.ready(), self._clock())
+        except Exception as error:
+            self._fault(error, b"")
 
     def receive(self, data: bytes, address: Hashable, transport: Transport) -> None:
         """Take one message. Acknowledgements wait for `flush`."""
@@ -71,14 +104,21 @@ class Agent:
     def flush(self) -> None:
         """Send the acknowledgements of what was received since the last call."""
         for client in self._to_acknowledge:
-            for stream in client.unacknowledged:
-                client.send(client.session.acknack(stream))
-            client.unacknowledged.clear()
+            client.acknowledge()
         self._to_acknowledge.clear()
 
     def tick(self) -> None:
-        """Send what is due and look for time-outs; to be called some ten times a second."""
+        """Send what is due and look for time-outs; to be called when `due` says, or some ten times a second."""
         now = self._clock()
+        try:
+            self._deliveries.run(now)
+        except Exception as error:
+            self._fault(error, b"")
+        if now >= self._ticked + TICK_S:
+            self._ticked = now
+            self._look_after_clients(now)
+
+    def _look_after_clients(self, now: float) -> None:
         for client in self.clients:
             silent = now - client.heard
             if client.asleep:
@@ -107,11 +147,19 @@ class Agent:
             client = self._lobby.visit(data, start, client, address, transport, self._clock())
             if client is None:
                 return
-        client.heard = self._clock()
+        now = self._clock()
+        if now >= client.second:
+            client.second, client.messages = now + 1.0, 0
+        client.messages += 1
+        if client.messages > self._limits.messages_per_second:
+            raise MalformedError(
+                "too_many_messages", f"more than {self._limits.messages_per_second} in a second"
+            )
+        client.heard = now
         if start == 8 and client.address != address:
-            self._lobby.move(client, transport, address)
+            self._lobby.move(client, transport, address, now)
         if client.asleep:
-            self._lobby.wake(client)
+            self._lobby.wake(client, now)
         stream = data[1]
         ready = client.ready
         for message in client.session.incoming(stream, data[2] | data[3] << 8, data):
@@ -129,19 +177,21 @@ class Agent:
         client.stream = stream
         publish = client.objects.publish
         for identifier, flags, at, end in split(data, start, whole):
-            if identifier != WRITE_DATA:
-                if not self._operate(client, identifier, flags, data, at, end, whole):
-                    return
-                continue
-            writer = publish.get(data[at + 2] << 8 | data[at + 3]) if end - at >= DATA_PREFIX else None
-            if writer is None or flags & DATA_FORMAT_MASK:
-                self._refuse_sample(client, data, at, end, flags)
-                continue
-            try:
-                writer(ENCAPSULATION[flags & FLAG_LITTLE] + data[at + DATA_PREFIX : end])
-                self.samples += 1
-            except BridgeError as error:
-                self._log.count("publish", "client {client}: {reason}", client=client.name, reason=str(error))
+            if identifier == WRITE_DATA:
+                writer = publish.get(data[at + 2] << 8 | data[at + 3]) if end - at >= DATA_PREFIX else None
+                if writer is None or flags & DATA_FORMAT_MASK:
+                    self.samples += self._operations.write(client, data, at, end, flags)
+                    continue
+                try:
+                    writer(ENCAPSULATION[flags & FLAG_LITTLE] + data[at + DATA_PREFIX : end])
+                    self.samples += 1
+                except BridgeError as error:
+                    self._operations.not_written(client, error)
+            elif identifier == ACKNACK and end - at == 5 and flags & FLAG_LITTLE:
+                first, missing = data[at] | data[at + 1] << 8, data[at + 2] << 8 | data[at + 3]
+                self._operations.acknowledged(client, data[at + 4], first, missing, self._clock())
+            elif not self._operate(client, identifier, flags, data, at, end, whole):
+                return
 
     def _operate(
         self, client: Client, identifier: int, flags: int, data: bytes, at: int, end: int, whole: bool
@@ -159,24 +209,20 @@ class Agent:
             return False
         if identifier == SubmessageId.FRAGMENT and whole:
             raise MalformedError("nested_fragment")
-        if identifier == SubmessageId.INFO:
-            return True  # a sign of life; what it says is not needed
+        if identifier == SubmessageId.INFO or (identifier == SubmessageId.CREATE_CLIENT and at == end):
+            return True  # a sign of life; the public client's answer to a probe lacks its submessage header: zeros
         if identifier == SubmessageId.HEARTBEAT:
             self._to_acknowledge.add(client)
-        self._operations.run(client, decode(identifier, flags, data, at, end), self._clock())
+        now = self._clock()
+        try:
+            submessage = decode(identifier, flags, data, at, end)
+        except MalformedError:
+            if identifier in ANSWERED and end - at >= DATA_PREFIX:
+                ids = data[at] << 8 | data[at + 1], data[at + 2] << 8 | data[at + 3]
+                self._operations.refuse(client, *ids, now)
+            raise
+        self._operations.run(client, submessage, now)
         return True
-
-    def _refuse_sample(self, client: Client, data: bytes, at: int, end: int, flags: int) -> None:
-        if end - at < DATA_PREFIX:
-            raise MalformedError("truncated", f"WRITE_DATA of {end - at} bytes")
-        if flags & DATA_FORMAT_MASK:
-            raise MalformedError("data_format", f"format {flags & DATA_FORMAT_MASK:#04x} is not served")
-        self._log.count(
-            "unknown_writer",
-            "client {client}: a sample for data writer {object}, which it has not created",
-            client=client.name,
-            object=data[at + 2 : at + 4].hex(),
-        )
 
     def _refuse(self, error: Exception, data: bytes, address: Hashable, transport: Transport) -> None:
         if isinstance(error, MalformedError):
@@ -187,7 +233,10 @@ class Agent:
                 detail=error.detail or error.kind,
             )
             return
-        # A fault of this program: it must not end the service of other clients.
+        self._fault(error, data)
+
+    def _fault(self, error: Exception, data: bytes) -> None:
+        """Tell of a fault of this program: it must not end the service of other clients."""
         self._log.count(
             f"internal_{type(error).__name__}",
             "internal error: {error} at {place}; please report it with the message {data}",

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Messages on a stream of bytes, as XRCE clients frame them on serial lines.
+"""Messages on a stream of bytes, as XRCE clients frame them on serial lines and on TCP.
 
-A frame is a flag (0x7E), then, stuffed: source address, destination address, length of the payload (16 bits,
-little endian), the payload, and its CRC-16/ARC (little endian). Stuffing writes 0x7E as 7D 5E and 0x7D as 7D 5D;
-so a flag always begins a frame, and there is none at its end. Addresses are bytes; an agent has address 0.
+On TCP each message stands behind its length (16 bits, little endian). On a serial line a frame is a flag (0x7E),
+then, stuffed: source address, destination address, length of the payload (16 bits, little endian), the payload, and
+its CRC-16/ARC (little endian). Stuffing writes 0x7E as 7D 5E and 0x7D as 7D 5D; so a flag always begins a frame, and
+there is none at its end. Addresses are bytes; an agent has address 0.
 
 The CRC is a table look-up for two bytes at a time in Python, measured 35 MB/s, and 24 MB/s for whole
 frames: twenty times what a serial line of 12 Mbit/s carries, so no library is needed for it.
@@ -52,6 +53,38 @@ def encode_frame(payload: bytes, destination: int, source: int = AGENT_ADDRESS) 
     head = struct.pack("<BBH", source, destination, len(payload))
     plain = head + payload + crc16(payload).to_bytes(_CRC, "little")
     return FLAG + plain.replace(ESCAPE, _ESCAPED_ESCAPE).replace(FLAG, _ESCAPED_FLAG)
+
+
+def encode_length(payload: bytes) -> bytes:
+    """Return `payload` (at most 65,535 bytes) behind its length, as it goes over TCP."""
+    return len(payload).to_bytes(2, "little") + payload
+
+
+class LengthDecoder:
+    """Cuts a TCP stream into messages, whatever its segments; holds at most one unfinished message."""
+
+    def __init__(self) -> None:
+        self._rest = b""
+
+    @property
+    def unfinished(self) -> bool:
+        """Whether a message began and its end has not come."""
+        return bool(self._rest)
+
+    def feed(self, data: bytes) -> list[bytes]:
+        """Take what came next; return the messages that it completes, in order. Some may be empty."""
+        if self._rest:
+            data = self._rest + data
+        messages = []
+        at, end = 0, len(data)
+        while end - at >= 2:
+            stop = at + 2 + (data[at] | data[at + 1] << 8)
+            if stop > end:
+                break
+            messages.append(data[at + 2 : stop])
+            at = stop
+        self._rest = data[at:]
+        return messages
 
 
 class FrameDecoder:

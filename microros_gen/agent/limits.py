@@ -15,11 +15,17 @@ class Limits:
     objects: int = 512
     """Objects (participants, topics, publishers, writers, …)."""
     streams: int = 8
-    """Input streams of each kind."""
+    """Streams of each kind (best effort, reliable) and each direction."""
     message_bytes: int = 262_144
     """Largest message that comes in fragments; also what a stream holds behind a gap."""
     backlog_bytes: int = 65_536
     """What waits for a reliable stream to the client, beyond the window of 16 messages."""
+    requests: int = 1_024
+    """Requests without a reply of each requester and replier; the oldest is forgotten for one more."""
+    messages_per_second: int = 50_000
+    """Messages that are taken from one client in a second; further ones are dropped and counted."""
+    strangers_per_second: int = 2_000
+    """Messages outside of any session that are answered in a second, of all senders together."""
     minimum_mtu: int = 32
     """Smallest message size in bytes that a client may announce; a STATUS has to fit."""
     domains: int = 16

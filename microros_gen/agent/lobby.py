@@ -5,15 +5,21 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import dataclass
+from functools import partial
 
 from microros_gen.agent.clients import Client, ClientTable
+from microros_gen.agent.deliveries import Deliveries
+from microros_gen.agent.entities import Home
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog, Level
+from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.objects import ObjectTree
 from microros_gen.agent.operations import agent_info, tell_outcome
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.representation import References
+from microros_gen.agent.rivals import Rivals
 from microros_gen.agent.ros.bridge import Bridge
+from microros_gen.agent.services import Calls
 from microros_gen.agent.session import Session
 from microros_gen.agent.streams_out import Link
 from microros_gen.agent.transport.base import Transport
@@ -41,23 +47,34 @@ HARD_LIVELINESS = "uxr_hl"
 
 @dataclass(frozen=True)
 class Held:
-    """What the agent's files say of objects: those that clients name, and those that they never speak of."""
+    """What the agent's files say: objects that clients name, those that they never speak of, the types they have."""
 
     references: References
     preconfigured: Preconfigured
+    manifests: Manifests
 
 
 class Lobby:
     """Lets clients in and out; keeps the client table."""
 
     def __init__(
-        self, clients: ClientTable, bridge: Bridge, log: EventLog, limits: Limits, held: Held
+        self,
+        clients: ClientTable,
+        bridge: Bridge,
+        log: EventLog,
+        limits: Limits,
+        held: Held,
+        deliveries: Deliveries,
     ) -> None:
         self._clients = clients
         self._bridge = bridge
         self._log = log
         self._limits = limits
         self._held = held
+        self._deliveries = deliveries
+        self._rivals = Rivals(log, limits.clients)
+        self._answered = 0
+        self._second = 0.0
         self._never_adopted: set[bytes] = set()
         self._strangers: dict[tuple[Transport, Hashable], float] = {}
         """Who sends samples without a session, and since when; the oldest first."""
@@ -76,7 +93,12 @@ class Lobby:
         `client` is who is known at this address. Everything else is counted, and not answered; but what comes from
         a client that is to be adopted is not dealt with here, and that client returned.
         """
+        self._count_stranger(now)
         header = Header.decode(data)
+        key = self._rivals.heard(transport, address, now) if client is None else None
+        rival = self._clients.with_key(key) if key else None
+        if rival is not None:
+            self._rivals.fight(rival, transport, address)
         for identifier, flags, at, end in split(data, start)[:1]:
             submessage = decode(identifier, flags, data, at, end)
             if isinstance(submessage, WriteData | Heartbeat) and client is None:
@@ -97,9 +119,10 @@ class Lobby:
                 raise MalformedError("no_session", f"{submessage.ID.name} without a session")
         return None
 
-    def move(self, client: Client, transport: Transport, address: Hashable) -> None:
+    def move(self, client: Client, transport: Transport, address: Hashable, now: float) -> None:
         """Note that `client` sends from another address now."""
         before = client.place
+        self._rivals.moved(client, transport, address, now)
         evicted = self._clients.move(client, transport, address)
         if evicted is not None:
             self.dismiss(evicted, "dropped: another client uses its address")
@@ -123,6 +146,7 @@ class Lobby:
     def dismiss(self, client: Client, why: str) -> None:
         """Forget a client; its entities leave the ROS graph."""
         self._clients.remove(client)
+        self._deliveries.forget(client)
         client.objects.clear()
         self._tell(client, "client_gone", "client {client} " + why)
 
@@ -135,13 +159,15 @@ class Lobby:
         """Take the entities of a client that is not heard out of the ROS graph; its session stays."""
         client.asleep = True
         client.objects.suspend()
+        self._deliveries.refresh(client, client.heard)
         text = "client {client} was not heard for {seconds} s: its entities left the ROS graph"
         self._tell(client, "client_silent", text, seconds=client.timeout_s)
 
-    def wake(self, client: Client) -> None:
+    def wake(self, client: Client, now: float) -> None:
         """Bring the entities of a client back that is heard again."""
         client.asleep = False
         failed = client.objects.resume()
+        self._deliveries.refresh(client, now)
         self._tell(client, "client_back", "client {client} is heard again: its entities are back")
         for entity, reason in failed:
             text = "client {client}: object {object} could not be made again: {reason}"
@@ -181,6 +207,8 @@ class Lobby:
             self._welcome_back(client, link, address, transport, now)
             return Status.OK
         if client is not None:
+            if client.address != address:
+                self._rivals.moved(client, transport, address, now)
             self.dismiss(client, "replaced: it came with another session id")
         new = self._add(link, address, transport, self._timeout(wanted), now)
         if new is None:
@@ -198,8 +226,11 @@ class Lobby:
         if not self._has_room():
             return None
         name = f"xrce_client_{link.key.hex().upper()}"
-        objects = ObjectTree(self._bridge, self._held.references, self._limits.objects, name)
-        new = Client(Session(link, self._limits), objects, transport, address, timeout_s, heard=now)
+        home = Home(self._bridge, name, partial(self._held.manifests.hash_of, link.key))
+        objects = ObjectTree(home, self._held.references, self._limits.objects)
+        calls = Calls(self._log, self._limits.requests, link.key.hex().upper())
+        session = Session(link, self._limits)
+        new = Client(session, objects, transport, address, timeout_s, heard=now, calls=calls, opened=now)
         self._clients.add(new)
         return new
 
@@ -253,16 +284,28 @@ class Lobby:
     def _welcome_back(
         self, client: Client, link: Link, address: Hashable, transport: Transport, now: float
     ) -> None:
+        self._deliveries.forget(client)  # whoever starts again has not asked for anything yet
         client.session.reset(link)
         client.unacknowledged.clear()
-        client.heard = now
+        client.objects.forget_requests()
+        client.heard = client.opened = now
         client.adopted = False
         if client.address != address:
-            self.move(client, transport, address)
+            self.move(client, transport, address, now)
         if client.asleep:
-            self.wake(client)
+            self.wake(client, now)
         self._tell(client, "client_again", "client {client} connected again, its entities are kept")
         self._give(client)
+
+    def _count_stranger(self, now: float) -> None:
+        """Count a message outside of any session; MalformedError when there are too many of them."""
+        if now >= self._second:
+            self._second, self._answered = now + 1.0, 0
+        self._answered += 1
+        if self._answered > self._limits.strangers_per_second:
+            raise MalformedError(
+                "too_many_strangers", f"more than {self._limits.strangers_per_second} without a session"
+            )
 
     def _has_room(self) -> bool:
         if len(self._clients) < self._limits.clients:

@@ -8,9 +8,11 @@ import time
 from collections import Counter
 from collections.abc import Callable
 from enum import IntEnum
-from typing import TextIO
+from typing import TextIO, Union
 
 Value = str | int | float
+Json = Union[Value, bool, "list[Json]", "dict[str, Json]"]
+"""A field of an event: what comes from the network is shown as text only after `printable`."""
 
 
 class Level(IntEnum):
@@ -41,11 +43,16 @@ class EventLog:
         self._seen: set[str] = set()
         self.counters: Counter[str] = Counter()
 
+    @property
+    def as_json(self) -> bool:
+        """Whether events are written for programs."""
+        return self._json
+
     def shows(self, level: Level) -> bool:
         """Return whether events of `level` are written: whoever builds costly ones asks first."""
         return level <= self._limit
 
-    def emit(self, level: Level, event: str, text: str, **fields: Value) -> None:
+    def emit(self, level: Level, event: str, text: str, /, **fields: Json) -> None:
         """Write one event: `text`, for people, is a format string over `fields`; JSON has both."""
         if level > self._limit:
             return
@@ -53,12 +60,12 @@ class EventLog:
         message = text.format(**shown)
         if self._json:
             moment = round(self._clock(), 6)
-            head: dict[str, Value] = {"time": moment, "level": level.name.lower(), "event": event}
+            head: dict[str, Json] = {"time": moment, "level": level.name.lower(), "event": event}
             self.line(json.dumps({**head, **fields, "message": message}))
         else:
             self.line(message if level is Level.INFO else f"{level.name.lower()}: {message}")
 
-    def count(self, kind: str, text: str, **fields: Value) -> None:
+    def count(self, kind: str, text: str, /, **fields: Value) -> None:
         """Count a fault of input; write it the first time that its `kind` occurs."""
         self.counters[kind] += 1
         if kind not in self._seen:

@@ -9,20 +9,25 @@ order a client cleans up. A writer outlives the DELETE of its topic: micro-ROS d
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
+from microros_gen.agent.entities import Entity, Home, Outcome
 from microros_gen.agent.representation import (
+    Application,
     Description,
     Endpoint,
-    Participant,
+    Group,
+    Known,
+    QosProfile,
     References,
     Topic,
     describe,
 )
-from microros_gen.agent.representation.description import UnsupportedKindError
+from microros_gen.agent.representation.description import UnknownNameError, UnsupportedKindError
 from microros_gen.agent.representation.reference import UnknownReferenceError
-from microros_gen.agent.ros.bridge import Bridge, BridgeError, Node, Writer
+from microros_gen.agent.ros.bridge import BridgeError
 from microros_gen.agent.wire.constants import ObjectKind, Status
 from microros_gen.agent.wire.entity_messages import Create
 from microros_gen.agent.wire.errors import MalformedError
@@ -35,6 +40,12 @@ _SERVED = frozenset(
         ObjectKind.PUBLISHER,
         ObjectKind.SUBSCRIBER,
         ObjectKind.DATAWRITER,
+        ObjectKind.DATAREADER,
+        ObjectKind.REQUESTER,
+        ObjectKind.REPLIER,
+        ObjectKind.TYPE,
+        ObjectKind.QOSPROFILE,
+        ObjectKind.APPLICATION,
     )
 )
 _CONTAINER = {
@@ -42,47 +53,10 @@ _CONTAINER = {
     ObjectKind.PUBLISHER: ObjectKind.PARTICIPANT,
     ObjectKind.SUBSCRIBER: ObjectKind.PARTICIPANT,
     ObjectKind.DATAWRITER: ObjectKind.PUBLISHER,
+    ObjectKind.DATAREADER: ObjectKind.SUBSCRIBER,
+    ObjectKind.REQUESTER: ObjectKind.PARTICIPANT,
+    ObjectKind.REPLIER: ObjectKind.PARTICIPANT,
 }
-
-
-@dataclass(eq=False)
-class Entity:
-    """One object. `sources`: what it was made from, its container first; `node`, `writer`: its ROS side."""
-
-    id: int
-    description: Description
-    sources: tuple[Entity, ...]
-    node: Node | None = None
-    writer: Writer | None = None
-
-    @property
-    def kind(self) -> int:
-        """Kind of object."""
-        return self.id & 0x0F
-
-    @property
-    def participant(self) -> Entity:
-        """The participant that it belongs to, or is."""
-        return self.sources[0].participant if self.sources else self
-
-    def inside(self, container: Entity) -> bool:
-        """Return whether it is a part of `container`, at any depth."""
-        return bool(self.sources) and (self.sources[0] is container or self.sources[0].inside(container))
-
-    @property
-    def label(self) -> str:
-        """Name for the log; empty for what has no place in ROS."""
-        side = self.node or self.writer
-        return side.label if side else ""
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """What a CREATE came to; `reason` says why it failed, `entity` is what was made."""
-
-    status: Status
-    reason: str = ""
-    entity: Entity | None = None
 
 
 @dataclass(frozen=True)
@@ -94,6 +68,8 @@ class _Wanted:
     description: Description
     reuse: bool
     replace: bool
+    within: Entity | None = None
+    """The application that it is a part of."""
 
 
 class _RefusedError(Exception):
@@ -105,11 +81,10 @@ class _RefusedError(Exception):
 class ObjectTree:
     """Objects by id, in the order of their creation, which has sources before what is made from them."""
 
-    def __init__(self, bridge: Bridge, references: References, maximum: int, fallback_name: str) -> None:
-        self._bridge = bridge
+    def __init__(self, home: Home, references: References, maximum: int) -> None:
+        self._home = home
         self._references = references
         self._maximum = maximum
-        self._fallback_name = fallback_name
         self._objects: dict[int, Entity] = {}
         self._gone_with_container: set[int] = set()
         self.publish: dict[int, Publish] = {}
@@ -120,6 +95,10 @@ class ObjectTree:
 
     def __iter__(self) -> Iterator[Entity]:
         return iter(self._objects.values())
+
+    def find(self, object_id: int) -> Entity | None:
+        """Return the object with an id, or None."""
+        return self._objects.get(object_id)
 
     def create(self, create: Create) -> Outcome:
         """Carry out a CREATE by the table of creation modes (DDS-XRCE 1.0, table 7)."""
@@ -141,6 +120,8 @@ class ObjectTree:
             return Outcome(Status.INVALID_DATA, str(error))
         except UnknownReferenceError as error:
             return Outcome(Status.DDS_ERROR, str(error))
+        except UnknownNameError as error:
+            return Outcome(Status.UNKNOWN_REFERENCE, str(error))
         except UnsupportedKindError as error:
             return Outcome(Status.DENIED, f"{error} are not served")
 
@@ -161,6 +142,12 @@ class ObjectTree:
         """Drop everything; the ROS graph loses it at once."""
         self._remove(list(self._objects.values()))
         self._gone_with_container.clear()
+
+    def forget_requests(self) -> None:
+        """Let nobody wait for the replies to requests any more: the client does not know of them."""
+        for entity in self:
+            if entity.kind == ObjectKind.REQUESTER:
+                entity.outstanding.clear()
 
     def suspend(self) -> None:
         """Leave the ROS graph and keep the descriptions."""
@@ -186,12 +173,20 @@ class ObjectTree:
             return Outcome(Status.ALREADY_EXISTS, "the object exists")
         if create.kind not in _SERVED:
             raise _RefusedError(Status.DENIED, f"objects of kind {_kind_name(create.kind)} are not served")
-        description = describe(create, self._references)
-        return self._place(_Wanted(object_id, create.parent, description, create.reuse, create.replace))
+        description = describe(create, self._references, self._known(create.parent))
+        outcome = self._place(_Wanted(object_id, create.parent, description, create.reuse, create.replace))
+        if outcome.status is Status.OK and outcome.entity is not None:
+            outcome.entity.representation = create.representation
+        return outcome
 
     def _place(self, wanted: _Wanted) -> Outcome:
         object_id = wanted.id
         present = self._objects.get(object_id)
+        if wanted.within and present and not wanted.replace:
+            raise _RefusedError(
+                Status.ALREADY_EXISTS, f"object {object_id:#06x} exists, which is to be a part of it"
+            )
+        _check_ros(wanted.description)
         entity = Entity(object_id, wanted.description, self._sources(wanted))
         if present and wanted.reuse:
             if (present.description, present.sources) == (entity.description, entity.sources):
@@ -205,12 +200,45 @@ class ObjectTree:
         self._enter(entity)
         self._objects[object_id] = entity
         self._gone_with_container.discard(object_id)
+        if isinstance(wanted.description, Application):
+            self._fill(entity, wanted.description, wanted.replace)
         return Outcome(Status.OK, entity=entity)
+
+    def _fill(self, application: Entity, description: Application, replace: bool) -> None:
+        """Make the parts of an application: all of them, or none and not the application either (7.8.3.1).
+
+        The n-th part of a kind (from 0) has the number of the application plus n.
+        """
+        counts: Counter[int] = Counter()
+        made: list[int] = []
+        try:
+            for part in description.parts:
+                number = (application.id >> 4) + counts[part.kind] & 0xFFF
+                counts[part.kind] += 1
+                parent = 0 if part.container is None else made[part.container]
+                made.append(number << 4 | part.kind)
+                self._place(_Wanted(made[-1], parent, part.description, False, replace, within=application))
+        except Exception:
+            self._remove([application, *(e for e in self if e.inside(application))])
+            raise
+
+    def _known(self, parent: int) -> Known:
+        """Return what a description may name: all qualities, and the topics of the participant of `parent`."""
+        container = self._objects.get(parent)
+        home = container.participant if container else None
+        held = {name: d for (_, name), d in self._references.known.items() if isinstance(d, QosProfile)}
+        own = {e.description.name: e.description for e in self if isinstance(e.description, QosProfile)}
+        topics = {
+            e.description.name: e.description
+            for e in self
+            if isinstance(e.description, Topic) and e.participant is home
+        }
+        return Known({**held, **own}, topics)
 
     def _sources(self, wanted: _Wanted) -> tuple[Entity, ...]:
         kind, description = ObjectKind(wanted.id & 0x0F), wanted.description
-        if kind == ObjectKind.PARTICIPANT:
-            return ()
+        if kind not in _CONTAINER:
+            return (wanted.within,) if wanted.within else ()
         container = self._find(wanted.parent, _CONTAINER[kind])
         if isinstance(description, Endpoint) and description.topic is None:
             return container, self._find(description.topic_id, ObjectKind.TOPIC)
@@ -224,24 +252,13 @@ class ObjectTree:
         return found
 
     def _enter(self, entity: Entity) -> None:
-        description = entity.description
-        if isinstance(description, Participant) and entity.node is None:
-            name = description.name.strip("/") or self._fallback_name
-            entity.node = self._bridge.create_node(name, description.domain)
-        elif isinstance(description, Endpoint) and entity.writer is None:
-            node = entity.participant.node
-            topic = description.topic or entity.sources[1].description
-            if node is None or not isinstance(topic, Topic):
-                raise BridgeError("what it was made from is not there")
-            entity.writer = node.create_writer(topic, description.qos)
-            self.publish[entity.id] = entity.writer.publish
+        entity.enter(self._home)
+        if entity.writer is not None:
+            self.publish[entity.id] = entity.publish
 
     def _leave(self, entity: Entity) -> None:
         self.publish.pop(entity.id, None)
-        side = entity.writer or entity.node
-        if side is not None:
-            side.destroy()
-            entity.writer = entity.node = None
+        entity.leave()
 
     def _remove(self, entities: list[Entity]) -> None:
         for entity in reversed(entities):
@@ -254,6 +271,16 @@ class ObjectTree:
             if any(s in made for s in entity.sources):
                 made.append(entity)
         return made[1:]
+
+
+def _check_ros(description: Description) -> None:
+    """Refuse what ROS 2 cannot carry instead of leaving it out silently."""
+    if isinstance(description, Endpoint) and description.content_filter:
+        reason = f"ROS 2 cannot filter by content: '{description.content_filter}'"
+        raise _RefusedError(Status.INCOMPATIBLE, reason)
+    if isinstance(description, Group) and any(description.partitions):
+        reason = f"ROS 2 has no partitions: '{', '.join(description.partitions)}'"
+        raise _RefusedError(Status.INCOMPATIBLE, reason)
 
 
 def _kind_name(kind: int) -> str:

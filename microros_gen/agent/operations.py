@@ -1,26 +1,35 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a client in session asks for, beside its samples: one method a submessage."""
+"""What a client in session asks for: one method a submessage."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from types import MappingProxyType
 
 from microros_gen.agent.clients import Client
-from microros_gen.agent.limits import Limits
+from microros_gen.agent.deliveries import Deliveries
+from microros_gen.agent.entities import Entity, Outcome
 from microros_gen.agent.log import EventLog, Level
-from microros_gen.agent.objects import Outcome
 from microros_gen.agent.representation import Endpoint
+from microros_gen.agent.ros.bridge import BridgeError
+from microros_gen.agent.services import ENCAPSULATION
+from microros_gen.agent.wire.cdr import Reader
 from microros_gen.agent.wire.constants import (
+    DATA_FORMAT_MASK,
+    FLAG_LITTLE,
+    INFO_ACTIVITY,
+    INFO_CONFIG,
     STREAM_BEST_EFFORT,
     STREAM_NONE,
     STREAM_RELIABLE,
+    DataFormat,
     ObjectKind,
     Status,
     is_reliable,
 )
-from microros_gen.agent.wire.data_messages import ReadData
+from microros_gen.agent.wire.data_messages import DATA_PREFIX, ReadData
 from microros_gen.agent.wire.entity_messages import (
     Acknack,
     Create,
@@ -31,26 +40,38 @@ from microros_gen.agent.wire.entity_messages import (
     StatusReply,
 )
 from microros_gen.agent.wire.errors import MalformedError
+from microros_gen.agent.wire.samples import LIFE_CYCLE, read_samples
 from microros_gen.agent.wire.session_messages import (
     AgentActivity,
     AgentConfig,
     GetInfo,
     Info,
+    ReaderActivity,
     Timestamp,
     TimestampReply,
+    WriterActivity,
 )
-from microros_gen.agent.wire.submessages import Submessage
+from microros_gen.agent.wire.submessages import Submessage, encode
 
 Handler = Callable[[Client, Submessage, float], None]
-READABLE = (ObjectKind.DATAREADER, ObjectKind.REQUESTER, ObjectKind.REPLIER)
+CALLS = (ObjectKind.REQUESTER, ObjectKind.REPLIER)
+READABLE = (ObjectKind.DATAREADER, *CALLS)
+NAMES = {
+    "participant": "node",
+    "datawriter": "publisher",
+    "datareader": "subscription",
+    "requester": "service client",
+    "replier": "service",
+}
+"""What people call objects that have a place in ROS 2."""
 
 
 class Operations:
-    """Dispatches by submessage; answers go out at once, acknowledgements with the agent's next flush."""
+    """Dispatches by submessage; answers go out at once, after the acknowledgements that are due."""
 
-    def __init__(self, log: EventLog, limits: Limits) -> None:
+    def __init__(self, log: EventLog, deliveries: Deliveries) -> None:
         self._log = log
-        self._limits = limits
+        self._deliveries = deliveries
         handlers: dict[type, Handler] = {
             Create: self._create,
             Delete: self._delete,
@@ -74,12 +95,14 @@ class Operations:
     def _create(self, client: Client, submessage: Submessage, now: float) -> None:
         assert isinstance(submessage, Create)
         outcome = client.objects.create(submessage)
+        self._deliveries.refresh(client, now)
         self._answer(client, submessage.request, submessage.object, outcome.status, now)
         tell_outcome(self._log, client, submessage.object & 0xFFF0 | submessage.kind, outcome)
 
     def _delete(self, client: Client, submessage: Submessage, now: float) -> None:
         assert isinstance(submessage, Delete)
         status = client.objects.delete(submessage.object)
+        self._deliveries.refresh(client, now)
         self._answer(client, submessage.request, submessage.object, status, now)
         self._log.emit(
             Level.DEBUG,
@@ -90,20 +113,99 @@ class Operations:
             status=status.name,
         )
 
+    def refuse(self, client: Client, request: int, object_id: int, now: float) -> None:
+        """Answer a request that cannot be read: STATUS_ERR_INVALID_DATA (table 2)."""
+        self._answer(client, request, object_id, Status.INVALID_DATA, now)
+
+    def write(self, client: Client, data: bytes, at: int, end: int, flags: int) -> int:
+        """Carry out a WRITE_DATA that is no plain sample of a data writer; return how much went to ROS 2."""
+        if end - at < DATA_PREFIX:
+            raise MalformedError("truncated", f"WRITE_DATA of {end - at} bytes")
+        form = flags & DATA_FORMAT_MASK
+        entity = client.objects.find(data[at + 2] << 8 | data[at + 3])
+        try:
+            if entity is not None and entity.writer is not None:
+                reader = Reader(data, at + DATA_PREFIX, end, bool(flags & FLAG_LITTLE))
+                return self._write_samples(client, entity, reader, form)
+            if entity is not None and entity.source is not None and entity.kind in CALLS:
+                if form:
+                    raise MalformedError("data_format", f"format {form:#04x} for requests and replies")
+                payload = bytes(data[at + DATA_PREFIX : end])
+                return client.calls.write(entity, bytes(data[at : at + DATA_PREFIX]), payload, flags)
+        except BridgeError as error:
+            self.not_written(client, error)
+            return 0
+        self._log.count(
+            "unknown_writer",
+            "client {client}: a sample for data writer {object}, which it has not created",
+            client=client.name,
+            object=data[at + 2 : at + 4].hex(),
+        )
+        return 0
+
+    def not_written(self, client: Client, error: BridgeError) -> None:
+        """Count a sample that ROS 2 refused."""
+        self._log.count("publish", "client {client}: {reason}", client=client.name, reason=str(error))
+
+    def acknowledged(self, client: Client, stream: int, first: int, missing: int, now: float) -> None:
+        """Carry out an ACKNACK: send again what is missing, then go on with what waits."""
+        for message in client.session.acknowledged(stream, first, missing, now):
+            client.send(message)
+        if client.waiting:
+            self._deliveries.room(client, now)
+
+    def _write_samples(self, client: Client, writer: Entity, reader: Reader, form: int) -> int:
+        written = 0
+        for sample in read_samples(reader, form):
+            if sample.info.state & LIFE_CYCLE:
+                self._log.count(
+                    "life_cycle",
+                    "client {client}: disposes or unregisters an instance of {label}:"
+                    " ROS 2 topics have no instances, it was dropped",
+                    client=client.name,
+                    label=writer.label,
+                )
+                continue
+            writer.publish(ENCAPSULATION[reader.little] + sample.body)
+            written += 1
+        return written
+
     def _read_data(self, client: Client, submessage: Submessage, now: float) -> None:
         assert isinstance(submessage, ReadData)
-        known = any(e.id == submessage.object and e.kind in READABLE for e in client.objects)
-        status = Status.DENIED if known else Status.UNKNOWN_REFERENCE
-        self._answer(client, submessage.request, submessage.object, status, now)
+        entity = client.objects.find(submessage.object)
+        status, reason = _check_reading(entity, submessage)
+        if entity is None or status is not Status.OK:
+            self._answer(client, submessage.request, submessage.object, status, now)
+            self._log.emit(
+                Level.WARNING,
+                "read_refused",
+                "client {client}: reading from {object} refused ({status}): {reason}",
+                client=client.name,
+                object=f"{submessage.object:#06x}",
+                status=status.name,
+                reason=reason,
+            )
+            return
+        self._deliveries.start(client, entity, submessage, now)
 
     def _get_info(self, client: Client, submessage: Submessage, now: float) -> None:
         assert isinstance(submessage, GetInfo)
-        client.send(client.session.unnumbered(agent_info(submessage, in_session=True)))
+        if submessage.object & 0x0F in (ObjectKind.AGENT, ObjectKind.CLIENT):
+            client.send(client.session.unnumbered(agent_info(submessage, in_session=True)))
+            return
+        info = object_info(client, submessage)
+        entity = client.objects.find(submessage.object)
+        little = entity is None or entity.representation is None or entity.representation.little
+        if len(encode(info, little)) > client.session.link.room() and not is_reliable(client.stream):
+            info = replace(info, config=None)  # there is no room for it, nor a stream for fragments
+        if client.stream == STREAM_NONE:
+            client.send(client.session.unnumbered(info, little))
+        else:
+            self._send(client, info, now, little)
 
     def _acknack(self, client: Client, submessage: Submessage, now: float) -> None:
         assert isinstance(submessage, Acknack)
-        for message in client.session.acknowledged(submessage, now):
-            client.send(message)
+        self.acknowledged(client, submessage.stream, submessage.first, submessage.missing, now)
 
     def _heartbeat(self, client: Client, submessage: Submessage, now: float) -> None:
         assert isinstance(submessage, Heartbeat)
@@ -115,6 +217,7 @@ class Operations:
     def _reset(self, client: Client, submessage: Submessage, now: float) -> None:
         client.session.reset()
         client.unacknowledged.clear()
+        self._deliveries.room(client, now)
 
     def _fragment(self, client: Client, submessage: Submessage, now: float) -> None:
         assert isinstance(submessage, Fragment)
@@ -124,23 +227,61 @@ class Operations:
 
     def _timestamp(self, client: Client, submessage: Submessage, now: float) -> None:
         assert isinstance(submessage, Timestamp)
-        moment = divmod(time.time_ns(), 1_000_000_000)
-        client.send(client.session.unnumbered(TimestampReply(moment, moment, submessage.transmit)))
+        received = time.time_ns() - round((now - client.heard) * 1e9)
+        received, sent = (divmod(moment, 1_000_000_000) for moment in (received, time.time_ns()))
+        client.send(client.session.unnumbered(TimestampReply(sent, received, submessage.transmit)))
 
     def _answer(self, client: Client, request: int, object_id: int, status: Status, now: float) -> None:
+        self._send(client, StatusReply(request, object_id, status), now)
+
+    def _send(self, client: Client, answer: Submessage, now: float, little: bool = True) -> None:
+        """Answer on the built-in stream of the kind that the question came on."""
         stream = STREAM_RELIABLE if is_reliable(client.stream) else STREAM_BEST_EFFORT
-        messages = client.session.send(stream, StatusReply(request, object_id, status), now)
+        messages = client.session.output(stream).push(encode(answer, little), now)
         if messages is None:
             self._log.count(
                 "output_full", "client {client} does not acknowledge: answers are dropped", client=client.name
             )
+        client.acknowledge()  # some clients need that slot for their next request before they look further
         for message in messages or ():
             client.send(message)
+
+
+def _check_reading(entity: Entity | None, wanted: ReadData) -> tuple[Status, str]:
+    if entity is None or entity.kind not in READABLE:
+        return Status.UNKNOWN_REFERENCE, "the client has no such reader, requester or replier"
+    if wanted.content_filter:
+        return Status.INCOMPATIBLE, f"ROS 2 cannot filter by content: '{wanted.content_filter}'"
+    if wanted.format not in list(DataFormat):
+        return Status.INVALID_DATA, f"there is no data format {wanted.format:#04x}"
+    if wanted.format and entity.kind in CALLS:
+        return Status.INVALID_DATA, "requests and replies come in FORMAT_DATA only"
+    return Status.OK, ""
 
 
 def agent_info(question: GetInfo, in_session: bool) -> Info:
     """Return the answer to a GET_INFO; whatever object and mask it names, the agent tells about itself."""
     return Info(question.request, question.object, Status.OK, int(in_session), AgentConfig(), AgentActivity())
+
+
+def object_info(client: Client, question: GetInfo) -> Info:
+    """Return the answer to a GET_INFO on an object (7.8.3.3): what the mask asks for, where there is any."""
+    entity = client.objects.find(question.object)
+    if entity is None:
+        return Info(question.request, question.object, Status.UNKNOWN_REFERENCE, 1)
+    config = entity.representation if question.mask & INFO_CONFIG else None
+    activity: WriterActivity | ReaderActivity | None = None
+    if question.mask & INFO_ACTIVITY and entity.kind == ObjectKind.DATAWRITER:
+        activity = WriterActivity(entity.written, _signed(client.session.last_received()))
+    elif question.mask & INFO_ACTIVITY and entity.kind == ObjectKind.DATAREADER:
+        reading = client.readings.get(entity.id)
+        stream = reading.stream if reading else STREAM_RELIABLE
+        activity = ReaderActivity(_signed(client.session.last_acknowledged(stream)))
+    return Info(question.request, question.object, Status.OK, 1, config, activity)
+
+
+def _signed(number: int) -> int:
+    return number - 0x10000 if number >= 0x8000 else number
 
 
 def tell_outcome(log: EventLog, client: Client, object_id: int, outcome: Outcome) -> None:
@@ -164,7 +305,7 @@ def tell_outcome(log: EventLog, client: Client, object_id: int, outcome: Outcome
             "created",
             "client {client}: {kind} {label}" + (" ({qos})" if isinstance(about, Endpoint) else ""),
             client=client.name,
-            kind={"participant": "node", "datawriter": "publisher"}.get(kind, kind),
+            kind=NAMES.get(kind, kind),
             label=outcome.entity.label,
             qos=str(about.qos) if isinstance(about, Endpoint) else "",
         )

@@ -1,21 +1,29 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The loop: waits for transports, feeds the agent, ends cleanly on SIGINT and SIGTERM."""
+"""The loop: waits for transports, feeds the agent, ends cleanly on SIGINT and SIGTERM.
+
+One thread and one epoll descriptor (Linux; a transport with several descriptors nests its own in it, as ROS 2 does). A
+turn reads a batch of each transport that has something, takes what ROS 2 has, then sends what is to be acknowledged.
+Descriptors are registered once: a turn costs a system call and the agent's answer when it wants to be called.
+"""
 
 from __future__ import annotations
 
-import selectors
+import os
+import select
 import signal
-import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from types import FrameType
 
 from microros_gen.agent.core import Agent
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.transport.base import Transport
 
-TICK_S = 0.05
-"""Seconds between two looks at time-outs, and the longest that a signal waits."""
+TICK_S = 0.1
+"""Seconds between two looks at what transports wait for: devices that are not there, connections that say nothing."""
+
+Ready = Callable[[Transport], None]
 
 
 class Server:
@@ -25,42 +33,69 @@ class Server:
         self._agent = agent
         self._transports = transports
         self._log = log
+        self._waiting = list(transports)
         self._stop = False
+        # Open as long as this object: a signal may come after the end of `run`.
+        self._wake = os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC)
+
+    def __del__(self) -> None:
+        os.close(self._wake)
 
     def stop(self) -> None:
-        """End `run` soon; may be called from a signal handler or another thread."""
+        """End `run` at once; may be called from a signal handler or another thread."""
         self._stop = True
+        os.eventfd_write(self._wake, 1)
 
-    def run(self, ready: Callable[[Transport], None], clock: Callable[[], float]) -> None:
+    def run(self, ready: Ready, clock: Callable[[], float]) -> None:
         """Serve; `ready` is called once for each transport, when its messages are taken.
 
         Afterwards all clients are gone.
         """
         try:
-            with selectors.DefaultSelector() as selector:
-                watched = [_Watched(transport, selector, ready) for transport in self._transports]
-                self._serve(selector, watched, clock)
+            with select.epoll() as epoll:
+                self._serve(epoll, ready, clock)
         finally:
             self._close()
 
-    def _serve(
-        self, selector: selectors.BaseSelector, watched: Sequence[_Watched], clock: Callable[[], float]
-    ) -> None:
-        next_tick = clock()
+    def _serve(self, epoll: select.epoll, ready: Ready, clock: Callable[[], float]) -> None:
+        handlers = self._register(epoll)
+        poll, flush, due = epoll.poll, self._agent.flush, self._agent.due
+        care_at = clock()
         while not self._stop:
-            for one in watched:  # all first: a descriptor that one gave back may be another's by now
-                one.release()
-            for one in watched:
-                one.watch()
-            for key, _ in _select(selector):
-                key.data.pump(self._agent.receive)
-                self._agent.flush()
             now = clock()
-            if now >= next_tick:
+            if now >= care_at:
+                care_at = now + TICK_S
+                self._care(now, ready)
+            wanted = due()
+            if wanted is not None and wanted <= now:
                 self._agent.tick()
-                for transport in self._transports:
-                    transport.tick(now)
-                next_tick = now + TICK_S
+                wanted = due()
+            wait = (care_at if wanted is None or wanted > care_at else wanted) - now
+            for descriptor, _ in poll(wait if wait > 0 else 0):
+                handlers[descriptor]()
+            flush()
+
+    def _register(self, epoll: select.epoll) -> dict[int, Callable[[], object]]:
+        """Watch every descriptor; return what is to be called when one is readable."""
+        handlers: dict[int, Callable[[], object]] = {self._wake: self._noted}
+        for transport in self._transports:
+            handlers[transport.fileno()] = partial(transport.pump, self._agent.receive)
+        handlers[self._agent.fileno()] = self._agent.take
+        for descriptor in handlers:
+            epoll.register(descriptor, select.EPOLLIN)
+        return handlers
+
+    def _noted(self) -> None:
+        """Nothing: `_stop` says it."""
+
+    def _care(self, now: float, ready: Ready) -> None:
+        for transport in self._transports:
+            transport.tick(now)
+        if self._waiting:
+            now_ready = [transport for transport in self._waiting if transport.ready]
+            self._waiting = [transport for transport in self._waiting if transport not in now_ready]
+            for transport in now_ready:
+                ready(transport)
 
     def _close(self) -> None:
         clients = len(self._agent.clients)
@@ -71,53 +106,13 @@ class Server:
         self._log.emit(
             Level.INFO,
             "stopped",
-            "agent stopped: {samples} samples, {clients} clients at the end, {faults} faults of input",
+            "agent stopped: {samples} samples in, {delivered} out, {clients} clients, {faults} faults of input",
             samples=self._agent.samples,
+            delivered=self._agent.delivered,
             clients=clients,
             faults=faults,
             **{f"fault_{kind}": count for kind, count in sorted(self._log.counters.items())},
         )
-
-
-class _Watched:
-    """A transport and what the selector knows of it."""
-
-    def __init__(
-        self, transport: Transport, selector: selectors.BaseSelector, ready: Callable[[Transport], None]
-    ) -> None:
-        self._transport = transport
-        self._selector = selector
-        self._ready = ready
-        self._was_ready = False
-        self._known = (-1, 0)
-
-    def release(self) -> None:
-        """Let the selector forget what is not so any more."""
-        if self._known[0] >= 0 and self._known != self._wanted():
-            self._selector.unregister(self._known[0])
-            self._known = (-1, 0)
-
-    def watch(self) -> None:
-        """Tell the selector which descriptor the transport has now, and what is waited for."""
-        wanted = self._wanted()
-        if wanted[0] < 0 or wanted == self._known:
-            return
-        self._selector.register(*wanted, self._transport)
-        self._known = wanted
-        if not self._was_ready:
-            self._was_ready = True
-            self._ready(self._transport)
-
-    def _wanted(self) -> tuple[int, int]:
-        events = selectors.EVENT_READ | (selectors.EVENT_WRITE if self._transport.writing else 0)
-        return self._transport.fileno(), events
-
-
-def _select(selector: selectors.BaseSelector) -> list[tuple[selectors.SelectorKey, int]]:
-    if selector.get_map():
-        return selector.select(TICK_S)
-    time.sleep(TICK_S)  # no transport has a descriptor, and not every selector waits for nothing
-    return []
 
 
 @contextmanager

@@ -7,16 +7,20 @@ from microros_gen.agent.limits import Limits
 from microros_gen.agent.streams_in import BestEffortIn, Reassembly, ReliableIn
 from microros_gen.agent.streams_out import BestEffortOut, Link, ReliableOut
 from microros_gen.agent.wire.constants import (
+    FLAG_LITTLE,
     INFO_ACTIVITY,
     OBJECT_CLIENT,
     STREAM_NONE,
     STREAM_RELIABLE,
+    SubmessageId,
     is_reliable,
 )
-from microros_gen.agent.wire.entity_messages import Acknack, Fragment, Heartbeat
+from microros_gen.agent.wire.entity_messages import Fragment, Heartbeat
 from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.session_messages import GetInfo
 from microros_gen.agent.wire.submessages import Submessage, encode
+
+ACKNACK = int(SubmessageId.ACKNACK)
 
 
 class Session:
@@ -31,8 +35,7 @@ class Session:
         self._best_effort_in: dict[int, BestEffortIn] = {}
         self._reliable_in: dict[int, ReliableIn] = {}
         self._reassembly: dict[int, Reassembly] = {}
-        self._best_effort_out: dict[int, BestEffortOut] = {}
-        self._reliable_out: dict[int, ReliableOut] = {}
+        self._outputs: dict[int, BestEffortOut | ReliableOut] = {}
 
     def reset(self, link: Link | None = None) -> None:
         """Begin all streams again at 0: a RESET, or the client came again (then with its new `link`)."""
@@ -75,42 +78,60 @@ class Session:
         """Return the message that tells the client what arrived on reliable stream `stream`."""
         reliable = self._reliable_in.get(stream)
         first, missing = reliable.missing() if reliable else (0, 0)
-        return self.unnumbered(Acknack(first, missing, stream))
+        # One goes out for every reliable message: its bytes are put together here.
+        told = (ACKNACK, FLAG_LITTLE, 5, 0, first & 0xFF, first >> 8, missing >> 8, missing & 0xFF, stream)
+        return self.link.header(STREAM_NONE, 0) + bytes(told)
 
-    def unnumbered(self, submessage: Submessage) -> bytes:
+    def last_received(self) -> int:
+        """Return the number of the last message that was taken from the client's built-in reliable stream."""
+        reliable = self._reliable_in.get(STREAM_RELIABLE)
+        return (reliable.next - 1) & 0xFFFF if reliable else 0xFFFF
+
+    def last_acknowledged(self, stream: int) -> int:
+        """Return the number of the last message that the client acknowledged on a reliable stream."""
+        output = self._outputs.get(stream)
+        return output.last_acknowledged() if isinstance(output, ReliableOut) else 0xFFFF
+
+    def unnumbered(self, submessage: Submessage, little: bool = True) -> bytes:
         """Return a message on stream 0 with one submessage."""
-        return self.link.header(STREAM_NONE, 0) + encode(submessage)
+        return self.link.header(STREAM_NONE, 0) + encode(submessage, little)
 
-    def send(self, stream: int, submessage: Submessage, now: float) -> list[bytes] | None:
-        """Queue a submessage on `stream`; return the messages to send now, None when it was dropped."""
-        body = encode(submessage)
-        if is_reliable(stream):
-            return self._output(stream).push(body, now)
-        if stream not in self._best_effort_out:
-            self._best_effort_out[stream] = BestEffortOut(self.link, stream)
-        message = self._best_effort_out[stream].push(body)
-        return None if message is None else [message]
+    def output(self, stream: int) -> BestEffortOut | ReliableOut:
+        """Return the stream to the client with an id (1 to 255); it comes into being when it is first asked for."""
+        found = self._outputs.get(stream)
+        return found if found is not None else self._open_output(stream)
 
-    def acknowledged(self, acknack: Acknack, now: float) -> list[bytes]:
-        """Take an ACKNACK; return the messages to send now."""
-        output = self._reliable_out.get(acknack.stream)
-        return output.acknowledge(acknack.first, acknack.missing, now) if output else []
+    def may_send_on(self, stream: int) -> bool:
+        """Return whether a stream to the client is open, or there may be one more of its kind."""
+        alike = sum(is_reliable(known) == is_reliable(stream) for known in self._outputs)
+        return stream in self._outputs or alike < self._limits.streams
+
+    def acknowledged(self, stream: int, first: int, missing: int, now: float) -> list[bytes]:
+        """Take what an ACKNACK says; return the messages to send now."""
+        output = self._outputs.get(stream)
+        return output.acknowledge(first, missing, now) if output else []
 
     def heartbeats(self, now: float) -> list[bytes]:
         """Return the HEARTBEAT messages that are due."""
-        due = (output.heartbeat(now) for output in self._reliable_out.values())
+        due = (output.heartbeat(now) for output in self._outputs.values())
         return [self.unnumbered(heartbeat) for heartbeat in due if heartbeat]
 
     def probe(self) -> bytes:
         """Return a message that makes a client answer: HEARTBEAT on a reliable stream, else GET_INFO."""
-        if self._reliable_in or self._reliable_out:
-            return self.unnumbered(self._output(STREAM_RELIABLE).probe())
+        if self._reliable_in or any(isinstance(o, ReliableOut) for o in self._outputs.values()):
+            builtin = self.output(STREAM_RELIABLE)
+            assert isinstance(builtin, ReliableOut)
+            return self.unnumbered(builtin.probe())
         return self.unnumbered(GetInfo(0, OBJECT_CLIENT, INFO_ACTIVITY))
 
-    def _output(self, stream: int) -> ReliableOut:
-        if stream not in self._reliable_out:
-            self._reliable_out[stream] = ReliableOut(self.link, stream, self._limits.backlog_bytes)
-        return self._reliable_out[stream]
+    def _open_output(self, stream: int) -> BestEffortOut | ReliableOut:
+        limits = self._limits
+        self._outputs[stream] = (
+            ReliableOut(self.link, stream, limits.backlog_bytes, limits.message_bytes)
+            if is_reliable(stream)
+            else BestEffortOut(self.link, stream)
+        )
+        return self._outputs[stream]
 
     def _open_reliable(self, stream: int) -> ReliableIn:
         self._check_streams(len(self._reliable_in))

@@ -39,20 +39,36 @@ class BestEffortOut:
         self._link = link
         self._stream = stream
         self._sequence = 0
+        self._room = link.room()
 
-    def push(self, submessage: bytes) -> bytes | None:
+    def has_room(self) -> bool:
+        """Return whether a submessage can be taken: always."""
+        return True
+
+    def push(self, submessage: bytes, now: float = 0.0) -> list[bytes] | None:
         """Return the message that carries `submessage`, or None when it does not fit one message."""
-        if len(submessage) > self._link.room():
+        if len(submessage) > self._room:
             return None
         message = self._link.header(self._stream, self._sequence) + submessage
         self._sequence = (self._sequence + 1) & 0xFFFF
-        return message
+        return [message]
+
+    def acknowledge(self, first: int, missing: int, now: float) -> list[bytes]:
+        """Take an ACKNACK; it means nothing here."""
+        return []
+
+    def heartbeat(self, now: float) -> Heartbeat | None:
+        """Return the HEARTBEAT that is due: none."""
+        return None
 
 
 class ReliableOut:
-    """Window of unacknowledged messages, and behind it a backlog of at most `backlog_bytes`."""
+    """Window of unacknowledged messages, and behind it a backlog of at most `backlog_bytes`.
 
-    def __init__(self, link: Link, stream: int, backlog_bytes: int) -> None:
+    A submessage of up to `largest` bytes is taken nevertheless when nothing waits.
+    """
+
+    def __init__(self, link: Link, stream: int, backlog_bytes: int, largest: int = 0) -> None:
         self._link = link
         self.stream = stream
         self._sequence = 0
@@ -60,13 +76,22 @@ class ReliableOut:
         self._backlog: deque[bytes] = deque()
         self._backlog_bytes = 0
         self._backlog_limit = backlog_bytes
+        self._largest = max(largest, backlog_bytes)
+        self._room = link.room()
         self._heartbeat_at = 0.0
+
+    def has_room(self) -> bool:
+        """Return whether the next submessage, if it fits one message, would go out at once."""
+        return not self._backlog and len(self._unacknowledged) < RELIABLE_WINDOW
 
     def push(self, submessage: bytes, now: float) -> list[bytes] | None:
         """Take a submessage of any size; return the messages to send now, None when there is no room."""
-        if self._backlog_bytes + len(submessage) > self._backlog_limit:
+        size = len(submessage)
+        if size <= self._room and not self._backlog and len(self._unacknowledged) < RELIABLE_WINDOW:
+            return [self._number(submessage, now)]
+        if self._backlog_bytes + size > (self._backlog_limit if self._backlog else self._largest):
             return None
-        pieces = self._fragments(submessage) if len(submessage) > self._link.room() else [submessage]
+        pieces = self._fragments(submessage) if size > self._room else [submessage]
         self._backlog.extend(pieces)
         self._backlog_bytes += sum(map(len, pieces))
         return self._release(now)
@@ -95,21 +120,28 @@ class ReliableOut:
     def _first(self) -> int:
         return (self._sequence - len(self._unacknowledged)) & 0xFFFF
 
+    def last_acknowledged(self) -> int:
+        """Return the sequence number before the first message that is not acknowledged."""
+        return (self._first() - 1) & 0xFFFF
+
     def _release(self, now: float) -> list[bytes]:
         released = []
         while self._backlog and len(self._unacknowledged) < RELIABLE_WINDOW:
             body = self._backlog.popleft()
             self._backlog_bytes -= len(body)
-            message = self._link.header(self.stream, self._sequence) + body
-            self._sequence = (self._sequence + 1) & 0xFFFF
-            if not self._unacknowledged:
-                self._heartbeat_at = now + HEARTBEAT_PERIOD_S
-            self._unacknowledged.append(message)
-            released.append(message)
+            released.append(self._number(body, now))
         return released
 
+    def _number(self, body: bytes, now: float) -> bytes:
+        message = self._link.header(self.stream, self._sequence) + body
+        self._sequence = (self._sequence + 1) & 0xFFFF
+        if not self._unacknowledged:
+            self._heartbeat_at = now + HEARTBEAT_PERIOD_S
+        self._unacknowledged.append(message)
+        return message
+
     def _fragments(self, submessage: bytes) -> list[bytes]:
-        size = (self._link.room() - SUBMESSAGE_HEADER) & ~3
+        size = (self._room - SUBMESSAGE_HEADER) & ~3
         pieces = [submessage[at : at + size] for at in range(0, len(submessage), size)]
         last = len(pieces) - 1
         return [

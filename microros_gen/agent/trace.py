@@ -1,16 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What messages say, for -v (one line each) and -vv (decoded, and in hexadecimal)."""
+"""What messages say, for -v (one line each) and -vv (every submessage decoded by name, and all bytes), both ways."""
 
 from __future__ import annotations
 
 from collections.abc import Hashable
+from dataclasses import fields, is_dataclass
+from enum import IntEnum
+from typing import Any
 
-from microros_gen.agent.log import EventLog, Level
+from microros_gen.agent.log import EventLog, Json, Level
 from microros_gen.agent.transport.base import Receive, Transport
-from microros_gen.agent.wire.constants import SubmessageId
+from microros_gen.agent.wire.constants import DataFormat, Format, ObjectKind, Status, SubmessageId
+from microros_gen.agent.wire.entity_messages import Create
 from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.message import Header, header_size, split
 from microros_gen.agent.wire.submessages import decode
+
+_HEXADECIMAL = ("object", "parent")
+_STREAMS = ("stream", "session")
+_LONGEST_BYTES = 32
+"""Of a payload shown with its submessage; all bytes follow."""
 
 
 class TracedTransport:
@@ -26,9 +35,9 @@ class TracedTransport:
         self.close = inner.close
 
     @property
-    def writing(self) -> bool:
+    def ready(self) -> bool:
         """See Transport."""
-        return self._inner.writing
+        return self._inner.ready
 
     def pump(self, receive: Receive) -> None:
         """See Transport."""
@@ -45,11 +54,17 @@ class TracedTransport:
         self._inner.send(data, address)
 
     def _write(self, way: str, data: bytes, address: Hashable) -> None:
-        level = Level.TRACE if self._log.shows(Level.TRACE) else Level.DEBUG
-        lines = dump(data) if level is Level.TRACE else [summary(data)]
-        for line in lines:
-            peer = self._inner.name_of(address)
-            self._log.emit(level, "message", "{way} {peer} {line}", way=way, peer=peer, line=line)
+        peer = self._inner.name_of(address)
+        head = {"way": way, "peer": peer, "transport": self.label}
+        whole = self._log.shows(Level.TRACE)
+        level = Level.TRACE if whole else Level.DEBUG
+        text = "{way} {peer} {line}"
+        if self._log.as_json:
+            more = {**record(data), "bytes": data.hex()} if whole else {}
+            self._log.emit(level, "message", text, **head, line=summary(data), **more)
+            return
+        for line in dump(data) if whole else [summary(data)]:
+            self._log.emit(level, "message", text, **head, line=line)
 
 
 def summary(data: bytes) -> str:
@@ -63,19 +78,91 @@ def summary(data: bytes) -> str:
     return f"{place}: {', '.join(names) or 'nothing'}"
 
 
+def record(data: bytes) -> dict[str, Json]:
+    """Return header and submessages of a message as data for JSON; never raises."""
+    try:
+        head = Header.decode(data)
+        spans = split(data, header_size(data))
+    except MalformedError as error:
+        return {"malformed": str(error)}
+    return {
+        "session": head.session,
+        "stream": head.stream,
+        "sequence": head.sequence,
+        "key": head.key.hex(),
+        "submessages": [_submessage(data, *span) for span in spans],
+    }
+
+
 def dump(data: bytes) -> list[str]:
     """Return the summary, every submessage decoded, then all bytes, 16 a line; never raises."""
     lines = [summary(data)]
+    told = record(data).get("submessages", [])
+    for submessage in told if isinstance(told, list) else []:
+        assert isinstance(submessage, dict)
+        about = ", ".join(f"{key} {_text(value)}" for key, value in submessage.items() if key != "name")
+        lines.append(f"  {submessage['name']}: {about}")
+    for at in range(0, len(data), 16):
+        piece = data[at : at + 16]
+        shown = "".join(chr(byte) if 0x20 <= byte < 0x7F else "." for byte in piece)
+        lines.append(f"  {at:04x}  {piece.hex(' '):<47}  {shown}")
+    return lines
+
+
+def _submessage(data: bytes, identifier: int, flags: int, start: int, end: int) -> dict[str, Json]:
+    about: dict[str, Json] = {"name": _name(identifier), "flags": f"{flags:#04x}", "length": end - start}
     try:
-        spans = split(data, header_size(data))
-    except MalformedError:
-        spans = []
-    for identifier, flags, start, end in spans:
-        try:
-            lines.append(f"  {decode(identifier, flags, data, start, end)!r}")
-        except MalformedError as error:
-            lines.append(f"  {_name(identifier)} malformed: {error}")
-    return lines + [f"  {at:04x}  {data[at : at + 16].hex(' ')}" for at in range(0, len(data), 16)]
+        decoded = decode(identifier, flags, data, start, end)
+    except MalformedError as error:
+        return {**about, "malformed": str(error)}
+    return {**about, **_fields(decoded)}
+
+
+def _fields(value: Any) -> dict[str, Json]:
+    """Return the fields of a dataclass that say something, by name."""
+    found = ((field.name, getattr(value, field.name)) for field in fields(value))
+    return {name: _value(value, name, item) for name, item in found if item is not None and name != "little"}
+
+
+def _value(owner: Any, name: str, value: Any) -> Json:
+    if isinstance(value, bytes):
+        if isinstance(owner, Create) and owner.format != Format.BINARY:
+            return repr(value.rstrip(b"\0").decode("utf-8", "replace"))
+        shown = value[:_LONGEST_BYTES].hex(" ")
+        return f"{shown} … ({len(value)} bytes)" if len(value) > _LONGEST_BYTES else shown
+    if is_dataclass(value):
+        return _fields(value)
+    if isinstance(value, tuple):
+        return [_value(owner, name, item) for item in value]
+    if isinstance(value, bool) or not isinstance(value, int):
+        return value if isinstance(value, bool | float) else str(value)
+    if name in _HEXADECIMAL:
+        kind = value & 0x0F
+        return f"{value:#06x} ({ObjectKind(kind).name.lower()})" if kind in _KINDS else f"{value:#06x}"
+    if name in _STREAMS:
+        return f"{value:#04x}"
+    words = _words(owner, name)
+    return words(value).name if words is not None and value in list(words) else value
+
+
+def _words(owner: Any, name: str) -> type[IntEnum] | None:
+    """Return what numbers of a field stand for."""
+    if name == "kind":
+        return ObjectKind if isinstance(owner, Create) else None
+    if name == "format":
+        return Format if isinstance(owner, Create) else DataFormat
+    return Status if name == "status" else None
+
+
+_KINDS = frozenset(int(kind) for kind in ObjectKind if kind)
+
+
+def _text(value: Json) -> str:
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key} {_text(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(_text(item) for item in value) + "]"
+    return str(value)
 
 
 def _name(identifier: int) -> str:

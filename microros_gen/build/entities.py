@@ -11,6 +11,7 @@ from typing import Any
 from microros_gen.build.attribution import Piece
 from microros_gen.build.dwarf import Facts
 from microros_gen.build.folder import Folder
+from microros_gen.plan.types_own_limits import without_topic
 
 SHARED_STREAMS = ("reliable stream", "best-effort stream", "input stream", "input buffer")
 
@@ -136,7 +137,7 @@ def _use(manifest: Mapping[str, Any], piece: Piece, kind: str, path: str) -> str
 
 
 def _of_application(folder: Folder, kind: str) -> str:
-    name = kind.removesuffix("__Storage").removesuffix("__Sequence")
+    name = without_topic(kind.removesuffix("__Storage").removesuffix("__Sequence"))
     return f"message of {folder.c_types[name]}" if name in folder.c_types else "application"
 
 

@@ -18,8 +18,8 @@ from microros_gen.model.target import Target
 from microros_gen.model.types import TypeName
 from microros_gen.parse.application import parse_agent_address, parse_application
 from microros_gen.plan.agent_files import check_entities
-from microros_gen.plan.capacity import Capacities, Defaults, Root, plan_capacities
-from microros_gen.plan.declared import declarations, full_name, type_name
+from microros_gen.plan.capacity import Capacities, Defaults, Entity, Root, plan_capacities
+from microros_gen.plan.declared import declarations, full_name, node_name, type_name
 from microros_gen.plan.project import Project, plan_project
 from microros_gen.plan.streams import DEFAULT_MTU, WRITE_DATA_OVERHEAD
 from microros_gen.plan.types import plan_types
@@ -142,7 +142,6 @@ def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Dia
         types,
         _published(interfaces),
         diagnostics,
-        capacities.entities,
     )
     diagnostics.check()
     packages = sorted({entry.name.package for entry in interfaces})
@@ -289,9 +288,10 @@ def _capacities(resolved: Resolved, interfaces: InterfaceSet, diagnostics: Diagn
             endpoint.limits,
             endpoint.type_span or endpoint.span,
             room,
-            full_name(node, endpoint),
+            Entity(kind, index, full_name(node, endpoint), node_name(node), kind == "publisher"),
         )
-        for _, node, endpoint in declarations(application, "publisher", "subscription")
+        for kind in ("publisher", "subscription")
+        for index, (_, node, endpoint) in enumerate(declarations(application, kind))
     ]
     known = {root.type for root in declared}
     roots = declared + [

@@ -14,6 +14,7 @@ from microros_gen.cli.pipeline import Planned, plan_request, read_request, resol
 from microros_gen.cli.resolve_format import format_selection, format_table, selection_data
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.plan.streams import StreamPlan
+from microros_gen.plan.types import TypePlan
 
 
 @click.command()
@@ -107,9 +108,25 @@ def _stream_rows(streams: StreamPlan) -> list[tuple[str, str, str]]:
 
 
 def _type_rows(planned: Planned) -> list[tuple[str, str, str]]:
+    rows = []
+    for plan in planned.project.types:
+        rows.append(
+            (str(plan.name), f"{plan.max_encoded_size} bytes" if plan.root else "part", plan.type_hash)
+        )
+        rows += [
+            (f"  {entity.kind} on {entity.topic} of {entity.node}", f"{own.max_encoded_size} bytes", "")
+            for own in plan.limit_sets
+            for entity in own.entities
+        ]
+    return rows
+
+
+def _own_limits(plan: TypePlan) -> list[dict[str, Any]]:
+    """Return the entities whose limits are lower than those of their type."""
     return [
-        (str(t.name), f"{t.max_encoded_size} bytes" if t.root else "part", t.type_hash)
-        for t in planned.project.types
+        {"kind": e.kind, "node": e.node, "topic": e.topic, "max_encoded_size": own.max_encoded_size}
+        for own in plan.limit_sets
+        for e in own.entities
     ]
 
 
@@ -118,7 +135,12 @@ def _plan_data(planned: Planned) -> dict[str, Any]:
         "streams": dataclasses.asdict(planned.project.streams),
         "pools": {name: {"size": size, "reason": why} for name, size, why in pool_rows(planned)},
         "types": {
-            str(t.name): {"hash": t.type_hash, "max_encoded_size": t.max_encoded_size, "root": t.root}
+            str(t.name): {
+                "hash": t.type_hash,
+                "max_encoded_size": t.max_encoded_size,
+                "root": t.root,
+                "own_limits": _own_limits(t),
+            }
             for t in planned.project.types
         },
     }

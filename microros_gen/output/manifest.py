@@ -15,6 +15,7 @@ from microros_gen.model.application import Memory
 from microros_gen.model.type_description import individual_type_description
 from microros_gen.model.types import Message, NamedType, TypeName, element_of
 from microros_gen.plan.project import Project
+from microros_gen.plan.runtime import PublisherPlan
 from microros_gen.render.project import without_folder
 
 
@@ -92,10 +93,7 @@ def _entities(project: Project) -> dict[str, Any]:
             {"name": n.name, "namespace": n.namespace, "domain_id": n.domain_id}
             for n in project.runtime.nodes
         ],
-        "publishers": [
-            {"node": p.node, "topic": p.topic, "type": str(p.type), "reliable": p.reliable}
-            for p in project.runtime.publishers
-        ],
+        "publishers": [_publisher(project, p) for p in project.runtime.publishers],
         **_subscriptions(project),
     }
 
@@ -118,6 +116,18 @@ def _subscriptions(project: Project) -> dict[str, Any]:
             }
             for s in runtime.subscriptions
         ]
+    }
+
+
+def _publisher(project: Project, publisher: PublisherPlan) -> dict[str, Any]:
+    """Return a declared publisher; with `max_encoded_size` where its limits are not those of its type."""
+    own = project.own_limits(publisher)
+    return {
+        "node": publisher.node,
+        "topic": publisher.topic,
+        "type": str(publisher.type),
+        "reliable": publisher.reliable,
+        **({"max_encoded_size": own.max_encoded_size} if own else {}),
     }
 
 

@@ -26,7 +26,7 @@ from microros_gen.parse.idl_declarations import (
 from microros_gen.parse.idl_syntax import parse_syntax
 from microros_gen.parse.idl_types import KINDS, Scope
 from microros_gen.parse.idl_values import span_of, tokens_of
-from microros_gen.parse.msg_names import package_name_fault
+from microros_gen.parse.msg_names import interface_name_warning, package_name_fault
 
 _BYTE_ORDER_MARK = "\ufeff"
 _PARTS: Mapping[str, tuple[str, ...]] = {"msg": ("",), "srv": SERVICE_PARTS, "action": ACTION_PARTS}
@@ -111,6 +111,9 @@ def _declarations(contents: Contents, scope: Scope) -> tuple[Declaration, ...]:
     stem = _stem(structs, scope)
     if stem is None:
         return ()
+    warning = interface_name_warning(stem, [part for part in _PARTS[scope.modules[1]] if part])
+    if warning is not None:
+        scope.diagnostics.warning(warning[0], span_of(structs[0].name, scope.source), warning[1])
     return (_declaration(TypeName(*scope.modules, stem), messages, scope.source),)
 
 

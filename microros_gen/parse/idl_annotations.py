@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Annotations of .idl files (OMG IDL 4.2, 7.4.15.4.2): documentation, units and defaults.
 
-All others are read and mean nothing to ROS 2 Jazzy, which keeps none of them in C.
+Ranges stand in the C beside them. All others are read and mean nothing to ROS 2 Jazzy, which keeps none of them in C.
 """
 
 from __future__ import annotations
@@ -43,6 +43,7 @@ def read_annotations(
     comment: list[str] = []
     units: list[str] = []
     defaults: list[Default] = []
+    limits: dict[str, ScalarValue] = {}
     for annotation in node.children:
         name = next(str(token) for token in tokens_of(annotation.children[0]) if token.type == "IDENTIFIER")
         span = span_of(annotation, source)
@@ -53,13 +54,16 @@ def read_annotations(
             comment.extend(_verbatim(values, span))
         elif name == "unit":
             units.extend(value for value in values.values() if isinstance(value, str))
+        elif name in ("range", "min", "max"):
+            limits.update(_limits(name, values))
         elif name == "default":
             defaults.append(Default(_default_value(values, span), _value_span(annotation, source)))
     if len(defaults) > 1:
         raise IdlError(
             defaults[1].span, "there are two defaults: ROS 2 Jazzy takes none of them", "Remove one"
         )
-    return Annotations(_with_unit(comment, units), defaults[0] if defaults else None)
+    lines = (*_with_unit(comment, units), *_range(limits))
+    return Annotations(lines, defaults[0] if defaults else None)
 
 
 def _parameters(
@@ -83,6 +87,22 @@ def _verbatim(values: Mapping[str, ScalarValue | None], span: Span) -> list[str]
     if not isinstance(text, str):
         raise IdlError(span, "the text of @verbatim is a string", "Write it in quotes")
     return text.splitlines()
+
+
+def _limits(name: str, values: Mapping[str, ScalarValue | None]) -> Iterator[tuple[str, ScalarValue]]:
+    """Yield the ends of a range: `@range (min=…, max=…)`, `@min (…)`, `@max (…)` (OMG IDL 4.2, 8.3.2)."""
+    for key, value in values.items():
+        end = name if name != "range" else key
+        if value is not None and end in ("min", "max"):
+            yield end, value
+
+
+def _range(limits: Mapping[str, ScalarValue]) -> Iterator[str]:
+    low, high = limits.get("min"), limits.get("max")
+    if low is not None and high is not None:
+        yield f"Range: {low} to {high}"
+    elif low is not None or high is not None:
+        yield f"At most {high}" if low is None else f"At least {low}"
 
 
 def _value_span(annotation: SyntaxNode, source: Source) -> Span:

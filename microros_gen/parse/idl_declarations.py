@@ -11,7 +11,17 @@ from lark import Token
 
 from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.model.type_description import EMPTY_MEMBER
-from microros_gen.model.types import Constant, Field, Message, Primitive, StringType, TypeName
+from microros_gen.model.types import (
+    Constant,
+    Field,
+    FieldType,
+    Message,
+    Primitive,
+    StringType,
+    TypeName,
+    Value,
+    element_of,
+)
 from microros_gen.parse.idl_annotations import Annotations, read_annotations
 from microros_gen.parse.idl_syntax import Syntax
 from microros_gen.parse.idl_types import Scope, Written, declared_type, resolved, written_type
@@ -23,7 +33,13 @@ from microros_gen.parse.idl_values import (
     span_of,
 )
 from microros_gen.parse.msg_declarations import SyntaxNode
-from microros_gen.parse.msg_names import C_KEYWORDS, CPP_KEYWORDS, field_name_warning
+from microros_gen.parse.msg_names import (
+    C_KEYWORDS,
+    CPP_KEYWORDS,
+    constant_name_warning,
+    field_name_warning,
+    value_warning,
+)
 
 CONSTANTS_SUFFIX = "_Constants"
 """A module `Name_Constants` holds the constants of the struct `Name` (rosidl)."""
@@ -184,10 +200,31 @@ def _field(declarator: SyntaxNode, written: Written, annotations: Annotations, s
     field_type = resolved(written, scope)
     if field_type is None:
         return None
-    default = annotations.default
-    value = None if default is None else checked_default(field_type, default.value, default.span)
     span = span_of(declarator, scope.source)
+    _check_type_support(field_type, span)
+    default = annotations.default
+    value: Value | None = None
+    if default is not None:
+        value = checked_default(field_type, default.value, default.span)
+        _warn_of_value(field_type, value, default.span, scope)
     return Field(str(declarator.children[0]), field_type, value, annotations.comment, span)
+
+
+def _check_type_support(field_type: FieldType, span: Span) -> None:
+    """Refuse what rosidl_typesupport_fastrtps_c stops at, so that no package of ROS 2 Jazzy can have it."""
+    if element_of(field_type) is Primitive.WCHAR and field_type is not Primitive.WCHAR:
+        raise IdlError(
+            span,
+            "ROS 2 Jazzy has single members of type wchar only: its type support for C stops at an array or a "
+            "sequence of them",
+            "Take uint16, which has the same bytes, or wstring for text",
+        )
+
+
+def _warn_of_value(kind: FieldType, value: Value, span: Span, scope: Scope) -> None:
+    warning = value_warning(kind, value)
+    if warning is not None:
+        scope.diagnostics.warning(warning[0], span, warning[1])
 
 
 def _warn_of_size(declarator: SyntaxNode, size: int, scope: Scope) -> None:
@@ -209,9 +246,13 @@ def _constant(node: SyntaxNode, scope: Scope) -> Constant | None:
         kind = _constant_type(type_node, scope)
         value = literal_value(value_node, scope.constants, source)
         checked = checked_scalar(kind, value, span_of(value_node, source))
+        _warn_of_value(kind, checked, span_of(value_node, source), scope)
         if isinstance(kind, StringType):
             kind = StringType(kind.wide)
         if _check_name(name, scope):
+            warning = constant_name_warning(str(name))
+            if warning is not None:
+                scope.diagnostics.warning(warning[0], span_of(name, source), warning[1])
             return Constant(str(name), kind, checked, annotations.comment, span_of(name, source))
     return None
 

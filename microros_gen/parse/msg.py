@@ -9,7 +9,9 @@ reported in one run.
 
 from __future__ import annotations
 
+import re
 import textwrap
+import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
@@ -113,6 +115,7 @@ def _read_lines(
     at_top = True
     # Each tab counts as one space, also inside of strings, so columns stay what they are.
     for number, line in enumerate((line.replace("\t", " ") for line in lines), first):
+        _check_comment(source, number, line, diagnostics)
         if at_top and line.startswith("#"):
             part.comment.append(line.lstrip("#"))
             continue
@@ -134,6 +137,26 @@ def _read_lines(
             part.entries.append(_Entry(declaration, pending))
         pending = []
     return part
+
+
+def _check_comment(source: Source, number: int, line: str, diagnostics: Diagnostics) -> None:
+    """Report a comment that rosidl_adapter stops at: it takes a backslash in it for that of a Python string."""
+    before, _, comment = line.rstrip().partition("#")
+    if "\\" not in comment:
+        return
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # of escapes that are none
+        try:
+            text = comment.encode().decode("unicode_escape")
+        except UnicodeDecodeError:
+            text = "\n"
+    if not re.search(r"[\r\n]|(?<!\\)\\(\\\\)*$", text):
+        return
+    diagnostics.warning(
+        "ROS 2 Jazzy cannot read this comment: it takes the backslash for the begin of an escape",
+        Span(source, number, len(before) + 1, len(line.rstrip()) + 1),
+        "Write it without: ROS 2 makes no interface of the file, this tool reads it",
+    )
 
 
 def _parse_line(line: Line, package: str, diagnostics: Diagnostics) -> Declaration | None:

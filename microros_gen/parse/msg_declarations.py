@@ -123,6 +123,9 @@ def _constant(tree: SyntaxNode, line: Line, diagnostics: Diagnostics) -> Declara
         name_ok = _check_name(name, line, msg_names.constant_name_fault)
     if kind is None or not name_ok:
         return None
+    warning = msg_names.constant_name_warning(str(name))
+    if warning is not None:
+        diagnostics.warning(warning[0], line.span_of(name), warning[1])
     with _reported(diagnostics):
         value = _scalar(kind, rest[0] if rest else None, line, diagnostics)
         return Declaration(Constant(str(name), kind, value, span=_whole(line, name)), line.span_of(name))
@@ -145,6 +148,10 @@ def _field(tree: SyntaxNode, line: Line, package: str, diagnostics: Diagnostics)
     with _reported(diagnostics):
         default = _default(field_type, rest[0], line, diagnostics) if rest else None
         field_type = _as_jazzy_reads(field_type, line, diagnostics)
+        warning = None if default is None else msg_names.value_warning(field_type, default)
+        if warning is not None:
+            place = line.span(line.text.rindex("[") + 1, len(line.text) + 1)
+            diagnostics.warning(warning[0], place, warning[1])
         return Declaration(Field(str(name), field_type, default, span=_whole(line, name)), line.span_of(name))
     return None
 

@@ -5,6 +5,9 @@ from __future__ import annotations
 
 import keyword
 import re
+from collections.abc import Collection
+
+from microros_gen.model.types import FieldType, Primitive, Value, element_of
 
 _LOWER = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
 _UPPER = re.compile(r"[A-Z][A-Z0-9]*(?:_[A-Z0-9]+)*")
@@ -20,11 +23,28 @@ constexpr decltype delete dynamic_cast explicit export false friend mutable name
 nullptr operator or or_eq private protected public reinterpret_cast static_assert static_cast template this
 thread_local throw true try typeid typename using virtual wchar_t xor xor_eq"""
 
+_PYTHON_LISTS = (Primitive.BOOL, Primitive.BYTE, Primitive.IDL_CHAR)  # of any other number: array.array
+_MACROS = {
+    "errno": "a macro of <errno.h>, which C++ of ROS 2 Jazzy includes: the file does not compile there",
+    "linux": "a macro of compilers on Linux: the file does not compile there",
+    "unix": "a macro of compilers on Linux: the file does not compile there",
+}
+
+_MACROS_C = """NULL EOF BUFSIZ RAND_MAX E2BIG EACCES EADDRINUSE EAGAIN EBADF EBUSY ECHILD ECONNREFUSED ECONNRESET
+EDEADLK EDOM EEXIST EFAULT EFBIG EILSEQ EINPROGRESS EINTR EINVAL EIO EISDIR EMFILE EMSGSIZE ENODEV ENOENT ENOEXEC ENOMEM
+ENOSPC ENOSYS ENOTCONN ENOTDIR ENOTEMPTY ENOTSUP ENOTTY ENXIO EOVERFLOW EPERM EPIPE EPROTO ERANGE EROFS ESPIPE ESRCH
+ETIMEDOUT EWOULDBLOCK EXDEV"""
+_LARGEST = re.compile(r"U?INT(?:_LEAST|_FAST)?(?:8|16|32|64|PTR|MAX)_M(?:AX|IN)|SIZE_MAX|PTRDIFF_M(?:AX|IN)")
+
 C_KEYWORDS = frozenset(_C99.split())
 """ISO/IEC 9899:1999 6.4.1, those that a field's name can be (lower case, no leading underscore)."""
 
 CPP_KEYWORDS = frozenset(_CPP17.split())
 """ISO/IEC 14882:2017 5.11 and its alternative tokens, without those of C99."""
+
+
+CONSTANT_MACROS = frozenset(_MACROS_C.split())
+"""Macros of the headers that C++ of ROS 2 Jazzy includes (ISO/IEC 9899:1999 7.5, 7.17, 7.19; POSIX <errno.h>)."""
 
 
 def is_package_name(name: str) -> bool:
@@ -71,9 +91,43 @@ def field_name_fault(name: str) -> tuple[str, str | None] | None:
 
 
 def field_name_warning(name: str) -> tuple[str, str] | None:
-    """Return a warning and its hint for a name that only Python nodes cannot use, or None."""
+    """Return a warning and its hint for a name that some nodes of ROS 2 cannot use, or None."""
+    if name in _MACROS:
+        return f"'{name}' is {_MACROS[name]}", "Take another name"
     if keyword.iskeyword(name):
         return f"'{name}' is a keyword of Python: rclpy cannot use this message", "Take another name"
+    return None
+
+
+def constant_name_warning(name: str) -> tuple[str, str] | None:
+    """Return a warning and its hint for a constant whose name C++ takes for a macro, or None."""
+    if name in CONSTANT_MACROS or _LARGEST.fullmatch(name) is not None:
+        return (
+            f"'{name}' is a macro of C: the C++ that ROS 2 Jazzy makes does not compile",
+            "Take another name",
+        )
+    return None
+
+
+def interface_name_warning(name: str, parts: Collection[str]) -> tuple[str, str] | None:
+    """Return a warning and its hint for a service or action that has the name of one of its parts, or None."""
+    if name in {*parts, "Event"} and parts:
+        return f"the C++ that ROS 2 Jazzy makes of an interface named '{name}' does not compile", "Rename it"
+    return None
+
+
+def value_warning(kind: FieldType, value: Value) -> tuple[str, str] | None:
+    """Return a warning and its hint for a constant or default that rosidl_generator_py stops at, or None.
+
+    C and C++ come out of it; Python, which a package has unless it leaves it out, does not.
+    """
+    if kind is Primitive.WCHAR:
+        return "ROS 2 Jazzy makes no Python of a value of type wchar", "Take uint16, which has the same bytes"
+    if kind is Primitive.IDL_CHAR and isinstance(value, int) and value < 0:
+        return "ROS 2 Jazzy makes no Python of a char below 0", "Take int8, which has the same bytes"
+    element = element_of(kind)
+    if value == () and isinstance(element, Primitive) and element not in _PYTHON_LISTS:
+        return "the Python that ROS 2 Jazzy makes of an empty default is none", "Remove it: it says nothing"
     return None
 
 

@@ -13,6 +13,7 @@ from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.model.derived import derived_name, make_declaration
 from microros_gen.model.types import Action, Message, Service, TypeName
 from microros_gen.parse.msg import checked_source, parse_part
+from microros_gen.parse.msg_names import interface_name_warning
 
 SEPARATOR = "---"
 
@@ -27,6 +28,9 @@ def parse_parts(
     """
     found = Diagnostics()
     source = checked_source(source, name.package, (f"{name.name}_{part}" for part in parts), found)
+    warning = interface_name_warning(name.name, parts)
+    if warning is not None:
+        found.warning(warning[0], Span(source, 1, 1), warning[1])
     lines = source.text.splitlines()
     borders = _borders(source, lines, parts, found)
     starts = [0, *(border + 1 for border in borders)]
@@ -34,10 +38,27 @@ def parse_parts(
     messages: list[Message] = []
     for part, start, end in zip(_names(parts, len(starts)), starts, ends, strict=True):
         messages.append(parse_part(source, start + 1, lines[start:end], derived_name(name, part), found))
+    _check_equal_constants(messages, found)
     diagnostics.extend(found)
     if found.has_errors():
         return None
     return make_declaration(name, tuple(messages), messages[0].comment, Span(source, 1, 1))
+
+
+def _check_equal_constants(messages: Sequence[Message], diagnostics: Diagnostics) -> None:
+    """Report a constant that two parts declare alike: rosidl_parser gives both to the first part."""
+    first: dict[tuple[object, ...], TypeName] = {}
+    for message in messages:
+        for constant in message.constants:
+            key = (constant.name, constant.type, constant.value, constant.comment)
+            earlier = first.setdefault(key, message.name)
+            if earlier != message.name:
+                diagnostics.error(
+                    f"ROS 2 Jazzy takes '{constant.name}' for a constant of {earlier.name} too, since both are "
+                    "declared alike, and its C does not compile",
+                    constant.span,
+                    "Give one of them another name or comment",
+                )
 
 
 def _names(parts: Sequence[str], count: int) -> list[str]:

@@ -13,8 +13,8 @@ in each of the two:
 A bound in the interface file caps whatever a rule says. Where no rule speaks, the default holds and is
 recorded as such; with defaults switched off a bound is the capacity, and without one the field is an error.
 
-One type has one type support, so two entities of one type share its limits: the larger of both holds. Their
-storage has their own.
+Two entities of one type may have different limits. Those of the type, which its handle has, are the larger of
+both; each entity keeps its own.
 """
 
 from __future__ import annotations
@@ -23,11 +23,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
 
-from microros_gen.diagnostics import Diagnostics, Span, nearest
+from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.model.application import LimitRule
 from microros_gen.model.types import (
     Field,
-    FieldType,
     Message,
     NamedType,
     SequenceType,
@@ -35,10 +34,8 @@ from microros_gen.model.types import (
     TypeName,
     element_of,
 )
-from microros_gen.plan.types_size import FieldLimits, TypeLimits, WireSizes, is_fixed
-
-LARGEST_LIMIT = 0x7FFFFFFF
-"""Elements or characters: what a CDR length (uint32) and `int` can both hold."""
+from microros_gen.plan.capacity_rules import LARGEST_LIMIT, RuleChecker, absolute_path
+from microros_gen.plan.types_size import FieldLimits, TypeLimits, WireSizes
 
 
 class Origin(Enum):
@@ -58,18 +55,31 @@ class Defaults:
 
 
 @dataclass(frozen=True)
+class Entity:
+    """What exchanges messages of a type: a declared endpoint, the `index`-th of its `kind` in the application file.
+
+    `topic` and `node` are names in full. `sends`: its messages are encoded here; else they are only received.
+    """
+
+    kind: str
+    index: int
+    topic: str
+    node: str
+    sends: bool = True
+
+
+@dataclass(frozen=True)
 class Root:
-    """A declared type: by an endpoint (`rules` are its own limits) or by `interfaces:`.
+    """A declared type: by an endpoint (`rules` are its own limits) or by `interfaces:` (`entity` is None).
 
     `room` is the largest body that its stream takes, bytes; None where the stream follows the message.
-    `topic` is the expanded name of an endpoint's topic, empty for `interfaces:`.
     """
 
     type: TypeName
     rules: tuple[LimitRule, ...] = ()
     span: Span | None = None
     room: int | None = None
-    topic: str = ""
+    entity: Entity | None = None
 
 
 @dataclass(frozen=True)
@@ -93,8 +103,8 @@ class Capacity:
 
 
 @dataclass(frozen=True)
-class EntityLimits:
-    """The limits of one topic's messages, which are lower than those of their type."""
+class TopicLimits:
+    """The limits of one topic's messages, where they are not those of their type: of all its entities the larger."""
 
     type: TypeName
     topic: str
@@ -102,14 +112,25 @@ class EntityLimits:
 
 
 @dataclass(frozen=True)
+class EntityLimits:
+    """The limits of one entity, where they are not those of its type."""
+
+    type: TypeName
+    entity: Entity
+    limits: TypeLimits
+
+
+@dataclass(frozen=True)
 class Capacities:
     """The limits of each root (None: nothing of variable length in it), and how each came about.
 
-    `entities`: topics whose own limits are not those of their type, because others of the type have larger ones.
+    `topics` and `entities` are those that have lower limits than their type, because others of the type have larger
+    ones; both in the order of the application file.
     """
 
     limits: Mapping[TypeName, TypeLimits | None]
     decided: tuple[Capacity, ...]
+    topics: tuple[TopicLimits, ...] = ()
     entities: tuple[EntityLimits, ...] = ()
 
     @property
@@ -130,12 +151,12 @@ def plan_capacities(
     `rules` are the application's `limits:`. `messages` is closed under dependencies.
     """
     application = tuple(rules)
-    checker = _RuleChecker(messages, diagnostics)
+    checker = RuleChecker(messages, diagnostics)
     checker.check(application)
     limits: dict[TypeName, TypeLimits | None] = {}
     decided: dict[tuple[TypeName, tuple[str, ...], str], Capacity] = {}
     shared = _Tier(application)
-    own: dict[tuple[TypeName, str], TypeLimits | None] = {}
+    own: list[EntityLimits] = []
     for root in roots:
         checker.check(root.rules, root.type)
         tiers = [_Tier(root.rules, root.type), shared] if root.rules else [shared]
@@ -143,26 +164,31 @@ def plan_capacities(
         found = walk.type_limits(root.type, (), (str(root.type),))
         walk.report_unset(found, diagnostics)
         limits[root.type] = _larger(limits[root.type], found) if root.type in limits else found
-        if root.topic:
-            entity = (root.type, root.topic)
-            own[entity] = _larger(own[entity], found) if entity in own else found
+        if root.entity is not None and found is not None:
+            own.append(EntityLimits(root.type, root.entity, found))
         for capacity in walk.decided:
             key = (capacity.root, capacity.path, capacity.kind)
             if key not in decided or decided[key].value < capacity.value:
                 decided[key] = capacity
-    entities = tuple(
-        EntityLimits(name, topic, found)
-        for (name, topic), found in own.items()
-        if found is not None and found != limits[name]
-    )
-    return Capacities(limits, tuple(decided.values()), entities)
+    entities = tuple(e for e in own if e.limits != limits[e.type])
+    return Capacities(limits, tuple(decided.values()), _topic_limits(own, limits), entities)
+
+
+def _topic_limits(
+    own: Iterable[EntityLimits], limits: Mapping[TypeName, TypeLimits | None]
+) -> tuple[TopicLimits, ...]:
+    found: dict[tuple[TypeName, str], TypeLimits] = {}
+    for one in own:
+        key = (one.type, one.entity.topic)
+        found[key] = _larger(found.get(key), one.limits) or one.limits
+    return tuple(TopicLimits(*key, one) for key, one in found.items() if one != limits[key[0]])
 
 
 class _Tier:
     """Rules of one origin, ready for look-up."""
 
     def __init__(self, rules: Iterable[LimitRule], root: TypeName | None = None) -> None:
-        self._rules = {_absolute(rule.path, root): rule for rule in rules}
+        self._rules = {absolute_path(rule.path, root): rule for rule in rules}
         self._starts = frozenset(path[0] for path in self._rules)
         self._anywhere = self._rules.get(("*",))
 
@@ -274,114 +300,6 @@ class _Walk:
         same = _Walk(self._messages, self._root, self._tiers, Defaults(number, number))
         limits = same.type_limits(self._root.type, (), (str(self._root.type),))
         return WireSizes(self._messages).largest(self._root.type, limits)
-
-
-class _RuleChecker:
-    """Finds rules that cannot hold: unknown types and members, numbers above a bound or without meaning."""
-
-    def __init__(self, messages: Mapping[TypeName, Message], diagnostics: Diagnostics) -> None:
-        self._messages = {str(name): message for name, message in messages.items()}
-        self._diagnostics = diagnostics
-
-    def check(self, rules: Iterable[LimitRule], root: TypeName | None = None) -> None:
-        """Check `rules`; paths of an entity's own limits start at its `root`."""
-        for rule in rules:
-            path = _absolute(rule.path, root)
-            self._check_range(rule)
-            if path == ("*",):
-                continue
-            if path[0] not in self._messages:
-                self._unknown_type(rule, path[0])
-                continue
-            field_type = self._follow(rule, path)
-            if field_type is not None:
-                self._check_field(rule, path, field_type)
-
-    def _unknown_type(self, rule: LimitRule, name: str) -> None:
-        near = nearest(name, self._messages)
-        self._diagnostics.warning(
-            f"the limit for '{name}' has no effect: the type is not used", rule.span, near
-        )
-
-    def _check_range(self, rule: LimitRule) -> None:
-        for kind, value in (("string", rule.string), ("sequence", rule.sequence)):
-            if value is not None and not 0 <= value <= LARGEST_LIMIT:
-                self._diagnostics.error(
-                    f"a {kind} limit of {value} is out of range", rule.span, f"0 to {LARGEST_LIMIT}"
-                )
-
-    def _follow(self, rule: LimitRule, path: tuple[str, ...]) -> FieldType | None:
-        """Return the type of the field that `path` ends at; None for a bare type or an unknown member."""
-        message = self._messages[path[0]]
-        found: FieldType | None = None
-        for name in path[1:]:
-            if found is not None:
-                element = element_of(found)
-                if not isinstance(element, NamedType):
-                    self._diagnostics.error(
-                        f"'{'.'.join(path)}': there are no members below a primitive", rule.span
-                    )
-                    return None
-                message = self._messages[str(element.name)]
-            field = next((f for f in message.fields if f.name == name), None)
-            if field is None:
-                near = nearest(name, (f.name for f in message.fields))
-                self._diagnostics.error(f"{message.name} has no member '{name}'", rule.span, near)
-                return None
-            found = field.type
-        return found
-
-    def _check_field(self, rule: LimitRule, path: tuple[str, ...], field_type: FieldType) -> None:
-        element = element_of(field_type)
-        where = ".".join(path)
-        if isinstance(element, NamedType):
-            self._check_below(rule, where, field_type, element.name)
-            return
-        is_sequence = isinstance(field_type, SequenceType)
-        is_string = isinstance(element, StringType)
-        if not is_sequence and not is_string:
-            self._diagnostics.error(f"{where} has a fixed size; it takes no limit", rule.span)
-        elif rule.single and is_sequence and is_string:
-            self._diagnostics.error(
-                f"one number for {where} is ambiguous: it is a sequence of strings",
-                rule.span,
-                f"Write {{sequence: {rule.sequence}, string: …}}",
-            )
-        else:
-            self._check_kind(rule, where, "sequence", is_sequence, rule.sequence, _bound(field_type))
-            self._check_kind(rule, where, "string", is_string, rule.string, _bound(element))
-
-    def _check_kind(
-        self, rule: LimitRule, where: str, kind: str, fits: bool, value: int | None, bound: int | None
-    ) -> None:
-        if value is None or (rule.single and not fits):
-            return
-        if not fits:
-            self._diagnostics.error(f"{where} is no {kind}", rule.span, f"Leave '{kind}' away")
-        elif bound is not None and value > bound:
-            self._diagnostics.error(
-                f"the limit {value} for {where} is above its bound {bound}",
-                rule.span,
-                f"Write at most {bound}",
-            )
-
-    def _check_below(self, rule: LimitRule, where: str, field_type: FieldType, name: TypeName) -> None:
-        if not isinstance(field_type, SequenceType):
-            if is_fixed(self._messages[str(name)], {m.name: m for m in self._messages.values()}):
-                self._diagnostics.error(f"{where} has a fixed size; it takes no limit", rule.span)
-            return
-        self._check_kind(rule, where, "sequence", True, rule.sequence, field_type.bound)
-
-
-def _bound(field_type: FieldType) -> int | None:
-    return field_type.bound if isinstance(field_type, (SequenceType, StringType)) else None
-
-
-def _absolute(path: tuple[str, ...], root: TypeName | None) -> tuple[str, ...]:
-    """Return `path` with its type first; the own limits of an entity may start at a member."""
-    if root is None or path == ("*",) or (path and "/" in path[0]):
-        return path
-    return (str(root), *path)
 
 
 def _larger(one: TypeLimits | None, other: TypeLimits | None) -> TypeLimits | None:

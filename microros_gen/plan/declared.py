@@ -37,6 +37,11 @@ def full_name(node: NodeDecl, endpoint: EndpointDecl) -> str:
     return expand_topic_name(endpoint.topic, node.name, node.namespace)
 
 
+def node_name(node: NodeDecl) -> str:
+    """Return the fully qualified name of a node: `/arm/imu`."""
+    return expand_topic_name("~", node.name, node.namespace)
+
+
 def type_name(text: str) -> TypeName:
     """Return the name that `pkg/Type` or `pkg/msg/Type` stands for (already checked)."""
     name = split_type_name(text)

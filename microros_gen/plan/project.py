@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -15,7 +15,6 @@ from microros_gen.model.selection import Selection
 from microros_gen.model.target import Target
 from microros_gen.model.types import Message, TypeName
 from microros_gen.plan.board import BoardPlan, plan_board
-from microros_gen.plan.capacity import EntityLimits
 from microros_gen.plan.creation import CreateNames, create_size, participant_reference
 from microros_gen.plan.declared import pool, publisher_declarations, type_name
 from microros_gen.plan.names import dds_topic, dds_type, participant_name
@@ -23,6 +22,7 @@ from microros_gen.plan.receiving import plan_receiving
 from microros_gen.plan.runtime import NodePlan, PublisherPlan, RuntimePlan, SubscriptionPlan
 from microros_gen.plan.streams import Received, StreamPlan, Written, plan_streams
 from microros_gen.plan.types import TypePlan
+from microros_gen.plan.types_own_limits import LimitSet
 
 SESSION_ID = 0x81
 DEFAULT_NAME_SIZE = 64
@@ -48,6 +48,11 @@ class Project:
     def messages(self) -> Mapping[TypeName, Message]:
         """The messages of all types, by name."""
         return {plan.name: plan.message for plan in self.types}
+
+    def own_limits(self, publisher: PublisherPlan) -> LimitSet | None:
+        """Return the limits that a publisher has of its own; None: those of its type."""
+        plan = next(plan for plan in self.types if plan.name == publisher.type)
+        return plan.limit_set("publisher", publisher.index)
 
     @property
     def lacks_image(self) -> str:
@@ -83,16 +88,12 @@ def plan_project(
     types: tuple[TypePlan, ...],
     roots: tuple[TypeName, ...],
     diagnostics: Diagnostics,
-    entities: Iterable[EntityLimits] = (),
 ) -> Project:
-    """Size and name everything. Errors are collected; the result is only valid when there are none.
-
-    `entities` are the limits of topics that differ from those of their types.
-    """
+    """Size and name everything. Errors are collected; the result is only valid when there are none."""
     name = "+".join(selection.profiles)
     by_name = {plan.name: plan for plan in types}
-    nodes, publishers = _declared(application)
-    receiving = plan_receiving(application, selection, by_name, roots, entities, diagnostics)
+    nodes, publishers = _declared(application, by_name)
+    receiving = plan_receiving(application, selection, by_name, roots, diagnostics)
     create = _create_size(application, selection, nodes, (*publishers, *receiving.subscriptions), roots)
     streams = _streams(application, selection, by_name, roots, create, receiving.received, diagnostics)
     runtime = RuntimePlan(
@@ -140,7 +141,9 @@ def plan_project(
     return Project(name, application, selection, target, types, roots, streams, runtime, board)
 
 
-def _declared(application: Application) -> tuple[tuple[NodePlan, ...], tuple[PublisherPlan, ...]]:
+def _declared(
+    application: Application, types: Mapping[TypeName, TypePlan]
+) -> tuple[tuple[NodePlan, ...], tuple[PublisherPlan, ...]]:
     nodes = tuple(
         NodePlan(i, n.name, n.namespace, participant_name(n.name, n.namespace), n.domain_id)
         for i, n in enumerate(application.nodes)
@@ -149,8 +152,10 @@ def _declared(application: Application) -> tuple[tuple[NodePlan, ...], tuple[Pub
     for index, (node_index, node, endpoint) in enumerate(publisher_declarations(application)):
         topic = expand_topic_name(endpoint.topic, node.name, node.namespace)
         reliable = endpoint.qos.reliability == "reliable"
+        name = type_name(endpoint.type)
+        own = types[name].limit_set("publisher", index)
         publishers.append(
-            PublisherPlan(index, node_index, topic, dds_topic(topic), type_name(endpoint.type), reliable)
+            PublisherPlan(index, node_index, topic, dds_topic(topic), name, reliable, own.name if own else "")
         )
     return nodes, tuple(publishers)
 
@@ -168,7 +173,9 @@ def _streams(
         written: tuple[Written, ...] = ()
     elif application.nodes:
         declarations = publisher_declarations(application)
-        written = tuple(_written(node, endpoint, types) for _, node, endpoint in declarations)
+        written = tuple(
+            _written(index, node, endpoint, types) for index, (_, node, endpoint) in enumerate(declarations)
+        )
     else:
         written = tuple(Written(str(r), types[r].max_encoded_size, True, True) for r in roots)
     reliable_input = selection.has("stream_reliable_input")
@@ -177,11 +184,13 @@ def _streams(
     )
 
 
-def _written(node: NodeDecl, endpoint: EndpointDecl, types: Mapping[TypeName, TypePlan]) -> Written:
-    plan = types[type_name(endpoint.type)]
+def _written(
+    index: int, node: NodeDecl, endpoint: EndpointDecl, types: Mapping[TypeName, TypePlan]
+) -> Written:
+    size = types[type_name(endpoint.type)].largest("publisher", index)
     reliable = endpoint.qos.reliability == "reliable"
     label = f"{endpoint.type} on {expand_topic_name(endpoint.topic, node.name, node.namespace)}"
-    return Written(label, plan.max_encoded_size, reliable, not reliable, endpoint.type_span or endpoint.span)
+    return Written(label, size, reliable, not reliable, endpoint.type_span or endpoint.span)
 
 
 def _create_size(
@@ -260,4 +269,6 @@ def _plan_id(runtime: RuntimePlan, selection: Selection, types: tuple[TypePlan, 
     """Return 16 hexadecimal digits that change whenever the library's layout or behaviour does."""
     parts = [repr(runtime), *(c.component.name for c in selection.components)]
     parts += [f"{t.name} {t.type_hash} {t.max_encoded_size}" for t in types]
+    parts += [f"{p.index} {p.limited}" for p in runtime.publishers if p.limited]
+    parts += [f"{s.name} {s.max_encoded_size}" for t in types for s in t.limit_sets]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:16]

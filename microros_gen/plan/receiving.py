@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from microros_gen.diagnostics import Diagnostics
@@ -18,14 +18,12 @@ from microros_gen.model.types import (
     TypeName,
     element_of,
 )
-from microros_gen.plan.capacity import EntityLimits
 from microros_gen.plan.declared import full_name, pool, subscription_declarations, type_name
 from microros_gen.plan.names import dds_topic
 from microros_gen.plan.runtime import QueuePlan, SubscriptionPlan
 from microros_gen.plan.streams import Received
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_names import include_path
-from microros_gen.plan.types_size import WireSizes
 
 LARGEST_DEFAULT_QUEUE = 4
 _SLOT_ALIGNMENT = 4
@@ -46,23 +44,21 @@ def plan_receiving(
     selection: Selection,
     types: Mapping[TypeName, TypePlan],
     roots: tuple[TypeName, ...],
-    entities: Iterable[EntityLimits],
     diagnostics: Diagnostics,
 ) -> Receiving:
     """Plan the subscriptions; without `nodes:` each of the pool can have any of the `roots`.
 
-    A slot holds the largest sample under the subscription's own limits, which are those of its topic.
+    A slot holds the largest sample under the subscription's own limits.
     """
     if not selection.has("subscribe"):
         return Receiving()
     if not application.nodes:
         return _pooled(application, types, roots, diagnostics)
-    sizes = _Sizes(types, entities)
     subscriptions, queues, received = [], [], []
     for index, (node_index, node, endpoint) in enumerate(subscription_declarations(application)):
         topic, name = full_name(node, endpoint), type_name(endpoint.type)
         reliable = endpoint.qos.reliability == "reliable"
-        size = sizes.largest(name, topic)
+        size = types[name].largest("subscription", index)
         plan = SubscriptionPlan(index, node_index, topic, dds_topic(topic), name, reliable)
         subscriptions.append(_with_storage(plan, types))
         queues.append(_queue(endpoint, size))
@@ -132,17 +128,3 @@ def _pooled(
 def _slot(size: int) -> int:
     """Return the bytes of a slot: a body, padded as some writers do."""
     return (max(size, 1) + _SLOT_ALIGNMENT - 1) // _SLOT_ALIGNMENT * _SLOT_ALIGNMENT
-
-
-class _Sizes:
-    """Largest bodies, under the limits of a topic where it has its own."""
-
-    def __init__(self, types: Mapping[TypeName, TypePlan], entities: Iterable[EntityLimits]) -> None:
-        self._types = types
-        self._own = {(e.type, e.topic): e.limits for e in entities}
-        self._wire = WireSizes({name: plan.message for name, plan in types.items()})
-
-    def largest(self, name: TypeName, topic: str) -> int:
-        """Return the largest body of the type on the topic, bytes."""
-        own = self._own.get((name, topic))
-        return self._types[name].max_encoded_size if own is None else self._wire.largest(name, own)

@@ -3,10 +3,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from microros_gen.model.types import TypeName
 from microros_gen.plan.names import dds_type
+from microros_gen.plan.types_names import include_path, type_files
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,11 @@ class NodePlan:
 
 @dataclass(frozen=True)
 class PublisherPlan:
-    """A declared publisher; `topic` is the expanded ROS name (`/imu/data`), `dds_topic` is `rt` + topic."""
+    """A declared publisher; `topic` is the expanded ROS name (`/imu/data`), `dds_topic` is `rt` + topic.
+
+    `limited` begins the C names of its type under limits of its own (plan/types_own_limits.py); empty: those of the
+    type.
+    """
 
     index: int
     node: int
@@ -35,6 +40,7 @@ class PublisherPlan:
     dds_topic: str
     type: TypeName
     reliable: bool
+    limited: str = field(default="", repr=False)
 
     @property
     def dds_type(self) -> str:
@@ -47,8 +53,8 @@ class SubscriptionPlan:
     """A declared subscription, as PublisherPlan.
 
     `index` counts subscriptions alone. For a message of variable length, `storage` is what the names of its storage
-    begin with in C, `header` declares it, `c_type` is its struct and `buffers` are the members that have memory of their
-    own.
+    begin with in C, `header` declares it, `c_type` is its struct and `buffers` are the members that have memory of
+    their own.
     """
 
     index: int
@@ -81,11 +87,12 @@ class QueuePlan:
 
 @dataclass(frozen=True)
 class EndpointRow:
-    """A row of the table of declared endpoints; an empty name is a place that nobody declared."""
+    """A row of the table of declared endpoints, as PublisherPlan; an empty name is a place that nobody declared."""
 
     name: str = ""
     dds_type: str = ""
     node: int = 0
+    limited: str = ""
 
 
 @dataclass(frozen=True)
@@ -176,7 +183,7 @@ class RuntimePlan:
     @property
     def endpoints(self) -> tuple[EndpointRow, ...]:
         """The declared endpoints in the order of their places, with the places that nobody declared."""
-        publishers = [EndpointRow(p.topic, p.dds_type, p.node) for p in self.publishers]
+        publishers = [EndpointRow(p.topic, p.dds_type, p.node, p.limited) for p in self.publishers]
         subscriptions = [EndpointRow(s.topic, s.dds_type, s.node) for s in self.subscriptions]
         rows = publishers + [EndpointRow()] * (self.publisher_places - len(publishers))
         return (*rows, *subscriptions, *[EndpointRow()] * (self.subscriptions_max - len(subscriptions)))
@@ -224,6 +231,12 @@ class RuntimePlan:
     def error_mode(self) -> str:
         """`text` or `code`: which file speaks for errors."""
         return "text" if self.error_text_size else "code"
+
+    @property
+    def limited_headers(self) -> tuple[str, ...]:
+        """Headers that declare the types of publishers with limits of their own; none: no publisher has such."""
+        headers = {type_files(p.type).type_support for p in self.publishers if p.limited}
+        return tuple(sorted(map(include_path, headers)))
 
     @property
     def names_mode(self) -> str:

@@ -7,12 +7,13 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.model.types import Message, Primitive, TypeName, element_of
+from microros_gen.model.types import Message, TypeName
 from microros_gen.plan.capacity import Capacities
 from microros_gen.plan.layout import I386, ILP32, LP64, DataModel, StructLayouts
 from microros_gen.plan.names import dds_type
 from microros_gen.plan.types_decode import DecodePlan, decode_files, plan_decoders
 from microros_gen.plan.types_names import TypeFiles, c_name, type_files
+from microros_gen.plan.types_own_limits import LimitSet, plan_limit_sets, sent_limits, topic_names
 from microros_gen.plan.types_size import TypeLimits, WireSizes, is_fixed
 from microros_gen.plan.types_storage import StorageUnit, plan_storage, storage_extents
 from microros_gen.plan.types_wire import WirePlan, plan_wire
@@ -31,7 +32,8 @@ class TypePlan:
     `root`: declared by the application, so it has a type support handle; the others are parts of roots.
     `received`: its handle has a decoder; `decoder` is None where neither it nor a type that contains it is
     received. Encoded sizes are bytes of the CDR body under the limits (0 for a part
-    that is never a root and whose limits differ from use to use). `struct_sizes` and `storage_sizes` are
+    that is never a root and whose limits differ from use to use). `limits` are those of its handle, `limit_sets`
+    those of entities that have lower ones. `struct_sizes` and `storage_sizes` are
     bytes for each of DATA_MODELS; `storage_sizes` is empty for a type without storage, and `topic_sizes` holds
     those of storage for one topic, by the name of its struct.
     """
@@ -48,6 +50,7 @@ class TypePlan:
     max_encoded_size: int
     min_encoded_size: int
     limits: TypeLimits | None
+    limit_sets: tuple[LimitSet, ...]
     wire: WirePlan | None
     decoder: DecodePlan | None
     storage: tuple[StorageUnit, ...]
@@ -67,6 +70,17 @@ class TypePlan:
         """Return what the names of the storage for messages on `topic` begin with: `sensor_msgs__msg__Imu`."""
         own = (u.name.removesuffix("__Storage") for u in self.storage if u.topic == topic and not u.private)
         return next(own, self.c_name)
+
+    def limit_set(self, kind: str, index: int) -> LimitSet | None:
+        """Return the limits of the `index`-th entity of a kind; None where it has those of the type."""
+        return next(
+            (s for s in self.limit_sets if any((e.kind, e.index) == (kind, index) for e in s.entities)), None
+        )
+
+    def largest(self, kind: str, index: int) -> int:
+        """Return the largest encoded size of that entity's messages, bytes of the CDR body."""
+        own = self.limit_set(kind, index)
+        return own.max_encoded_size if own else self.max_encoded_size
 
     @property
     def headers(self) -> tuple[str, ...]:
@@ -98,11 +112,14 @@ def plan_types(
 
     `received`: the roots that need a decoder.
     """
-    _check_primitives(messages.values(), diagnostics)
     decoders = plan_decoders(messages, received)
-    wires = plan_wire(messages, capacities.limits)
-    storages = plan_storage(messages, capacities.limits, wires.home_limits, diagnostics, capacities.entities)
+    names = topic_names(capacities)
     sizes = WireSizes(messages)
+    sets = plan_limit_sets(capacities.entities, names, sizes)
+    wires = plan_wire(messages, capacities.limits, sent_limits(sets))
+    storages = plan_storage(
+        messages, capacities.limits, wires.home_limits, diagnostics, capacities.topics, names
+    )
     layouts = [StructLayouts(messages, model) for model in DATA_MODELS]
     extents = [storage_extents(storages, layout) for layout in layouts]
     plans = []
@@ -124,6 +141,7 @@ def plan_types(
                 max_encoded_size=sizes.largest(name, limits) if fixed or limits else 0,
                 min_encoded_size=sizes.smallest(name),
                 limits=limits,
+                limit_sets=sets.get(name, ()),
                 wire=wires.plans.get(name),
                 decoder=decoders.get(name),
                 storage=units,
@@ -138,20 +156,6 @@ def plan_types(
         )
     _check_sizes(plans, diagnostics)
     return tuple(plans)
-
-
-def _check_primitives(messages: Iterable[Message], diagnostics: Diagnostics) -> None:
-    """Report members of a type that .idl files alone have: they can be read and hashed, and not encoded."""
-    for message in messages:
-        for field in message.fields:
-            element = element_of(field.type)
-            if isinstance(element, Primitive) and not element.in_msg:
-                name = element.value.removeprefix("idl ")
-                diagnostics.error(
-                    f"{message.name}.{field.name}: the IDL type '{name}' is not generated in C by this version",
-                    field.span or message.span,
-                    "Types that .msg files have too are: int8, uint8, wstring, double and the like",
-                )
 
 
 def _check_sizes(plans: Iterable[TypePlan], diagnostics: Diagnostics) -> None:

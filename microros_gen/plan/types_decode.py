@@ -106,11 +106,9 @@ DecodeStep = Union[Row, Bools, NumberSequence, Strings, Messages, Part]  # noqa:
 
 @dataclass(frozen=True)
 class DecodePlan:
-    """The decoder of one type. `root`: for its handle; `called`: by decoders of other types."""
+    """The decoder of one type, for its handle and for the decoders of types that contain it."""
 
     steps: tuple[DecodeStep, ...]
-    root: bool
-    called: bool
 
     @property
     def calls(self) -> tuple[TypeName, ...]:
@@ -132,17 +130,14 @@ def plan_decoders(
     """Plan the decoders of the `received` types and of every type that they call."""
     facts = TypeFacts(messages)
     steps: dict[TypeName, tuple[DecodeStep, ...]] = {}
-    called: set[TypeName] = set()
     pending = sorted(received)
     while pending:
         name = pending.pop()
         if name in steps:
             continue
         steps[name] = tuple(_Reader(facts).steps(name))
-        found = set(_called(steps[name]))
-        called |= found
-        pending += sorted(found)
-    return {n: DecodePlan(steps[n], n in received, n in called) for n in messages if n in steps}
+        pending += sorted(set(_called(steps[name])))
+    return {n: DecodePlan(steps[n]) for n in messages if n in steps}
 
 
 def _called(steps: Iterable[DecodeStep]) -> Iterator[TypeName]:

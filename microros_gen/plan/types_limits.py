@@ -3,12 +3,12 @@
 
 The limits of a type belong to a use of it (a root and a path). Where all uses agree, they are constants in
 its encoder. Where they differ, its `encode_at` takes a table (`pkg__msg__Type__Limits`), and each user passes
-its own.
+its own. An entity that has lower limits than its type is a further use of it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
 from microros_gen.model.types import Message, NamedType, SequenceType, StringType, TypeName, element_of
@@ -36,8 +36,15 @@ class LimitMember:
     kind: str
 
 
-def plan_homes(messages: Mapping[TypeName, Message], roots: Mapping[TypeName, TypeLimits | None]) -> Homes:
-    """Gather every use below the roots."""
+def plan_homes(
+    messages: Mapping[TypeName, Message],
+    roots: Mapping[TypeName, TypeLimits | None],
+    own: Mapping[TypeName, Iterable[TypeLimits]],
+) -> Homes:
+    """Gather every use below the roots, and below the entities that have limits of their `own`.
+
+    The latter make a type differ, but they change no limits: those of a root and of the types in it stay.
+    """
     uses: dict[TypeName, set[TypeLimits]] = {}
     for name, limits in roots.items():
         if limits is not None:
@@ -46,6 +53,9 @@ def plan_homes(messages: Mapping[TypeName, Message], roots: Mapping[TypeName, Ty
     for name, found in uses.items():
         if name not in home and len(found) == 1:
             home[name] = next(iter(found))
+    for name, sets in own.items():
+        for limits in sets:
+            _gather(messages, name, limits, uses)
     return Homes(home, frozenset(name for name, found in uses.items() if len(found) > 1))
 
 

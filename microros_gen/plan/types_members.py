@@ -35,6 +35,7 @@ _PRIMITIVES = {
     Primitive.CHAR: "UINT8",
     Primitive.FLOAT32: "FLOAT",
     Primitive.FLOAT64: "DOUBLE",
+    Primitive.IDL_CHAR: "CHAR",
 }
 
 

@@ -23,6 +23,7 @@ _SEQUENCES = {
     Primitive.CHAR: "uint8",
     Primitive.FLOAT32: "float",
     Primitive.FLOAT64: "double",
+    Primitive.IDL_CHAR: "char",
 }
 
 

@@ -6,7 +6,7 @@ A topic whose own limits are lower than those of its type has a struct and a bin
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Union
 
@@ -23,9 +23,10 @@ from microros_gen.model.types import (
     TypeName,
     element_of,
 )
-from microros_gen.plan.capacity import EntityLimits
+from microros_gen.plan.capacity import TopicLimits
 from microros_gen.plan.layout import Extent, StructLayouts, struct_extent
 from microros_gen.plan.types_names import c_name
+from microros_gen.plan.types_own_limits import TopicNames
 from microros_gen.plan.types_size import PLACEHOLDER, FieldLimits, TypeLimits
 
 
@@ -150,11 +151,12 @@ def plan_storage(
     roots: Mapping[TypeName, TypeLimits | None],
     homes: Mapping[TypeName, TypeLimits | None],
     diagnostics: Diagnostics,
-    entities: Sequence[EntityLimits] = (),
+    topics: Sequence[TopicLimits],
+    names: TopicNames,
 ) -> Mapping[TypeName, tuple[StorageUnit, ...]]:
     """Return the units of each root's storage file, and of the types that they share.
 
-    In a file those of `entities` come first, inner units before those that contain them; the type's own is the
+    In a file those of `topics` come first, inner units before those that contain them; the type's own is the
     last.
     """
     planned: dict[TypeName, tuple[StorageUnit, ...]] = {}
@@ -165,23 +167,14 @@ def plan_storage(
         if name in planned or limits is None:
             continue
         units: list[StorageUnit] = []
-        for base, topic, own in [*_entity_units(name, entities), (c_name(name), "", limits)]:
+        lower = [(names[t.type, t.topic], t.topic, t.limits) for t in topics if t.type == name]
+        for base, topic, own in [*lower, (c_name(name), "", limits)]:
             planner = _Planner(messages, homes, base, topic, diagnostics)
             planner.unit(name, own, "")
             units += planner.units
             pending += planner.shared
         planned[name] = tuple(units)
     return planned
-
-
-def _entity_units(name: TypeName, entities: Sequence[EntityLimits]) -> Iterator[tuple[str, str, TypeLimits]]:
-    """Yield the name in C, the topic and the limits of each entity of the type; every name once."""
-    taken: dict[str, int] = {}
-    for entity in entities:
-        if entity.type == name:
-            base = f"{c_name(name)}__on__{entity.topic.strip('/').replace('/', '_')}"
-            taken[base] = taken.get(base, 0) + 1
-            yield base if taken[base] == 1 else f"{base}__{taken[base]}", entity.topic, entity.limits
 
 
 def storage_extents(

@@ -8,7 +8,7 @@ larger nested types, have a function of their own (`called`), which starts at an
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 
 from microros_gen.model.types import (
@@ -46,7 +46,7 @@ class WirePlan:
     """The encoding of one type.
 
     `root_steps`: the body of the root's encoder, from position 0; None where it calls `encode_at`.
-    `at_steps`: the body of `encode_at`; None where no other type calls it.
+    `at_steps`: the body of `encode_at`; None where no other type and no entity's own limits call it.
     `limit_members`: the type's table of limits, passed to `encode_at` because uses differ; empty: constants.
     """
 
@@ -71,11 +71,16 @@ class WirePlans:
 
 
 def plan_wire(
-    messages: Mapping[TypeName, Message], root_limits: Mapping[TypeName, TypeLimits | None]
+    messages: Mapping[TypeName, Message],
+    root_limits: Mapping[TypeName, TypeLimits | None],
+    own_limits: Mapping[TypeName, Collection[TypeLimits]],
 ) -> WirePlans:
-    """Plan the encoders of the roots and of every type that they call."""
-    facts = _Facts(messages, plan_homes(messages, root_limits))
-    called = _called(facts, root_limits)
+    """Plan the encoders of the roots and of every type that they call.
+
+    `own_limits`: those of entities that send a root and have limits of their own, which call its `encode_at` too.
+    """
+    facts = _Facts(messages, plan_homes(messages, root_limits, own_limits))
+    called = _called(facts, root_limits) | set(own_limits)
     facts.called = frozenset(called)
     plans = {}
     for name in messages:

@@ -11,6 +11,7 @@ from jinja2 import Environment
 
 from microros_gen.model.component import Component
 from microros_gen.plan.project import Project
+from microros_gen.plan.runtime import PublisherPlan
 from microros_gen.render.agent_files import render_agent_files
 from microros_gen.render.board import BoardView, board_view
 from microros_gen.render.example import example_view
@@ -133,11 +134,16 @@ def without_folder(reason: str) -> str:
     return re.sub(r"\((?:[^()]*[/\\])?([^()/\\]+:\d+)\)", r"(\1)", reason)
 
 
+def _own_limits(project: Project, publisher: PublisherPlan) -> str:
+    own = project.own_limits(publisher)
+    return f", limits of its own: at most {own.max_encoded_size} bytes" if own else ""
+
+
 def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectView:
     runtime = project.runtime
     declared = [f"node `{n.name}` in `{n.namespace}`" for n in runtime.nodes]
     declared += [
-        f"publisher `{p.topic}` of {p.type}, {'reliable' if p.reliable else 'best effort'}"
+        f"publisher `{p.topic}` of {p.type}, {'reliable' if p.reliable else 'best effort'}{_own_limits(project, p)}"
         for p in runtime.publishers
     ]
     declared += [

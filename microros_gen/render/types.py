@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import fields
+from pathlib import PurePosixPath
 from typing import Any
 
 from jinja2 import Environment
@@ -16,6 +17,7 @@ from microros_gen.model.derived import declaring_name
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_names import guard, include_path
 from microros_gen.render.types_encode import EncoderViews
+from microros_gen.render.types_notes import message_note
 from microros_gen.render.types_storage import storage_view
 from microros_gen.render.types_struct import functions_view, struct_view
 
@@ -72,6 +74,10 @@ class _Renderer:
         view = {
             "title": _title(plans),
             "guard": guard(paths.header),
+            "notes": [message_note(plan) for plan in plans],
+            "points": not all(plan.fixed_size for plan in plans),
+            "functions": PurePosixPath(paths.functions).name,
+            "storage": PurePosixPath(paths.storage).name if stored else "",
             "includes": tuple(sorted(map(include_path, own))),
         }
         self._print(paths.header, "message.h", view)

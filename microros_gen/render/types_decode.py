@@ -39,8 +39,6 @@ class DecoderView:
 
     ros_name: str
     name: str
-    root: bool
-    called: bool
     steps: tuple[StepView, ...]
 
 
@@ -80,7 +78,7 @@ def _includes(plans: Iterable[TypePlan]) -> list[str]:
 def _decoder_view(plan: TypePlan) -> DecoderView:
     assert plan.decoder is not None
     steps = tuple(_VIEWS[type(step)](plan.c_name, step) for step in plan.decoder.steps)
-    return DecoderView(str(plan.name), plan.c_name, plan.decoder.root, plan.decoder.called, steps)
+    return DecoderView(str(plan.name), plan.c_name, steps)
 
 
 def _row(owner: str, row: Row) -> StepView:
@@ -133,7 +131,7 @@ def _messages(_owner: str, step: Messages) -> StepView:
     start = (_call("get_size", f"&{member}", _bound(step.bound), step.member),) if sequence else ()
     loop = (
         f"for (size_t i = 0U; i < {count}; ++i) {{",
-        f"  {name}__decode_at(in, &{data}[i]);",
+        f"  {name}__decode(in, &{data}[i]);",
         "}",
     )
     if step.row is None:
@@ -147,7 +145,7 @@ def _messages(_owner: str, step: Messages) -> StepView:
 
 
 def _part(_owner: str, step: Part) -> StepView:
-    return StepView((f"{c_name(step.type)}__decode_at(in, &message->{step.member});",))
+    return StepView((f"{c_name(step.type)}__decode(in, &message->{step.member});",))
 
 
 _VIEWS: Mapping[type, Callable[[str, Any], StepView]] = {

@@ -11,6 +11,7 @@ from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_decode import decode_files
 from microros_gen.plan.types_limits import LimitMember, limit_value
 from microros_gen.plan.types_names import c_name, guard, include_path, type_files
+from microros_gen.plan.types_own_limits import LimitSet
 from microros_gen.plan.types_size import TypeLimits
 from microros_gen.plan.types_steps import (
     Align,
@@ -59,6 +60,15 @@ class AtView:
 
 
 @dataclass(frozen=True)
+class LimitSetView:
+    """The type under the limits of some entities: a constant microros_message_type_t that begins with `name`."""
+
+    name: str
+    max_encoded_size: int
+    entities: str
+
+
+@dataclass(frozen=True)
 class TypeSupportView:
     """type_support.h.j2 and type_support.c.j2."""
 
@@ -79,6 +89,7 @@ class TypeSupportView:
     tables: tuple[TableView, ...]
     functions: tuple[FunctionView, ...]
     decode: str
+    limit_sets: tuple[LimitSetView, ...]
 
 
 class EncoderViews:
@@ -114,6 +125,7 @@ class EncoderViews:
             tables=tuple(builder.tables),
             functions=functions,
             decode=f"{plan.c_name}__decode" if plan.received else "NULL",
+            limit_sets=tuple(_limit_set(own) for own in plan.limit_sets if own.sends),
         )
 
 
@@ -170,7 +182,29 @@ class _Builder:
             found += self._at_functions(wire.at_steps)
         if wire is not None and self._plan.root:
             found += self._root_functions(wire.root_steps)
+        for own in self._plan.limit_sets:
+            found += self._limited_functions(own) if own.sends else []
         return tuple(found)
+
+    def _limited_functions(self, own: LimitSet) -> list[FunctionView]:
+        """Return the encoder and the size under the limits of some entities."""
+        suffix = own.name.removeprefix(f"{self._name}__")
+        comment = f"Limits of {_entities(own)}."
+        table = self._constant_table(self._plan.name, own.limits, comment, f"{suffix}__limits")
+        return self._wrappers(own.name, f"&{table}, ")
+
+    def _wrappers(self, name: str, limits: str) -> list[FunctionView]:
+        """Return `encode` and `encoded_size` that call the functions that start at any position."""
+        message = (self._message(),)
+        at = f"{self._name}__encode_at(message, body, 0U, {limits}fault)"
+        end = f"{self._name}__end_at(message, 0U, {limits}fault)"
+        return [
+            FunctionView(_encode_head(name), message, True, (), at),
+            FunctionView(_size_head(name), message, False, (), end),
+        ]
+
+    def _message(self) -> str:
+        return f"const {self._name} * const message = (const {self._name} *)untyped"
 
     def _at_functions(self, steps: tuple[Step, ...]) -> list[FunctionView]:
         at = self.at_view()
@@ -188,18 +222,11 @@ class _Builder:
         ]
 
     def _root_functions(self, steps: tuple[Step, ...] | None) -> list[FunctionView]:
-        head = f"static uint32_t {self._name}"
-        encode = f"{head}__encode(\n  const void * untyped, uint8_t * body, cdr_fault_t * fault)"
-        size = f"{head}__encoded_size(\n  const void * untyped, cdr_fault_t * fault)"
-        message = f"const {self._name} * const message = (const {self._name} *)untyped"
         if steps is None:
-            limits = f"&{self._root_table()}, " if self._takes_limits(self._plan) else ""
-            at = f"{self._name}__encode_at(message, body, 0U, {limits}fault)"
-            end = f"{self._name}__end_at(message, 0U, {limits}fault)"
-            return [
-                FunctionView(encode, (message,), True, (), at),
-                FunctionView(size, (message,), False, (), end),
-            ]
+            takes_limits = self._takes_limits(self._plan)
+            return self._wrappers(self._name, f"&{self._root_table()}, " if takes_limits else "")
+        encode, size = _encode_head(self._name), _size_head(self._name)
+        message = self._message()
         views = self._views(steps)
         result = _end_of(steps, Place(False, 0))
         if self._plan.fixed_size:
@@ -242,6 +269,23 @@ class _Builder:
 
     def _views(self, steps: tuple[Step, ...]) -> tuple[StepView, ...]:
         return StepViews(self._name, self._constant_table).of(steps)
+
+
+def _encode_head(name: str) -> str:
+    return f"static uint32_t {name}__encode(\n  const void * untyped, uint8_t * body, cdr_fault_t * fault)"
+
+
+def _size_head(name: str) -> str:
+    return f"static uint32_t {name}__encoded_size(\n  const void * untyped, cdr_fault_t * fault)"
+
+
+def _limit_set(own: LimitSet) -> LimitSetView:
+    return LimitSetView(own.name, own.max_encoded_size, _entities(own))
+
+
+def _entities(own: LimitSet) -> str:
+    """Return who has these limits: `the publisher on /text of /leg`."""
+    return ", ".join(f"the {e.kind} on {e.topic} of {e.node}" for e in own.entities)
 
 
 def _end_of(steps: tuple[Step, ...], place: Place) -> str:

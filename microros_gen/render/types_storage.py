@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from microros_gen.model.types import TypeName
-from microros_gen.plan.types import TypePlan
+from microros_gen.plan.layout import ILP32, LP64
+from microros_gen.plan.types import DATA_MODELS, TypePlan
 from microros_gen.plan.types_names import c_name, element_c_type, guard, include_path, type_files
 from microros_gen.plan.types_size import PLACEHOLDER
 from microros_gen.plan.types_storage import (
@@ -22,6 +23,7 @@ from microros_gen.plan.types_storage import (
     StorageUnit,
     text_length,
 )
+from microros_gen.render.types_notes import characters_note, storage_note
 from microros_gen.render.types_step_views import cdr_size
 from microros_gen.render.types_struct import WideDefault, wide_name
 from microros_gen.render.types_text import number, string, wide_units
@@ -38,6 +40,14 @@ class BindView:
 
 
 @dataclass(frozen=True)
+class MemberView:
+    """A member of a storage struct, and what its characters have room for (empty: it has none)."""
+
+    declaration: str
+    note: str
+
+
+@dataclass(frozen=True)
 class UnitView:
     """One storage struct and its bind function."""
 
@@ -46,7 +56,7 @@ class UnitView:
     type: str
     bind: str
     linkage: str
-    members: tuple[str, ...]
+    members: tuple[MemberView, ...]
     wide_defaults: tuple[WideDefault, ...]
     is_unused: bool
     steps: tuple[BindView, ...]
@@ -98,9 +108,11 @@ def storage_view(plan: TypePlan, plans: Mapping[TypeName, TypePlan]) -> StorageV
 def _unit(unit: StorageUnit, plan: TypePlan) -> UnitView:
     sizes = plan.topic_sizes.get(unit.name)
     on = f" on {unit.topic}" if unit.topic else ""
-    comment = (
-        f"Storage of {unit.path} of {plan.c_name}{on}." if unit.private else f"Storage of one message{on}."
-    )
+    comment = f"Storage of {unit.path} of {plan.c_name}{on}."
+    if not unit.private:
+        known = sizes or plan.storage_sizes
+        size = storage_note(known[DATA_MODELS.index(ILP32)], known[DATA_MODELS.index(LP64)])
+        comment = f"Storage of one message{on}: {size}."
     is_unused = [member.name for member in unit.members] == [PLACEHOLDER.name]
     return UnitView(
         name=unit.name,
@@ -117,9 +129,10 @@ def _unit(unit: StorageUnit, plan: TypePlan) -> UnitView:
     )
 
 
-def _member(member: StorageMember) -> str:
+def _member(member: StorageMember) -> MemberView:
     dimensions = "".join(f"[{d}]" for d in member.dimensions)
-    return f"{_member_type(member)} {member.name}{dimensions}"
+    note = "" if member.characters is None else characters_note(member.dimensions, member.characters.wide)
+    return MemberView(f"{_member_type(member)} {member.name}{dimensions}", note)
 
 
 def _member_type(member: StorageMember) -> str:

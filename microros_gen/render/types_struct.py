@@ -28,6 +28,7 @@ from microros_gen.plan.types_names import (
     type_files,
 )
 from microros_gen.plan.types_size import members
+from microros_gen.render.types_notes import member_comment
 from microros_gen.render.types_text import INT_MAX, INT_MIN, comment_lines, number, string, wide_units
 
 
@@ -126,9 +127,7 @@ def struct_view(plan: TypePlan) -> StructView:
         constants=tuple(_constant(plan, constant) for constant in message.constants),
         bounds=tuple(bound for field in message.fields for bound in _bounds(plan, field)),
         comment_lines=comment_lines(message.comment),
-        members=tuple(
-            MemberView(declaration(field), comment_lines(field.comment)) for field in members(message)
-        ),
+        members=tuple(MemberView(declaration(field), member_comment(field)) for field in members(message)),
     )
 
 

@@ -312,6 +312,24 @@ def writer_blob(topic: int, flags: int, depth: int) -> bytes:
     return blob.flag(False).flag(False).flag(False).flag(False).content()
 
 
+def reader_blob(
+    topic: int, flags: int, depth: int, separation_ms: int = 0, content_filter: str = ""
+) -> bytes:
+    """Return the binary form of a data reader; as `writer_blob`, and with its filters."""
+    blob = Writer().raw(writer_blob(topic, flags, depth)[:-1])
+    blob.optional(blob.u32, separation_ms or None)
+    return blob.optional(blob.string, content_filter or None).content()
+
+
+def service_blob(name: str, ros_type: str) -> bytes:
+    """Return the binary form of a requester or replier of service `name` (`/add`), type `pkg/srv/Type`."""
+    package, _, kind = ros_type.split("/")
+    blob = Writer().string(name)
+    for half in ("Request", "Response"):
+        blob.string(f"{package}::srv::dds_::{kind}_{half}_")
+    return blob.flag(True).string(f"rq{name}Request").flag(True).string(f"rr{name}Reply").content()
+
+
 def int32_body(value: int) -> bytes:
     """Return the CDR body of std_msgs/msg/Int32."""
     return struct.pack("<i", value)

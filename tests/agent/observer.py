@@ -1,8 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An ordinary rclpy process that looks at the graph and subscribes; answers commands, one JSON object a line.
+"""An ordinary rclpy process that takes part in the ROS graph; answers commands, one JSON object a line.
 
 {"do": "subscribe", "topic": "/a", "type": "std_msgs/msg/Int32", "reliable": true, "transient_local": false}
+{"do": "matched", "topic": "/a"}                   subscriptions that the publisher above has found
+{"do": "subscribe_raw", "topic": "/a", "type": "any_pkg/msg/Any", "hash": null}   samples as hexadecimal text
+{"do": "publish", "topic": "/a", "type": "std_msgs/msg/Int32", "values": [{"data": 1}], "transient_local": false}
+                   one sample a value, the publisher stays; answers the samples as rclpy serializes them, in hexadecimal
+{"do": "serve", "service": "/s", "type": "rcl_interfaces/srv/GetParameterTypes", "hold": 20}
+                   answers when `hold` requests are there, the last one first; each name in it gives its length
+{"do": "call", "service": "/s", "type": "rcl_interfaces/srv/GetParameterTypes", "names": [["a"], ["b", "c"]]}
+                   calls at once, one call a list of names, when the service is there
+{"do": "replies"}  what the calls gave: null, or types, in the order of the calls
 {"do": "graph"}    nodes, topics with types, and publishers with their QoS
+{"do": "endpoints", "topic": "/a"}                publishers and subscriptions with QoS and type hash
+{"do": "node", "node": "n", "namespace": "/"}     services and clients of a node
 {"do": "samples"}  what arrived since the last time
 """
 
@@ -92,8 +103,10 @@ def main() -> None:
     arrived: list[tuple[str, Any]] = []
     commands: queue.Queue[str] = queue.Queue()
     threading.Thread(target=lambda: [commands.put(line) for line in sys.stdin], daemon=True).start()
+    peer = _Peer(node, arrived)
     while True:
         rclpy.spin_once(node, timeout_sec=0.002)
+        peer.poll()
         try:
             command = json.loads(commands.get_nowait())
         except queue.Empty:
@@ -103,26 +116,142 @@ def main() -> None:
             answer: Any = True
         elif command["do"] == "graph":
             answer = _graph(node)
-        else:
+        elif command["do"] == "samples":
             answer, arrived[:] = list(arrived), []
+        else:
+            answer = getattr(peer, command.pop("do"))(**command)
         print(json.dumps(answer), flush=True)
 
 
-def _subscribe(node: Any, command: dict[str, Any], arrived: list[tuple[str, Any]]) -> None:
+class _Peer:
+    """What the observer does beside watching: publishes, serves, calls."""
+
+    def __init__(self, node: Any, arrived: list[tuple[str, Any]]) -> None:
+        self._node = node
+        self._arrived = arrived
+        self._publishers: dict[str, Any] = {}
+        self._raw: list[tuple[str, Any]] = []
+        self._services: list[tuple[Any, Any, int, list[Any]]] = []
+        self._clients: dict[str, Any] = {}
+        self._calls: list[Any] = []
+
+    def poll(self) -> None:
+        for topic, handle in self._raw:
+            while (taken := handle.take_message(None, True)) is not None:
+                self._arrived.append((topic, taken[0].hex()))
+        for service in self._services:
+            self._answer(*service)
+
+    def publish(
+        self, topic: str, type: str, values: list[dict[str, Any]], transient_local: bool = False, **qos: Any
+    ) -> list[str]:
+        from rclpy.serialization import serialize_message
+
+        message_class = _load(type)
+        if topic not in self._publishers:
+            self._publishers[topic] = self._node.create_publisher(
+                message_class, topic, _profile(transient_local=transient_local, **qos)
+            )
+        messages = [message_class(**value) for value in values]
+        for message in messages:
+            self._publishers[topic].publish(message)
+        return [serialize_message(message).hex() for message in messages]
+
+    def matched(self, topic: str) -> int:
+        return int(self._publishers[topic].get_subscription_count())
+
+    def subscribe_raw(self, topic: str, type: str, hash: str | None) -> bool:
+        from rclpy.impl.implementation_singleton import rclpy_implementation
+
+        from microros_gen.agent.ros.names import TypeName
+        from microros_gen.agent.ros.raw_types import raw_types
+
+        package, kind, name = type.split("/")
+        message_class = raw_types().message_class(TypeName(package, name, kind), hash)
+        profile = _profile().get_c_qos_profile()
+        handle = rclpy_implementation.Subscription(self._node.handle, message_class, topic, profile)
+        self._raw.append((topic, handle))
+        return True
+
+    def serve(self, service: str, type: str, hold: int) -> bool:
+        from rclpy.impl.implementation_singleton import rclpy_implementation
+
+        service_class = _load(type)
+        profile = _profile(depth=100).get_c_qos_profile()
+        handle = rclpy_implementation.Service(self._node.handle, service_class, service, profile)
+        self._services.append((service_class, handle, hold, []))
+        return True
+
+    def _answer(self, service_class: Any, handle: Any, hold: int, held: list[Any]) -> None:
+        while (taken := handle.service_take_request(service_class.Request))[0] is not None:
+            held.append(taken)
+        if len(held) < hold:
+            return
+        for request, header in reversed(held):
+            response = service_class.Response(types=bytes(len(name) for name in request.names))
+            handle.service_send_response(response, header.request_id)
+        held.clear()
+
+    def call(self, service: str, type: str, names: list[list[str]]) -> bool:
+        if service not in self._clients:
+            profile = _profile(depth=100)
+            self._clients[service] = self._node.create_client(_load(type), service, qos_profile=profile)
+        client = self._clients[service]
+        assert client.wait_for_service(10)
+        self._calls = [client.call_async(_load(type).Request(names=one)) for one in names]
+        return True
+
+    def replies(self) -> list[Any]:
+        return [list(call.result().types) if call.done() else None for call in self._calls]
+
+    def endpoints(self, topic: str) -> list[dict[str, Any]]:
+        found = [
+            *self._node.get_publishers_info_by_topic(topic),
+            *self._node.get_subscriptions_info_by_topic(topic),
+        ]
+        return [
+            {
+                "node": f"{info.node_namespace.rstrip('/')}/{info.node_name}",
+                "kind": info.endpoint_type.name,
+                "type": info.topic_type,
+                "hash": str(info.topic_type_hash),
+                "reliability": info.qos_profile.reliability.name,
+                "durability": info.qos_profile.durability.name,
+                "deadline_ns": info.qos_profile.deadline.nanoseconds,
+                "lifespan_ns": info.qos_profile.lifespan.nanoseconds,
+                "liveliness": info.qos_profile.liveliness.name,
+            }
+            for info in found
+        ]
+
+    def node(self, node: str, namespace: str) -> list[Any]:
+        services = self._node.get_service_names_and_types_by_node(node, namespace)
+        return [services, self._node.get_client_names_and_types_by_node(node, namespace)]
+
+
+def _load(type_name: str) -> Any:
+    package, kind, name = type_name.split("/")
+    return getattr(importlib.import_module(f"{package}.{kind}"), name)
+
+
+def _profile(reliable: bool = True, transient_local: bool = False, depth: int = 1000) -> Any:
     from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-    package, _, name = command["type"].split("/")
-    profile = QoSProfile(depth=1000)
-    if not command.get("reliable", True):
+    profile = QoSProfile(depth=depth)
+    if not reliable:
         profile.reliability = ReliabilityPolicy.BEST_EFFORT
-    if command.get("transient_local"):
+    if transient_local:
         profile.durability = DurabilityPolicy.TRANSIENT_LOCAL
+    return profile
+
+
+def _subscribe(node: Any, command: dict[str, Any], arrived: list[tuple[str, Any]]) -> None:
     topic = command["topic"]
     node.create_subscription(
-        getattr(importlib.import_module(f"{package}.msg"), name),
+        _load(command["type"]),
         topic,
         lambda message: arrived.append((topic, _plain(message))),
-        profile,
+        _profile(command.get("reliable", True), command.get("transient_local", False)),
     )
 
 

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from hypothesis import strategies as st
 
 from microros_gen.agent.wire.constants import ObjectKind
@@ -23,14 +25,17 @@ from microros_gen.agent.wire.session_messages import (
     GetInfo,
     Info,
     Locator,
+    ReaderActivity,
     StatusAgent,
     Timestamp,
     TimestampReply,
+    WriterActivity,
 )
 
 u8 = st.integers(0, 0xFF)
 u16 = st.integers(0, 0xFFFF)
 u32 = st.integers(0, 0xFFFFFFFF)
+u64 = st.integers(0, 2**64 - 1)
 i16 = st.integers(-0x8000, 0x7FFF)
 text = st.text(st.characters(exclude_categories=("Cs",), exclude_characters="\0"), max_size=20)
 octets = st.binary(max_size=40)
@@ -69,14 +74,22 @@ def creates(draw: st.DrawFn) -> Create:
     )
 
 
-BY_NAME = {
+BY_NAME: dict[str, st.SearchStrategy[Any]] = {
     "CREATE_CLIENT": st.builds(CreateClient, four(4), u8, u16, properties, four(4), four(2), four(2)),
     "CREATE": creates(),
     "GET_INFO": st.builds(GetInfo, u16, u16, u32),
     "DELETE": st.builds(Delete, u16, u16),
     "STATUS_AGENT": st.builds(StatusAgent, u8, u8, config),
     "STATUS": st.builds(StatusReply, u16, u16, u8, u8),
-    "INFO": st.builds(Info, u16, u16, u8, u8, st.none() | config, st.none() | activity),
+    "INFO": st.builds(
+        Info,
+        u16,
+        u16,
+        u8,
+        u8,
+        st.none() | config | creates().map(lambda create: create.representation),
+        st.none() | activity | st.builds(WriterActivity, u64, i16) | st.builds(ReaderActivity, i16),
+    ),
     "WRITE_DATA": st.builds(WriteData, u16, u16, octets, format_bits),
     "READ_DATA": st.builds(
         ReadData,

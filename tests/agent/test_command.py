@@ -63,9 +63,10 @@ def test_verbose_shows_every_message() -> None:
     with running_agent(DOMAIN, "-vv") as agent, XrceClient(agent.port) as client:
         client.connect()
         assert "CREATE_CLIENT" in agent.wait_for("from 127.0.0.1")
-        assert "key=b'\\xa1\\xb2\\xc3\\xd4'" in agent.wait_for("CreateClient(")
+        assert "key a1 b2 c3 d4" in agent.wait_for("  CREATE_CLIENT: ")
         assert captured.CREATE_CLIENT[:47] in agent.wait_for("0000  ")
-        agent.wait_for("STATUS_AGENT")
+        assert "to 127.0.0.1" in agent.wait_for("STATUS_AGENT")
+        assert "status OK" in agent.wait_for("  STATUS_AGENT: ")
 
 
 @pytest.mark.ros

@@ -209,9 +209,9 @@ def test_several_clients_have_objects_of_their_own() -> None:
 def test_status_comes_on_the_same_kind_of_stream(stream: int, answer_stream: str) -> None:
     bench = connected()
     answers = bench.say(message(entities()[0], stream=stream))
-    assert answers[0] == f"81 {answer_stream} 00 00 05 01 06 00 00 0a 00 11 00 00"
+    assert answers[-1] == f"81 {answer_stream} 00 00 05 01 06 00 00 0a 00 11 00 00"
     if stream >= 0x80:
-        assert answers[1:] == [f"81 00 00 00 0a 01 05 00 01 00 00 00 {stream:02x}"]
+        assert answers[:-1] == [f"81 00 00 00 0a 01 05 00 01 00 00 00 {stream:02x}"]
 
 
 def test_a_recorded_dialogue() -> None:
@@ -244,21 +244,37 @@ def test_a_recorded_dialogue() -> None:
             sequence += 1
 
 
+@pytest.mark.parametrize(
+    ("said", "kind"),
+    [
+        ("01 07 08 00 00 0a 00 1d 0d 03 00 00", "truncated"),
+        ("01 07 0c 00 00 0a 00 1d 0d 03 00 00 00 00 00 00", "object_kind"),
+        ("01 07 0c 00 00 0a 00 1d 09 02 00 00 00 00 00 00", "object_kind"),
+        ("01 07 06 00 00 0a 00 1d 01 07", "representation"),
+        ("08 01 05 00 00 0a 00 1d 01", "truncated"),
+        ("08 01 08 00 00 0a 00 1d 01 00 02 00", "boolean"),
+    ],
+)
+def test_a_request_that_cannot_be_read_is_answered(said: str, kind: str) -> None:
+    """Table 2: STATUS_ERR_INVALID_DATA; whoever created or read something waits for a STATUS."""
+    bench = publishing()
+    assert bench.say("81 01 04 00" + said) == ["81 01 04 00 05 01 06 00 00 0a 00 1d 85 00"]
+    assert bench.log.counters == {kind: 1}
+
+
 def test_delete_of_objects() -> None:
     bench = publishing()
     assert bench.say("81 01 04 00 03 01 04 00 00 20 00 15") == ["81 01 04 00 05 01 06 00 00 20 00 15 00 00"]
     assert bench.say("81 01 05 00 03 01 04 00 00 21 00 15") == ["81 01 05 00 05 01 06 00 00 21 00 15 84 00"]
 
 
-def test_reading_is_refused_aloud() -> None:
+def test_reading_what_is_not_there_is_refused_aloud() -> None:
     bench = publishing()
     assert bench.say("81 80 00 00" + captured.SUBMESSAGES["READ_DATA"]) == [
+        "81 00 00 00 0a 01 05 00 01 00 00 00 80",  # first: see acknowledge
         "81 80 00 00 05 01 06 00 00 11 00 16 84 00",
-        "81 00 00 00 0a 01 05 00 01 00 00 00 80",
     ]
-    reader = Create(9, 0x16, 6, Format.BINARY, bytes.fromhex(captured.READER_BLOB), 0x14)
-    assert bench.say(message(reader, sequence=4)) == ["81 01 04 00 05 01 06 00 00 09 00 16 83 00"]
-    assert "datareader" in bench.text.getvalue()
+    assert "reading from 0x0016 refused (UNKNOWN_REFERENCE)" in bench.text.getvalue()
 
 
 # Samples
@@ -288,7 +304,7 @@ def test_several_samples_in_one_message() -> None:
     [
         ("07 01 08 00 00 05 00 25 2a 00 00 00", "unknown_writer"),
         ("07 01 08 00 00 05 00 13 2a 00 00 00", "unknown_writer"),
-        ("07 03 08 00 00 05 00 15 2a 00 00 00", "data_format"),
+        ("07 05 08 00 00 05 00 15 2a 00 00 00", "data_format"),
         ("07 01 02 00 00 05", "truncated"),
     ],
 )
@@ -380,7 +396,11 @@ def test_timestamp() -> None:
     assert answer.startswith("81 00 00 00 0f 01 18 00")
     assert answer.endswith("01 02 03 04 05 06 07 08")
     raw = bytes.fromhex(answer.replace(" ", ""))
-    assert raw[8:16] == raw[16:24]
+    sent, received = (
+        int.from_bytes(raw[at : at + 4], "little") * 10**9 + int.from_bytes(raw[at + 4 : at + 8], "little")
+        for at in (8, 16)
+    )
+    assert received <= sent < received + 10**9
     assert int.from_bytes(raw[8:12], "little") > 1_600_000_000
 
 

@@ -6,8 +6,9 @@ from __future__ import annotations
 import pytest
 
 from agent import captured
-from agent.client import dds_type, participant_blob, topic_blob, writer_blob
+from agent.client import dds_type, participant_blob, reader_blob, topic_blob, writer_blob
 from agent.fakes import FakeBridge
+from microros_gen.agent.entities import Home
 from microros_gen.agent.objects import ObjectTree
 from microros_gen.agent.representation import References
 from microros_gen.agent.wire.constants import Format, ObjectKind, Status
@@ -19,7 +20,7 @@ NODE, TOPIC, PUBLISHER, SUBSCRIBER, WRITER, READER = 0x11, 0x12, 0x13, 0x14, 0x1
 
 def tree(maximum: int = 100) -> tuple[ObjectTree, FakeBridge]:
     bridge = FakeBridge()
-    return ObjectTree(bridge, References(), maximum, "fallback"), bridge
+    return ObjectTree(Home(bridge, "fallback"), References(), maximum), bridge
 
 
 def make(
@@ -93,12 +94,16 @@ def test_creation_modes(form: str, mode: str, same: Status, different: Status) -
         (make(0x22, "<dds><topic><name>rt/a</name></topic></dds>", NODE), Status.INVALID_DATA),
         (make(0x21, "<!DOCTYPE a [<!ENTITY b 'c'>]><dds/>"), Status.INVALID_DATA),
         (make(0x21, "default", form=Format.REFERENCE), Status.DDS_ERROR),
-        (make(READER, WRITER_A, SUBSCRIBER), Status.DENIED),
-        (make(0x17, b"", NODE), Status.DENIED),
-        (make(0x18, b"", NODE), Status.DENIED),
-        (make(0x1A, "x"), Status.DENIED),
-        (make(0x1B, "x"), Status.DENIED),
-        (make(0x1C, "x"), Status.DENIED),
+        (make(READER, reader_blob(TOPIC, 3, 10), 0x24), Status.UNKNOWN_REFERENCE),
+        (make(0x17, b"", NODE), Status.INVALID_DATA),
+        (make(0x18, b"", NODE), Status.INVALID_DATA),
+        (make(0x1A, "x"), Status.INVALID_DATA),
+        (make(0x1B, "<types/>"), Status.INVALID_DATA),
+        (make(0x1C, "<application_library/>"), Status.INVALID_DATA),
+        (make(0x1A, b"x"), Status.DENIED),
+        (make(0x1B, "x", form=Format.REFERENCE), Status.DDS_ERROR),
+        (make(0x16, reader_blob(TOPIC, 3, 10, content_filter="x > 5"), SUBSCRIBER), Status.INCOMPATIBLE),
+        (make(0x23, bytes.fromhex("00 01 01 00 01000000 02000000 6100 00"), NODE), Status.INCOMPATIBLE),
     ],
 )
 def test_refused_with_a_reason_and_nothing_changed(create: Create, status: Status) -> None:
@@ -230,7 +235,7 @@ def test_what_cannot_return_is_dropped_with_what_hangs_on_it(monkeypatch: pytest
     objects, bridge = complete()
     objects.suspend()
 
-    def refuse(name: str, domain: int) -> None:
+    def refuse(name: str, domain: int, hash_of: object = None) -> None:
         raise BridgeError("no")
 
     monkeypatch.setattr(bridge, "create_node", refuse)

@@ -125,6 +125,50 @@ def test_all_faults_in_one_run_and_across_files() -> None:
     assert "'count__t' is another one already, in refs1.xml:4:3. Give one" in found[2]
 
 
+LIBRARIES = """<dds>
+<application_library name="Apps"><application name="Counter"><domain_participant name="counter" domain_id="5">
+  <topic name="rt/count" register_type_ref="std_msgs::msg::dds_::Int32_"/>
+  <publisher><data_writer topic_ref="rt/count"><data_writer_qos base_name="Q::Lasting"/></data_writer></publisher>
+</domain_participant></application></application_library>
+<qos_library name="Q"><qos_profile name="Lasting"><data_writer_qos>
+  <durability><kind>TRANSIENT_LOCAL_DURABILITY_QOS</kind></durability></data_writer_qos></qos_profile>
+  <qos_profile name="Deep" base_name="Q::Lasting"><data_writer_qos><history><depth>9</depth></history>
+  </data_writer_qos></qos_profile></qos_library></dds>"""
+
+
+def test_libraries_of_qualities_and_applications() -> None:
+    """DDS-XRCE 1.0, 7.7.3.2.1 and 7.7.3.5.1: a client names an application that the agent holds."""
+    references = read(LIBRARIES)
+    assert sorted(references.known) == [(11, "Q::Deep"), (11, "Q::Lasting"), (12, "Apps::Counter")]
+    bench = Bench(references=references)
+    bench.say(CREATE_CLIENT)
+    (answer,) = bench.say(message(Create(1, 0x10C, 12, Format.REFERENCE, b"Apps::Counter")))
+    assert answer.endswith("00 00")
+    assert bench.bridge.graph == ["5:/counter", "/count [std_msgs/msg/Int32]"]
+    bench.say(message(WriteData(1, 0x105, int32_body(5)), sequence=1))
+    assert len(bench.bridge.published) == 1
+    (answer,) = bench.say(message(Create(1, 0x20B, 11, Format.REFERENCE, b"Q::Deep"), sequence=2))
+    assert answer.endswith("00 00")
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        (
+            LIBRARIES.replace('base_name="Q::Lasting"/>', 'base_name="Q::Last"/>'),
+            "refs0.xml:2:34: error: application 'Counter': there is no quality of service 'Q::Last'",
+        ),
+        (LIBRARIES.replace('name="Q"', ""), "refs0.xml:6:1: error: this qos_library has no name"),
+        (
+            LIBRARIES.replace(">9<", ">x<"),
+            "refs0.xml:8:3: error: qos_profile 'Deep': a history depth that is no number",
+        ),
+    ],
+)
+def test_faults_of_libraries(text: str, wanted: str) -> None:
+    assert faults(text)[0].startswith(wanted), faults(text)
+
+
 def creates() -> list[Create]:
     names = {0x11: b"participant_profile", 0x12: b"count__t", 0x15: b"count__dw"}
     wanted = [

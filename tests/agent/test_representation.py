@@ -162,10 +162,10 @@ def test_bad_xml_is_malformed(text: str) -> None:
 
 
 def test_kinds_without_a_representation() -> None:
-    with pytest.raises(UnsupportedKindError):
-        of(ObjectKind.TYPE, Format.BINARY, b"")
-    with pytest.raises(UnsupportedKindError):
-        of(ObjectKind.QOSPROFILE, Format.XML, b"<dds/>")
+    """7.7.3.2, 7.7.3.3, 7.7.3.5: these have no binary form."""
+    for kind in (ObjectKind.TYPE, ObjectKind.QOSPROFILE, ObjectKind.APPLICATION):
+        with pytest.raises(UnsupportedKindError):
+            of(kind, Format.BINARY, b"")
 
 
 def test_references_come_from_the_agent() -> None:

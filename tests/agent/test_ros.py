@@ -182,15 +182,16 @@ def test_ping(agent: AgentProcess) -> None:
             assert client.ping() == 0
 
 
-def test_an_unknown_type_is_refused_with_a_hint(client: XrceClient, agent: AgentProcess, domain: int) -> None:
-    with pytest.raises(AssertionError, match="0x80"):
-        client.publisher("stranger", "strange", "no_such_msgs/msg/Thing", domain)
-    line = agent.wait_for("refused")
-    assert "no_such_msgs/msg/Thing" in line
-    assert "package 'no_such_msgs' is not installed" in line
-    with pytest.raises(AssertionError, match="0x80"):
-        client.publisher("stranger", "strange", "std_msgs/msg/Thing", domain)
-    assert "package 'std_msgs' has no such message" in agent.wait_for("refused")
+def test_a_type_that_no_file_has_is_bridged_and_told_once(
+    client: XrceClient, agent: AgentProcess, observer: Observer, domain: int
+) -> None:
+    client.publisher("stranger", "strange", "no_such_msgs/msg/Thing", domain, number=1)
+    client.publisher("stranger", "stranger", "no_such_msgs/msg/Thing", domain, number=2)
+    graph = observer.see(
+        lambda g: matched("/strange", "/stranger")(g) and matched("/stranger", "/stranger")(g)
+    )
+    assert graph["topics"]["/strange"] == ["no_such_msgs/msg/Thing"]
+    assert "no interface file" in agent.wait_for("no_such_msgs/msg/Thing")
 
 
 def test_a_client_that_vanishes_leaves_and_returns(domain: int, observer: Observer) -> None:

@@ -140,10 +140,10 @@ def test_after_a_lost_piece_the_rest_is_dropped() -> None:
 
 def test_best_effort_out_numbers_and_refuses_what_does_not_fit() -> None:
     stream = BestEffortOut(LINK, 1)
-    assert stream.push(b"abcd") == bytes.fromhex("81010000") + b"abcd"
+    assert stream.push(b"abcd") == [bytes.fromhex("81010000") + b"abcd"]
     assert stream.push(bytes(61)) is None
-    assert stream.push(bytes(60)) == bytes.fromhex("81010100") + bytes(60)
-    assert BestEffortOut(KEYED, 1).push(b"") == bytes.fromhex("01010000a1b2c3d4")
+    assert stream.push(bytes(60)) == [bytes.fromhex("81010100") + bytes(60)]
+    assert BestEffortOut(KEYED, 1).push(b"") == [bytes.fromhex("01010000a1b2c3d4")]
 
 
 def test_the_window_holds_back_and_an_acknack_releases() -> None:

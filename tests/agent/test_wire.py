@@ -14,10 +14,10 @@ from agent import captured
 from agent.strategies import BY_NAME
 from microros_gen.agent.wire.cdr import Reader
 from microros_gen.agent.wire.constants import SubmessageId
-from microros_gen.agent.wire.entity_messages import Acknack, Create, Heartbeat
+from microros_gen.agent.wire.entity_messages import Acknack, Create, Heartbeat, Representation
 from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.message import Header, header_size, join, split
-from microros_gen.agent.wire.session_messages import CreateClient, Info, Locator
+from microros_gen.agent.wire.session_messages import AgentActivity, CreateClient, Info, Locator
 from microros_gen.agent.wire.submessages import Submessage, decode, encode
 
 
@@ -49,7 +49,7 @@ def test_the_meaning_of_captured_bytes() -> None:
     assert of("HEARTBEAT") == Heartbeat(7, 7, 0x80)
     info = of("INFO with locators")
     assert isinstance(info, Info)
-    assert info.activity is not None
+    assert isinstance(info.activity, AgentActivity)
     assert info.activity.locators == (
         Locator(1, bytes((127, 0, 0, 1)), 8890),
         Locator(1, bytes((192, 0, 2, 2)), 8890),
@@ -67,9 +67,11 @@ def test_every_submessage_has_a_strategy_and_captured_bytes() -> None:
 @settings(max_examples=40, deadline=None)
 @given(st.data())
 def test_round_trip(name: str, little: bool, data: st.DataObject) -> None:
-    submessage = data.draw(BY_NAME[name])
+    submessage: Submessage = data.draw(BY_NAME[name])
     if isinstance(submessage, Create):
         submessage = replace(submessage, little=little)
+    if isinstance(submessage, Info) and isinstance(submessage.config, Representation):
+        submessage = replace(submessage, config=replace(submessage.config, little=little))
     message = encode(submessage, little)
     assert message[0] == SubmessageId[name]
     assert message[1] & 1 == little
@@ -80,7 +82,8 @@ def test_round_trip(name: str, little: bool, data: st.DataObject) -> None:
 @settings(max_examples=20, deadline=None)
 @given(st.data())
 def test_a_truncated_payload_is_malformed(name: str, data: st.DataObject) -> None:
-    message = encode(data.draw(BY_NAME[name]))
+    drawn: Submessage = data.draw(BY_NAME[name])
+    message = encode(drawn)
     size = data.draw(st.integers(4, len(message) - 1))
     with pytest.raises(MalformedError):
         decode(message[0], message[1], message, 4, size)
@@ -142,7 +145,7 @@ def test_bad_strings(payload: str, kind: str) -> None:
         ("01 07 08 00 000a 0011 01 04 0000", "representation"),
         ("01 07 0c 00 000a 001d 0d 03 0000 00000000", "object_kind"),
         ("00 01 10 00 58524345 0100 010f a1b2c3d4 81 02 fc01", "boolean"),
-        ("06 01 08 00 000a fffd 0000 01 01", "info_kind"),
+        ("06 01 09 00 000a fffd 0000 00 01 01", "info_kind"),
         ("06 01 16 00 000a fffd 0000 00 01 0d 00 0100 01000000 09 0000 0000 00", "locator"),
     ],
 )

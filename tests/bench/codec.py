@@ -14,6 +14,7 @@ import shutil
 import statistics
 import subprocess
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -183,8 +184,8 @@ def collected(program: Path, message: Message, call: str, calls: int, work: Path
     """Return what callgrind counts inside of `call` in a run of so many calls."""
     valgrind = ["valgrind", "--tool=callgrind", f"--toggle-collect={call}"]
     valgrind.append(f"--callgrind-out-file={work / 'callgrind.out'}")
-    command = [*valgrind, program, message.name, call, str(calls)]
-    found = re.search(r"Collected : (\d+)", run(command, errors=True))
+    printed = run([*valgrind, program, message.name, call, str(calls)], errors=True)
+    found = re.search(r"Collected : (\d+)", printed)
     if not found:
         sys.exit(f"callgrind gave no count of {call}")
     return int(found.group(1))
@@ -195,7 +196,7 @@ def version(compiler: str) -> str:
     return run([compiler, "--version"]).splitlines()[0]
 
 
-def run(command: list[str | Path], errors: bool = False) -> str:
+def run(command: Sequence[str | Path], errors: bool = False) -> str:
     """Run `command` and return what it prints; end the bench with its output when it fails."""
     words = [str(word) for word in command]
     result = subprocess.run(words, capture_output=True, text=True, check=False)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* This project's side: what its handle points to. */
-#include <microros/message_type.h>
+#include <microros/cdr_decode.h>
 
 #include <stddef.h>
 
@@ -17,7 +17,7 @@ bool codec_decode(const rosidl_message_type_support_t * handle, uint32_t size, v
 {
   const microros_message_type_t * const type = (const microros_message_type_t *)handle->data;
   cdr_fault_t fault;
-  return type->decode(codec_buffer, size, false, message, &fault);
+  return cdr_decode(type, codec_buffer, size, false, message, &fault);
 }
 
 uint32_t codec_encode_again(const rosidl_message_type_support_t * handle, const void * message)

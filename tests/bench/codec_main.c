@@ -101,8 +101,11 @@ int main(int argc, char ** argv)
   if (one == NULL) {
     return 2;
   }
-  const uint32_t size = codec_encode_again(one->handle, one->message); /* both fill their buffer */
-  if (size == 0u || codec_encode(one->handle, one->message) != size) {
+  const uint32_t size = codec_encode(one->handle, one->message);
+  if (size == 0u || !codec_decode(one->handle, size, one->target)) {
+    return 1;
+  }
+  if (codec_encode_again(one->handle, one->target) != size) { /* what was read is what was written */
     return 1;
   }
   show(size);

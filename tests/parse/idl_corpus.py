@@ -76,8 +76,8 @@ _ELEMENTS = [
 
 GOOD = [
     *(msg(f"{kind} a;") for kind in _ELEMENTS),
-    *(msg(f"sequence<{kind}> a;") for kind in _ELEMENTS if kind != "wstring<7>"),
-    *(msg(f"sequence<{kind}, 3> a;") for kind in _ELEMENTS),
+    *(msg(f"sequence<{kind}> a;") for kind in _ELEMENTS if kind not in ("wstring<7>", "wchar")),
+    *(msg(f"sequence<{kind}, 3> a;") for kind in _ELEMENTS if kind != "wchar"),
     *(msg(f"{kind} a[3];") for kind in ("int32", "string", "string<7>", "wstring<7>", "other_pkg::msg::Bar")),
     *(
         msg("A a;", f"typedef {kind} A;")
@@ -372,6 +372,13 @@ BAD_PARTS = [
 ]
 
 NO_C = [
+    msg("wchar a[3];"),
+    msg("wchar a, b[2];"),
+    msg("sequence<wchar> a;"),
+    msg("sequence<wchar, 3> a;"),
+    msg("A a;", "typedef wchar A[3];"),
+    msg("A a[3];", "typedef wchar A;"),
+    msg("sequence<A> a;", "typedef wchar A;"),
     msg("wstring<N> a;", "const short N = 3;"),
     msg("B b;", "typedef int32 A; typedef A B;"),
     msg("sequence<A> b;", "typedef int32 A[3];"),
@@ -402,6 +409,17 @@ NO_C = [
     msg("@verbatim int32 a;"),
     msg('@verbatim (language="comment", text=5) int32 a;'),
 ]
+
+
+NO_PYTHON = [
+    const("const wchar A = 5;"),
+    const("const char A = -1;"),
+    default("wchar", "65535"),
+    default("char", "-128"),
+    default("sequence<int32>", '"()"'),
+    default("sequence<double, 3>", '"()"'),
+]
+"""What C and C++ come out of, and no Python that can be imported."""
 
 
 @dataclass(frozen=True)

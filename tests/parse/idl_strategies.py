@@ -64,6 +64,8 @@ def values(kind: Primitive | StringType) -> st.SearchStrategy[ScalarValue]:
 def types(draw: st.DrawFn) -> FieldType:
     element = draw(ELEMENTS)
     form = draw(st.sampled_from(["scalar", "scalar", "array", "sequence"]))
+    if element is Primitive.WCHAR:
+        return element
     if form == "array":
         return ArrayType(element, draw(st.integers(1, 4)))
     if form == "sequence":

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ROS 2's own pipeline for one .idl file, as an oracle: rosidl_parser, type description, C generator, gcc."""
+"""ROS 2's own pipeline for one .idl file, as an oracle: rosidl_parser, type description, generators, gcc."""
 
 from __future__ import annotations
 
+import ast
 import contextlib
 import io
 import json
@@ -56,23 +57,13 @@ def ros_idl(text: str, folder: Path, kind: str = "msg", name: str = "Foo") -> Ro
     return RosIdl(messages, tuple(includes))
 
 
+C_GENERATORS = ("rosidl_generator_c", "rosidl_typesupport_fastrtps_c")
+
+
 def ros_c_compiles(folder: Path, output: Path) -> bool:
-    """Return whether the C that rosidl_generator_c makes of the `msg/Foo.idl` in `folder` compiles with gcc."""
-    share = Path(sys.prefix) / "share"
-    arguments: dict[str, Any] = {
-        "package_name": "pkg_a",
-        "output_dir": str(output),
-        "template_dir": str(share / "rosidl_generator_c" / "resource"),
-        "idl_tuples": [f"{folder}:msg/Foo.idl"],
-        "ros_interface_dependencies": [],
-        "target_dependencies": [],
-        "type_description_tuples": [f"msg/Foo.idl:{output / 'msg' / 'Foo.json'}"],
-        "include_paths": [f"{p}:{share / p}" for p in ("std_msgs", "builtin_interfaces")],
-    }
-    output.mkdir(exist_ok=True)
-    file = output / "arguments.json"
-    file.write_text(json.dumps(arguments))
-    if not _generated(str(file)):
+    """Return whether the C that rosidl_generator_c makes of the `msg/Foo.idl` in `folder` compiles with gcc, and
+    whether there is type support for it."""
+    if not all(_generated(folder, output, generator) for generator in C_GENERATORS):
         return False
     headers = output.parent / "headers"
     headers.mkdir(exist_ok=True)
@@ -89,24 +80,56 @@ def ros_c_compiles(folder: Path, output: Path) -> bool:
     return found.returncode == 0
 
 
-def _generated(arguments: str) -> bool:
-    """Run the generators in a process of its own: after an exception the template engine is not usable again."""
-    process = multiprocessing.get_context("fork").Process(target=_generate, args=(arguments,))
+def ros_makes_python(folder: Path, output: Path) -> bool:
+    """Return whether rosidl_generator_py makes a module of the `msg/Foo.idl` in `folder`."""
+    if not _generated(folder, output, "rosidl_generator_py"):
+        return False
+    try:
+        ast.parse((output / "msg" / "_foo.py").read_text())
+    except SyntaxError:
+        return False
+    return True
+
+
+def _generated(folder: Path, output: Path, generator: str) -> bool:
+    """Run one generator in a process of its own: after an exception the template engine is not usable again."""
+    share = Path(sys.prefix) / "share"
+    arguments: dict[str, Any] = {
+        "package_name": "pkg_a",
+        "output_dir": str(output),
+        "template_dir": str(share / generator / "resource"),
+        "idl_tuples": [f"{folder}:msg/Foo.idl"],
+        "ros_interface_dependencies": [],
+        "target_dependencies": [],
+        "type_description_tuples": [f"msg/Foo.idl:{output / 'msg' / 'Foo.json'}"],
+        "include_paths": [f"{p}:{share / p}" for p in ("std_msgs", "builtin_interfaces")],
+    }
+    output.mkdir(exist_ok=True)
+    file = output / "arguments.json"
+    file.write_text(json.dumps(arguments))
+    process = multiprocessing.get_context("fork").Process(target=_generate, args=(str(file), generator))
     process.start()
     process.join()
     return process.exitcode == 0
 
 
-def _generate(arguments: str) -> None:
+def _generate(arguments: str, generator: str) -> None:
     from rosidl_generator_c import generate_c
+    from rosidl_generator_py import generate_py
     from rosidl_generator_type_description import generate_type_hash
+    from rosidl_typesupport_fastrtps_c import generate_typesupport_fastrtps_c
 
     with Path(os.devnull).open("w", encoding="utf-8") as quiet:
         sys.stdout = sys.stderr = quiet
         status = 1
         with contextlib.suppress(Exception):
             generate_type_hash(arguments)
-            generate_c(arguments, disable_description_codegen=True)
+            if generator == "rosidl_generator_c":
+                generate_c(arguments, disable_description_codegen=True)
+            elif generator == "rosidl_generator_py":
+                generate_py(arguments, ["rosidl_typesupport_fastrtps_c"])
+            else:
+                generate_typesupport_fastrtps_c(arguments)
             status = 0
     os._exit(status)
 

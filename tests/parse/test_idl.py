@@ -125,6 +125,8 @@ def test_services_and_actions_have_what_ros_derives() -> None:
         (msg("int32 a;", "const short A = 5;"), "4:17: warning: ROS 2 Jazzy ignores the constant 'A'"),
         (msg("sequence<wstring<5>> a;"), "6:16: warning: ROS 2 Jazzy reads this as a sequence of at most 5"),
         (msg("int32 a[3], b;"), "6:19: warning: ROS 2 Jazzy makes an array of 3 of 'b' too"),
+        (const("const short EOF = 1;"), "4:40: warning: 'EOF' is a macro of C"),
+        (msg("int32 errno;"), "6:13: warning: 'errno' is a macro of <errno.h>"),
         (msg("int32 lambda;"), "6:13: warning: 'lambda' is a keyword of Python"),
         (msg("int32 a\n      int32 b;"), "6:14: error: expected ';' at the end of the declaration. Add it"),
         (

@@ -10,9 +10,22 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from idl_corpus import BAD, BAD_PARTS, DIFFERENCES, GOOD, GOOD_PARTS, NO_C, Difference, msg, parts
+from idl_corpus import (
+    BAD,
+    BAD_PARTS,
+    DIFFERENCES,
+    GOOD,
+    GOOD_PARTS,
+    NO_C,
+    NO_PYTHON,
+    Difference,
+    const,
+    default,
+    msg,
+    parts,
+)
 from idl_strategies import messages
-from rosidl_idl_pipeline import RosMessage, ros_c_compiles, ros_idl
+from rosidl_idl_pipeline import RosMessage, ros_c_compiles, ros_idl, ros_makes_python
 
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.model.derived import messages_of
@@ -59,8 +72,8 @@ def test_good_text_is_read_as_ros_reads_it(kind: str, text: str, tmp_path: Path)
     assert tuple(include.path for include in ours.includes) == theirs.includes
     messages = messages_of(ours.declarations[0])
     assert len(messages) == len(theirs.messages)
-    # A unit stands with the comment here, and derived messages are documented, which they are not in ROS 2.
-    documented = kind == "msg" and "@unit" not in text
+    # Unit and range stand with the comment here, and derived messages are documented, which they are not in ROS 2.
+    documented = kind == "msg" and "@unit" not in text and "@range" not in text
     for mine, other in zip(messages, theirs.messages, strict=True):
         check_equal(mine, other, documented=documented)
 
@@ -83,6 +96,32 @@ def test_what_rosidl_takes_and_makes_no_c_of_is_refused(text: str, tmp_path: Pat
     ros_idl(text, tmp_path)
     assert not ros_c_compiles(tmp_path, tmp_path / "c"), "the corpus is wrong: C comes out of it"
     assert not read(text).declarations
+
+
+@pytest.mark.parametrize("text", NO_PYTHON)
+def test_what_ros_makes_no_python_of_has_a_warning(text: str, tmp_path: Path) -> None:
+    diagnostics = Diagnostics()
+    assert read_idl(Source("Foo.idl", text), "pkg_a", "msg", diagnostics).declarations
+    (warning,) = diagnostics
+    assert "Python" in warning.message
+    assert ros_idl(text, tmp_path) is not None
+    assert ros_c_compiles(tmp_path, tmp_path / "c"), "the corpus is wrong: no C comes out of it"
+    assert not ros_makes_python(tmp_path, tmp_path / "py"), "the corpus is wrong: Python comes out of it"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *(const("const char A = 65;"), const("const octet A = 255;"), default("char", "127")),
+        *(msg("wchar a;"), msg("char a[3];"), default("sequence<char, 3>", '"()"')),
+    ],
+)
+def test_what_ros_makes_python_of_has_no_warning(text: str, tmp_path: Path) -> None:
+    diagnostics = Diagnostics()
+    assert read_idl(Source("Foo.idl", text), "pkg_a", "msg", diagnostics).declarations
+    assert not list(diagnostics)
+    assert ros_idl(text, tmp_path) is not None
+    assert ros_makes_python(tmp_path, tmp_path / "py")
 
 
 @pytest.mark.parametrize("text", [GOOD[0], GOOD[30], GOOD[60], GOOD[-1]])

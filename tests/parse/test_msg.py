@@ -156,6 +156,10 @@ def test_each_error_has_a_caret_below_its_text() -> None:
             "wstring<=5[] a",
             "1:1: warning: ROS 2 Jazzy reads wstring<=5[] as a sequence of at most 5 elements",
         ),
+        ("int32 EINVAL=1", "1:7: warning: 'EINVAL' is a macro of C"),
+        ("uint8 UINT8_MAX=255", "1:7: warning: 'UINT8_MAX' is a macro of C"),
+        ("int32 errno", "1:7: warning: 'errno' is a macro of <errno.h>"),
+        ("int32 linux", "1:7: warning: 'linux' is a macro of compilers on Linux"),
         ("int32 from", "1:7: warning: 'from' is a keyword of Python"),
         (
             "string a 'b#c'",

@@ -160,3 +160,27 @@ def test_every_installed_file_has_the_same_comments() -> None:
                 assert list(mine.comment) == expected, (path, mine.name)
             else:
                 assert f"[{unit}]" in "\n".join(mine.comment), (path, mine.name)
+
+
+BACKSLASHES = [f"int32 a # x\\{c}{rest}" for c in "abnrtuxNU01\\ '\"[" for rest in ("y", "")]
+BACKSLASHES += [
+    "# \\\nint32 a",
+    "int32 a # \\x41 \\u0041",
+    "int32 a # \\12",
+    "int32 a # \\15",
+    "int32 a # \\13",
+]
+BACKSLASHES += [f"int32 a # a{count * chr(92)}" for count in range(1, 7)]
+
+
+def test_a_comment_that_the_adapter_stops_at_is_told(tmp_path: Path) -> None:
+    """It takes a backslash in a comment for that of a Python string."""
+    refused = 0
+    for text in BACKSLASHES:
+        diagnostics = Diagnostics()
+        assert parse_msg(Source("F", text), TypeName("pkg_a", "msg", "Foo"), diagnostics) is not None
+        said = [d.headline() for d in diagnostics]
+        assert (ros_message(text, tmp_path) is None) is bool(said), text
+        assert all("cannot read this comment" in line for line in said)
+        refused += bool(said)
+    assert 15 < refused < 30

@@ -5,12 +5,13 @@ from __future__ import annotations
 
 import re
 import sys
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from rosidl_pipeline import adapter_parts, ros_declaration
 from test_msg import messages, without_places
@@ -129,11 +130,58 @@ def test_names_are_told_apart_by_part() -> None:
     assert said == []
 
 
+ALIKE = [
+    ("int8 A=1\n---\nint8 A=1", "srv"),
+    ("string A=\"x\"\nint8 b\n---\nint8 c\nstring A='x'", "srv"),
+    ("int8 A=+1 # c\n---\nint8 b\n# c\nint8 A=1", "srv"),
+    ("float32 A=1\n---\n---\nfloat32 A=1.0", "action"),
+    ("---\nuint8 B=2\n---\nuint8 B=2", "action"),
+]
+UNLIKE = [
+    ("int8 A=1\n---\nint8 A=2", "srv"),
+    ("int8 A=1\n---\nint16 A=1", "srv"),
+    ("int8 A=1 # c\n---\nint8 A=1", "srv"),
+    ("int8 A=1\n---\n---\nint8 B=1", "action"),
+]
+
+
+@pytest.mark.parametrize(("text", "kind"), ALIKE)
+def test_constants_declared_alike_in_two_parts_are_told(text: str, kind: str) -> None:
+    """Their C does not compile in ROS 2 Jazzy, which gives both to the first part."""
+    (said,) = errors(text, kind)
+    line = max(i for i, written in enumerate(text.splitlines(), 1) if "=" in written)
+    assert re.match(rf"{line}:\d+: error: ROS 2 Jazzy takes '[AB]' for a constant of Foo_\w+ too", said)
+    assert said.endswith("Give one of them another name or comment")
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize(("text", "kind"), [*ALIKE, *UNLIKE])
+def test_ros_mixes_up_constants_declared_alike(text: str, kind: str, tmp_path: Path) -> None:
+    theirs = ros_declaration(text, kind, tmp_path)
+    assert theirs is not None
+    names = [[name for name, _ in constants] for constants in theirs.constants]
+    assert any(len(set(part)) < len(part) for part in names) is ((text, kind) in ALIKE)
+    assert (read(text, kind)[0] is None) is ((text, kind) in ALIKE)
+
+
 @pytest.mark.parametrize("name", ["foo", "Foo_Bar", "Foo_Request", "Foo_Response", "1Foo"])
 def test_names_of_services(name: str) -> None:
     diagnostics = Diagnostics()
     assert parse_srv(Source("F", "---"), TypeName("pkg_a", "srv", name), diagnostics) is None
     assert all("is not a message type" in d.message for d in diagnostics)
+
+
+@pytest.mark.parametrize(
+    ("kind", "name"), [("srv", "Request"), ("srv", "Event"), ("action", "Goal"), ("action", "Feedback")]
+)
+def test_an_interface_with_the_name_of_a_part_has_a_warning(kind: str, name: str) -> None:
+    """A C++ class cannot hold a type of its own name."""
+    found, said = read("---\n---" if kind == "action" else "---", kind, name)
+    assert found is not None
+    assert said == [
+        f"1:1: warning: the C++ that ROS 2 Jazzy makes of an interface named '{name}' does not compile. Rename it"
+    ]
+    assert not read("---\n---" if kind == "action" else "---", kind, f"{name}s")[1]
 
 
 def test_a_byte_order_mark_is_told_once() -> None:
@@ -142,12 +190,19 @@ def test_a_byte_order_mark_is_told_once() -> None:
     assert [d.severity for d in diagnostics] == [Severity.WARNING]
 
 
+def alike(messages: Sequence[Message]) -> bool:
+    """Return whether two of them have the same constant, which ROS 2 mixes up."""
+    constants = [{repr(replace(c, span=None)) for c in message.constants} for message in messages]
+    return sum(map(len, constants)) > len(set().union(*constants))
+
+
 @st.composite
 def declarations(draw: st.DrawFn) -> Service | Action:
     kind = draw(st.sampled_from(["srv", "action"]))
     name = TypeName("pkg_a", kind, "Foo")
     parts = ("Request", "Response") if kind == "srv" else ("Goal", "Result", "Feedback")
     made = tuple(replace(draw(messages()), name=derived_name(name, part)) for part in parts)
+    assume(not alike(made))
     return make_declaration(name, made, made[0].comment)
 
 

@@ -119,6 +119,7 @@ def fuzz(program: Path, corpus: Path, *options: str) -> None:
     command = [program, "-max_len=4096", "-print_final_stats=1", *options, corpus]
     result = subprocess.run(command, capture_output=True, text=True, env=environment, cwd=corpus, check=False)
     assert result.returncode == 0, result.stderr[-4000:]
+    print(*(line for line in result.stderr.splitlines() if line.startswith("stat::")), sep="\n")
 
 
 def test_whatever_the_bytes_nothing_is_out_of_bounds(

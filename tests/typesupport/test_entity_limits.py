@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Limits of a publisher of its own: storage of its own, where another publisher of the type has larger ones."""
+"""Limits of a publisher of its own: storage of its own, where another publisher of the type has larger ones.
+
+test_own_encoders.py has the encoders.
+"""
 
 from __future__ import annotations
 
@@ -108,6 +111,6 @@ def test_the_example_uses_the_storage_of_each_topic(out: Path) -> None:
 
 
 def test_the_type_has_the_largest_of_all(out: Path) -> None:
-    """One handle encodes for every publisher of the type, so its largest message is that of all."""
+    """The handle stands for every publisher of the type: rmw_serialize and message sizes go by the largest limits."""
     header = (out / "include/std_msgs/msg/detail/string__type_support.h").read_text()
     assert "std_msgs__msg__String__MAX_ENCODED_SIZE = 45" in header

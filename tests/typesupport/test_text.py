@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from ts_build import TEST_RULES, WARNINGS, Generated, generate, run
 
-from microros_gen.diagnostics import UserError
+from microros_gen.model.application import LimitRule
 from microros_gen.model.types import Primitive
 from microros_gen.plan.types_names import snake_case
 from microros_gen.render.environment import make_environment
@@ -164,14 +164,65 @@ def test_rendering_is_repeatable_and_fast(everything: Generated) -> None:
     assert elapsed < 1.0
 
 
-def test_types_of_idl_alone_are_refused_by_name(tmp_path: Path) -> None:
-    """`char` and `wchar` are read and hashed; they have no encoding here."""
-    (tmp_path / "a/msg").mkdir(parents=True)
-    members = "char one; wchar two[3]; sequence<char> three; octet four;"
-    text = f"module a {{ module msg {{ struct A {{ {members} }}; }}; }};"
-    (tmp_path / "a/msg/A.idl").write_text(text, encoding="utf-8")
-    with pytest.raises(UserError) as raised:
-        generate(["a"], (), tmp_path / "out", [tmp_path])
-    said = [d.message for d in raised.value.diagnostics]
-    assert [line.split(": ", 1)[0] for line in said] == ["a/msg/A.one", "a/msg/A.two", "a/msg/A.three"]
-    assert "the IDL type 'char' is not generated" in said[2]
+MOTOR = """
+module a { module msg {
+  module Motor_Constants {
+    @verbatim (language="comment", text="Largest speed.") @unit (value="rpm") const uint16 MOST = 6000;
+  };
+  @verbatim (language="comment", text="State of a motor." "\\n" "Sent at 100 Hz.")
+  struct Motor {
+    @verbatim (language="comment", text="Shaft speed.") @unit (value="rpm") @range (min=-6000, max=6000)
+    @default (value=100) short speed;
+    @unit (value="degC") @min (-40.5) float temperature;
+    @unit (value="A") sequence<float, 3> currents;
+    @default (value="id/*le*/") string<16> mode;
+    @verbatim (language="comment", text="Names.") sequence<wstring<4>, 2> names;
+    @default (value="(1, 2, 3)") sequence<uint32> counts;
+    @key uint8 id;
+  };
+}; };
+"""
+
+
+@pytest.fixture(scope="module")
+def motor(tmp_path_factory: pytest.TempPathFactory) -> Generated:
+    """A message whose .idl file says all that one can say."""
+    folder = tmp_path_factory.mktemp("motor")
+    (folder / "a/msg").mkdir(parents=True)
+    (folder / "a/msg/Motor.idl").write_text(MOTOR, encoding="utf-8")
+    return generate(["a"], (LimitRule(("*",), string=16, sequence=4),), folder / "out", [folder])
+
+
+def test_a_struct_says_what_the_interface_file_says(motor: Generated) -> None:
+    """Comments, units, ranges, bounds and default values stand above the member that they belong to."""
+    header = motor.files["include/a/msg/detail/motor__struct.h"].decode()
+    assert "/** Largest speed. [rpm] */\nenum\n{\n  a__msg__Motor__MOST = 6000\n};" in header
+    start = header.index(
+        "/**\n * State of a motor.\n * Sent at 100 Hz.\n */\ntypedef struct a__msg__Motor\n{"
+    )
+    body = header[start:].partition("} a__msg__Motor;")[0]
+    found = re.findall(r"(?:  /\*\*(.*?)\*/\n)?  [\w ]+? (\w+);\n", body, re.DOTALL)
+    assert {name: [w.strip(" *") for w in text.strip().split("\n")] for text, name in found} == {
+        "speed": ["Shaft speed. [rpm]", "Range: -6000 to 6000", "Default: 100"],
+        "temperature": ["[degC]", "At least -40.5"],
+        "currents": ["[A]", "At most 3 elements."],
+        "mode": ["At most 16 bytes of UTF-8, without the terminator.", 'Default: "id/ *le* /"'],
+        "names": ["Names.", "At most 2 elements.", "Each at most 4 UTF-16 units, without the terminator."],
+        "counts": ["Default: {1U, 2U, 3U}"],
+        "id": [""],
+    }
+
+
+def test_a_header_says_what_a_message_takes(motor: Generated) -> None:
+    """Sizes are those that the C asserts."""
+    plan = motor.plan("a/msg/Motor")
+    header = motor.files["include/a/msg/motor.h"].decode()
+    struct, storage = plan.struct_sizes, plan.storage_sizes
+    sizes = f"{struct[1]} ({struct[0]}), storage {storage[1]} ({storage[0]}), body {plan.min_encoded_size} to"
+    assert f" * - a__msg__Motor: {sizes} {plan.max_encoded_size}\n" in header
+    kept = motor.files["include/a/msg/detail/motor__storage.h"].decode()
+    assert f"/** Storage of one message: {storage[1]} bytes, {storage[0]} with 64-bit pointers. */" in kept
+    assert "  char mode[17];  /* 16 bytes and the terminator */\n" in kept
+    assert "  uint_least16_t names__text[2][5];  /* each 4 UTF-16 units and the terminator */\n" in kept
+    for source in motor.sources(".c"):
+        run(["gcc", *WARNINGS, "-fsyntax-only", *motor.includes, source])

@@ -39,6 +39,8 @@ FORMATS = {
     Primitive.UINT32: "I",
     Primitive.INT64: "q",
     Primitive.UINT64: "Q",
+    Primitive.IDL_CHAR: "b",
+    Primitive.WCHAR: "H",
 }
 Tree = Mapping[str, Any]
 

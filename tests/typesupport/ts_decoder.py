@@ -7,7 +7,7 @@ import ctypes
 from dataclasses import dataclass
 from typing import Any
 
-from test_bytes import Fault, message_type
+from test_bytes import Fault, MessageType, message_type
 from ts_build import Generated
 from ts_values import CStructs
 
@@ -15,7 +15,13 @@ from microros_gen.plan.layout import LP64
 from microros_gen.plan.types import TypePlan
 
 DECODE = ctypes.CFUNCTYPE(
-    ctypes.c_bool, ctypes.c_void_p, ctypes.c_uint32, ctypes.c_bool, ctypes.c_void_p, ctypes.POINTER(Fault)
+    ctypes.c_bool,
+    ctypes.POINTER(MessageType),
+    ctypes.c_void_p,
+    ctypes.c_uint32,
+    ctypes.c_bool,
+    ctypes.c_void_p,
+    ctypes.POINTER(Fault),
 )
 LIMIT, END, VALUE = range(3)
 MARK = b"\x5a" * 16
@@ -38,7 +44,8 @@ class Decoder:
         self.plan = plan
         self.structs = CStructs(generated.messages)
         self.type = message_type(library, plan.c_name)
-        self._decode = DECODE(self.type.decode)
+        assert self.type.decode
+        self._decode = DECODE(("cdr_decode", library))
         self._bind = library[f"{plan.c_name}__bind"] if plan.storage else None
         self._size = plan.storage_size(LP64)
         self._storage = ctypes.create_string_buffer(self._size + len(MARK))
@@ -60,7 +67,7 @@ class Decoder:
     def at(self, message: Any, body: bytes | int, size: int, swap: bool = False) -> Refused | None:
         """The same for a body that may be given by its address."""
         fault = Fault(b"?", 0, 0, -1)
-        done = self._decode(body, size, swap, ctypes.addressof(message), fault)
+        done = self._decode(self.type, body, size, swap, ctypes.addressof(message), fault)
         assert self._storage.raw[self._size :] == MARK, "wrote behind the storage"
         assert done == (fault.kind == -1)
         return None if done else Refused(fault.field.decode(), fault.found, fault.fits, fault.kind)

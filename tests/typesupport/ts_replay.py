@@ -22,7 +22,7 @@ COMMON = """
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "microros/message_type.h"
+#include "microros/cdr_decode.h"
 #include "rcutils/allocator.h"
 typedef struct test_type_t {
   const char * name;
@@ -61,7 +61,7 @@ static int replay(const test_type_t * t, const uint8_t * body, uint32_t size, bo
   void * const message = test_block(t->message_size);
   void * const storage = test_block(t->storage_size);
   t->bind(message, storage);
-  int wrong = !type->decode(body, size, swap, message, &fault);
+  int wrong = !cdr_decode(type, body, size, swap, message, &fault);
   if (!wrong) {
     const uint32_t written = type->encoded_size(message, &fault);
     uint8_t * const again = test_block(written);
@@ -73,7 +73,7 @@ static int replay(const test_type_t * t, const uint8_t * body, uint32_t size, bo
   for (uint32_t cut = 0; cut < size && size < 200u; ++cut) {
     uint8_t * const part = test_block(cut);
     memcpy(part, body, cut);
-    if (type->decode(part, cut, swap, message, &fault)) { printf("WRONG %s cut %u\\n", t->name, (unsigned)cut); }
+    if (cdr_decode(type, part, cut, swap, message, &fault)) { printf("WRONG %s cut %u\\n", t->name, (unsigned)cut); }
     free(part);
   }
   free(message);
@@ -116,7 +116,7 @@ int LLVMFuzzerTestOneInput(const uint8_t * data, size_t size) {
   uint8_t * const body = test_block(length);
   memcpy(body, &data[2], length);
   t->bind(message, storage);
-  if (type->decode(body, length, (data[1] & 0x80u) != 0u, message, &fault)) {
+  if (cdr_decode(type, body, length, (data[1] & 0x80u) != 0u, message, &fault)) {
     if (fault.field != NULL) { abort(); }
     const uint32_t written = type->encoded_size(message, &fault);
     if (written == 0u || written > type->max_encoded_size) { abort(); }
@@ -124,7 +124,7 @@ int LLVMFuzzerTestOneInput(const uint8_t * data, size_t size) {
     uint8_t * const second = test_block(written);
     if (type->encode(message, first, &fault) != written) { abort(); }
     t->bind(message, storage);
-    if (!type->decode(first, written, false, message, &fault)) { abort(); }
+    if (!cdr_decode(type, first, written, false, message, &fault)) { abort(); }
     if (type->encode(message, second, &fault) != written || memcmp(first, second, written) != 0) { abort(); }
     free(first);
     free(second);

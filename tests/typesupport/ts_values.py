@@ -5,8 +5,10 @@ from __future__ import annotations
 
 import ctypes
 import importlib
+import math
 import random
 import struct
+import sys
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -40,7 +42,14 @@ C_TYPES: dict[Primitive, Any] = {
     Primitive.UINT32: ctypes.c_uint32,
     Primitive.INT64: ctypes.c_int64,
     Primitive.UINT64: ctypes.c_uint64,
+    Primitive.IDL_CHAR: ctypes.c_int8,
+    Primitive.WCHAR: ctypes.c_uint16,
 }
+FLOAT_EDGES = {
+    Primitive.FLOAT32: (0.0, -0.0, -1.5, math.inf, -math.inf, 2.0**-149, -(2.0**-126), 3.4e38),
+    Primitive.FLOAT64: (0.0, -0.0, -1.5, math.inf, -math.inf, 5e-324, -(2.0**-1022), sys.float_info.max),
+}
+"""Zeros, infinities, numbers that are smallest, smallest with all digits, largest (for rclpy, of 32 bits)."""
 LETTERS = "abcXYZ 0123'\"\\?éß→ハ"
 WIDE_LETTERS = "aZ éハ"
 Tree = dict[str, Any]
@@ -89,9 +98,9 @@ class Randomizer:
             return self._random.random() < 0.5
         bits = 8 * primitive.size
         if primitive in (Primitive.FLOAT32, Primitive.FLOAT64):
-            value = self._random.choice([0.0, -1.5, 1e30, self._random.uniform(-1e6, 1e6)])
+            value = self._random.choice([*FLOAT_EDGES[primitive], self._random.uniform(-1e6, 1e6)])
             return struct.unpack("<f", struct.pack("<f", value))[0] if bits == 32 else value
-        signed = primitive.value.startswith("int")
+        signed = primitive.value.startswith("int") or primitive is Primitive.IDL_CHAR
         low, high = (-(1 << bits - 1), (1 << bits - 1) - 1) if signed else (0, (1 << bits) - 1)
         return self._random.choice([low, high, self._random.randint(low, high)])
 

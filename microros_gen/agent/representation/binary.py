@@ -72,7 +72,13 @@ def _writer(reader: Reader) -> Endpoint:
 
 def _reader(reader: Reader) -> Endpoint:
     topic = reader.identifier()
-    return Endpoint(None, topic, reader.optional(lambda: _qos(reader)) or Qos(reliable=False))
+    if not reader.flag():
+        return Endpoint(None, topic, Qos(reliable=False))
+    qos = _qos(reader)
+    if reader.remaining() == 0:
+        return Endpoint(None, topic, qos)  # the qualities of a writer: some clients send no more
+    separation = reader.optional(reader.u32) or 0
+    return Endpoint(None, topic, qos, separation, reader.optional(reader.string) or "")
 
 
 def _qos(reader: Reader) -> Qos:

@@ -58,11 +58,16 @@ class Group:
 
 @dataclass(frozen=True)
 class Endpoint:
-    """A data writer or reader; its topic is described in place (XML) or is the object `topic_id` (binary)."""
+    """A data writer or reader; its topic is described in place (XML) or is the object `topic_id` (binary).
+
+    `separation_ms`: a reader's time-based filter. `content_filter`: what it asks for, which ROS 2 does not have.
+    """
 
     topic: Topic | None
     topic_id: int
     qos: Qos
+    separation_ms: int = 0
+    content_filter: str = ""
 
 
 @dataclass(frozen=True)
@@ -76,7 +81,48 @@ class Service:
     reply_topic: str = ""
 
 
-Description = Participant | Topic | Group | Endpoint | Service
+@dataclass(frozen=True)
+class TypeDefinition:
+    """A type by its full name; `text` is its definition in XML, empty for one that is named only.
+
+    ROS 2 knows its types by name, so a definition is kept and compared, and not used.
+    """
+
+    name: str
+    text: str = ""
+
+
+@dataclass(frozen=True)
+class QosProfile:
+    """A named quality of service (`Library::Profile`) for writers and for readers; None: it does not say."""
+
+    name: str
+    writer: Qos | None = None
+    reader: Qos | None = None
+
+
+@dataclass(frozen=True)
+class Part:
+    """An object within an application: its kind, and the place of its container among the parts (None: none)."""
+
+    kind: int
+    container: int | None
+    description: Participant | Topic | Group | Endpoint
+
+
+@dataclass(frozen=True)
+class Application:
+    """Several objects that are made together, containers before what they contain."""
+
+    name: str
+    parts: tuple[Part, ...] = ()
+
+
+Description = Participant | Topic | Group | Endpoint | Service | TypeDefinition | QosProfile | Application
+
+
+class UnknownNameError(Exception):
+    """A description names a topic or a quality of service that is not there; the text is for people."""
 
 
 class UnsupportedKindError(Exception):

@@ -4,6 +4,8 @@
 The root is `profiles`, or `dds` with `profiles` in it. Each participant, topic, data_writer, data_reader, requester
 and replier has the attribute `profile_name`, by which a CREATE names it; publisher and subscriber are older names of
 data_writer and data_reader. Profiles of other things (transports, types, logs) are none of the agent's business.
+Beside them, or as the root, stand libraries of DDS-XML: `qos_library` and `application_library`, whose content a CREATE
+names as `Library::Name` (DDS-XRCE 1.0, 7.7.3.2.1 and 7.7.3.5.1).
 
     <profiles>
         <participant profile_name="participant_profile"><rtps><name>imu_node</name></rtps></participant>
@@ -17,9 +19,17 @@ from collections.abc import Sequence
 from xml.etree import ElementTree
 from xml.parsers import expat
 
-from microros_gen.agent.representation.description import Description
+from microros_gen.agent.representation.dds_xml import Known, read_application, read_qos_profile
+from microros_gen.agent.representation.description import (
+    Application,
+    Description,
+    QosProfile,
+    UnknownNameError,
+)
 from microros_gen.agent.representation.reference import References
 from microros_gen.agent.representation.xml import XmlError, from_profile
+from microros_gen.agent.wire.constants import ObjectKind
+from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
 
 Element = ElementTree.Element
@@ -34,13 +44,16 @@ _SERVED = (
     "subscriber",
 )
 _OTHERS = ("domainparticipant_factory", "library_settings", "transport_descriptors", "types", "log")
-_BESIDE_PROFILES = ("library_settings", "types", "log")
+_LIBRARIES = ("qos_library", "application_library")
+"""Of DDS-XML, as the standard describes them; qualities first, for applications name them."""
+_BESIDE_PROFILES = ("library_settings", "types", "log", *_LIBRARIES)
 
 
 def read_references(sources: Sequence[Source]) -> References:
     """Return what the files hold together; UserError with every fault and its place."""
     diagnostics = Diagnostics()
     gathered = _Gathered(diagnostics)
+    libraries: list[tuple[Element, _Tree]] = []
     for source in sources:
         tree = _Tree(source)
         root = tree.parse(diagnostics)
@@ -48,6 +61,9 @@ def read_references(sources: Sequence[Source]) -> References:
             for profiles in _profiles(root, tree, diagnostics):
                 for element in profiles:
                     gathered.add(element, tree)
+            libraries += ((element, tree) for element in (root, *root) if element.tag in _LIBRARIES)
+    for library, tree in sorted(libraries, key=lambda item: _LIBRARIES.index(item[0].tag)):
+        gathered.add_library(library, tree)
     diagnostics.check()
     return References(gathered.known)
 
@@ -125,6 +141,29 @@ class _Gathered:
         if found and name:
             self._keep(found, name, place)
 
+    def add_library(self, library: Element, tree: _Tree) -> None:
+        """Add what a library of qualities of service or of applications holds, as `Library::Name`."""
+        name = library.get("name", "")
+        if not name:
+            self._diagnostics.error(f"this {library.tag} has no name", tree.place(library), 'Add name="…"')
+        profiles = library.tag == "qos_library"
+        for element in library.findall("qos_profile" if profiles else "application"):
+            qualities = [d for d in self.known.values() if isinstance(d, QosProfile)]
+            held = Known({profile.name: profile for profile in qualities})
+            found: QosProfile | Application
+            try:
+                if profiles:
+                    found, kind = read_qos_profile(name, element, held), ObjectKind.QOSPROFILE
+                else:
+                    found, kind = read_application(name, element, held), ObjectKind.APPLICATION
+            except (MalformedError, UnknownNameError) as error:
+                about = error.detail if isinstance(error, MalformedError) else str(error)
+                self._diagnostics.error(
+                    f"{element.tag} '{element.get('name', '')}': {about}", tree.place(element)
+                )
+                continue
+            self._keep((kind, found), found.name, tree.place(element))
+
     def _keep(self, found: tuple[int, Description], name: str, place: Span) -> None:
         kind, description = found
         first = self._places.setdefault((kind, name), place)
@@ -137,6 +176,8 @@ class _Gathered:
 def _profiles(root: Element, tree: _Tree, diagnostics: Diagnostics) -> list[Element]:
     if root.tag == "profiles":
         return [root]
+    if root.tag in _LIBRARIES:
+        return []
     if root.tag != "dds":
         hint = "The root of a file of references is <profiles>, or <dds> with <profiles> in it"
         diagnostics.error(f"<{root.tag}> holds no references", tree.place(root), hint)

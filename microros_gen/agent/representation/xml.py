@@ -11,6 +11,17 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from xml.etree import ElementTree
 
+from microros_gen.agent.representation.dds_xml import (
+    Known,
+    check_alone,
+    is_standard,
+    read_application_library,
+    read_endpoint,
+    read_participant,
+    read_qos_library,
+    read_topic,
+    read_types,
+)
 from microros_gen.agent.representation.description import (
     Description,
     Durability,
@@ -37,8 +48,18 @@ class XmlError(MalformedError):
         self.element = element
 
 
-def from_xml(kind: int, text: str, domain: int) -> Description:
-    """Return what `text` describes; MalformedError, or UnsupportedKindError for kinds without an XML form."""
+def from_xml(kind: int, text: str, domain: int, known: Known | None = None) -> Description:
+    """Return what `text` describes; `known` is what it may name.
+
+    MalformedError, UnknownNameError, or UnsupportedKindError for kinds without an XML form.
+    """
+    known = known or Known()
+    if kind == ObjectKind.TYPE:
+        return read_types(_parse(text), text)
+    if kind == ObjectKind.QOSPROFILE:
+        return read_qos_library(_parse(text), known)
+    if kind == ObjectKind.APPLICATION:
+        return read_application_library(_parse(text), known)
     if kind not in _READERS:
         raise UnsupportedKindError(f"XML objects of kind {kind:#04x}")
     tag, read = _READERS[kind]
@@ -46,7 +67,12 @@ def from_xml(kind: int, text: str, domain: int) -> Description:
         if kind in (ObjectKind.PUBLISHER, ObjectKind.SUBSCRIBER):
             return Group()  # clients send the empty text for these
         raise MalformedError("xml", "empty")
-    element = _find(_parse(text), tag)
+    root = _parse(text)
+    if kind == ObjectKind.PARTICIPANT and root.tag == "domain_participant_library":
+        return read_participant(root, domain)
+    element = _find(root, tag)
+    if is_standard(element):
+        return read_topic(element) if kind == ObjectKind.TOPIC else read_endpoint(element, known)
     return read(element, domain)
 
 
@@ -99,6 +125,7 @@ def _topic(element: Element, _domain: int) -> Topic:
 
 
 def _group(element: Element, _domain: int) -> Group:
+    check_alone(element, ("data_writer", "data_reader"))
     names = (name.text or "" for name in element.findall("qos/partition/names/name"))
     return Group(element.get("name", ""), tuple(name.strip() for name in names))
 

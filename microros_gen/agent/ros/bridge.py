@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Protocol
 
 from microros_gen.agent.representation.description import Qos, Service, Topic
@@ -15,6 +17,99 @@ class BridgeError(Exception):
     def __init__(self, reason: str, status: Status = Status.DDS_ERROR) -> None:
         super().__init__(reason)
         self.status = status
+
+
+HashOf = Callable[[str], "str | None"]
+"""Gives the type hash (RIHS01_…, REP-2011) of a type, or None when it knows none. Types are named as in ROS:
+`pkg/msg/Type`; for services `pkg/srv/Type`, `pkg/srv/Type_Request` and `pkg/srv/Type_Response`; actions likewise."""
+
+
+@dataclass(frozen=True)
+class Matched:
+    """A publisher or subscription (`kind`) of a client's node has `count` counterparts now."""
+
+    node: str
+    kind: str
+    endpoint: str
+    count: int
+
+    def __str__(self) -> str:
+        return f"{self.kind} {self.endpoint} of {self.node} has {self.count} counterparts"
+
+
+@dataclass(frozen=True)
+class Incompatible:
+    """Somebody offers or wants another quality of service; `policy` is the last that differed (`reliability`, …)."""
+
+    node: str
+    kind: str
+    endpoint: str
+    policy: str
+    count: int
+
+    def __str__(self) -> str:
+        return (
+            f"{self.kind} {self.endpoint} of {self.node} does not match {self.count} counterparts:"
+            f" another quality of service, {self.policy}"
+        )
+
+
+@dataclass(frozen=True)
+class HashMismatch:
+    """Another node announces the same type by name with another definition: what it says will be misread."""
+
+    node: str
+    endpoint: str
+    hash: str
+    other_node: str
+    other_hash: str
+
+    def __str__(self) -> str:
+        return (
+            f"{self.endpoint}: {self.node} was generated with the type {self.hash}, but {self.other_node} has"
+            f" {self.other_hash}: their definitions differ, so samples will be misread"
+        )
+
+
+@dataclass(frozen=True)
+class TypeMismatch:
+    """Another node announces the same topic with a type of another name: the two will not be connected."""
+
+    node: str
+    endpoint: str
+    other_node: str
+    other_type: str
+
+    def __str__(self) -> str:
+        return (
+            f"{self.endpoint} of {self.node} is not connected with {self.other_node},"
+            f" whose type is {self.other_type}"
+        )
+
+
+@dataclass(frozen=True)
+class HashUnknown:
+    """Nobody knows the definition of a type: it is bridged, but its endpoints announce no type hash. Told once."""
+
+    type: str
+
+    def __str__(self) -> str:
+        return f"type {self.type}: no interface file is known, so no type hash is announced"
+
+
+@dataclass(frozen=True)
+class NoServer:
+    """A request was dropped: its service was not there for some seconds."""
+
+    node: str
+    endpoint: str
+
+    def __str__(self) -> str:
+        return f"client {self.endpoint} of {self.node}: a request was dropped, nobody serves it"
+
+
+GraphReport = NoServer | Matched | Incompatible | HashMismatch | TypeMismatch | HashUnknown
+"""What a bridge tells about the ROS graph, from within `ready` and when an entity is made; its text is for people."""
 
 
 class Writer(Protocol):
@@ -67,7 +162,10 @@ class Requester(Source, Protocol):
     """A ROS service client of a client: the client asks."""
 
     def request(self, serialized: bytes) -> int:
-        """Send a request (encapsulation header, then CDR body); return the number that its reply will have."""
+        """Send a request (encapsulation header, then CDR body); return the number that its reply will have.
+
+        A request before the service was first there waits for it some seconds: XRCE clients cannot see whether it is.
+        """
 
     def take(self) -> tuple[int, bytes] | None:
         """Return the next reply: the number of its request, and encapsulation with CDR body."""
@@ -99,8 +197,11 @@ class Node(Protocol):
 class Bridge(Protocol):
     """The way into ROS 2."""
 
-    def create_node(self, name: str, domain: int) -> Node:
-        """Create a node; `name` is `node` or `namespace/node`, in any characters; may raise BridgeError."""
+    def create_node(self, name: str, domain: int, hash_of: HashOf | None = None) -> Node:
+        """Create a node; `name` is `node` or `namespace/node`, in any characters; may raise BridgeError.
+
+        `hash_of` tells the types that this client was generated with (its manifest); default: what the bridge has.
+        """
 
     def fileno(self) -> int:
         """Return the descriptor that is readable while `ready` has something to name."""

@@ -1,30 +1,87 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ROS names of what clients name for DDS: topics are `rt/…`, message types `pkg::msg::dds_::Type_`."""
+"""ROS names of what clients name for DDS.
+
+Topics are `rt/…`, message types `pkg::msg::dds_::Type_`; a service has the topics `rq/…Request` and `rr/…Reply` with
+the types `pkg::srv::dds_::Type_Request_` and `…_Response_`. Those of an action (`…/_action/send_goal` and the like) are
+services and topics, with `action` in place of `srv` and `msg`. Source: the design article "Topic and Service name
+mapping to DDS" and rmw_fastrtps.
+"""
 
 from __future__ import annotations
 
 import re
 from dataclasses import dataclass
 
+from microros_gen.agent.representation.description import Service
 from microros_gen.agent.ros.bridge import BridgeError
 from microros_gen.agent.wire.constants import Status
 
 MAXIMUM_NAME = 255
 """Characters that ROS 2 allows in the name of a node."""
-_TOPIC = re.compile(r"rt((?:/[A-Za-z_][A-Za-z0-9_]*)+)", re.ASCII)
-_TYPE = re.compile(r"([a-z][a-z0-9_]*)::msg::dds_::([A-Z][A-Za-z0-9]*)_", re.ASCII)
+MAXIMUM_TOPIC = 238
+"""Characters of a topic or service: with `rt` or the like and `Request` it must fit into DDS's 255."""
+MAXIMUM_TYPE = 200
+"""Characters of package and type together; what is derived from them must fit into DDS's 255."""
+_NAME = r"((?:/[A-Za-z_][A-Za-z0-9_]*)+)"
+_TOPIC = re.compile(f"rt{_NAME}", re.ASCII)
+_REQUEST = re.compile(f"rq{_NAME}Request", re.ASCII)
+_REPLY = re.compile(f"rr{_NAME}Reply", re.ASCII)
+_SERVICE = re.compile(_NAME, re.ASCII)
+_TYPE = re.compile(r"([a-z][a-z0-9_]*)::(msg|srv|action)::dds_::([A-Z][A-Za-z0-9_]*)_", re.ASCII)
 _WRONG = re.compile(r"[^A-Za-z0-9_]", re.ASCII)
 
 
 @dataclass(frozen=True)
 class TypeName:
-    """A message type by its ROS names."""
+    """A message or service type by its ROS names; `kind` is the folder of its interface file: msg, srv, action."""
 
     package: str
     name: str
+    kind: str = "msg"
 
     def __str__(self) -> str:
-        return f"{self.package}/msg/{self.name}"
+        return f"{self.package}/{self.kind}/{self.name}"
+
+    @property
+    def dds(self) -> str:
+        """The name in DDS."""
+        return f"{self.namespace}::dds_::{self.name}_"
+
+    @property
+    def namespace(self) -> str:
+        """The C++ namespace, as type supports have it."""
+        return f"{self.package}::{self.kind}"
+
+
+@dataclass(frozen=True)
+class ServiceName:
+    """A service by its ROS names."""
+
+    name: str
+    type: TypeName
+
+    @property
+    def request(self) -> TypeName:
+        """The message type of its requests."""
+        return TypeName(self.type.package, f"{self.type.name}_Request", self.type.kind)
+
+    @property
+    def response(self) -> TypeName:
+        """The message type of its responses."""
+        return TypeName(self.type.package, f"{self.type.name}_Response", self.type.kind)
+
+    def __str__(self) -> str:
+        return f"{self.name} [{self.type}]"
+
+    @property
+    def request_topic(self) -> str:
+        """The DDS topic of its requests."""
+        return f"rq{self.name}Request"
+
+    @property
+    def reply_topic(self) -> str:
+        """The DDS topic of its replies."""
+        return f"rr{self.name}Reply"
 
 
 def ros_topic(dds_name: str) -> str:
@@ -32,9 +89,10 @@ def ros_topic(dds_name: str) -> str:
     match = _TOPIC.fullmatch(dds_name)
     if not match:
         raise BridgeError(
-            f"topic '{dds_name}' is no ROS topic: 'rt/' and a ROS name is expected", Status.INVALID_DATA
+            f"topic '{_short(dds_name)}' is no ROS topic: 'rt/' and a ROS name is expected",
+            Status.INVALID_DATA,
         )
-    return match[1]
+    return _bounded(match[1], "topic")
 
 
 def ros_type(dds_name: str) -> TypeName:
@@ -42,10 +100,30 @@ def ros_type(dds_name: str) -> TypeName:
     match = _TYPE.fullmatch(dds_name)
     if not match:
         raise BridgeError(
-            f"type '{dds_name}' is no ROS message: 'package::msg::dds_::Type_' is expected",
+            f"type '{_short(dds_name)}' is no ROS message: 'package::msg::dds_::Type_' is expected",
             Status.INVALID_DATA,
         )
-    return TypeName(match[1], match[2])
+    if len(match[1]) + len(match[3]) > MAXIMUM_TYPE:
+        raise BridgeError(f"the type name '{_short(dds_name)}' is too long", Status.INVALID_DATA)
+    return TypeName(match[1], match[3], match[2])
+
+
+def ros_service(service: Service) -> ServiceName:
+    """Return the ROS names of a service; BridgeError when its topics or types are not those of one ROS service.
+
+    The topics decide; the service's own name stands in for those that are empty, with or without a leading slash.
+    """
+    own = service.name if service.name.startswith("/") else f"/{service.name}"
+    request = _service_topic(
+        service.request_topic or f"rq{own}Request", _REQUEST, "request", "rq/nameRequest"
+    )
+    reply = _service_topic(service.reply_topic or f"rr{own}Reply", _REPLY, "reply", "rr/nameReply")
+    if request != reply:
+        raise BridgeError(
+            f"requests are for the service {request}, replies for {reply}: ROS 2 has one name for both",
+            Status.INVALID_DATA,
+        )
+    return ServiceName(_bounded(request, "service"), _service_type(service))
 
 
 def ros_node(name: str) -> tuple[str, str]:
@@ -62,6 +140,46 @@ def ros_node(name: str) -> tuple[str, str]:
     return parts[-1], "/" + "/".join(parts[:-1])
 
 
+def _service_topic(dds_name: str, pattern: re.Pattern[str], what: str, expected: str) -> str:
+    match = pattern.fullmatch(dds_name)
+    if not match:
+        raise BridgeError(
+            f"{what} topic '{_short(dds_name)}' is not that of a ROS service: '{expected}' is expected",
+            Status.INVALID_DATA,
+        )
+    return match[1]
+
+
+def _service_type(service: Service) -> TypeName:
+    request, response = ros_type(service.request_type), ros_type(service.reply_type)
+    for found, ending in ((request, "_Request"), (response, "_Response")):
+        if found.kind == "msg" or not found.name.endswith(ending) or found.name == ending:
+            raise BridgeError(
+                f"type {found} is not that of a ROS service: 'package::srv::dds_::Type{ending}_' is expected",
+                Status.INVALID_DATA,
+            )
+    name = request.name.removesuffix("_Request")
+    if (request.package, request.kind, name) != (
+        response.package,
+        response.kind,
+        response.name.removesuffix("_Response"),
+    ):
+        raise BridgeError(
+            f"request type {request} and reply type {response} are not of one service", Status.INVALID_DATA
+        )
+    return TypeName(request.package, name, request.kind)
+
+
+def _bounded(name: str, what: str) -> str:
+    if len(name) > MAXIMUM_TOPIC:
+        raise BridgeError(f"the {what} name '{_short(name)}' is too long", Status.INVALID_DATA)
+    return name
+
+
 def _part(part: str) -> str:
     clean = _WRONG.sub("_", part)
     return f"_{clean}" if clean[0].isdigit() else clean
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 80 else f"{text[:80]}…"

@@ -1,42 +1,74 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The bridge on rclpy: one context per domain, a bare node per participant, raw publishers.
+"""The bridge on rclpy and rmw_fastrtps_cpp: one context per domain, a bare node per participant, raw endpoints.
 
-Nodes and publishers are rclpy's handles, not its `Node` class: a client's node shows in the graph with what
-the client declared, without parameter services and their topics, and takes 2 KiB instead of 450.
+Nodes and what they have are rclpy's handles, not its `Node` class: a client's node shows in the graph with what
+the client declared, without parameter services and their topics, and takes 2 KiB instead of 450. Types are those of
+`raw_types`: no Python package of them is needed, none is imported.
 """
 
 from __future__ import annotations
 
 import importlib
-import importlib.util
 import os
-from pathlib import Path
+from collections.abc import Callable
 from typing import Any
 
-from microros_gen.agent.representation.description import Durability, Qos, Topic
-from microros_gen.agent.ros.bridge import Bridge, BridgeError, Node, Writer
-from microros_gen.agent.ros.names import TypeName, ros_node, ros_topic, ros_type
+from microros_gen.agent.ros.bridge import Bridge, BridgeError, GraphReport, HashOf, HashUnknown, Node, Source
+from microros_gen.agent.ros.endpoints import Ros
+from microros_gen.agent.ros.graph import Comparison, TopicTypes
+from microros_gen.agent.ros.libraries import FAILURES, first_line
+from microros_gen.agent.ros.names import ros_node
+from microros_gen.agent.ros.node import RawNode
+from microros_gen.agent.ros.raw_types import MAXIMUM_HANDLES, raw_types
+from microros_gen.agent.ros.services import Servers
+from microros_gen.agent.ros.wakeups import Watcher
 from microros_gen.agent.wire.constants import Status
 from microros_gen.diagnostics import Diagnostic, UserError
 
 MAXIMUM_DOMAIN = 232
 """Largest ROS domain id: the ports of larger ones do not exist (RTPS 2.2, 9.6.1)."""
-_FAILURES = (RuntimeError, ValueError, TypeError, OSError)
-"""What rclpy's handles raise: RCLError is a RuntimeError, refused names are ValueErrors."""
-
-
 DOMAIN_OF_AGENT = 255
 """Clients that ask for this domain (a convention of the public client) get the agent's own, ROS_DOMAIN_ID."""
+RMW = "rmw_fastrtps_cpp"
+"""The one RMW implementation whose type supports are made here."""
 
 
-def open_bridge(maximum_domains: int, domain: int | None = None) -> Bridge:
-    """Return the bridge; UserError when rclpy is missing or does not load.
+def open_bridge(
+    maximum_domains: int,
+    domain: int | None = None,
+    hash_of: HashOf | None = None,
+    report: Callable[[GraphReport], None] | None = None,
+) -> Bridge:
+    """Return the bridge; UserError when rclpy is missing, does not load, or is not the one that is needed.
 
-    `domain` (0 to 232) puts every client into that ROS domain, whichever it asks for.
+    `domain` (0 to 232) puts every client into that ROS domain, whichever it asks for. `hash_of` knows type hashes;
+    without one for a type, its endpoints announce none. `report` is told what happens in the ROS graph.
     """
+    _check_implementation(
+        os.environ.get("RMW_IMPLEMENTATION") or RMW
+    )  # to load rclpy with a wrong one may exit
+    handles = _import_rclpy()
+    _check_implementation(handles.rclpy_get_rmw_implementation_identifier())
+    return RclpyBridge(handles, Ros(raw_types(), report or _ignore), maximum_domains, domain, hash_of)
+
+
+def _ignore(_report: GraphReport) -> None:
+    pass
+
+
+def _check_implementation(implementation: str) -> None:
+    if implementation != RMW:
+        hint = (
+            f"Unset RMW_IMPLEMENTATION, or set it to {RMW}; nodes with another DDS are reached all the same"
+        )
+        reason = f"the agent needs {RMW}, but RMW_IMPLEMENTATION chooses {implementation}"
+        raise UserError([Diagnostic(reason, hint=hint)])
+
+
+def _import_rclpy() -> Any:
     try:
         importlib.import_module("rclpy")
-        handles = importlib.import_module("rclpy.impl.implementation_singleton").rclpy_implementation
+        return importlib.import_module("rclpy.impl.implementation_singleton").rclpy_implementation
     except ImportError as error:
         missing = isinstance(error, ModuleNotFoundError) and error.name == "rclpy"
         reason = (
@@ -44,19 +76,30 @@ def open_bridge(maximum_domains: int, domain: int | None = None) -> Bridge:
         )
         hint = "Run: pip install 'microros-gen[ros]', or source a ROS 2 installation"
         raise UserError([Diagnostic(f"the agent needs ROS 2: {reason}", hint=hint)]) from error
-    return RclpyBridge(handles, maximum_domains, domain)
 
 
 class RclpyBridge:
     """Contexts by domain; one that no node uses stays open until its place is needed."""
 
-    def __init__(self, handles: Any, maximum_domains: int, domain: int | None) -> None:
+    def __init__(
+        self,
+        handles: Any,
+        ros: Ros,
+        maximum_domains: int,
+        domain: int | None,
+        hash_of: HashOf | None,
+    ) -> None:
         self._handles = handles
+        self._ros = ros
         self._domain = domain
+        self._hash_of = hash_of
+        self._comparison = Comparison(handles, ros.wakeups, ros.report)
+        self._servers = Servers(ros.wakeups)
         self._maximum_domains = maximum_domains
         self._contexts: dict[int, _Context] = {}
+        self._without_hash: set[str] = set()
 
-    def create_node(self, name: str, domain: int) -> Node:
+    def create_node(self, name: str, domain: int, hash_of: HashOf | None = None) -> Node:
         """See Bridge."""
         node, namespace = ros_node(name)
         if domain == DOMAIN_OF_AGENT:
@@ -64,16 +107,59 @@ class RclpyBridge:
         context = self._context(domain if self._domain is None else self._domain)
         try:
             handle = self._handles.Node(node, namespace, context.handle, None, False, False)
-        except _FAILURES as error:
-            raise BridgeError(f"node '{name}': {_first_line(error)}") from error
+        except FAILURES as error:
+            raise BridgeError(f"node '{name}': {first_line(error)}") from error
         context.nodes += 1
-        return _Node(self._handles, handle, context)
+
+        def known_hash(type_name: str) -> str | None:
+            return self._known_hash(type_name, hash_of)
+
+        return RawNode(
+            self._handles,
+            handle,
+            self._ros,
+            known_hash,
+            self._comparison,
+            self._servers,
+            context.topics,
+            context.leave,
+        )
+
+    def fileno(self) -> int:
+        """See Bridge."""
+        return self._ros.wakeups.fileno()
+
+    def ready(self) -> list[Source]:
+        """See Bridge."""
+        sources: list[Source] = []
+        for woken in self._ros.wakeups.drain():
+            if isinstance(woken, Watcher):
+                woken.look()
+            else:
+                sources.append(woken)
+        return sources
 
     def close(self) -> None:
         """See Bridge."""
         for context in self._contexts.values():
             context.close()
         self._contexts = {}
+        self._ros.close()
+
+    def _known_hash(self, type_name: str, hash_of: HashOf | None) -> str | None:
+        """Return a type's hash: by the client's manifest, else by the interface files; None is told once."""
+        for known in (hash_of, self._hash_of):
+            found = known(type_name) if known else None
+            if found is not None:
+                return found
+        if (
+            self._hash_of
+            and type_name not in self._without_hash
+            and len(self._without_hash) < MAXIMUM_HANDLES
+        ):
+            self._without_hash.add(type_name)
+            self._ros.report(HashUnknown(type_name))
+        return None
 
     def _context(self, domain: int) -> _Context:
         if not 0 <= domain <= MAXIMUM_DOMAIN:
@@ -98,105 +184,21 @@ class _Context:
         self._context = context_class()
         try:
             self._context.init(args=[], domain_id=domain, initialize_logging=False)
-        except _FAILURES as error:
-            raise BridgeError(f"domain {domain}: {_first_line(error)}") from error
+        except FAILURES as error:
+            raise BridgeError(f"domain {domain}: {first_line(error)}") from error
         self.handle = self._context.handle
         self.nodes = 0
+        self.topics = TopicTypes()
+
+    def leave(self) -> None:
+        """One node less."""
+        self.nodes -= 1
 
     def close(self) -> None:
         self._context.try_shutdown()
         self._context.destroy()
 
 
-class _Node:
-    def __init__(self, handles: Any, handle: Any, context: _Context) -> None:
-        self._handles = handles
-        self._handle = handle
-        self._context = context
-        self.label: str = handle.get_fully_qualified_name()
-
-    def create_writer(self, topic: Topic, qos: Qos) -> Writer:
-        name, type_name = ros_topic(topic.name), ros_type(topic.type_name)
-        message_class = load_message(type_name)
-        try:
-            handle = self._handles.Publisher(self._handle, message_class, name, _profile(qos))
-        except _FAILURES as error:
-            raise BridgeError(f"publisher {name} [{type_name}]: {_first_line(error)}") from error
-        return _Writer(handle, f"{name} [{type_name}]")
-
-    def destroy(self) -> None:
-        self._handle.destroy_when_not_in_use()
-        self._context.nodes -= 1
-
-
-class _Writer:
-    def __init__(self, handle: Any, label: str) -> None:
-        self._handle = handle
-        self._publish = handle.publish_raw
-        self.label = label
-
-    def publish(self, serialized: bytes) -> None:
-        try:
-            self._publish(serialized)
-        except _FAILURES as error:
-            raise BridgeError(f"publish on {self.label}: {_first_line(error)}") from error
-
-    def destroy(self) -> None:
-        self._handle.destroy_when_not_in_use()
-
-
-def load_message(type_name: TypeName) -> Any:
-    """Return the Python class of a ROS message; BridgeError when there is none.
-
-    The name comes from the network, so only a package with rosidl's type support in it is imported.
-    """
-    package = type_name.package
-    try:
-        where = importlib.util.find_spec(package)
-    except (ImportError, ValueError):
-        where = None
-    folders = list(where.submodule_search_locations or ()) if where else []
-    if not any(next(Path(f).glob(f"{package}_s__rosidl_typesupport*"), None) for f in folders):
-        raise BridgeError(
-            f"type {type_name} is not known: package '{package}' is not installed for this Python;"
-            " install it, or source the workspace that has it, before the agent starts"
-        )
-    try:
-        message_class = getattr(importlib.import_module(f"{package}.msg"), type_name.name, None)
-        if message_class is not None:
-            importlib.import_module("rclpy.type_support").check_is_valid_msg_type(message_class)
-    except (ImportError, AttributeError, *_FAILURES) as error:
-        raise BridgeError(f"type {type_name} does not load: {_first_line(error)}") from error
-    if message_class is None:
-        raise BridgeError(
-            f"type {type_name} is not known: the installed package '{package}' has no such message"
-        )
-    return message_class
-
-
-def _profile(qos: Qos) -> Any:
-    module = importlib.import_module("rclpy.qos")
-    duration = importlib.import_module("rclpy.duration").Duration
-    lasting = qos.durability is not Durability.VOLATILE  # ROS has no more than transient local
-    profile = module.QoSProfile(
-        reliability=module.ReliabilityPolicy.RELIABLE
-        if qos.reliable
-        else module.ReliabilityPolicy.BEST_EFFORT,
-        durability=module.DurabilityPolicy.TRANSIENT_LOCAL if lasting else module.DurabilityPolicy.VOLATILE,
-        history=module.HistoryPolicy.KEEP_LAST if qos.keep_last else module.HistoryPolicy.KEEP_ALL,
-        depth=qos.depth or 1,
-    )
-    if qos.deadline_ms:
-        profile.deadline = duration(nanoseconds=qos.deadline_ms * 1_000_000)
-    if qos.lifespan_ms:
-        profile.lifespan = duration(nanoseconds=qos.lifespan_ms * 1_000_000)
-    return profile.get_c_qos_profile()
-
-
 def _own_domain() -> int:
     text = os.environ.get("ROS_DOMAIN_ID", "0").strip() or "0"
     return int(text) if text.isascii() and text.isdigit() else 0
-
-
-def _first_line(error: Exception) -> str:
-    return (str(error) or type(error).__name__).splitlines()[0]

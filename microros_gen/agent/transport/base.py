@@ -18,13 +18,13 @@ class Transport(Protocol):
         """Kind and own address for the log and the ready line, as `udp4 127.0.0.1:8888`."""
 
     @property
-    def writing(self) -> bool:
-        """Whether something waits for the descriptor to become writable; then `pump` is due as well."""
+    def ready(self) -> bool:
+        """Whether messages are taken: not before a serial device is there."""
 
     def fileno(self) -> int:
-        """Return the descriptor that becomes readable when something arrives; -1 while there is none.
+        """Return the descriptor that is readable while `pump` has something to do.
 
-        Between two descriptors there is a `tick` that finds none.
+        It is the same as long as the transport lives: one with several descriptors returns an epoll descriptor.
         """
 
     def pump(self, receive: Receive) -> None:
@@ -40,4 +40,4 @@ class Transport(Protocol):
         """Return an address as the log shows it."""
 
     def close(self) -> None:
-        """Give the descriptor back."""
+        """Give every descriptor back."""

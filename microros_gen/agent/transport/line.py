@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import errno
 import os
-from collections import deque
+import select
 from collections.abc import Callable, Hashable
 
 from microros_gen.agent.framing import LARGEST_PAYLOAD, FrameDecoder, encode_frame
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.transport.base import Receive
+from microros_gen.agent.transport.outbox import Outbox
 
 READ_BYTES = 16_384
 """Bytes that are read before the answers go out."""
@@ -34,11 +35,12 @@ class Line:
         self._open = open_line
         self._log = log
         self._fd = -1
-        self._retry_at: float | None = 0.0
+        self._epoll = select.epoll()  # its descriptor stays, whatever becomes of the line
+        self._retry_at = 0.0
         self._told = ""
         self._was_open = False
-        self._queue: deque[bytes] = deque()
-        self._queued = 0
+        self._outbox = Outbox(QUEUE_BYTES)
+        self._watches_room = False
         self._decoder = FrameDecoder(self._fault)
 
     @property
@@ -47,17 +49,23 @@ class Line:
         return f"serial {self._name}"
 
     @property
-    def writing(self) -> bool:
+    def ready(self) -> bool:
         """See Transport."""
-        return bool(self._queue)
+        return self._fd >= 0
+
+    @property
+    def writing(self) -> bool:
+        """Whether something waits for the line to take it."""
+        return bool(self._outbox)
 
     def fileno(self) -> int:
         """See Transport."""
-        return self._fd
+        return self._epoll.fileno()
 
     def pump(self, receive: Receive) -> None:
         """See Transport."""
-        self._write()
+        if self._outbox:
+            self._write()
         if self._fd < 0:
             return
         try:
@@ -78,13 +86,11 @@ class Line:
         if self._fd < 0 or not isinstance(address, tuple) or len(data) > LARGEST_PAYLOAD:
             return
         frame = encode_frame(data, address[1])
-        if self._queued + len(frame) > QUEUE_BYTES:
+        waited = bool(self._outbox)
+        if not self._outbox.put(frame):
             text = "serial {device} takes no more: messages to it are lost"
             self._log.count("line_full", text, device=self._name)
-            return
-        self._queue.append(frame)
-        self._queued += len(frame)
-        if len(self._queue) == 1:
+        elif not waited:
             self._write()
 
     def start(self) -> None:
@@ -94,6 +100,8 @@ class Line:
         except OSError as error:
             self._told = error.strerror or str(error)
             raise
+        self._epoll.register(self._fd, select.EPOLLIN)
+        self._watches_room = False
         self._was_open = True
 
     def wait(self) -> None:
@@ -103,11 +111,7 @@ class Line:
 
     def tick(self, now: float) -> None:
         """See Transport."""
-        if self._fd >= 0:
-            return
-        if self._retry_at is None:  # just lost: whoever watched the old descriptor sees that first
-            self._retry_at = now + RETRY_S
-        elif now >= self._retry_at:
+        if self._fd < 0 and now >= self._retry_at:
             self._retry_at = now + RETRY_S
             self._try()
 
@@ -117,7 +121,12 @@ class Line:
 
     def close(self) -> None:
         """See Transport."""
+        self._give_back()
+        self._epoll.close()
+
+    def _give_back(self) -> None:
         if self._fd >= 0:
+            self._epoll.unregister(self._fd)
             os.close(self._fd)
             self._fd = -1
 
@@ -134,11 +143,8 @@ class Line:
         self._tell("device_back", text)
 
     def _lose(self, why: str) -> None:
-        os.close(self._fd)
-        self._fd = -1
-        self._retry_at = None
-        self._queue.clear()
-        self._queued = 0
+        self._give_back()
+        self._outbox.clear()
         self._decoder.reset()
         self._told = os.strerror(errno.ENOENT)  # the ordinary reason needs no line of its own
         self._tell("device_lost", "serial {device} is gone ({why}); waiting for it", why=why)
@@ -147,20 +153,14 @@ class Line:
         self._log.emit(Level.INFO, event, text, device=self._name, **fields)
 
     def _write(self) -> None:
-        while self._queue and self._fd >= 0:
-            frame = self._queue[0]
-            try:
-                done = os.write(self._fd, frame)
-            except BlockingIOError:
-                return
-            except OSError as error:
-                self._lose(error.strerror or str(error))
-                return
-            self._queued -= done
-            if done < len(frame):
-                self._queue[0] = frame[done:]
-            else:
-                self._queue.popleft()
+        try:
+            self._outbox.write(self._fd)
+        except OSError as error:
+            self._lose(error.strerror or str(error))
+            return
+        if self.writing is not self._watches_room:
+            self._watches_room = self.writing
+            self._epoll.modify(self._fd, select.EPOLLIN | (select.EPOLLOUT if self.writing else 0))
 
     def _fault(self, kind: str, found: str) -> None:
         self._log.count(kind, "serial {device}: ignored: {found}", device=self._name, found=found)

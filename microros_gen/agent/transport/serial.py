@@ -39,6 +39,7 @@ def serial_line(device: str, baud: int, log: EventLog) -> Line:
         line.start()
     except OSError as error:
         if error.errno not in _ABSENT:
+            line.close()
             raise UserError([_explain(error, device)]) from error
         line.wait()
     return line

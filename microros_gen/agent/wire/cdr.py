@@ -60,6 +60,11 @@ class Reader:
         """Return an unsigned 32-bit number, aligned to 4."""
         return self._number("I", 4)
 
+    def u64(self) -> int:
+        """Return an unsigned 64-bit number, aligned to 4 as in XCDR2."""
+        low, high = self.u32(), self.u32()
+        return low | high << 32 if self.little else low << 32 | high
+
     def i32(self) -> int:
         """Return a signed 32-bit number, aligned to 4."""
         return self._number("i", 4)
@@ -145,6 +150,12 @@ class Writer:
     def u32(self, value: int) -> Writer:
         """Append an unsigned 32-bit number, aligned to 4."""
         return self._number("I", 4, value)
+
+    def u64(self, value: int) -> Writer:
+        """Append an unsigned 64-bit number, aligned to 4 as in XCDR2."""
+        halves = value & 0xFFFFFFFF, value >> 32 & 0xFFFFFFFF
+        first, second = halves if self.little else halves[::-1]
+        return self.u32(first).u32(second)
 
     def i32(self, value: int) -> Writer:
         """Append a signed 32-bit number, aligned to 4."""

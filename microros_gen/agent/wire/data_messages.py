@@ -12,6 +12,9 @@ from microros_gen.agent.wire.constants import DATA_FORMAT_MASK, SubmessageId
 DATA_PREFIX = 4
 """Bytes of WRITE_DATA and DATA before the data: request id and object id."""
 
+DELIVERY_CONTROL = 8
+"""Bytes of a DataDeliveryControl."""
+
 
 @dataclass(frozen=True)
 class WriteData:
@@ -66,7 +69,9 @@ class DeliveryControl:
 
     @staticmethod
     def read(reader: Reader) -> DeliveryControl:
-        """Read it at the reader's place."""
+        """Read it at the reader's place; with a DHEADER in front, as in annex B.4.2, or without, as clients send it."""
+        if reader.remaining() >= DELIVERY_CONTROL + 4:
+            reader.u32()
         return DeliveryControl(reader.u16(), reader.u16(), reader.u16(), reader.u16())
 
     def write(self, writer: Writer) -> None:

@@ -32,29 +32,25 @@ _WITHOUT_PARENT = frozenset((ObjectKind.TYPE, ObjectKind.QOSPROFILE, ObjectKind.
 
 
 @dataclass(frozen=True)
-class Create:
-    """CREATE: make an object. `body` is the text (reference or XML, UTF-8) or the binary representation.
+class Representation:
+    """What an ObjectVariant holds for the kinds that clients create.
 
-    `parent` is the id of the participant, publisher or subscriber that it belongs to; 0 for a participant,
-    which has a `domain` instead, and for what belongs to nothing. `little`: byte order of a binary `body`.
+    `body` is the text (reference or XML, UTF-8) or the binary representation. `parent` is the id of the participant,
+    publisher or subscriber that the object belongs to; 0 for a participant, which has a `domain` instead, and for what
+    belongs to nothing. `little`: byte order of a binary `body`.
     """
 
-    ID: ClassVar = SubmessageId.CREATE
-    request: int
-    object: int
     kind: int
     format: int
     body: bytes
     parent: int = 0
     domain: int = 0
-    reuse: bool = False
-    replace: bool = False
     little: bool = True
 
     @staticmethod
-    def decode(reader: Reader, flags: int) -> Create:
-        """Read the payload."""
-        request, object_id, kind, form = reader.identifier(), reader.identifier(), reader.u8(), reader.u8()
+    def read(reader: Reader, kind: int) -> Representation:
+        """Read what follows the discriminator `kind`."""
+        form = reader.u8()
         if form == Format.BINARY:
             body = reader.octets()
         elif form in (Format.REFERENCE, Format.XML):
@@ -68,12 +64,11 @@ class Create:
             parent = reader.identifier()
         elif kind not in _WITHOUT_PARENT:
             raise MalformedError("object_kind", f"kind {kind:#04x}")
-        mode = (bool(flags & FLAG_REUSE), bool(flags & FLAG_REPLACE))
-        return Create(request, object_id, kind, form, body, parent, domain, *mode, reader.little)
+        return Representation(kind, form, body, parent, domain, reader.little)
 
-    def encode(self, writer: Writer) -> int:
-        """Write the payload; return the flags beside the byte order."""
-        writer.identifier(self.request).identifier(self.object).u8(self.kind).u8(self.format)
+    def write(self, writer: Writer) -> None:
+        """Append it, discriminator first."""
+        writer.u8(self.kind).u8(self.format)
         if self.format == Format.BINARY:
             writer.octets(self.body)
         else:
@@ -82,6 +77,43 @@ class Create:
             writer.i16(self.domain)
         elif self.kind in _WITH_PARENT:
             writer.identifier(self.parent)
+
+
+@dataclass(frozen=True)
+class Create:
+    """CREATE: make an object; the members beside the ids and the creation mode are those of Representation."""
+
+    ID: ClassVar = SubmessageId.CREATE
+    request: int
+    object: int
+    kind: int
+    format: int
+    body: bytes
+    parent: int = 0
+    domain: int = 0
+    reuse: bool = False
+    replace: bool = False
+    little: bool = True
+
+    @property
+    def representation(self) -> Representation:
+        """What describes the object."""
+        return Representation(self.kind, self.format, self.body, self.parent, self.domain, self.little)
+
+    @staticmethod
+    def decode(reader: Reader, flags: int) -> Create:
+        """Read the payload."""
+        ids = reader.identifier(), reader.identifier()
+        about = Representation.read(reader, reader.u8())
+        mode = (bool(flags & FLAG_REUSE), bool(flags & FLAG_REPLACE))
+        return Create(
+            *ids, about.kind, about.format, about.body, about.parent, about.domain, *mode, about.little
+        )
+
+    def encode(self, writer: Writer) -> int:
+        """Write the payload; return the flags beside the byte order."""
+        writer.identifier(self.request).identifier(self.object)
+        self.representation.write(writer)
         return (FLAG_REUSE if self.reuse else 0) | (FLAG_REPLACE if self.replace else 0)
 
 

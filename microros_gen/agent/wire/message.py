@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from microros_gen.agent.wire.constants import FLAG_LITTLE, SubmessageId
 from microros_gen.agent.wire.errors import MalformedError
 
+CREATE_CLIENT = int(SubmessageId.CREATE_CLIENT)
 SUBMESSAGE_HEADER = 4
 """Bytes of a submessage header."""
 Span = tuple[int, int, int, int]
@@ -53,7 +54,8 @@ def split(data: bytes, at: int, rest_when_zero: bool = False) -> list[Span]:
     """Return the submessages of `data` from offset `at` on (the end of the header).
 
     A submessage header begins at a multiple of 4 from the start of `data`. With `rest_when_zero` a WRITE_DATA
-    of length 0 takes everything to the end: so a client sends more than 65,535 bytes in fragments.
+    of length 0 takes everything to the end: so a client sends more than 65,535 bytes in fragments. So does a
+    CREATE_CLIENT of 16 bytes that says it has properties: the public client (2.4, 3.0) does not count them.
     MalformedError when a payload leaves the message; trailing bytes too few for a header are padding.
     """
     found: list[Span] = []
@@ -61,6 +63,8 @@ def split(data: bytes, at: int, rest_when_zero: bool = False) -> list[Span]:
     while at + SUBMESSAGE_HEADER <= size:
         end = at + SUBMESSAGE_HEADER + (data[at + 2] | data[at + 3] << 8)
         if rest_when_zero and data[at] == SubmessageId.WRITE_DATA and end == at + SUBMESSAGE_HEADER:
+            end = size
+        if data[at] == CREATE_CLIENT and end == at + SUBMESSAGE_HEADER + 16 <= size and data[end - 3]:
             end = size
         if end > size:
             raise MalformedError("submessage_length", f"{end - size} bytes more than there are")

@@ -8,6 +8,7 @@ from typing import ClassVar
 
 from microros_gen.agent.wire.cdr import Reader, Writer
 from microros_gen.agent.wire.constants import COOKIE, VENDOR, VERSION, ObjectKind, SubmessageId
+from microros_gen.agent.wire.entity_messages import Representation
 from microros_gen.agent.wire.errors import MalformedError
 
 Properties = tuple[tuple[str, str], ...]
@@ -156,51 +157,85 @@ class AgentActivity:
 
 
 @dataclass(frozen=True)
+class WriterActivity:
+    """DATAWRITER_ActivityInfo: samples written so far, and the last number of the stream that they came on."""
+
+    samples: int = 0
+    stream_sequence: int = 0
+
+
+@dataclass(frozen=True)
+class ReaderActivity:
+    """DATAREADER_ActivityInfo: the highest number that the client acknowledged on the stream of its samples."""
+
+    acknowledged: int = 0
+
+
+Config = AgentConfig | Representation
+Activity = AgentActivity | WriterActivity | ReaderActivity
+
+
+@dataclass(frozen=True)
 class Info:
-    """INFO about the agent: answer to GET_INFO. `implementation_status`: 1 in session, else 0."""
+    """INFO about the agent or an object: answer to GET_INFO. `implementation_status`: 1 in session, else 0.
+
+    The order of its parts is that of the public agent (configuration first), not that of annex A.
+    """
 
     ID: ClassVar = SubmessageId.INFO
     request: int
     object: int
     status: int = 0
     implementation_status: int = 0
-    config: AgentConfig | None = None
-    activity: AgentActivity | None = None
+    config: Config | None = None
+    activity: Activity | None = None
 
     @staticmethod
     def decode(reader: Reader, flags: int) -> Info:
-        """Read the payload; information on other objects than the agent is refused."""
+        """Read the payload."""
         head = (reader.identifier(), reader.identifier(), reader.u8(), reader.u8())
         config = reader.optional(lambda: Info._read_config(reader))
         return Info(*head, config, reader.optional(lambda: Info._read_activity(reader)))
 
     @staticmethod
-    def _read_config(reader: Reader) -> AgentConfig:
-        Info._expect_agent(reader.u8())
-        return AgentConfig.read(reader)
+    def _read_config(reader: Reader) -> Config:
+        kind = reader.u8()
+        return AgentConfig.read(reader) if kind == ObjectKind.AGENT else Representation.read(reader, kind)
 
     @staticmethod
-    def _read_activity(reader: Reader) -> AgentActivity:
-        Info._expect_agent(reader.u8())
-        return AgentActivity(reader.i16(), reader.sequence(lambda: Locator.read(reader)))
-
-    @staticmethod
-    def _expect_agent(kind: int) -> None:
-        if kind != ObjectKind.AGENT:
-            raise MalformedError("info_kind", f"kind {kind:#04x}")
+    def _read_activity(reader: Reader) -> Activity:
+        kind = reader.u8()
+        if kind == ObjectKind.AGENT:
+            return AgentActivity(reader.i16(), reader.sequence(lambda: Locator.read(reader)))
+        if kind == ObjectKind.DATAWRITER:
+            return WriterActivity(reader.u64(), reader.i16())
+        if kind == ObjectKind.DATAREADER:
+            return ReaderActivity(reader.i16())
+        raise MalformedError("info_kind", f"kind {kind:#04x}")
 
     def encode(self, writer: Writer) -> int:
         """Write the payload; return the flags beside the byte order."""
         writer.identifier(self.request).identifier(self.object)
         writer.u8(self.status).u8(self.implementation_status)
-        writer.optional(lambda config: config.write(writer.u8(ObjectKind.AGENT)), self.config)
+        writer.optional(lambda config: self._write_config(writer, config), self.config)
         writer.optional(lambda activity: self._write_activity(writer, activity), self.activity)
         return 0
 
     @staticmethod
-    def _write_activity(writer: Writer, activity: AgentActivity) -> None:
-        writer.u8(ObjectKind.AGENT).i16(activity.availability)
-        writer.sequence(lambda locator: locator.write(writer), activity.locators)
+    def _write_config(writer: Writer, config: Config) -> None:
+        if isinstance(config, AgentConfig):
+            writer.u8(ObjectKind.AGENT)
+        config.write(writer)
+
+    @staticmethod
+    def _write_activity(writer: Writer, activity: Activity) -> None:
+        if isinstance(activity, WriterActivity):
+            writer.u8(ObjectKind.DATAWRITER).u64(activity.samples).i16(activity.stream_sequence)
+        elif isinstance(activity, ReaderActivity):
+            writer.u8(ObjectKind.DATAREADER).i16(activity.acknowledged)
+        else:
+            writer.u8(ObjectKind.AGENT).i16(activity.availability)
+            writer.sequence(lambda locator: locator.write(writer), activity.locators)
 
 
 Time = tuple[int, int]

@@ -5,6 +5,12 @@
 
 #include <string.h>
 
+/* types_read.c has decoders. */
+#ifndef INT32_DECODE
+#define INT32_DECODE NULL
+#define STRING_DECODE NULL
+#endif
+
 enum { STRING_LIMIT = 8 };
 
 static void put_u32(uint8_t * at, uint32_t value)
@@ -23,43 +29,6 @@ static uint32_t int32_encode(const void * message, uint8_t * body, cdr_fault_t *
   return 4;
 }
 
-static uint32_t get_u32(const uint8_t * at, bool big_endian)
-{
-  uint32_t value = 0;
-
-  for (unsigned i = 0; i < 4u; ++i) {
-    value |= (uint32_t)at[i] << (8u * (big_endian ? 3u - i : i));
-  }
-  return value;
-}
-
-static bool is_big_endian_here(void)
-{
-  const uint16_t one = 1;
-
-  return *(const uint8_t *)&one == 0u;
-}
-
-static bool fail(cdr_fault_t * fault, cdr_fault_kind_t kind, uint32_t found, uint32_t fits)
-{
-  fault->field = "data";
-  fault->kind = kind;
-  fault->found = found;
-  fault->fits = fits;
-  return false;
-}
-
-static bool int32_decode(const uint8_t * body, uint32_t size, bool swap, void * message, cdr_fault_t * fault)
-{
-  std_msgs__msg__Int32 * int32 = message;
-
-  if (size < 4u) {
-    return fail(fault, CDR_FAULT_END, 4, size);
-  }
-  int32->data = (int32_t)get_u32(body, swap != is_big_endian_here());
-  return true;
-}
-
 static uint32_t int32_size(const void * message, cdr_fault_t * fault)
 {
   (void)message;
@@ -68,7 +37,7 @@ static uint32_t int32_size(const void * message, cdr_fault_t * fault)
 }
 
 static const microros_message_type_t int32_type = {
-  "std_msgs::msg::dds_::Int32_", 4, int32_encode, int32_size, int32_decode};
+  "std_msgs::msg::dds_::Int32_", 4, int32_encode, int32_size, INT32_DECODE};
 static const rosidl_message_type_support_t int32_support = {"microros", &int32_type};
 
 const rosidl_message_type_support_t *
@@ -103,24 +72,8 @@ static uint32_t string_encode(const void * message, uint8_t * body, cdr_fault_t 
   return size;
 }
 
-static bool string_decode(const uint8_t * body, uint32_t size, bool swap, void * message, cdr_fault_t * fault)
-{
-  std_msgs__msg__String * string = message;
-  const uint32_t length = size < 4u ? 0u : get_u32(body, swap != is_big_endian_here());
-
-  if (size < 5u || length == 0u || length > size - 4u) {
-    return fail(fault, CDR_FAULT_END, length, size);
-  }
-  if (length > string->data.capacity) {
-    return fail(fault, CDR_FAULT_LIMIT, length - 1u, (uint32_t)string->data.capacity - 1u);
-  }
-  memcpy(string->data.data, &body[4], length);
-  string->data.size = length - 1u;
-  return true;
-}
-
 static const microros_message_type_t string_type = {
-  "std_msgs::msg::dds_::String_", STRING_LIMIT + 5, string_encode, string_size, string_decode};
+  "std_msgs::msg::dds_::String_", STRING_LIMIT + 5, string_encode, string_size, STRING_DECODE};
 static const rosidl_message_type_support_t string_support = {"microros", &string_type};
 
 const rosidl_message_type_support_t *

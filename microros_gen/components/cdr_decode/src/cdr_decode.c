@@ -13,6 +13,16 @@ typedef struct sequence_t {
 CDR_STATIC_ASSERT(cdr_assert_pointers_have_one_size, sizeof(void *) == sizeof(double *));
 CDR_STATIC_ASSERT(cdr_assert_bool_has_8_bits, sizeof(bool) == 1U);
 
+bool cdr_decode(
+  const microros_message_type_t * type, const uint8_t * body, uint32_t size, bool swap, void * message,
+  cdr_fault_t * fault)
+{
+  cdr_in_t in = {body, size, 0U, swap, false, fault};
+
+  type->decode(&in, message);
+  return !in.failed;
+}
+
 void cdr_in_refuse(cdr_in_t * in, cdr_fault_kind_t kind, const char * field, uint64_t found, uint32_t fits)
 {
   if (!in->failed) {

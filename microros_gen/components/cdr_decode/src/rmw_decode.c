@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rmw_decode.h"
 
+#include "microros/cdr_decode.h"
 #include "microros/error.h"
 
 #include <stddef.h>
@@ -35,7 +36,7 @@ rmw_ret_t rmw_decode(
   if (type->decode == NULL) {
     return microros_error_named(RMW_RET_UNSUPPORTED, microros_error_not_received, type->dds_type_name);
   }
-  if (!type->decode(body, size, big_endian == is_little_endian_here(), message, &fault)) {
+  if (!cdr_decode(type, body, size, big_endian == is_little_endian_here(), message, &fault)) {
     return rmw_decode_refuse(type, &fault);
   }
   return RMW_RET_OK;

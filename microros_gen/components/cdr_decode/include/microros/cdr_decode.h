@@ -7,7 +7,8 @@
  * The parts that generated decoders are made of: CDR as ROS 2 Jazzy writes it (OMG CDR, XCDR1), in both byte
  * orders, positions counted from the first byte of the body.
  *
- * A decoder calls one function for each member, in order, and looks at the result once, at the end. A function
+ * cdr_decode reads a message. A generated decoder calls one function for each member, in order; the result is
+ * looked at once, at the end. A function
  * that cannot read its member fills the fault and moves to the end of the body, so that every later one reads
  * nothing; the first fault stays. Whatever the bytes, nothing is read behind `size` nor written behind a
  * capacity, and the length of a sequence is compared with the bytes that are left and with the capacity before
@@ -42,6 +43,15 @@ typedef struct cdr_in_t {
   bool failed; /* `fault` is filled */
   cdr_fault_t * fault;
 } cdr_in_t;
+
+/**
+ * Read `size` bytes at `body`, `swap` where they are big endian on a little endian target or the reverse, into the
+ * storage that `message`, which is of `type`, has. The decoder of `type` must not be NULL. False: refused, *fault is
+ * filled, and the contents of the message are unspecified (sizes stay within capacities).
+ */
+bool cdr_decode(
+  const microros_message_type_t * type, const uint8_t * body, uint32_t size, bool swap, void * message,
+  cdr_fault_t * fault);
 
 /**
  * Whether the numbers of `type` from `first` to `last`, all of one size and `bytes` together, lie in memory one

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+"""All readings of all clients: who goes on when ROS 2 has something, when there is room, when a moment comes."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Iterable
+
+from microros_gen.agent.clients import Client
+from microros_gen.agent.entities import Entity, Readable
+from microros_gen.agent.log import EventLog
+from microros_gen.agent.reading import Reading
+from microros_gen.agent.ros.bridge import Source
+from microros_gen.agent.wire.data_messages import ReadData
+
+CROWDED = 256
+"""Moments that are noted before those of readings that are over are thrown out."""
+
+
+class Deliveries:
+    """Starts, wakes and ends readings; one at most for each object."""
+
+    def __init__(self, log: EventLog) -> None:
+        self._log = log
+        self._by_source: dict[int, Reading] = {}
+        """By the identity of the source, which its reading keeps alive."""
+        self._later: list[tuple[float, int, Reading]] = []
+        self._order = 0
+        self._crowded = CROWDED
+        self.delivered = 0
+        """Samples, requests and replies that went to clients."""
+
+    def start(self, client: Client, entity: Entity, wanted: ReadData, now: float) -> None:
+        """Begin what a READ_DATA asks for; it takes the place of the one before for the same object."""
+        self._drop(client, entity.id)
+        reading = Reading(client, entity, wanted, now, self._log)
+        client.readings[entity.id] = reading
+        self._attach(reading, entity.source)
+        self._go(reading, now)
+
+    def ready(self, sources: Iterable[Source], now: float) -> None:
+        """Take from sources that got something; one that nobody reads keeps it."""
+        for source in sources:
+            reading = self._by_source.get(id(source))
+            if reading is not None:
+                self._go(reading, now)
+
+    def room(self, client: Client, now: float) -> None:
+        """Let those go on, in turn, that wait for room on a reliable stream of `client`."""
+        still = []
+        for _ in range(len(client.waiting)):
+            reading = client.waiting.popleft()
+            if reading.has_room():
+                reading.waiting = False
+                self._go(reading, now)
+            else:
+                still.append(reading)
+        client.waiting.extendleft(reversed(still))
+
+    def refresh(self, client: Client, now: float) -> None:
+        """Follow the objects of `client`: readings of those that are gone end, those with a new source take from it."""
+        for object_id, reading in list(client.readings.items()):
+            entity = client.objects.find(object_id)
+            if entity is not reading.entity:
+                self._drop(client, object_id)
+            elif entity.source is not reading.source:
+                self._attach(reading, entity.source)
+                if entity.source is not None:
+                    self._go(reading, now)
+
+    def forget(self, client: Client) -> None:
+        """End all readings of `client`."""
+        for object_id in list(client.readings):
+            self._drop(client, object_id)
+        client.waiting.clear()
+
+    def due(self) -> float | None:
+        """Return the moment at which `run` has something to do."""
+        while self._later and self._later[0][2].over:
+            heapq.heappop(self._later)
+        return self._later[0][0] if self._later else None
+
+    def run(self, now: float) -> None:
+        """Let those go on whose moment has come."""
+        due = []
+        while self._later and self._later[0][0] <= now:
+            due.append(heapq.heappop(self._later)[2])
+        for reading in due:
+            reading.scheduled = False
+            self._go(reading, now)
+
+    def _go(self, reading: Reading, now: float) -> None:
+        if reading.over:
+            return
+        before = reading.entity.delivered
+        at = reading.deliver(now)
+        self.delivered += reading.entity.delivered - before
+        if reading.over:
+            self._drop(reading.client, reading.entity.id)
+        elif at is not None and not reading.scheduled:
+            reading.scheduled = True
+            self._order += 1
+            heapq.heappush(self._later, (at, self._order, reading))
+            if len(self._later) > self._crowded:
+                self._later = [item for item in self._later if not item[2].over]
+                heapq.heapify(self._later)
+                self._crowded = max(CROWDED, 2 * len(self._later))
+
+    def _attach(self, reading: Reading, source: Readable | None) -> None:
+        if reading.source is not None:
+            self._by_source.pop(id(reading.source), None)
+        reading.attach(source)
+        if source is not None:
+            self._by_source[id(source)] = reading
+
+    def _drop(self, client: Client, object_id: int) -> None:
+        reading = client.readings.pop(object_id, None)
+        if reading is not None:
+            reading.over = True
+            self._attach(reading, None)
+            if reading.waiting:
+                client.waiting.remove(reading)
+                reading.waiting = False

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One object of a client, and its side in ROS 2."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from microros_gen.agent.representation import Description, Endpoint, Participant, Service, Topic
+from microros_gen.agent.ros.bridge import (
+    Bridge,
+    BridgeError,
+    HashOf,
+    Node,
+    Reader,
+    Replier,
+    Requester,
+    Writer,
+)
+from microros_gen.agent.wire.constants import ObjectKind, Status
+from microros_gen.agent.wire.entity_messages import Representation
+
+Readable = Reader | Replier | Requester
+
+
+@dataclass(frozen=True)
+class Home:
+    """Where the objects of one client go in ROS 2.
+
+    `fallback_name` is for participants without a name; `hash_of` returns what tells the hashes of its types, by the
+    name of its node (see Manifests).
+    """
+
+    bridge: Bridge
+    fallback_name: str
+    hash_of: Callable[[str], HashOf | None] = lambda node: None
+
+    def node(self, participant: Participant) -> Node:
+        """Create the node of a participant; may raise BridgeError."""
+        name = participant.name.strip("/") or self.fallback_name
+        return self.bridge.create_node(name, participant.domain, self.hash_of(name))
+
+
+@dataclass(eq=False)
+class Entity:
+    """One object. `sources`: what it was made from, its container first; `node`, `writer`, `source`: its ROS side."""
+
+    id: int
+    description: Description
+    sources: tuple[Entity, ...]
+    node: Node | None = None
+    writer: Writer | None = None
+    source: Readable | None = None
+    """What ROS 2 gives data to: a reader, a replier or a requester."""
+    representation: Representation | None = None
+    """How the client described it; None for one that the agent's files gave it."""
+    written: int = 0
+    """Samples, requests or replies that a client sent through it."""
+    held: bytes | None = None
+    """A sample that was taken from ROS and did not fit the message before."""
+    delivered: int = 0
+    """Samples, requests or replies that went to the client."""
+    outstanding: dict[bytes | int, bytes] = field(default_factory=dict)
+    """What waits for an answer, the oldest first: numbers of requests with the ids (request, object) that a client gave
+    them, or identities of requests that a client is to answer."""
+
+    @property
+    def kind(self) -> int:
+        """Kind of object."""
+        return self.id & 0x0F
+
+    @property
+    def participant(self) -> Entity:
+        """The participant that it belongs to, or is."""
+        found = self
+        while found.kind != ObjectKind.PARTICIPANT and found.sources:
+            found = found.sources[0]
+        return found
+
+    def inside(self, container: Entity) -> bool:
+        """Return whether it is a part of `container`, at any depth."""
+        return bool(self.sources) and (self.sources[0] is container or self.sources[0].inside(container))
+
+    @property
+    def label(self) -> str:
+        """Name for the log; empty for what has no place in ROS."""
+        side = self.node or self.writer or self.source
+        return side.label if side else ""
+
+    @property
+    def separation_s(self) -> float:
+        """Least time between two samples that are handed on (time-based filter), in seconds; 0: none."""
+        return self.description.separation_ms / 1000 if isinstance(self.description, Endpoint) else 0.0
+
+    def publish(self, serialized: bytes) -> None:
+        """Publish a sample of a data writer: encapsulation header, then CDR body. May raise BridgeError."""
+        self.writer.publish(serialized)  # type: ignore[union-attr]
+        self.written += 1
+
+    def enter(self, home: Home) -> None:
+        """Take its place in the ROS graph unless it has it; BridgeError when ROS 2 refuses."""
+        if self.node or self.writer or self.source:
+            return
+        description = self.description
+        if isinstance(description, Participant):
+            self.node = home.node(description)
+        elif isinstance(description, Endpoint):
+            self._enter_endpoint(description)
+        elif isinstance(description, Service):
+            node = self._home()
+            replier = self.kind == ObjectKind.REPLIER
+            make: Callable[[Service], Replier | Requester] = (
+                node.create_replier if replier else node.create_requester
+            )
+            self.source = make(description)
+
+    def leave(self) -> None:
+        """Leave the ROS graph; what waits for an answer gets none."""
+        side = self.writer or self.source or self.node
+        if side is not None:
+            side.destroy()
+        self.writer = self.source = self.node = None
+        self.held = None
+        self.outstanding.clear()
+
+    def _enter_endpoint(self, description: Endpoint) -> None:
+        topic = description.topic or self.sources[1].description
+        node = self._home()
+        if not isinstance(topic, Topic):
+            raise BridgeError("its topic is not there")
+        if self.kind == ObjectKind.DATAWRITER:
+            self.writer = node.create_writer(topic, description.qos)
+        else:
+            self.source = node.create_reader(topic, description.qos)
+
+    def _home(self) -> Node:
+        node = self.participant.node
+        if node is None:
+            raise BridgeError("its participant is not there")
+        return node
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a CREATE came to; `reason` says why it failed, `entity` is what was made."""
+
+    status: Status
+    reason: str = ""
+    entity: Entity | None = None

@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One READ_DATA in force: takes what ROS 2 has for a reader, replier or requester and hands it to the client.
+
+Nothing is queued here. What the delivery control (DDS-XRCE 1.0, 7.7.14 and table 9) or the window of the reliable
+stream does not let through yet stays in DDS, whose QoS says how much of it is kept.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from microros_gen.agent.entities import Entity, Readable
+from microros_gen.agent.log import EventLog
+from microros_gen.agent.ros.bridge import BridgeError
+from microros_gen.agent.services import swapped
+from microros_gen.agent.wire.cdr import Writer
+from microros_gen.agent.wire.constants import (
+    FLAG_LITTLE,
+    STREAM_BEST_EFFORT,
+    STREAM_RELIABLE,
+    DataFormat,
+    ObjectKind,
+    SubmessageId,
+    is_reliable,
+)
+from microros_gen.agent.wire.data_messages import DeliveryControl, ReadData
+from microros_gen.agent.wire.samples import (
+    SEQUENCES,
+    VIEW_NEW,
+    Sample,
+    SampleInfo,
+    packs,
+    size_bound,
+    write_samples,
+)
+
+if TYPE_CHECKING:
+    from microros_gen.agent.clients import Client
+
+TURN = 64
+"""Messages that one reading sends before it is somebody else's turn."""
+RETRY_S = 0.1
+"""Seconds until ROS 2 is asked again after it refused to give a sample."""
+UNLIMITED = 0xFFFF
+"""MAX_SAMPLES_UNLIMITED."""
+ONCE = DeliveryControl(max_samples=1)
+"""Without delivery control: one sample, as soon as there is one."""
+NEVER = float("inf")
+DATA = int(SubmessageId.DATA)
+
+
+class Reading:
+    """What a client asked for with one READ_DATA, and how far it is done."""
+
+    def __init__(self, client: Client, entity: Entity, wanted: ReadData, now: float, log: EventLog) -> None:
+        control = wanted.delivery or ONCE
+        self.client = client
+        self.entity = entity
+        self.source: Readable | None = None
+        """Where it takes from; None while the client is not in the ROS graph."""
+        self._from_ros: Callable[[], Any] = _nothing
+        self.stream = _stream(client, wanted.stream)
+        self.over = False
+        """There is nothing more to come."""
+        self.waiting = False
+        """It waits for room on its stream."""
+        self.scheduled = False
+        """A moment is noted at which it goes on."""
+        self._log = log
+        self._calls = entity.kind != ObjectKind.DATAREADER
+        self._format = wanted.format
+        self._head = wanted.request.to_bytes(2, "big") + wanted.object.to_bytes(2, "big")
+        self._left: float = NEVER if control.max_samples == UNLIMITED else control.max_samples
+        self._until = now + control.max_elapsed_time if control.max_elapsed_time else NEVER
+        self._rate = control.max_bytes_per_second
+        self._pace_s = control.min_pace_period / 1000
+        self._limited = bool(control.min_pace_period or self._rate)
+        self._next_at = now
+        self._apart_s = entity.separation_s
+        self._heard_at = -NEVER
+
+    def attach(self, source: Readable | None) -> None:
+        """Take from `source` from now on."""
+        self.source = source
+        self._from_ros = _nothing if source is None else source.take
+
+    def has_room(self) -> bool:
+        """Return whether its stream takes a message now."""
+        return self.client.session.output(self.stream).has_room()
+
+    def deliver(self, now: float) -> float | None:
+        """Hand on what ROS has and the client has credit for.
+
+        Returns the moment to be called again; None when that is up to ROS, to an acknowledgement, or never (`over`).
+        """
+        client = self.client
+        output = client.session.output(self.stream)
+        send = client.transport.send
+        for _ in range(TURN):
+            if self._left <= 0 or now >= self._until:
+                self.over = True
+                return None
+            if now < self._next_at:
+                return self._next_at
+            if not output.has_room():
+                self._wait()
+                return None
+            try:
+                submessage, count = self._next(now)
+            except BridgeError as error:
+                self._log.count("take", "client {client}: {reason}", client=client.name, reason=str(error))
+                return now + RETRY_S
+            if not submessage:
+                return None
+            if not count:
+                continue
+            messages = output.push(submessage, now)
+            if messages is None:
+                self._too_large(len(submessage))
+                continue
+            for message in messages:
+                send(message, client.address)
+            self.entity.delivered += count
+            self._left -= count
+            if self._limited:
+                self._spend(len(submessage), now)
+        return now
+
+    def _next(self, now: float) -> tuple[bytes, int]:
+        """Return the next DATA and how many samples it has; empty: ROS has nothing; 0: one was skipped."""
+        if self._calls:
+            return self._next_call()
+        taken = self._take()
+        if taken is None:
+            return b"", 0
+        if self._apart_s:
+            if now - self._heard_at < self._apart_s:
+                return taken, 0
+            self._heard_at = now
+        if self._format:
+            return self._gather(taken, now)
+        return self._data(b"", taken), 1
+
+    def _take(self) -> bytes | None:
+        """Return the next sample of a reader."""
+        entity = self.entity
+        if entity.held is not None:
+            held, entity.held = entity.held, None
+            return held
+        return self._from_ros()  # type: ignore[no-any-return]
+
+    def _next_call(self) -> tuple[bytes, int]:
+        """Return the DATA of the next request or reply; its number or identity goes in front."""
+        taken = self._from_ros()
+        if taken is None:
+            return b"", 0
+        key, data = taken
+        if self.entity.kind == ObjectKind.REPLIER:
+            self.client.calls.asked(self.entity, key)
+            return self._data(key if data[1] & FLAG_LITTLE else swapped(key), data), 1
+        ids = self.client.calls.answered(self.entity, key)
+        return (self._data(ids, data), 1) if ids else (data, 0)
+
+    def _data(self, prefix: bytes, data: bytes) -> bytes:
+        """Return a DATA with what ROS gave, whose first four bytes are the encapsulation header."""
+        size = len(prefix) + len(data)  # the ids take the place of the header
+        if size > 0xFFFF:
+            size = 0  # takes everything to its end: as clients say it, and in fragments anyway
+        head = bytes((DATA, data[1] & FLAG_LITTLE, size & 0xFF, size >> 8))
+        return head + self._head + prefix + data[4:]
+
+    def _gather(self, first: bytes, now: float) -> tuple[bytes, int]:
+        """Return a DATA in one of the other formats, as full as the client's message size allows."""
+        little = first[1] & FLAG_LITTLE
+        samples = [self._sample(first, 0, now)]
+        sizes = [len(first) - 4]
+        room = self.client.session.link.room() - 8
+        while self._format in SEQUENCES and len(samples) < self._left:
+            taken = self._take()
+            if taken is None:
+                break
+            sample = self._sample(taken, len(samples), now)
+            sizes.append(len(sample.body))
+            fits = size_bound(self._format, sizes) <= room and taken[1] & FLAG_LITTLE == little
+            if not fits or not packs(samples[0].info, sample.info):
+                self.entity.held = taken
+                break
+            samples.append(sample)
+        writer = Writer(bool(little))
+        write_samples(writer, self._format, samples)
+        body = writer.content()
+        size = 4 + len(body) if len(body) <= 0xFFFB else 0
+        head = bytes((DATA, little | self._format, size & 0xFF, size >> 8))
+        return head + self._head + body, len(samples)
+
+    def _sample(self, data: bytes, ahead: int, now: float) -> Sample:
+        if self._format == DataFormat.DATA_SEQ:
+            return Sample(data[4:])
+        number = self.entity.delivered + ahead
+        offset = round((now - self.client.opened) * 1000) & 0xFFFFFFFF
+        return Sample(data[4:], SampleInfo(0 if number else VIEW_NEW, number & 0xFFFFFFFF, offset))
+
+    def _spend(self, size: int, now: float) -> None:
+        paid = max(now, self._next_at) + size / self._rate if self._rate else now
+        self._next_at = max(paid, now + self._pace_s)
+
+    def _wait(self) -> None:
+        if not self.waiting:
+            self.waiting = True
+            self.client.waiting.append(self)
+
+    def _too_large(self, size: int) -> None:
+        self._log.count(
+            "sample_too_large",
+            "client {client}: a sample of {label} has {size} bytes and was dropped:"
+            " on a best-effort stream it has to fit the client's message size ({mtu})",
+            client=self.client.name,
+            label=self.entity.label,
+            size=size,
+            mtu=self.client.session.link.mtu,
+        )
+
+
+def _nothing() -> None:
+    return None
+
+
+def _stream(client: Client, preferred: int) -> int:
+    """Return the stream for samples; for STREAMID_NONE that of the request, and built-in ones beyond the limit."""
+    reliable = is_reliable(preferred or client.stream)
+    builtin = STREAM_RELIABLE if reliable else STREAM_BEST_EFFORT
+    return preferred if preferred and client.session.may_send_on(preferred) else builtin

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Two clients with one key: each takes the session of the other. That is noticed, and said once."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+
+from microros_gen.agent.clients import Client
+from microros_gen.agent.log import EventLog, Level
+from microros_gen.agent.transport.base import Transport
+
+MEMORY_S = 60.0
+"""Seconds for which the place is remembered that a key came from before."""
+IN_FLIGHT_S = 1.0
+"""Seconds in which a message from the place before may still be on its way."""
+Place = tuple[Transport, Hashable]
+
+
+class Rivals:
+    """Remembers from where keys came; at most `limit` places."""
+
+    def __init__(self, log: EventLog, limit: int) -> None:
+        self._log = log
+        self._limit = limit
+        self._before: dict[Place, tuple[bytes, float]] = {}
+        self._told: set[bytes] = set()
+
+    def moved(self, client: Client, transport: Transport, address: Hashable, now: float) -> None:
+        """Note that the key of `client` comes from another place now; a way back and forth is one of two clients."""
+        key = client.session.link.key
+        self._before.pop((client.transport, client.address), None)
+        self._before[client.transport, client.address] = key, now
+        if len(self._before) > self._limit:
+            del self._before[next(iter(self._before))]
+        was, when = self._before.pop((transport, address), (b"", 0.0))
+        if was == key and now - when < MEMORY_S:
+            self._tell(key, client.place, transport.name_of(address))
+
+    def heard(self, transport: Transport, address: Hashable, now: float) -> bytes | None:
+        """Return the key that a place without a client had until some time ago, if one had; it goes on sending."""
+        key, when = self._before.get((transport, address), (b"", now))
+        return key if key and IN_FLIGHT_S < now - when < MEMORY_S else None
+
+    def fight(self, client: Client, transport: Transport, address: Hashable) -> None:
+        """Tell that `client` shares its key with whoever sends from another place."""
+        self._tell(client.session.link.key, client.place, transport.name_of(address))
+
+    def _tell(self, key: bytes, place: str, other: str) -> None:
+        if key in self._told or len(self._told) >= self._limit:
+            return
+        self._told.add(key)
+        self._log.emit(
+            Level.WARNING,
+            "same_key_twice",
+            "two clients use the key {client}: one at {peer}, one at {other}; they take the session from each other."
+            " Give each its own, in its application file: `session: {{key: …}}`",
+            client=key.hex().upper(),
+            peer=place,
+            other=other,
+        )

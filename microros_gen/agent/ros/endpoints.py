@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Publishers, subscriptions, services and service clients of clients: raw bytes both ways."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from ctypes import addressof, byref
+from typing import Any
+
+from microros_gen.agent.ros.bridge import BridgeError, GraphReport
+from microros_gen.agent.ros.graph import Endpoint, Events
+from microros_gen.agent.ros.layout import SerializedMessage
+from microros_gen.agent.ros.libraries import (
+    FAILURES,
+    OK,
+    SUBSCRIPTION_TAKE_FAILED,
+    first_line,
+    new_bytes,
+)
+from microros_gen.agent.ros.raw_types import RawTypes
+from microros_gen.agent.ros.wakeups import Notify, Wakeups
+
+
+class Ros:
+    """What all entities of a bridge share: the libraries, the wake-ups, and one buffer that samples are taken into."""
+
+    def __init__(self, types: RawTypes, report: Callable[[GraphReport], None]) -> None:
+        self.report = report
+        self.libraries = types.libraries
+        self.types = types
+        self.wakeups: Wakeups[Any] = Wakeups()
+        self.taken = SerializedMessage(allocator=self.libraries.default_allocator())
+
+    def close(self) -> None:
+        """Give everything back, after all entities are destroyed."""
+        self.wakeups.close()
+        self.libraries.free_message(byref(self.taken))
+
+
+class Entity:
+    """A handle of rclpy and the endpoints that it stands for. Destroying it again does nothing."""
+
+    def __init__(self, handle: Any, events: Events, endpoints: tuple[Endpoint, ...]) -> None:
+        self._handle = handle
+        self._events = events
+        self._endpoints = endpoints
+        self.label = endpoints[0].label
+        events.entities.add(self)
+
+    def destroy(self) -> None:
+        """See Writer and Source."""
+        if self in self._events.entities:
+            self._events.entities.discard(self)
+            self._events.release(self._endpoints)
+            self._leave()
+
+    def _leave(self) -> None:
+        self._handle.destroy_when_not_in_use()
+
+
+class RawWriter(Entity):
+    """See Writer."""
+
+    def __init__(self, handle: Any, events: Events, endpoints: tuple[Endpoint, ...]) -> None:
+        super().__init__(handle, events, endpoints)
+        self._publish = handle.publish_raw
+
+    def publish(self, serialized: bytes) -> None:
+        """See Writer."""
+        try:
+            self._publish(serialized)
+        except FAILURES as error:
+            raise BridgeError(f"publish on {self.label}: {first_line(error)}") from error
+
+
+class RawSource(Entity):
+    """What ROS 2 wakes up the agent for, until it is destroyed."""
+
+    def __init__(
+        self, handle: Any, ros: Ros, notify: Notify, events: Events, endpoints: tuple[Endpoint, ...]
+    ) -> None:
+        self._pointer: int = handle.pointer
+        self._libraries = ros.libraries
+        self._wakeups = ros.wakeups
+        self._descriptor = ros.wakeups.add(self)
+        # What came before is told at once, unless it comes between the two steps of rmw_fastrtps: so look once.
+        if notify(self._pointer, ros.libraries.eventfd_write, self._descriptor) != OK:
+            ros.wakeups.remove(self._descriptor)
+            raise BridgeError(self._libraries.error())
+        os.eventfd_write(self._descriptor, 1)
+        super().__init__(handle, events, endpoints)
+
+    def _leave(self) -> None:
+        # Its DDS reader goes with the handle, and waits for a callback that is under way: only then nobody writes. (To
+        # unset the callback first would crash rmw_fastrtps if a request came in that moment.)
+        descriptor, self._descriptor = self._descriptor, -1
+        super()._leave()
+        self._wakeups.remove(descriptor)
+
+    def failed(self, doing: str) -> BridgeError:
+        """Return the error that ROS 2 gave while `doing` something."""
+        return BridgeError(f"{doing} on {self.label}: {self._libraries.error()}")
+
+
+class RawReader(RawSource):
+    """See Reader."""
+
+    def __init__(self, handle: Any, ros: Ros, events: Events, endpoints: tuple[Endpoint, ...]) -> None:
+        super().__init__(handle, ros, ros.libraries.notify_subscription, events, endpoints)
+        self._message = ros.taken
+        self._arguments = (self._pointer, addressof(ros.taken), None, None)
+        self._take = ros.libraries.take
+
+    def take(self) -> bytes | None:
+        """See Reader."""
+        if self._descriptor < 0:
+            return None
+        result = self._take(*self._arguments)
+        if result == OK:
+            return new_bytes(self._message.buffer, self._message.length)
+        if result == SUBSCRIPTION_TAKE_FAILED:
+            return None
+        raise self.failed("take")

@@ -1,0 +1,266 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What happens in the ROS graph around the entities of clients: who matches, who cannot, whose type is another one.
+
+ROS 2 tells by events, so nothing is polled. A type hash is compared a moment after a match, since the name of the node
+that an endpoint belongs to comes later than the endpoint.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from microros_gen.agent.ros.bridge import (
+    BridgeError,
+    GraphReport,
+    HashMismatch,
+    Incompatible,
+    Matched,
+    TypeMismatch,
+)
+from microros_gen.agent.ros.libraries import FAILURES, OK, Libraries
+from microros_gen.agent.ros.wakeups import Wakeups, Watcher
+from microros_gen.agent.wire.constants import Status
+
+CHECK_AFTER_S = 0.5
+"""From a match to the comparison of hashes."""
+CHECKS = 6
+"""How often an endpoint is looked at whose node has no name yet, `CHECK_AFTER_S` apart."""
+_UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
+"""What rmw calls a node whose name it does not know yet."""
+
+
+@dataclass(frozen=True, eq=False)
+class Endpoint:
+    """A ROS endpoint of a client, as reports name it.
+
+    `topic` and `type` are its names in the graph; with `mangled` those in DDS, as the two topics of a service have.
+    `hash` is None when nobody knows it.
+    """
+
+    node: str
+    kind: str
+    label: str
+    topic: str
+    type: str
+    hash: str | None
+    mangled: bool = False
+
+
+@dataclass(eq=False)
+class _Watched:
+    """Events of an endpoint, and what was seen of them: ROS 2's own changes start anew when a callback is set."""
+
+    matched: Any
+    refused: Any
+    mistyped: Any
+    counts: tuple[int, int] = (0, 0)
+    refusals: int = 0
+
+    def events(self) -> tuple[Any, ...]:
+        return self.matched, self.refused, self.mistyped
+
+
+class TopicTypes:
+    """The types of the agent's topics in one domain: all its clients there are one DDS participant, which has one type
+    for a topic. (rmw_fastrtps refuses another one too, with a text that says nothing of it.)"""
+
+    def __init__(self) -> None:
+        self._by_topic: dict[str, set[Endpoint]] = {}
+
+    def claim(self, endpoints: Iterable[Endpoint]) -> None:
+        """Note what will be created; BridgeError when a topic has another type already."""
+        for endpoint in endpoints:
+            other = next(iter(self._by_topic.get(endpoint.topic, ())), None)
+            if other is not None and other.type != endpoint.type:
+                raise BridgeError(
+                    f"{endpoint.kind} {endpoint.label}: {other.node} has this topic with the type {other.type},"
+                    " and an agent has one type for a topic",
+                    Status.INCOMPATIBLE,
+                )
+        for endpoint in endpoints:
+            self._by_topic.setdefault(endpoint.topic, set()).add(endpoint)
+
+    def release(self, endpoint: Endpoint) -> None:
+        """Forget an endpoint."""
+        left = self._by_topic.get(endpoint.topic, set())
+        left.discard(endpoint)
+        if not left:
+            self._by_topic.pop(endpoint.topic, None)
+
+
+class Destroyable(Protocol):
+    """An entity of a node."""
+
+    def destroy(self) -> None:
+        """Leave the ROS graph."""
+
+
+class Comparison(Watcher):
+    """Compares types and type hashes of endpoints with those that other nodes announce for the same topic."""
+
+    def __init__(self, handles: Any, wakeups: Wakeups[Any], report: Callable[[GraphReport], None]) -> None:
+        self._handles = handles
+        self._wakeups = wakeups
+        self._report = report
+        self._due: dict[Endpoint, tuple[Any, int]] = {}
+        self._told: dict[Endpoint, set[GraphReport]] = {}
+        self._timer = wakeups.add_timer(self)
+
+    def soon(self, node: Any, endpoint: Endpoint) -> None:
+        """Compare `endpoint` in a moment; `node` is the handle of its node."""
+        self._told.setdefault(endpoint, set())
+        if endpoint not in self._due:
+            self._wakeups.set_timer(self._timer, CHECK_AFTER_S)
+            self._due[endpoint] = node, CHECKS
+
+    def forget(self, endpoint: Endpoint) -> None:
+        """Do not look at an endpoint any more."""
+        self._due.pop(endpoint, None)
+        self._told.pop(endpoint, None)
+
+    def look(self) -> None:
+        """See Watcher."""
+        due, self._due = self._due, {}
+        for endpoint, (node, tries) in due.items():
+            nameless = False
+            for found in self._others(node, endpoint):
+                if found["node_name"] == _UNKNOWN_NODE and tries > 1:
+                    nameless = True
+                    continue
+                report = _difference(endpoint, found)
+                if report is not None and report not in self._told[endpoint]:
+                    self._told[endpoint].add(report)
+                    self._report(report)
+            if nameless:
+                self._due[endpoint] = node, tries - 1
+        if self._due:
+            self._wakeups.set_timer(self._timer, CHECK_AFTER_S)
+
+    def _others(self, node: Any, endpoint: Endpoint) -> Iterator[dict[str, Any]]:
+        """Give all endpoints of the other direction, and of ours: who publishes with us may have another type too."""
+        for get in (
+            self._handles.rclpy_get_publishers_info_by_topic,
+            self._handles.rclpy_get_subscriptions_info_by_topic,
+        ):
+            try:
+                yield from get(node, endpoint.topic, endpoint.mangled)
+            except FAILURES:  # the graph cannot be asked now: the next match compares again
+                return
+
+
+class Events(Watcher):
+    """Events of the publishers and subscriptions of one node."""
+
+    def __init__(
+        self,
+        handles: Any,
+        node: Any,
+        wakeups: Wakeups[Any],
+        libraries: Libraries,
+        comparison: Comparison,
+        topics: TopicTypes,
+        report: Callable[[GraphReport], None],
+    ) -> None:
+        self._handles = handles
+        self._node = node
+        self._wakeups = wakeups
+        self._libraries = libraries
+        self._comparison = comparison
+        self.topics = topics
+        self._report = report
+        self._watched: dict[Endpoint, _Watched] = {}
+        self._descriptor = -1
+        self.entities: set[Destroyable] = set()
+        """What the node has."""
+
+    def watch(self, endpoint: Endpoint, handle: Any) -> None:
+        """Report what happens to an endpoint until `release`; ROS 2 has events for publishers and subscriptions."""
+        self.compare(endpoint)
+        if endpoint.mangled:
+            return
+        if self._descriptor < 0:
+            self._descriptor = self._wakeups.add(self)
+        kinds, prefix, incompatible = (
+            (self._handles.rcl_publisher_event_type_t, "RCL_PUBLISHER", "OFFERED_INCOMPATIBLE_QOS")
+            if endpoint.kind == "publisher"
+            else (
+                self._handles.rcl_subscription_event_type_t,
+                "RCL_SUBSCRIPTION",
+                "REQUESTED_INCOMPATIBLE_QOS",
+            )
+        )
+        events = tuple(
+            self._handles.EventHandle(handle, getattr(kinds, f"{prefix}_{name}"))
+            for name in ("MATCHED", incompatible, "INCOMPATIBLE_TYPE")
+        )
+        watched = self._watched[endpoint] = _Watched(*events)
+        for event in watched.events():
+            pointer = event.pointer
+            if self._libraries.notify_event(pointer, self._libraries.eventfd_write, self._descriptor) != OK:
+                raise BridgeError(f"{endpoint.label}: {self._libraries.error()}")
+        os.eventfd_write(self._descriptor, 1)  # look once at what happened before
+
+    def compare(self, endpoint: Endpoint) -> None:
+        """Compare the type of `endpoint` with that of others in a moment."""
+        self._comparison.soon(self._node, endpoint)
+
+    def has_reader(self, endpoint: Endpoint, gid: bytes) -> bool:
+        """Return whether the graph has a reader of the topic of `endpoint` with this GUID (16 bytes)."""
+        get = self._handles.rclpy_get_subscriptions_info_by_topic
+        found = get(self._node, endpoint.topic, endpoint.mangled)
+        return any(bytes(reader["endpoint_gid"][: len(gid)]) == gid for reader in found)
+
+    def release(self, endpoints: Iterable[Endpoint]) -> None:
+        """Forget endpoints before they are destroyed."""
+        for endpoint in endpoints:
+            self._comparison.forget(endpoint)
+            self.topics.release(endpoint)
+            watched = self._watched.pop(endpoint, None)
+            for event in watched.events() if watched else ():
+                event.destroy_when_not_in_use()
+
+    def close(self) -> None:
+        """Destroy what the node still has, and give the descriptor back: only then nobody writes to it."""
+        for entity in list(self.entities):
+            entity.destroy()
+        if self._descriptor >= 0:
+            self._wakeups.remove(self._descriptor)
+            self._descriptor = -1
+
+    def look(self) -> None:
+        """See Watcher."""
+        for endpoint, watched in list(self._watched.items()):
+            status = watched.matched.take_event()
+            counts = (status.total_count, status.current_count) if status else watched.counts
+            if counts != watched.counts:
+                before, watched.counts = watched.counts, counts
+                self._report(Matched(endpoint.node, endpoint.kind, endpoint.label, counts[1]))
+                if counts[0] > before[0]:
+                    self.compare(endpoint)
+            status = watched.refused.take_event()
+            if status is not None and status.total_count != watched.refusals:
+                watched.refusals = status.total_count
+                policy = status.last_policy_kind.name.removeprefix("RMW_QOS_POLICY_").lower()
+                self._report(
+                    Incompatible(endpoint.node, endpoint.kind, endpoint.label, policy, status.total_count)
+                )
+            status = watched.mistyped.take_event()
+            if status is not None and status.total_count_change:
+                self.compare(endpoint)
+
+
+def _difference(endpoint: Endpoint, found: dict[str, Any]) -> GraphReport | None:
+    """Return what is different in `found`, an endpoint of the same topic, or None."""
+    other = f"{found['node_namespace'].rstrip('/')}/{found['node_name']}"
+    if found["topic_type"] != endpoint.type:
+        return TypeMismatch(endpoint.node, endpoint.label, other, found["topic_type"])
+    announced = found["topic_type_hash"]
+    if endpoint.hash is None or announced["version"] != 1:
+        return None
+    text = f"RIHS01_{bytes(announced['value']).hex()}"
+    if text == endpoint.hash:
+        return None
+    return HashMismatch(endpoint.node, endpoint.label, endpoint.hash, other, text)

@@ -1,0 +1,230 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The C libraries of ROS 2 Jazzy that the bridge calls by ctypes, beside rclpy, and a check of what they are.
+
+The calls keep Python's lock (PyDLL): the agent has one thread, and ROS 2's own threads never need it.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable
+from ctypes import POINTER, byref, c_bool, c_char_p, c_int, c_int64, c_size_t, c_void_p
+from typing import Any
+
+from microros_gen.agent.ros.layout import (
+    HASH_RIHS01,
+    Allocator,
+    ErrorString,
+    FastBuffer,
+    MessageCallbacks,
+    MessageMembers,
+    MessageSupport,
+    RequestId,
+    SerializedMessage,
+    ServiceCallbacks,
+    ServiceInfo,
+    ServiceSupport,
+    TypeDescription,
+    TypeHash,
+)
+from microros_gen.diagnostics import Diagnostic, UserError
+
+OK, TIMEOUT, BAD_ALLOC = 0, 2, 10
+"""rcl_ret_t (rcl/types.h)."""
+SUBSCRIPTION_TAKE_FAILED, CLIENT_TAKE_FAILED, SERVICE_TAKE_FAILED = 401, 501, 601
+FAILURES = (RuntimeError, ValueError, TypeError, OSError)
+"""What rclpy's handles raise: RCLError is a RuntimeError, refused names are ValueErrors."""
+new_bytes: Callable[[int, int], bytes] = ctypes.PYFUNCTYPE(ctypes.py_object, c_void_p, ctypes.c_ssize_t)(
+    ("PyBytes_FromStringAndSize", ctypes.pythonapi)
+)
+"""Return bytes made of a number of bytes at an address."""
+_SAMPLE = "rcl_interfaces", "ListParameters"
+"""A service that every rclpy brings, with type supports of the kinds that are made here."""
+_CDR_ROOM = 4096
+"""More bytes than a Cdr object has."""
+_LITTLE, _XCDR1 = 1, 2
+_WORD = ctypes.sizeof(c_size_t)
+
+
+class LayoutError(Exception):
+    """A library is there, but not as expected; the text says what."""
+
+
+class Libraries:
+    """Functions of librcl and libc, identifiers of type supports."""
+
+    FASTRTPS = b"rosidl_typesupport_fastrtps_c"
+    INTROSPECTION = b"rosidl_typesupport_introspection_c"
+
+    def __init__(self) -> None:
+        """Find everything; UserError when something is missing. rclpy has been imported before."""
+        try:
+            self._load()
+        except (OSError, AttributeError, ValueError) as error:
+            raise _unsuitable(f"a part of ROS 2 Jazzy is missing: {error}") from error
+
+    def _load(self) -> None:
+        rcl = ctypes.PyDLL("librcl.so")
+        runtime = ctypes.PyDLL("librosidl_runtime_c.so")
+        self._cdr = ctypes.PyDLL("libfastcdr.so.2")
+        self._utils = ctypes.PyDLL("librcutils.so")
+        self._utils.rcutils_get_error_string.restype = ErrorString
+        self._utils.rcutils_reset_error.restype = None
+        self.fastrtps_identifier = _text_at(ctypes.PyDLL(f"lib{self.FASTRTPS.decode()}.so"), self.FASTRTPS)
+        self.introspection_identifier = _text_at(
+            ctypes.PyDLL(f"lib{self.INTROSPECTION.decode()}.so"), self.INTROSPECTION
+        )
+        self.service_handle_function = _address(runtime.get_service_typesupport_handle_function)
+        self.eventfd_write = _address(ctypes.PyDLL(None).eventfd_write)
+        self.default_allocator = _function(self._utils, "rcutils_get_default_allocator", Allocator)
+        self.free_message = _function(
+            self._utils, "rcutils_uint8_array_fini", c_int, POINTER(SerializedMessage)
+        )
+        self.take = _function(rcl, "rcl_take_serialized_message", c_int, *(c_void_p,) * 4)
+        self.take_request = _function(
+            rcl, "rcl_take_request_with_info", c_int, c_void_p, POINTER(ServiceInfo), c_void_p
+        )
+        self.take_response = _function(
+            rcl, "rcl_take_response_with_info", c_int, c_void_p, POINTER(ServiceInfo), c_void_p
+        )
+        self.send_request = _function(rcl, "rcl_send_request", c_int, c_void_p, c_void_p, POINTER(c_int64))
+        self.send_response = _function(
+            rcl, "rcl_send_response", c_int, c_void_p, POINTER(RequestId), c_void_p
+        )
+        notify = (c_int, c_void_p, c_void_p, c_void_p)
+        self.notify_subscription = _function(rcl, "rcl_subscription_set_on_new_message_callback", *notify)
+        self.notify_service = _function(rcl, "rcl_service_set_on_new_request_callback", *notify)
+        self.notify_client = _function(rcl, "rcl_client_set_on_new_response_callback", *notify)
+        self.notify_event = _function(rcl, "rcl_event_set_callback", *notify)
+        self._buffer_offset = 0
+        self.cdr_skip = _function(self._cdr, "_ZN8eprosima7fastcdr3Cdr4jumpEm", c_bool, c_void_p, c_size_t)
+
+    def error(self) -> str:
+        """Return what ROS 2 says about the last call that failed, and forget it."""
+        text: bytes = self._utils.rcutils_get_error_string().text
+        self._utils.rcutils_reset_error()
+        return text.decode("utf-8", "replace").splitlines()[0] if text else "no reason given"
+
+    def cdr_buffer(self, cdr: int) -> FastBuffer:
+        """Return the buffer of a Cdr object; after `check_layout`."""
+        return FastBuffer.from_address(c_size_t.from_address(cdr + self._buffer_offset).value)
+
+    @staticmethod
+    def capsule(address: int) -> Any:
+        """Return a PyCapsule, as rclpy takes a C pointer."""
+        new = ctypes.pythonapi.PyCapsule_New
+        new.restype, new.argtypes = ctypes.py_object, (c_void_p, c_char_p, c_void_p)
+        return new(address, None, None)
+
+    def check_layout(self) -> None:
+        """Compare the structures with what is installed; UserError when they are not alike."""
+        try:
+            self._check_messages()
+            self._check_service()
+            self._check_cdr()
+        except (LayoutError, OSError, AttributeError) as error:
+            raise _unsuitable(f"its type supports are not as in ROS 2 Jazzy: {error}") from error
+
+    def _check_messages(self) -> None:
+        """The identifier comes first, by its address: what is behind other members is read only after it."""
+        fast = self._sample(self.FASTRTPS)
+        _expect(fast.identifier, self.fastrtps_identifier, "identifier")
+        callbacks = MessageCallbacks.from_address(fast.data)
+        package, service = (part.encode() for part in _SAMPLE)
+        _expect(callbacks.namespace, package + b"::srv", "namespace")
+        _expect(callbacks.name, service + b"_Request", "name")
+        part_of, handle = ctypes.CFUNCTYPE(c_void_p, c_void_p), ctypes.addressof(fast)
+        type_hash = TypeHash.from_address(part_of(fast.get_type_hash)(handle))
+        _expect(type_hash.version, HASH_RIHS01, "hash")
+        described = TypeDescription.from_address(part_of(fast.get_type_description)(handle))
+        _expect((described.fields.size, described.referenced.size), (2, 0), "description")
+        described_name = ctypes.string_at(described.type_name.data, described.type_name.size)
+        _expect(described_name, b"/".join((package, b"srv", service + b"_Request")), "description")
+        introspection = self._sample(self.INTROSPECTION)
+        _expect(introspection.identifier, self.introspection_identifier, "identifier")
+        members = MessageMembers.from_address(introspection.data)
+        _expect(members.namespace, package + b"__srv", "namespace")
+        _expect((members.name, members.count), (service + b"_Request", 2), "members")
+
+    def _sample(self, identifier: bytes) -> MessageSupport:
+        package, service = _SAMPLE
+        text = identifier.decode()
+        library = ctypes.PyDLL(f"lib{package}__{text}.so")
+        name = f"{text}__get_message_type_support_handle__{package}__srv__{service}_Request"
+        return MessageSupport.from_address(_function(library, name, c_void_p)())
+
+    def _check_service(self) -> None:
+        package, service = _SAMPLE
+        text = self.FASTRTPS.decode()
+        library = ctypes.PyDLL(f"lib{package}__{text}.so")
+        get = _function(
+            library, f"{text}__get_service_type_support_handle__{package}__srv__{service}", c_void_p
+        )
+        support = ServiceSupport.from_address(get())
+        _expect(support.identifier, self.fastrtps_identifier, "identifier of a service")
+        data = ServiceCallbacks.from_address(support.data)
+        _expect((data.namespace, data.name), (f"{package}::srv".encode(), service.encode()), "service")
+        for handle, ending in ((data.request, b"_Request"), (data.response, b"_Response")):
+            callbacks = MessageCallbacks.from_address(MessageSupport.from_address(handle).data)
+            _expect(callbacks.name, service.encode() + ending, "message of a service")
+        type_hash = ctypes.CFUNCTYPE(c_void_p, c_void_p)(support.get_type_hash)(ctypes.addressof(support))
+        _expect(TypeHash.from_address(type_hash).version, HASH_RIHS01, "hash of a service")
+
+    def _check_cdr(self) -> None:
+        """Let libfastcdr make a buffer and a Cdr; learn where a Cdr has its buffer, which depends on its version."""
+        content = ctypes.create_string_buffer(24)
+        buffer, cdr = FastBuffer(), ctypes.create_string_buffer(_CDR_ROOM)
+        make_buffer = _function(
+            self._cdr, "_ZN8eprosima7fastcdr10FastBufferC1EPcm", None, c_void_p, c_void_p, c_size_t
+        )
+        make_cdr = _function(
+            self._cdr,
+            "_ZN8eprosima7fastcdr3CdrC1ERNS0_10FastBufferENS1_10EndiannessENS0_10CdrVersionE",
+            None,
+            *(c_void_p, c_void_p, c_int, c_int),
+        )
+        get_pointer = _function(
+            self._cdr, "_ZN8eprosima7fastcdr3Cdr18get_buffer_pointerEv", c_void_p, c_void_p
+        )
+        room = ctypes.addressof(content)
+        make_buffer(byref(buffer), room, len(content))
+        _expect((buffer.bytes, buffer.size), (room, len(content)), "buffer of libfastcdr")
+        make_cdr(cdr, byref(buffer), _LITTLE, _XCDR1)
+        words = (c_size_t * (_CDR_ROOM // _WORD)).from_buffer(cdr)
+        places = [i for i, word in enumerate(words) if word == ctypes.addressof(buffer)]
+        _expect(len(places), 1, "references to its buffer in a Cdr of libfastcdr")
+        self._buffer_offset = places[0] * _WORD
+        _expect(get_pointer(cdr), room, "Cdr of libfastcdr")
+
+
+def first_line(error: Exception) -> str:
+    """Return what an exception says, without the lines of context that rcl adds."""
+    return (str(error) or type(error).__name__).splitlines()[0]
+
+
+def _function(library: ctypes.PyDLL, name: str, result: Any, *arguments: Any) -> Any:
+    found = library[name]
+    found.restype, found.argtypes = result, arguments
+    return found
+
+
+def _address(function: Any) -> int:
+    return int(ctypes.cast(function, c_void_p).value or 0)
+
+
+def _text_at(library: ctypes.PyDLL, expected: bytes) -> int:
+    """Return the address of an identifier; the library has a pointer to it in a variable named like it."""
+    where = c_void_p.in_dll(library, f"{expected.decode()}__identifier").value
+    if where is None or ctypes.string_at(where) != expected:
+        raise ValueError(f"{expected.decode()} has another identifier")
+    return where
+
+
+def _expect(found: object, expected: object, what: str) -> None:
+    if found != expected:
+        raise LayoutError(f"{what}: {found!r} in place of {expected!r}")
+
+
+def _unsuitable(reason: str) -> UserError:
+    hint = "Run: pip install 'microros-gen[ros]', or source an installation of ROS 2 Jazzy"
+    return UserError([Diagnostic(f"the agent cannot use this ROS 2: {reason}", hint=hint)])

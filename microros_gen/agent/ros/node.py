@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A ROS node of a client, and how it makes what the client creates."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from microros_gen.agent.representation.description import Durability, Qos, Service, Topic
+from microros_gen.agent.ros.bridge import (
+    BridgeError,
+    HashOf,
+    Reader,
+    Replier,
+    Requester,
+    Writer,
+)
+from microros_gen.agent.ros.endpoints import RawReader, RawWriter, Ros
+from microros_gen.agent.ros.graph import Comparison, Endpoint, Events, TopicTypes
+from microros_gen.agent.ros.libraries import FAILURES, first_line
+from microros_gen.agent.ros.names import ros_service, ros_topic, ros_type
+from microros_gen.agent.ros.services import RawReplier, RawRequester, Servers
+from microros_gen.agent.wire.constants import Status
+
+Entity = TypeVar("Entity", RawWriter, RawReader, RawReplier, RawRequester)
+SERVICE_DEPTH = 1000
+"""Requests, and replies, that wait for a client that takes none; ROS 2's default of 10 loses those of a burst."""
+
+
+class RawNode:
+    """See Node."""
+
+    def __init__(
+        self,
+        handles: Any,
+        handle: Any,
+        ros: Ros,
+        hash_of: HashOf,
+        comparison: Comparison,
+        servers: Servers,
+        topics: TopicTypes,
+        leave: Callable[[], None],
+    ) -> None:
+        self._handles = handles
+        self._handle = handle
+        self._ros = ros
+        self._hash_of = hash_of
+        self._leave = leave
+        self._events = Events(handles, handle, ros.wakeups, ros.libraries, comparison, topics, ros.report)
+        self._servers = servers
+        self.label: str = handle.get_fully_qualified_name()
+
+    def create_writer(self, topic: Topic, qos: Qos) -> Writer:
+        """See Node."""
+        handle, endpoints = self._create_topic("publisher", self._handles.Publisher, topic, qos)
+        return self._attach(handle, endpoints, lambda: RawWriter(handle, self._events, endpoints))
+
+    def create_reader(self, topic: Topic, qos: Qos) -> Reader:
+        """See Node."""
+        handle, endpoints = self._create_topic("subscription", self._handles.Subscription, topic, qos)
+        return self._attach(handle, endpoints, lambda: RawReader(handle, self._ros, self._events, endpoints))
+
+    def create_replier(self, service: Service) -> Replier:
+        """See Node."""
+        handle, endpoints = self._create_service("service", self._handles.Service, service)
+        return self._attach(handle, endpoints, lambda: RawReplier(handle, self._ros, self._events, endpoints))
+
+    def create_requester(self, service: Service) -> Requester:
+        """See Node."""
+        handle, endpoints = self._create_service("client", self._handles.Client, service)
+        return self._attach(
+            handle, endpoints, lambda: RawRequester(handle, self._ros, self._servers, self._events, endpoints)
+        )
+
+    def destroy(self) -> None:
+        """See Node. What it still has goes with it."""
+        self._events.close()
+        self._handle.destroy_when_not_in_use()
+        self._leave()
+
+    def _create_topic(self, kind: str, make: Any, topic: Topic, qos: Qos) -> tuple[Any, tuple[Endpoint, ...]]:
+        name, type_name = ros_topic(topic.name), ros_type(topic.type_name)
+        type_hash = self._hash_of(str(type_name))
+        message_class = self._ros.types.message_class(type_name, type_hash)
+        label = f"{name} [{type_name}]"
+        endpoints = (Endpoint(self.label, kind, label, name, str(type_name), type_hash),)
+        return self._create(make, message_class, name, _profile(qos), endpoints), endpoints
+
+    def _create_service(self, kind: str, make: Any, service: Service) -> tuple[Any, tuple[Endpoint, ...]]:
+        name = ros_service(service)
+        hashes = [self._hash_of(str(part)) for part in (name.type, name.request, name.response)]
+        service_class = self._ros.types.service_class(name, hashes[0], hashes[1], hashes[2])
+        endpoints = (
+            Endpoint(self.label, kind, str(name), name.request_topic, name.request.dds, hashes[1], True),
+            Endpoint(self.label, kind, str(name), name.reply_topic, name.response.dds, hashes[2], True),
+        )
+        return self._create(make, service_class, name.name, _service_profile(), endpoints), endpoints
+
+    def _create(
+        self, make: Any, type_class: Any, name: str, profile: Any, endpoints: tuple[Endpoint, ...]
+    ) -> Any:
+        self._events.topics.claim(endpoints)
+        try:
+            return make(self._handle, type_class, name, profile)
+        except FAILURES as error:
+            self._events.release(endpoints)
+            raise BridgeError(f"{endpoints[0].kind} {endpoints[0].label}: {first_line(error)}") from error
+
+    def _attach(self, handle: Any, endpoints: tuple[Endpoint, ...], make: Callable[[], Entity]) -> Entity:
+        """Watch the endpoints of a new handle and make its entity; nothing of it stays when that fails."""
+        try:
+            for endpoint in endpoints:
+                self._events.watch(endpoint, handle)
+            return make()
+        except (*FAILURES, BridgeError) as error:
+            self._events.release(endpoints)
+            handle.destroy_when_not_in_use()
+            status = error.status if isinstance(error, BridgeError) else Status.DDS_ERROR
+            raise BridgeError(
+                f"{endpoints[0].kind} {endpoints[0].label}: {first_line(error)}", status
+            ) from error
+
+
+def _profile(qos: Qos) -> Any:
+    module = importlib.import_module("rclpy.qos")
+    duration = importlib.import_module("rclpy.duration").Duration
+    lasting = qos.durability is not Durability.VOLATILE  # ROS has no more than transient local
+    profile = module.QoSProfile(
+        reliability=module.ReliabilityPolicy.RELIABLE
+        if qos.reliable
+        else module.ReliabilityPolicy.BEST_EFFORT,
+        durability=module.DurabilityPolicy.TRANSIENT_LOCAL if lasting else module.DurabilityPolicy.VOLATILE,
+        history=module.HistoryPolicy.KEEP_LAST if qos.keep_last else module.HistoryPolicy.KEEP_ALL,
+        depth=qos.depth or 1,
+    )
+    if qos.deadline_ms:
+        profile.deadline = duration(nanoseconds=qos.deadline_ms * 1_000_000)
+    if qos.lifespan_ms:
+        profile.lifespan = duration(nanoseconds=qos.lifespan_ms * 1_000_000)
+    return profile.get_c_qos_profile()
+
+
+def _service_profile() -> Any:
+    return importlib.import_module("rclpy.qos").QoSProfile(depth=SERVICE_DEPTH).get_c_qos_profile()

@@ -1,0 +1,253 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Type supports for messages and services of any type, installed or not: their messages are CDR as it is on the wire.
+
+rmw_fastrtps_cpp asks a type support for the type's name, its hash and functions that turn a message into CDR and
+back. Here a message is a `RawMessage`, so these functions copy. They are Python (ctypes) and are only called where the
+bridge itself calls ROS 2: when an entity is created, for a request and for a reply. Samples of topics never pass them.
+
+Handles are made once for each type name and hash and are kept for good, since Fast DDS registers types by name and its
+registry of type objects only grows; so their number is limited.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+import re
+from collections.abc import Callable
+from ctypes import addressof, c_bool, c_char, c_char_p, c_size_t, c_uint32, c_void_p
+from typing import Any
+
+from microros_gen.agent.ros.bridge import BridgeError
+from microros_gen.agent.ros.layout import (
+    HASH_RIHS01,
+    MessageCallbacks,
+    MessageMembers,
+    MessageSupport,
+    RawMessage,
+    Sequence,
+    ServiceCallbacks,
+    ServiceSupport,
+    TypeDescription,
+    TypeHash,
+)
+from microros_gen.agent.ros.libraries import Libraries
+from microros_gen.agent.ros.names import ServiceName, TypeName
+from microros_gen.agent.wire.constants import Status
+
+MAXIMUM_HANDLES = 4096
+"""Types (with their hashes) that one agent handles in its life; each takes some 5 KiB here and in Fast DDS."""
+ENCAPSULATION_BYTES = 4
+_HASH = re.compile(r"RIHS01_([0-9a-f]{64})", re.ASCII)
+
+_HANDLE_OF = ctypes.CFUNCTYPE(c_void_p, c_void_p, c_char_p)
+_PART_OF = ctypes.CFUNCTYPE(c_void_p, c_void_p)
+_SERIALIZE = ctypes.CFUNCTYPE(c_bool, c_void_p, c_void_p)
+_SERIALIZED_SIZE = ctypes.CFUNCTYPE(c_uint32, c_void_p)
+_MAXIMUM_SIZE = ctypes.CFUNCTYPE(c_size_t, ctypes.POINTER(c_char))
+
+
+class _Message(ctypes.Structure):
+    """All that stands behind the handle of a message type; the handle is its first member."""
+
+    _fields_ = (
+        ("support", MessageSupport),
+        ("introspection", MessageSupport),
+        ("callbacks", MessageCallbacks),
+        ("members", MessageMembers),
+        ("hash", TypeHash),
+        ("description", TypeDescription),
+        ("sources", Sequence),
+    )
+
+
+class _Service(ctypes.Structure):
+    """The same of a service type."""
+
+    _fields_ = (
+        ("support", ServiceSupport),
+        ("callbacks", ServiceCallbacks),
+        ("hash", TypeHash),
+        ("description", TypeDescription),
+        ("sources", Sequence),
+    )
+
+
+class RawTypes:
+    """Makes and keeps the handles. One for the process: Fast DDS may use them until it ends."""
+
+    def __init__(self, libraries: Libraries) -> None:
+        """Use the type support identifiers of `libraries`; UserError when their layout is another one."""
+        libraries.check_layout()
+        self.libraries = libraries
+        self._taken = b""
+        self._messages: dict[tuple[TypeName, str | None], _Message] = {}
+        self._services: dict[tuple[TypeName, tuple[str | None, ...]], _Service] = {}
+        self._kept: list[Any] = []
+        self._functions = {
+            "handle_of": _HANDLE_OF(self._handle_of),
+            "message_hash": _PART_OF(_offset(_Message.hash.offset)),
+            "message_description": _PART_OF(_offset(_Message.description.offset)),
+            "message_sources": _PART_OF(_offset(_Message.sources.offset)),
+            "service_hash": _PART_OF(_offset(_Service.hash.offset)),
+            "service_description": _PART_OF(_offset(_Service.description.offset)),
+            "service_sources": _PART_OF(_offset(_Service.sources.offset)),
+            "serialize": _SERIALIZE(self._serialize),
+            "deserialize": _SERIALIZE(self._deserialize),
+            "serialized_size": _SERIALIZED_SIZE(_serialized_size),
+            "maximum_size": _MAXIMUM_SIZE(_maximum_size),
+        }
+
+    def message_class(self, name: TypeName, type_hash: str | None) -> Any:
+        """Return what rclpy's publishers and subscriptions take as message type; `type_hash` is RIHS01 or None.
+
+        BridgeError: the hash is none of REP-2011, or there are too many types.
+        """
+        return self._class(addressof(self._message(name, type_hash)))
+
+    def service_class(
+        self, name: ServiceName, type_hash: str | None, request_hash: str | None, response_hash: str | None
+    ) -> Any:
+        """Return the same for services and service clients."""
+        key = (name.type, (type_hash, request_hash, response_hash))
+        if key not in self._services:
+            self._check_room()
+            request = self._message(name.request, request_hash)
+            response = self._message(name.response, response_hash)
+            self._services[key] = self._make_service(
+                name.type, type_hash, addressof(request), addressof(response)
+            )
+        return self._class(addressof(self._services[key]))
+
+    def taken(self) -> bytes:
+        """Return the message (encapsulation and body) that the last taking of a request or a reply gave."""
+        taken, self._taken = self._taken, b""
+        return taken
+
+    def _message(self, name: TypeName, type_hash: str | None) -> _Message:
+        key = (name, type_hash)
+        if key not in self._messages:
+            self._check_room()
+            self._messages[key] = self._make_message(name, type_hash)
+        return self._messages[key]
+
+    def _check_room(self) -> None:
+        if len(self._messages) + len(self._services) >= MAXIMUM_HANDLES:
+            raise BridgeError(
+                f"{MAXIMUM_HANDLES} types were used since the agent started: no further ones",
+                Status.RESOURCES,
+            )
+
+    def _make_message(self, name: TypeName, type_hash: str | None) -> _Message:
+        namespace, text = name.namespace.encode(), name.name.encode()
+        made = _Message(
+            callbacks=MessageCallbacks(
+                namespace,
+                text,
+                self._function("serialize"),
+                self._function("deserialize"),
+                self._function("serialized_size"),
+                self._function("maximum_size"),
+            ),
+            # Fast DDS registers a type object for the type; nothing of it is sent (rmw_fastrtps turns that off).
+            members=MessageMembers(name.namespace.replace("::", "__").encode(), text),
+            hash=_parse_hash(type_hash),
+            description=self._description(str(name)),
+        )
+        for member, identifier, data in (
+            ("support", self.libraries.fastrtps_identifier, _Message.callbacks.offset),
+            ("introspection", self.libraries.introspection_identifier, _Message.members.offset),
+        ):
+            support = MessageSupport(
+                identifier,
+                addressof(made) + data,
+                self._function("handle_of"),
+                self._function("message_hash"),
+                self._function("message_description"),
+                self._function("message_sources"),
+            )
+            setattr(made, member, support)
+        return made
+
+    def _make_service(self, name: TypeName, type_hash: str | None, request: int, response: int) -> _Service:
+        made = _Service(
+            callbacks=ServiceCallbacks(name.namespace.encode(), name.name.encode(), request, response),
+            hash=_parse_hash(type_hash),
+            description=self._description(str(name)),
+        )
+        made.support = ServiceSupport(
+            identifier=self.libraries.fastrtps_identifier,
+            data=addressof(made) + _Service.callbacks.offset,
+            func=self.libraries.service_handle_function,
+            request=request,
+            response=response,
+            get_type_hash=self._function("service_hash"),
+            get_type_description=self._function("service_description"),
+            get_type_sources=self._function("service_sources"),
+        )
+        return made
+
+    def _description(self, name: str) -> TypeDescription:
+        """Return a description without fields: rcl copies it; no node of the agent offers it to others."""
+        text = ctypes.create_string_buffer(name.encode())
+        self._kept.append(text)
+        description = TypeDescription()
+        description.type_name.data = addressof(text)
+        description.type_name.size, description.type_name.capacity = len(name), len(name) + 1
+        return description
+
+    def _class(self, handle: int) -> Any:
+        return type("RawType", (), {"_TYPE_SUPPORT": self.libraries.capsule(handle)})()
+
+    def _function(self, name: str) -> int:
+        return int(ctypes.cast(self._functions[name], c_void_p).value or 0)
+
+    def _handle_of(self, handle: int, identifier: bytes) -> int | None:
+        if identifier == self.libraries.FASTRTPS:
+            return handle
+        return handle + _Message.introspection.offset if identifier == self.libraries.INTROSPECTION else None
+
+    def _serialize(self, message: int, cdr: int) -> bool:
+        """Copy a message behind the encapsulation header that is there already, and that header as well."""
+        raw = RawMessage.from_address(message)
+        buffer = self.libraries.cdr_buffer(cdr)
+        body = raw.size - ENCAPSULATION_BYTES
+        if body < 0 or buffer.size < raw.size or not self.libraries.cdr_skip(cdr, body):
+            return False
+        ctypes.memmove(buffer.bytes, raw.bytes, raw.size)
+        return True
+
+    def _deserialize(self, cdr: int, _message: int) -> bool:
+        buffer = self.libraries.cdr_buffer(cdr)
+        self._taken = ctypes.string_at(buffer.bytes, buffer.size)
+        return True
+
+
+@functools.cache
+def raw_types() -> RawTypes:
+    """Return the process's type supports; UserError when ROS 2 is not as expected. rclpy has been imported before."""
+    return RawTypes(Libraries())
+
+
+def _offset(bytes_behind: int) -> Callable[[int], int]:
+    return lambda handle: handle + bytes_behind
+
+
+def _serialized_size(message: int) -> int:
+    return int(RawMessage.from_address(message).size) - ENCAPSULATION_BYTES
+
+
+def _maximum_size(bounds: Any) -> int:
+    bounds[0] = b"\0"  # unbounded
+    return 0
+
+
+def _parse_hash(text: str | None) -> TypeHash:
+    if text is None:
+        return TypeHash()
+    match = _HASH.fullmatch(text)
+    if not match:
+        raise BridgeError(f"'{text[:80]}' is no type hash: RIHS01_ and 64 hexadecimal digits are expected")
+    made = TypeHash(version=HASH_RIHS01)
+    made.value[:] = bytes.fromhex(match[1])
+    return made

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Requests and replies of one client: which reply is for which request, many at once.
+
+A requester's requests are known to ROS 2 by a number and to the client by the ids of its WRITE_DATA; a replier's by
+their SampleIdentity, which comes back with the reply. What waits is bounded: the oldest gives way.
+"""
+
+from __future__ import annotations
+
+from microros_gen.agent.entities import Entity
+from microros_gen.agent.log import EventLog
+from microros_gen.agent.ros.bridge import Replier, Requester
+from microros_gen.agent.wire.constants import FLAG_LITTLE, ObjectKind
+from microros_gen.agent.wire.errors import MalformedError
+
+IDENTITY = 24
+"""Bytes of a SampleIdentity: GUID of 16 bytes, then its sequence number (i32 high, u32 low)."""
+ENCAPSULATION = (b"\x00\x00\x00\x00", b"\x00\x01\x00\x00")
+"""What a body gets in front for DDS, by the byte order flag of its WRITE_DATA: XCDR1, big or little."""
+
+
+class Calls:
+    """The open requests of a client; at most `limit` of each requester and replier."""
+
+    def __init__(self, log: EventLog, limit: int, name: str) -> None:
+        self._log = log
+        self._limit = limit
+        self._name = name
+
+    def write(self, entity: Entity, ids: bytes, payload: bytes, flags: int) -> int:
+        """Carry out a WRITE_DATA to a requester or a replier; `ids`: its request and object id.
+
+        Returns how many requests or replies went to ROS 2, 0 or 1.
+
+        MalformedError when the identity is cut off, BridgeError when ROS 2 refuses.
+        """
+        side = entity.source
+        little = flags & FLAG_LITTLE
+        if entity.kind == ObjectKind.REQUESTER:
+            requester: Requester = side  # type: ignore[assignment]
+            self._note(entity, requester.request(ENCAPSULATION[little] + payload), ids)
+        else:
+            replier: Replier = side  # type: ignore[assignment]
+            if not self._reply(entity, replier, payload, little):
+                return 0
+        entity.written += 1
+        return 1
+
+    def asked(self, replier: Entity, identity: bytes) -> None:
+        """Note that a request went to the client."""
+        self._note(replier, identity, b"")
+
+    def answered(self, requester: Entity, number: int) -> bytes:
+        """Return the ids of the request that a reply is for; empty when nobody waits for it any more."""
+        ids = requester.outstanding.pop(number, b"")
+        if not ids:
+            self._log.count(
+                "late_reply",
+                "client {client}: a reply from {label} came for a request that nobody waits for; it was dropped",
+                client=self._name,
+                label=requester.label,
+            )
+        return ids
+
+    def _reply(self, entity: Entity, replier: Replier, payload: bytes, little: int) -> bool:
+        if len(payload) < IDENTITY:
+            raise MalformedError("truncated", f"a reply of {len(payload)} bytes has no SampleIdentity")
+        identity = payload[:IDENTITY] if little else swapped(payload[:IDENTITY])
+        if entity.outstanding.pop(identity, None) is None:
+            self._log.count(
+                "unknown_request",
+                "client {client}: a reply through {label} to a request that does not wait for one; it was dropped",
+                client=self._name,
+                label=entity.label,
+            )
+            return False
+        replier.reply(identity, ENCAPSULATION[little] + payload[IDENTITY:])
+        return True
+
+    def _note(self, entity: Entity, key: bytes | int, ids: bytes) -> None:
+        entity.outstanding[key] = ids
+        if len(entity.outstanding) > self._limit:
+            del entity.outstanding[next(iter(entity.outstanding))]
+            self._log.count(
+                "request_forgotten",
+                "client {client}: {label} has more than {limit} requests without a reply; the oldest is forgotten",
+                client=self._name,
+                label=entity.label,
+                limit=self._limit,
+            )
+
+
+def swapped(identity: bytes) -> bytes:
+    """Return a SampleIdentity in the other byte order: only its sequence number has one."""
+    return identity[:16] + identity[19:15:-1] + identity[23:19:-1]

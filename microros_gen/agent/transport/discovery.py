@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Multicast discovery (DDS-XRCE 1.0, 9.3): clients ask a group for agents, and are told where this one listens.
+
+It answers GET_INFO, and nothing else, with an INFO that names the transports of the agent: to each who asks those
+that it can reach. Where all of them are on the loopback address, only the loopback interface is listened to. It gives
+a stranger nothing beyond that, not more than `ANSWERS_PER_SECOND` times.
+"""
+
+from __future__ import annotations
+
+import ipaddress
+import socket
+import struct
+from collections.abc import Callable, Hashable, Iterable, Sequence
+
+from microros_gen.agent.log import EventLog, Level
+from microros_gen.agent.transport.addresses import Address, OwnAddress, own_addresses, parse_address
+from microros_gen.agent.transport.base import Receive
+from microros_gen.agent.transport.sockets import place_name
+from microros_gen.agent.transport.tcp import Tcp
+from microros_gen.agent.transport.udp import MAXIMUM_DATAGRAM, Udp
+from microros_gen.agent.wire.constants import SESSION_NONE_WITH_KEY, SESSION_NONE_WITHOUT_KEY, Status
+from microros_gen.agent.wire.errors import MalformedError
+from microros_gen.agent.wire.message import Header, header_size, split
+from microros_gen.agent.wire.session_messages import AgentActivity, AgentConfig, GetInfo, Info, Locator
+from microros_gen.agent.wire.submessages import decode, encode
+from microros_gen.diagnostics import Diagnostic, UserError
+
+GROUP = "239.255.0.2"
+PORT = 7400
+"""Where clients ask by default, as the public client does."""
+MOST_LOCATORS = 16
+"""What an answer holds, so that it fits the 512 bytes of the public client."""
+ANSWERS_PER_SECOND = 200
+REFRESH_S = 5.0
+"""Seconds between two looks for interfaces that came or went."""
+_BATCH = 16
+_IP_MULTICAST_ALL = 49  # of Linux: 0 leaves out groups that other sockets of this machine joined
+_MEDIUM, _LARGE = 1, 2  # kinds of locators: IPv4, IPv6
+
+SocketTransport = Udp | Tcp
+
+
+class Discovery:
+    """A socket in the multicast group; it hands no message on."""
+
+    def __init__(
+        self,
+        transports: Sequence[SocketTransport],
+        log: EventLog,
+        port: int = PORT,
+        addresses: Callable[[], Iterable[OwnAddress]] = own_addresses,
+    ) -> None:
+        """Tell of `transports`; UserError when there are none or the port cannot be had."""
+        if not transports:
+            reason = "there is no UDP or TCP transport that discovery could tell of"
+            raise UserError([Diagnostic(reason, hint="Add one, as `udp4`, or leave --discovery out")])
+        self._transports = sorted(transports, key=lambda t: t.protocol.stream)
+        self._log = log
+        self._addresses = addresses
+        self._own: tuple[OwnAddress, ...] = ()
+        self._joined: set[int] = set()
+        self._refresh_at = 0.0
+        self._answers = 0
+        self._answers_until = 0.0
+        self._local = all(parse_address(t.host).is_loopback for t in transports)
+        self._port = port
+        self._socket = _open(port)
+        self._refresh()
+
+    @property
+    def label(self) -> str:
+        """See Transport."""
+        return f"discovery {GROUP}:{self._port}"
+
+    @property
+    def ready(self) -> bool:
+        """See Transport: when an interface is there."""
+        return bool(self._joined)
+
+    def fileno(self) -> int:
+        """See Transport."""
+        return self._socket.fileno()
+
+    def tick(self, now: float) -> None:
+        """See Transport."""
+        if now >= self._answers_until:
+            self._answers, self._answers_until = 0, now + 1.0
+        if now >= self._refresh_at:
+            self._refresh_at = now + REFRESH_S
+            self._refresh()
+
+    def pump(self, receive: Receive) -> None:
+        """See Transport: answers what it takes."""
+        for _ in range(_BATCH):
+            try:
+                data, asker = self._socket.recvfrom(MAXIMUM_DATAGRAM)
+            except BlockingIOError:
+                return
+            except OSError:
+                continue
+            try:
+                self._answer(data, asker)
+            except (MalformedError, ValueError, OSError) as error:
+                text = "discovery: message from {peer} ignored: {detail}"
+                self._log.count("discovery_input", text, peer=place_name(asker), detail=str(error))
+
+    def send(self, data: bytes, address: Hashable) -> None:
+        """See Transport: nobody has a session here."""
+
+    def name_of(self, address: Hashable) -> str:
+        """See Transport."""
+        return place_name(address)
+
+    def close(self) -> None:
+        """See Transport."""
+        self._socket.close()
+
+    def locators(self, asker: Address) -> tuple[Locator, ...]:
+        """Return where the agent listens, as far as `asker` can get there: UDP before TCP, IPv4 before IPv6."""
+        near = asker.is_loopback or any(own.address == asker for own in self._own)
+        found = dict.fromkeys(
+            (address, transport.port)
+            for transport in self._transports
+            for address in self._reachable(parse_address(transport.host), asker)
+            if near or not address.is_loopback
+        )
+        ordered = sorted(found, key=lambda place: place[0].version)
+        return tuple(_locator(address, port) for address, port in ordered[:MOST_LOCATORS])
+
+    def _reachable(self, host: Address, asker: Address) -> list[Address]:
+        """Return the addresses that `host` stands for; first the one from which `asker` would be answered."""
+        if not host.is_unspecified:
+            return [host]
+        own = [o.address for o in self._own if o.address.version == host.version]
+        facing = _facing(asker) if asker.version == host.version else None
+        return sorted(own, key=lambda address: (address != facing, address.is_loopback))
+
+    def _answer(self, data: bytes, asker: tuple[str, int]) -> None:
+        head = Header.decode(data)
+        spans = split(data, header_size(data))
+        question = decode(*spans[0][:2], data, *spans[0][2:]) if spans else None
+        outside = head.session in (SESSION_NONE_WITH_KEY, SESSION_NONE_WITHOUT_KEY)
+        if not isinstance(question, GetInfo) or not outside:
+            raise MalformedError("discovery_input", "no GET_INFO outside of a session")
+        if self._answers >= ANSWERS_PER_SECOND:
+            text = "discovery is asked too often, last by {peer}"
+            self._log.count("discovery_flood", text, peer=place_name(asker))
+            return
+        self._answers += 1
+        locators = self.locators(parse_address(asker[0]))
+        text = "discovery: {peer} asked and was told {count} places"
+        self._log.emit(Level.DEBUG, "discovery", text, peer=place_name(asker), count=len(locators))
+        if locators:
+            activity = AgentActivity(locators=locators)
+            info = Info(question.request, question.object, Status.OK, 0, AgentConfig(), activity)
+            self._socket.sendto(head.encode() + encode(info), asker)
+
+    def _refresh(self) -> None:
+        """Join the group on interfaces that are new; forget those that are gone."""
+        self._own = tuple(self._addresses())
+        wanted = {
+            o.interface
+            for o in self._own
+            if o.address.version == 4 and (o.address.is_loopback or not self._local)
+        }
+        self._joined &= wanted
+        for interface in wanted - self._joined:
+            request = struct.pack("4s4si", socket.inet_aton(GROUP), bytes(4), interface)
+            try:
+                self._socket.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, request)
+            except OSError:
+                continue  # it takes no multicast now
+            self._joined.add(interface)
+
+
+def _open(port: int) -> socket.socket:
+    made = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    try:
+        made.setblocking(False)
+        # Others share the port: DDS of domain 0 listens there to another group, and so do other agents.
+        made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        made.setsockopt(socket.IPPROTO_IP, _IP_MULTICAST_ALL, 0)
+        made.bind((GROUP, port))  # not to every address: what is sent to this machine alone is no question
+    except OSError as error:
+        made.close()
+        reason = f"discovery at {GROUP}:{port} cannot be opened: {error.strerror or error}"
+        raise UserError([Diagnostic(reason, hint="Choose another port with --discovery-port")]) from error
+    return made
+
+
+def _facing(asker: Address) -> Address | None:
+    """Return the own address from which datagrams to `asker` go out."""
+    family = socket.AF_INET if asker.version == 4 else socket.AF_INET6
+    with socket.socket(family, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.connect((str(asker), 9))  # nothing is sent
+            return ipaddress.ip_address(probe.getsockname()[0])
+        except (OSError, ValueError):
+            return None
+
+
+def _locator(address: Address, port: int) -> Locator:
+    return Locator(_MEDIUM if address.version == 4 else _LARGE, address.packed, port)

@@ -1,0 +1,280 @@
+# SPDX-License-Identifier: Apache-2.0
+"""TCP over IPv4 or IPv6: messages behind their length, many connections, none of which can hold up another.
+
+Each connection is an address of its own. What it may take is bounded: one unfinished message of at most 64 KiB in,
+`TcpLimits.output_bytes` out, a time for its first message, for a message that it began, and for reading what it is
+sent. A client whose connection ended keeps its session until the agent's time-out, and goes on over another one.
+"""
+
+from __future__ import annotations
+
+import errno
+import select
+import socket
+from collections.abc import Hashable
+from dataclasses import dataclass
+
+from microros_gen.agent.framing import LARGEST_PAYLOAD, LengthDecoder, encode_length
+from microros_gen.agent.log import EventLog, Level
+from microros_gen.agent.transport.base import Receive
+from microros_gen.agent.transport.outbox import Outbox
+from microros_gen.agent.transport.sockets import Protocol, open_socket, place_name
+
+READ_BYTES = 16_384
+"""Bytes that are read from a connection before it is another one's turn."""
+ACCEPTS = 16
+"""Connections that are taken before it is the others' turn."""
+WAITING = 128
+"""Connections that may wait to be taken; the system makes who comes then try again later."""
+CARE_S = 0.5
+"""Seconds between two looks for connections whose time is up."""
+SYSTEM_BUFFER_BYTES = 131_072
+"""Asked of the system for what a connection was sent and has not taken; it may double it."""
+_NO_ROOM = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
+_KEEPALIVE = (("TCP_KEEPIDLE", 30), ("TCP_KEEPINTVL", 10), ("TCP_KEEPCNT", 3))
+"""A peer that vanished without a word is noticed after a minute (RFC 9293, 3.8.4)."""
+
+
+@dataclass(frozen=True)
+class TcpLimits:
+    """What connections may take; times in seconds."""
+
+    connections: int = 256
+    """Connections of one port. One more takes the place of a silent one, or is refused."""
+    output_bytes: int = 262_144
+    """What waits for a connection that reads slowly; messages beyond it are lost."""
+    patience_s: float = 30.0
+    """Until a connection is closed that sent no whole message, does not finish one, or takes nothing; and how long
+    one must have been silent before its place is given away."""
+
+
+class Connection:
+    """One connection: the address of its client. It is equal to itself alone."""
+
+    def __init__(self, made: socket.socket, peer: str, limit: int, now: float) -> None:
+        self.socket = made
+        self.descriptor = made.fileno()
+        self.peer = peer
+        self.decoder = LengthDecoder()
+        self.outbox = Outbox(limit)
+        self.spoke = False
+        """A whole message came."""
+        self.heard = now
+        self.due_since: float | None = now
+        """Since when a message is owed: its first one, or the rest of one."""
+        self.stuck_since: float | None = None
+        """Since when it takes nothing of what waits for it."""
+
+    @property
+    def closed(self) -> bool:
+        """Whether it is of the past; messages to it are lost."""
+        return self.descriptor < 0
+
+
+class Tcp:
+    """A listening socket and its connections behind one epoll descriptor."""
+
+    def __init__(
+        self, protocol: Protocol, host: str, port: int, log: EventLog, limits: TcpLimits | None = None
+    ) -> None:
+        """Bind to `host` and `port` (0: a free one); UserError when that is not possible."""
+        self._log = log
+        self._limits = limits or TcpLimits()
+        self._listener = open_socket(protocol, host, port)
+        self._listener.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SYSTEM_BUFFER_BYTES)
+        self._listener.listen(WAITING)
+        self.protocol = protocol
+        self.host, self.port = self._listener.getsockname()[:2]
+        self._epoll = select.epoll()
+        self._epoll.register(self._listener, select.EPOLLIN)
+        self._listening = True
+        self._connections: dict[int, Connection] = {}
+        self._now = 0.0
+        self._care_at = 0.0
+
+    @property
+    def label(self) -> str:
+        """See Transport."""
+        return f"{self.protocol.name} {place_name((self.host, self.port))}"
+
+    @property
+    def ready(self) -> bool:
+        """See Transport."""
+        return True
+
+    def __len__(self) -> int:
+        """Return the number of open connections."""
+        return len(self._connections)
+
+    def fileno(self) -> int:
+        """See Transport."""
+        return self._epoll.fileno()
+
+    def pump(self, receive: Receive) -> None:
+        """See Transport."""
+        arriving = False
+        for descriptor, events in self._epoll.poll(0):
+            connection = self._connections.get(descriptor)
+            if connection is None:
+                arriving = arriving or descriptor == self._listener.fileno()
+                continue
+            if events & select.EPOLLOUT:
+                self._write(connection)
+            if events & ~select.EPOLLOUT and not connection.closed:
+                self._read(connection, receive)
+        if arriving:  # last: a descriptor that was closed above may be another's afterwards
+            self._accept()
+
+    def tick(self, now: float) -> None:
+        """See Transport."""
+        self._now = now
+        if not self._listening:
+            self._epoll.register(self._listener, select.EPOLLIN)
+            self._listening = True
+        if now >= self._care_at:
+            self._care_at = now + CARE_S
+            for connection in list(self._connections.values()):
+                self._care(connection, now - self._limits.patience_s)
+
+    def send(self, data: bytes, address: Hashable) -> None:
+        """See Transport."""
+        assert isinstance(address, Connection)
+        if address.closed or len(data) > LARGEST_PAYLOAD:
+            return
+        frame = encode_length(data)
+        if not address.outbox:
+            try:
+                done = address.socket.send(frame)
+            except BlockingIOError:
+                done = 0
+            except OSError as error:
+                self._drop(address, error.strerror or str(error))
+                return
+            if done == len(frame):
+                return
+            frame = frame[done:]
+            address.stuck_since = self._now
+            self._watch(address, writing=True)
+        if not address.outbox.put(frame):
+            text = "{transport}: {peer} reads too slowly: messages to it are lost"
+            self._log.count("tcp_output_full", text, transport=self.label, peer=address.peer)
+
+    def name_of(self, address: Hashable) -> str:
+        """See Transport."""
+        return address.peer if isinstance(address, Connection) else str(address)
+
+    def close(self) -> None:
+        """See Transport."""
+        for connection in list(self._connections.values()):
+            self._drop(connection, "the agent stops")
+        self._listener.close()
+        self._epoll.close()
+
+    def _read(self, connection: Connection, receive: Receive) -> None:
+        try:
+            data = connection.socket.recv(READ_BYTES)
+        except BlockingIOError:
+            return
+        except OSError as error:
+            self._drop(connection, error.strerror or str(error))
+            return
+        if not data:
+            self._drop(connection, "it hung up")
+            return
+        connection.heard = self._now
+        for message in connection.decoder.feed(data):
+            if message:
+                connection.spoke = True
+                receive(message, connection, self)
+            else:
+                text = "{transport}: {peer} sent an empty message"
+                self._log.count("frame_empty", text, transport=self.label, peer=connection.peer)
+        if connection.spoke and not connection.decoder.unfinished:
+            connection.due_since = None
+        elif connection.due_since is None:
+            connection.due_since = self._now
+
+    def _write(self, connection: Connection) -> None:
+        try:
+            if connection.outbox.write(connection.descriptor):
+                connection.stuck_since = self._now
+        except OSError as error:
+            self._drop(connection, error.strerror or str(error))
+            return
+        if not connection.outbox:
+            connection.stuck_since = None
+            self._watch(connection, writing=False)
+
+    def _accept(self) -> None:
+        for _ in range(ACCEPTS):
+            try:
+                made, peer = self._listener.accept()
+            except BlockingIOError:
+                return
+            except OSError as error:
+                if error.errno in _NO_ROOM:  # it stays readable: look again at the next tick
+                    self._epoll.unregister(self._listener)
+                    self._listening = False
+                    text = "{transport} takes no connection: {why}"
+                    self._log.count("tcp_refused", text, transport=self.label, why=error.strerror or "")
+                    return
+                continue  # it was gone again
+            if self._make_room():
+                self._add(made, place_name(peer))
+            else:
+                text = "{transport} has {count} connections already: {peer} was refused"
+                fields = {"transport": self.label, "peer": place_name(peer)}
+                self._log.count("tcp_refused", text, count=len(self._connections), **fields)
+                made.close()
+
+    def _add(self, made: socket.socket, peer: str) -> None:
+        made.setblocking(False)
+        made.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        made.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
+        for name, value in _KEEPALIVE:
+            made.setsockopt(socket.IPPROTO_TCP, getattr(socket, name), value)
+        connection = Connection(made, peer, self._limits.output_bytes, self._now)
+        self._connections[connection.descriptor] = connection
+        self._epoll.register(made, select.EPOLLIN)
+        self._log.emit(
+            Level.DEBUG, "connection_opened", "{transport}: {peer} opened", transport=self.label, peer=peer
+        )
+
+    def _make_room(self) -> bool:
+        """Return whether there is room for one more; the one that was silent for longest may have to go."""
+        if len(self._connections) < self._limits.connections:
+            return True
+        longest = min(self._connections.values(), key=lambda c: (c.spoke, c.heard))
+        if longest.spoke and self._now - longest.heard < self._limits.patience_s:
+            return False
+        self._fail(longest, "tcp_displaced", "its place is needed")
+        return True
+
+    def _care(self, connection: Connection, since: float) -> None:
+        """Close a connection for which somebody waited from before `since` on."""
+        if connection.due_since is not None and connection.due_since < since:
+            why = "a message was not finished" if connection.spoke else "no message came"
+            self._fail(connection, "tcp_unfinished" if connection.spoke else "tcp_silent", why)
+        elif connection.stuck_since is not None and connection.stuck_since < since:
+            self._fail(connection, "tcp_stuck", "it takes nothing of what it is sent")
+
+    def _fail(self, connection: Connection, kind: str, why: str) -> None:
+        text = "{transport}: {peer} closed: {why}"
+        self._log.count(kind, text, transport=self.label, peer=connection.peer, why=why)
+        self._drop(connection, why)
+
+    def _drop(self, connection: Connection, why: str) -> None:
+        if connection.closed:
+            return
+        self._epoll.unregister(connection.descriptor)
+        del self._connections[connection.descriptor]
+        connection.descriptor = -1
+        connection.socket.close()
+        connection.outbox.clear()
+        text = "{transport}: {peer} ended: {why}"
+        fields = {"transport": self.label, "peer": connection.peer, "why": why}
+        self._log.emit(Level.DEBUG, "connection_closed", text, **fields)
+
+    def _watch(self, connection: Connection, writing: bool) -> None:
+        events = select.EPOLLIN | (select.EPOLLOUT if writing else 0)
+        self._epoll.modify(connection.descriptor, events)

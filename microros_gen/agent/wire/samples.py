@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The five layouts of data in WRITE_DATA and DATA (DDS-XRCE 1.0, clauses 7.7.1 and 7.7.2, annex A).
+
+The standard leaves open what an XCDRSerializedBuffer is in bytes. A single sample (FORMAT_DATA, FORMAT_SAMPLE) is
+what is left of the submessage, as in examples B.3.1, B.3.3 and B.3.4. In a sequence each has its length in front
+(u32), as in the types of the public client and agent; so it can be cut without knowing the type. Sequences without
+lengths, as in example B.3.2, are understood where all samples are of one size. Alignment counts from the end of the
+ids; the body of a sample is aligned for itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from microros_gen.agent.wire.cdr import Reader, Writer
+from microros_gen.agent.wire.constants import DataFormat
+from microros_gen.agent.wire.errors import MalformedError
+
+UNREGISTERED, DISPOSED, VIEW_NEW, READ = 1, 2, 4, 8
+"""Bits of SampleInfoFlags."""
+LIFE_CYCLE = UNREGISTERED | DISPOSED
+"""Either says that the sample ends an instance instead of being a value of it."""
+_SEQUENCE, _TIME = 1, 2
+"""SampleInfoFormat: what is there beside the state."""
+MILLISECONDS_A_DECISECOND = 100
+SEQUENCES = frozenset((DataFormat.DATA_SEQ, DataFormat.SAMPLE_SEQ, DataFormat.PACKED_SAMPLES))
+
+
+@dataclass(frozen=True)
+class SampleInfo:
+    """What goes with a sample: its state, its number, its time in ms since the session began; None: not said."""
+
+    state: int = 0
+    sequence: int | None = None
+    offset_ms: int | None = None
+
+
+@dataclass(frozen=True)
+class Sample:
+    """The CDR body of a sample, without encapsulation header, and what is known of it."""
+
+    body: bytes
+    info: SampleInfo = SampleInfo()
+
+
+def read_samples(reader: Reader, form: int) -> tuple[Sample, ...]:
+    """Return the samples that follow the ids in layout `form`; MalformedError when they cannot be cut."""
+    if form == DataFormat.DATA:
+        return (Sample(reader.rest()),)
+    if form == DataFormat.SAMPLE:
+        info = _read_info(reader)
+        return (Sample(reader.rest(), info),)
+    if form == DataFormat.DATA_SEQ:
+        return _read_data_sequence(reader)
+    if form == DataFormat.SAMPLE_SEQ:
+        return reader.sequence(lambda: _with_body(reader, _read_info(reader)))
+    if form == DataFormat.PACKED_SAMPLES:
+        base = _read_info(reader)
+        return reader.sequence(lambda: _with_body(reader, _read_delta(reader, base)))
+    raise MalformedError("data_format", f"there is no format {form:#04x}")
+
+
+def write_samples(writer: Writer, form: int, samples: Sequence[Sample]) -> None:
+    """Append samples in layout `form`, one for DATA and SAMPLE; those of PACKED_SAMPLES must suit `packs`."""
+    if form == DataFormat.DATA:
+        writer.raw(samples[0].body)
+    elif form == DataFormat.SAMPLE:
+        _write_info(writer, samples[0].info)
+        writer.raw(samples[0].body)
+    elif form == DataFormat.DATA_SEQ:
+        writer.sequence(lambda sample: writer.octets(sample.body), tuple(samples))
+    elif form == DataFormat.SAMPLE_SEQ:
+        writer.sequence(lambda sample: _write_sample(writer, sample), tuple(samples))
+    else:
+        base = samples[0].info
+        _write_info(writer, base)
+        writer.sequence(lambda sample: _write_delta(writer, base, sample), tuple(samples))
+
+
+def packs(base: SampleInfo, info: SampleInfo) -> bool:
+    """Return whether a sample can stand in PACKED_SAMPLES that begin with `base`: 8 bits of number, 16 of 1/10 s."""
+    steps = (info.sequence or 0) - (base.sequence or 0)
+    later = (info.offset_ms or 0) - (base.offset_ms or 0)
+    return 0 <= steps <= 0xFF and 0 <= later // MILLISECONDS_A_DECISECOND <= 0xFFFF
+
+
+def size_bound(form: int, sizes: Sequence[int]) -> int:
+    """Return what samples with bodies of these sizes take at most after the ids, in bytes."""
+    each = {DataFormat.DATA: 0, DataFormat.SAMPLE: 12, DataFormat.DATA_SEQ: 7, DataFormat.SAMPLE_SEQ: 19}
+    return sum(sizes) + len(sizes) * each.get(DataFormat(form), 11) + (4 if form in SEQUENCES else 0) + 12
+
+
+def _read_info(reader: Reader) -> SampleInfo:
+    state, detail = reader.u8(), reader.u8()
+    if detail > _SEQUENCE | _TIME:
+        raise MalformedError("sample_info", f"format {detail:#04x}")
+    sequence = reader.u32() if detail & _SEQUENCE else None
+    return SampleInfo(state, sequence, reader.u32() if detail & _TIME else None)
+
+
+def _write_info(writer: Writer, info: SampleInfo) -> None:
+    has_sequence, has_time = info.sequence is not None, info.offset_ms is not None
+    writer.u8(info.state).u8((_SEQUENCE if has_sequence else 0) | (_TIME if has_time else 0))
+    for number in (info.sequence, info.offset_ms):
+        if number is not None:
+            writer.u32(number & 0xFFFFFFFF)
+
+
+def _read_delta(reader: Reader, base: SampleInfo) -> SampleInfo:
+    state, steps, later = reader.u8(), reader.u8(), reader.u16()
+    sequence = None if base.sequence is None else (base.sequence + steps) & 0xFFFFFFFF
+    if base.offset_ms is None:
+        return SampleInfo(state, sequence)
+    return SampleInfo(state, sequence, (base.offset_ms + later * MILLISECONDS_A_DECISECOND) & 0xFFFFFFFF)
+
+
+def _write_delta(writer: Writer, base: SampleInfo, sample: Sample) -> None:
+    info = sample.info
+    later = (info.offset_ms or 0) - (base.offset_ms or 0)
+    writer.u8(info.state).u8((info.sequence or 0) - (base.sequence or 0))
+    writer.u16(later // MILLISECONDS_A_DECISECOND).octets(sample.body)
+
+
+def _with_body(reader: Reader, info: SampleInfo) -> Sample:
+    return Sample(reader.octets(), info)
+
+
+def _write_sample(writer: Writer, sample: Sample) -> None:
+    _write_info(writer, sample.info)
+    writer.octets(sample.body)
+
+
+def _read_data_sequence(reader: Reader) -> tuple[Sample, ...]:
+    whole = reader.rest()
+    try:
+        inner = Reader(whole, 0, len(whole), reader.little)
+        samples = inner.sequence(lambda: Sample(inner.octets()))
+        if inner.remaining() < 4:
+            return samples
+    except MalformedError:
+        pass
+    counted = Reader(whole, 0, len(whole), reader.little)
+    count = counted.u32()
+    size, left = divmod(counted.remaining(), count) if count else (0, 0)
+    if not size or left:
+        raise MalformedError("data_sequence", f"{count} samples in {counted.remaining()} bytes")
+    return tuple(Sample(counted.raw(size)) for _ in range(count))

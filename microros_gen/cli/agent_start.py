@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: Apache-2.0
+"""From options to a running agent: files first, then transports, then ROS 2."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import click
+
+from microros_gen.agent.core import Agent
+from microros_gen.agent.log import EventLog, Level
+from microros_gen.agent.manifests import Manifests
+from microros_gen.agent.preconfigured import Preconfigured
+from microros_gen.agent.readiness import notify
+from microros_gen.agent.representation import References
+from microros_gen.agent.representation.reference_file import read_references
+from microros_gen.agent.ros.rclpy_bridge import open_bridge
+from microros_gen.agent.ros.reports import graph_reporter
+from microros_gen.agent.server import Server, stopped_by_signals
+from microros_gen.agent.trace import TracedTransport
+from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.transport.sockets import PROTOCOLS
+from microros_gen.cli.agent_options import AgentOptions, read_sources
+from microros_gen.cli.agent_types import ClientTypes, HashOf, TypeHashes, read_manifests
+from microros_gen.cli.type_hashes import type_hashes
+from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
+from microros_gen.model.agent_file import PtyChoice, SerialChoice, TransportChoice
+from microros_gen.parse.preconfigured import parse_preconfigured
+
+
+def serve(options: AgentOptions) -> None:
+    """Serve until a signal comes; a ready line for each transport goes to stdout. UserError: it cannot start."""
+    _check_system()
+    files = _files(options)
+    as_json = options.log_format == "json"
+    log = EventLog(sys.stderr, as_json, options.verbose)
+    for name in files.hashes.differences(files.clients):
+        text = (
+            "{type}: its definition on this machine is not the one that a client was generated with; ROS 2 nodes that"
+            " use the one here will misread it"
+        )
+        log.emit(Level.WARNING, "type_hash_differs", text, type=name)
+    transports = open_transports(options.transports, options.discovery, log)
+    try:
+        bridge = open_bridge(options.limits.domains, options.domain, files.hashes, graph_reporter(log))
+    except UserError:
+        _close(transports)
+        raise
+    manifests = Manifests(files.clients.by_client)
+    agent = Agent(bridge, log, options.limits, files.references, files.preconfigured, manifests=manifests)
+    if options.verbose:
+        transports = [TracedTransport(transport, log) for transport in transports]
+    server = Server(agent, transports, log)
+    announcements = EventLog(sys.stdout, as_json)
+    with stopped_by_signals(server):
+        notify("READY=1")
+        server.run(lambda transport: _announce(announcements, transport), time.monotonic)
+
+
+def open_transports(
+    choices: Sequence[TransportChoice], discovery: int | None, log: EventLog
+) -> list[Transport]:
+    """Return open transports, and discovery of them at port `discovery`; UserError names the first that fails."""
+    opened: list[Transport] = []
+    try:
+        for choice in dict.fromkeys(choices):
+            opened.append(_open(choice, log))
+        if discovery is not None:
+            opened.append(_discovery(opened, log, discovery))
+    except UserError:
+        _close(opened)
+        raise
+    return opened
+
+
+def _open(choice: TransportChoice, log: EventLog) -> Transport:
+    from microros_gen.agent.transport.serial import Pty, serial_line  # not on every system
+    from microros_gen.agent.transport.tcp import Tcp, TcpLimits
+    from microros_gen.agent.transport.udp import Udp
+
+    if isinstance(choice, SerialChoice):
+        return serial_line(choice.device, choice.baud, log)
+    if isinstance(choice, PtyChoice):
+        return Pty(log, Path(choice.link) if choice.link else None)
+    protocol = PROTOCOLS[choice.kind]
+    host = choice.bind or protocol.loopback
+    if not protocol.stream:
+        return Udp(protocol, host, choice.port)
+    limits: dict[str, Any] = dict(choice.limits)
+    return Tcp(protocol, host, choice.port, log, replace(TcpLimits(), **limits))
+
+
+def _discovery(opened: Sequence[Transport], log: EventLog, port: int) -> Transport:
+    from microros_gen.agent.transport.discovery import Discovery
+    from microros_gen.agent.transport.tcp import Tcp
+    from microros_gen.agent.transport.udp import Udp
+
+    return Discovery([t for t in opened if isinstance(t, Udp | Tcp)], log, port)
+
+
+def _check_system() -> None:
+    """ROS 2's packages, and the system calls that the agent waits with, are Linux's."""
+    if sys.platform != "linux":
+        hint = (
+            "Under Windows run it in WSL 2 (usbipd attach --wsl hands serial devices on), on macOS in a virtual"
+            " machine; clients reach it over UDP, TCP or a serial line"
+        )
+        raise UserError([Diagnostic("the agent needs Linux", hint=hint)])
+
+
+def _close(transports: Sequence[Transport]) -> None:
+    for transport in transports:
+        transport.close()
+
+
+@dataclass(frozen=True)
+class _Files:
+    """What the files say."""
+
+    references: References
+    preconfigured: Preconfigured
+    clients: ClientTypes
+    hashes: TypeHashes
+
+
+def _files(options: AgentOptions) -> _Files:
+    """Return what the files say; UserError with the faults of all of them."""
+    diagnostics = Diagnostics()
+    references, preconfigured = References(), Preconfigured()
+    profiles = read_sources(options.references, diagnostics)
+    entities = read_sources(options.entities, diagnostics)
+    clients = read_manifests(options.manifests, diagnostics)
+    of_files: HashOf = _nobody
+    try:
+        of_files = type_hashes(options.interface_paths)
+    except UserError as error:
+        diagnostics.extend(error.diagnostics)
+    try:
+        references = read_references(profiles)
+    except UserError as error:
+        diagnostics.extend(error.diagnostics)
+    try:
+        preconfigured = Preconfigured(parse_preconfigured(entities, diagnostics))
+    except UserError as error:
+        diagnostics.extend(error.diagnostics)
+    diagnostics.check()
+    for diagnostic in diagnostics:  # warnings
+        click.echo(diagnostic.render(), err=True)
+    return _Files(references, preconfigured, clients, TypeHashes(of_files, clients.common))
+
+
+def _nobody(_type_name: str) -> None:
+    """Know no type."""
+
+
+def _announce(announcements: EventLog, transport: Transport) -> None:
+    kind, _, address = transport.label.partition(" ")
+    text = "agent ready: {transport} {address}"
+    announcements.emit(Level.INFO, "ready", text, transport=kind, address=address)

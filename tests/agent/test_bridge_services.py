@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Services through the bridge: raw requests and replies, many at once, correlated by ROS 2 itself."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+
+from agent.bridging import (
+    GET_TYPES,
+    Bridged,
+    get_types,
+    names_body,
+    read_names,
+    read_types,
+    types_body,
+)
+from agent.observer import Observer
+from microros_gen.agent.ros import services
+from microros_gen.agent.ros.bridge import BridgeError, NoServer
+from microros_gen.agent.ros.services import HELD_BYTES, HELD_REQUESTS
+
+pytestmark = pytest.mark.ros
+
+
+def test_twenty_slow_requests_are_all_answered_each_with_its_own(
+    bridged: Bridged, bridge_observer: Observer
+) -> None:
+    """All requests come before the first is answered, and they are answered backwards."""
+    node = bridged.bridge.create_node("server", bridged.domain)
+    replier = node.create_replier(get_types("many"))
+    asked = [["x" * i, "y" * (40 - i)] for i in range(20)]
+    bridge_observer.ask(do="call", service="/many", type=GET_TYPES, names=asked)
+    requests = bridged.take(replier, 20)
+    assert sorted(read_names(request) for _, request in requests) == sorted(asked)
+    assert len({identity for identity, _ in requests}) == 20
+    assert {len(identity) for identity, _ in requests} == {24}
+    for identity, request in reversed(requests):
+        replier.reply(identity, types_body([len(name) for name in read_names(request)]))
+    bridged.wait(lambda: None not in bridge_observer.ask(do="replies"))
+    assert bridge_observer.ask(do="replies") == [[len(a), len(b)] for a, b in asked]
+    node.destroy()
+
+
+def test_twenty_requests_of_a_client_get_their_own_replies(
+    bridged: Bridged, bridge_observer: Observer
+) -> None:
+    bridge_observer.ask(do="serve", service="/held", type=GET_TYPES, hold=20)
+    node = bridged.bridge.create_node("asker", bridged.domain)
+    requester = node.create_requester(get_types("held"))
+    numbers = {requester.request(names_body(["z"])): 1}  # waits until the service is discovered
+    bridged.wait(lambda: requester.find_server())
+    numbers |= {requester.request(names_body(["z" * i])): i for i in range(2, 21)}
+    assert len(numbers) == 20
+    replies = bridged.take(requester, 20)
+    assert {numbers[number]: read_types(reply) for number, reply in replies} == {i: [i] for i in range(1, 21)}
+    node.destroy()
+
+
+def test_replies_to_others_do_not_hide_ones_own(bridged: Bridged, bridge_observer: Observer) -> None:
+    """All clients of a service read one topic of replies; ROS 2 passes over those to others one by one."""
+    bridge_observer.ask(do="serve", service="/shared", type=GET_TYPES, hold=6)
+    node = bridged.bridge.create_node("askers", bridged.domain)
+    requesters = [node.create_requester(get_types("shared")) for _ in range(3)]
+    asked = {
+        (i, r.request(names_body(["n" * (i + 1)] * k))): k for k in (1, 2) for i, r in enumerate(requesters)
+    }
+    got: dict[tuple[int, int], bytes] = {}
+    sinks = {r: lambda reply, i=i: got.update({(i, reply[0]): reply[1]}) for i, r in enumerate(requesters)}
+    bridged.wait(lambda: len(got) == 6, sinks)
+    assert {key: read_types(value) for key, value in got.items()} == {
+        (i, number): [i + 1] * k for (i, number), k in asked.items()
+    }
+    node.destroy()
+
+
+def test_a_big_endian_request_is_understood(bridged: Bridged, bridge_observer: Observer) -> None:
+    bridge_observer.ask(do="serve", service="/big", type=GET_TYPES, hold=1)
+    node = bridged.bridge.create_node("big", bridged.domain)
+    requester = node.create_requester(get_types("big"))
+    number = requester.request(names_body(["seven77"], "big"))
+    [(answered, reply)] = bridged.take(requester, 1)
+    assert (answered, read_types(reply)) == (number, [7])
+    node.destroy()
+
+
+def test_requests_wait_for_a_service_that_comes_later(bridged: Bridged, bridge_observer: Observer) -> None:
+    node = bridged.bridge.create_node("early", bridged.domain)
+    requester = node.create_requester(get_types("later"))
+    with pytest.raises(BridgeError, match="nobody serves it"):
+        requester.request(names_body(["n" * HELD_BYTES]))
+    numbers = [requester.request(names_body(["n" * i])) for i in range(HELD_REQUESTS)]
+    with pytest.raises(BridgeError, match="nobody serves it"):
+        requester.request(names_body([]))
+    bridge_observer.ask(do="serve", service="/later", type=GET_TYPES, hold=1)
+    replies = bridged.take(requester, HELD_REQUESTS)
+    assert {number: read_types(reply) for number, reply in replies} == {n: [i] for i, n in enumerate(numbers)}
+    node.destroy()
+
+
+def test_requests_that_nobody_serves_are_dropped_and_numbers_stay_true(
+    bridged: Bridged, bridge_observer: Observer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    node = bridged.bridge.create_node("patient", bridged.domain)
+    requester = node.create_requester(get_types("absent"))
+    monkeypatch.setattr(services, "WAIT_FOR_SERVER_S", 0.05)
+    first = requester.request(names_body(["lost"]))
+    bridged.wait(lambda: NoServer("/patient", f"/absent [{GET_TYPES}]") in bridged.reports)
+    monkeypatch.setattr(services, "WAIT_FOR_SERVER_S", 10.0)
+    second = requester.request(names_body(["four"]))
+    assert second != first
+    bridge_observer.ask(do="serve", service="/absent", type=GET_TYPES, hold=1)
+    [(number, reply)] = bridged.take(requester, 1)
+    assert (number, read_types(reply)) == (second, [4])
+    third = requester.request(names_body(["fives"]))
+    [(number, reply)] = bridged.take(requester, 1)
+    assert (number, read_types(reply)) == (third, [5])
+    node.destroy()
+
+
+def test_services_of_the_graph(bridged: Bridged, bridge_observer: Observer) -> None:
+    node = bridged.bridge.create_node("robot/services", bridged.domain)
+    node.create_replier(get_types("arm/offered"))
+    node.create_requester(get_types("arm/wanted"))
+
+    def seen() -> object:
+        graph = bridge_observer.ask(do="graph")
+        if "/robot/services" not in graph["nodes"]:
+            return False
+        found = bridge_observer.ask(do="node", node="services", namespace="/robot")
+        return found == [[["/arm/offered", [GET_TYPES]]], [["/arm/wanted", [GET_TYPES]]]]
+
+    bridged.wait(seen)
+    node.destroy()
+    bridge_observer.see(lambda g: "/robot/services" not in g["nodes"])
+
+
+def test_a_client_that_vanished_is_waited_for_once(bridged: Bridged) -> None:
+    """ROS 2 waits 100 ms for a client that it does not know; many replies to one that is gone must not add up."""
+    node = bridged.bridge.create_node("forsaken", bridged.domain)
+    asker = bridged.bridge.create_node("leaving", bridged.domain)
+    replier = node.create_replier(get_types("forsaken"))
+    requester = asker.create_requester(get_types("forsaken"))
+    for _ in range(5):
+        requester.request(names_body(["a"]))
+    bridged.wait(requester.find_server)
+    asker.destroy()
+    bridged.wait_for(0.2)
+    identities = [identity for identity, _ in iter(replier.take, None)]
+    assert len(identities) == 5
+    start = time.monotonic()
+    for identity in identities:
+        with pytest.raises(BridgeError, match="not there to receive it"):
+            replier.reply(identity, types_body([1]))
+    assert time.monotonic() - start < 0.35
+    # Who was only not discovered in time is answered as soon as the graph has it.
+    asker = bridged.bridge.create_node("staying", bridged.domain)
+    requester = asker.create_requester(get_types("forsaken"))
+    number = requester.request(names_body(["abc"]))
+    [(identity, _)] = bridged.take(replier, 1)
+    replier._vanished[identity[:16]] = None  # type: ignore[attr-defined]
+    replier.reply(identity, types_body([3]))
+    assert [(n, read_types(reply)) for n, reply in bridged.take(requester, 1)] == [(number, [3])]
+    asker.destroy()
+    node.destroy()
+
+
+def test_what_cannot_be_answered_or_asked_is_said(bridged: Bridged) -> None:
+    node = bridged.bridge.create_node("errors", bridged.domain)
+    replier, requester = node.create_replier(get_types("e1")), node.create_requester(get_types("e2"))
+    with pytest.raises(BridgeError, match="identity of 3 bytes"):
+        replier.reply(b"abc", types_body([]))
+    for send in (requester.request, lambda message: replier.reply(bytes(24), message)):
+        with pytest.raises(BridgeError, match="no encapsulation"):
+            send(b"\0\1")
+    replier.destroy()
+    requester.destroy()
+    replier.destroy()
+    for send in (requester.request, lambda message: replier.reply(bytes(24), message)):
+        with pytest.raises(BridgeError, match="is gone"):
+            send(types_body([]))
+    assert replier.take() is None
+    assert requester.take() is None
+    node.destroy()

@@ -1,0 +1,301 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The configuration file and the options of `microros-gen agent`: what they say together, and what is wrong where."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, fields
+from pathlib import Path
+
+import pytest
+from jsonschema import Draft202012Validator
+
+from microros_gen.agent.limits import Limits
+from microros_gen.agent.manifests import Manifests
+from microros_gen.agent.transport.tcp import TcpLimits
+from microros_gen.cli.agent_options import AgentOptions, _one_each
+from microros_gen.cli.agent_start import serve
+from microros_gen.cli.agent_types import ManifestOf, TypeHashes, read_manifests
+from microros_gen.cli.type_hashes import type_hashes
+from microros_gen.diagnostics import Diagnostics, Source, UserError
+from microros_gen.model.agent_file import PtyChoice, SerialChoice, SocketChoice
+from microros_gen.parse.agent_file import SCHEMA, parse_agent_file
+from microros_gen.parse.schema import load_schema
+
+EXAMPLE = Path(__file__).resolve().parents[2] / "examples/agent/agent.yaml"
+NOTHING = {
+    "config": None,
+    "domain": None,
+    "discovery": False,
+    "discovery_port": None,
+    "client_timeout": None,
+    "max_clients": None,
+    "limits": (),
+    "references": (),
+    "entities": (),
+    "manifest": (),
+    "interface_path": (),
+    "verbose": 0,
+    "log_format": None,
+}
+WHOLE = """\
+version: 1
+transports:
+  - udp4:
+  - udp6: {bind: "::", port: 7777}
+  - tcp4: {port: 0, connections: 8, output_bytes: 4096, patience_s: 2.5}
+  - serial: {device: tty, baud: 9600}
+  - serial: {device: /dev/ttyUSB0}
+  - pty: {link: board}
+discovery: {port: 7401}
+domain: 7
+limits: {clients: 3, client_timeout_s: 1.5, message_bytes: 1000}
+references: [refs.xml]
+entities: [a.json, /b.json]
+manifests: [m.json, 0x1=n.json]
+interface_paths: [idl]
+log: {format: json, verbose: 2}
+"""
+
+
+def options(text: str, folder: Path, *transports: SocketChoice, **given: object) -> AgentOptions:
+    path = folder / "agent.yaml"
+    path.write_text(text)
+    return AgentOptions.of([{**NOTHING, "config": path, **given}], transports)
+
+
+def test_everything_that_a_file_can_say(tmp_path: Path) -> None:
+    """Paths are relative to the file."""
+    got = options(WHOLE, tmp_path)
+    assert got == AgentOptions(
+        transports=(
+            SocketChoice("udp4"),
+            SocketChoice("udp6", 7777, "::"),
+            SocketChoice("tcp4", 0, None, (("connections", 8), ("output_bytes", 4096), ("patience_s", 2.5))),
+            SerialChoice(str(tmp_path / "tty"), 9600),
+            SerialChoice("/dev/ttyUSB0"),
+            PtyChoice(str(tmp_path / "board")),
+        ),
+        discovery=7401,
+        domain=7,
+        limits=Limits(clients=3, client_timeout_s=1.5, message_bytes=1000),
+        references=(tmp_path / "refs.xml",),
+        entities=(tmp_path / "a.json", Path("/b.json")),
+        manifests=(ManifestOf(tmp_path / "m.json"), ManifestOf(tmp_path / "n.json", "0x1")),
+        interface_paths=(tmp_path / "idl",),
+        log_format="json",
+        verbose=2,
+    )
+
+
+def test_the_command_line_wins(tmp_path: Path) -> None:
+    got = options(
+        WHOLE,
+        tmp_path,
+        SocketChoice("udp4", 1),
+        domain=0,
+        client_timeout=9.0,
+        limits=("objects=5", "clients=4"),
+        references=(Path("more.xml"),),
+        log_format="text",
+        verbose=1,
+        discovery_port=9,
+    )
+    assert got.transports == (SocketChoice("udp4", 1),)
+    assert (got.domain, got.log_format, got.verbose, got.discovery) == (0, "text", 1, 9)
+    assert got.limits == Limits(clients=4, client_timeout_s=9.0, message_bytes=1000, objects=5)
+    assert got.references == (tmp_path / "refs.xml", Path("more.xml"))
+
+
+def test_discovery_as_a_word(tmp_path: Path) -> None:
+    head = "version: 1\ntransports: [udp4: {}]\n"
+    assert options(head + "discovery: true\n", tmp_path).discovery == 7400
+    assert options(head + "discovery: false\n", tmp_path).discovery is None
+    assert options(head, tmp_path).discovery is None
+    assert options(head, tmp_path, discovery=True).discovery == 7400
+
+
+def test_every_fault_is_told_at_its_place(tmp_path: Path) -> None:
+    text = """\
+version: 2
+transports:
+  - upd4: {port: 8888}
+  - udp4: {prot: 1}
+  - tcp4: {port: 70000}
+  - serial: {}
+  - {udp4: , udp6: }
+limit: {clients: 3}
+limits: {clent_timeout_s: 1, clients: many, domains: 0}
+domain: 300
+log: {format: jsn}
+references: refs.xml
+"""
+    with pytest.raises(UserError) as error:
+        options(text, tmp_path)
+    path = tmp_path / "agent.yaml"
+    told = [d.headline().removeprefix(f"{path}:") for d in error.value.diagnostics]
+    assert told == [
+        "1:10: error: 'version' must be 1, the only version that there is; it is 2",
+        "3:5: error: 'transports[0]' has no key 'upd4'. Did you mean 'udp4'?",
+        "4:12: error: 'transports[1].udp4' has no key 'prot'. Did you mean 'port'?",
+        "5:18: error: 'transports[2].tcp4.port' must be a whole number between 0 and 65535; it is 70000",
+        "6:13: error: 'transports[3].serial' lacks the key 'device'. Add `device: …`",
+        "7:5: error: 'transports[4]' must be one transport with its settings, as `udp4: {port: 8888}`; it is a mapping",
+        "8:1: error: the file has no key 'limit'. Did you mean 'limits'?",
+        "9:10: error: 'limits' has no key 'clent_timeout_s'. Did you mean 'client_timeout_s'?",
+        "9:39: error: 'limits.clients' must be a whole number between 1 and 65535; it is the text 'many'",
+        "9:54: error: 'limits.domains' must be a whole number between 1 and 233; it is 0",
+        "10:9: error: 'domain' must be a whole number between 0 and 232; it is 300",
+        "11:15: error: 'log.format' must be text or json; it is the text 'jsn'. Did you mean 'json'?",
+        "12:13: error: 'references' must be a list; it is the text 'refs.xml'. Write it as a list: [refs.xml]",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("", "the file says nothing"),
+        ("version: 1\n", "the agent has no transport. Name one"),
+        ("version: 1\ntransports: []\n", "'transports' must be a list with at least one transport"),
+        ("version: 1\ntransports: [udp4: {}]\n\tx: 1\n", "agent.yaml:3:"),
+    ],
+)
+def test_files_that_do_not_hold(text: str, wanted: str, tmp_path: Path) -> None:
+    with pytest.raises(UserError) as error:
+        options(text, tmp_path)
+    assert wanted in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("limit", "wanted"),
+    [
+        ("client=3", "there is no limit 'client'. Did you mean 'clients'?"),
+        ("clients=0", "'limits.clients' must be a whole number between 1 and 65535; it is 0"),
+        ("clients", "'limits.clients' must be a number. Write --limit clients=NUMBER"),
+        ("clients=x", "'limits.clients' must be a whole number between 1 and 65535; it is the text 'x'"),
+        ("clients=3}\ndomain: 5 #", "'limits.clients' must be a number"),
+    ],
+)
+def test_limits_on_the_command_line(limit: str, wanted: str, tmp_path: Path) -> None:
+    with pytest.raises(UserError) as error:
+        options("version: 1\ntransports: [udp4: {}]\n", tmp_path, limits=(limit,))
+    assert wanted in str(error.value)
+
+
+def test_options_of_several_places() -> None:
+    """Lists are joined, -v counts, and what holds for the whole agent has one value."""
+    first = {**NOTHING, "verbose": 1, "domain": 3, "references": (Path("a"),)}
+    second = {**NOTHING, "verbose": 1, "domain": 3, "references": (Path("b"),), "discovery": True}
+    one = _one_each([NOTHING, first, second])
+    assert (one["verbose"], one["domain"], one["discovery"]) == (2, 3, True)
+    assert one["references"] == (Path("a"), Path("b"))
+    with pytest.raises(UserError, match="--domain has two values, 3 and 4"):
+        _one_each([first, {**NOTHING, "domain": 4}])
+    with pytest.raises(UserError, match="--domain has two values, 0 and 4"):
+        _one_each([{**NOTHING, "domain": 0}, {**NOTHING, "domain": 4}])
+
+
+def test_the_schema_has_every_limit_and_its_default() -> None:
+    schema = load_schema(SCHEMA)
+    Draft202012Validator.check_schema(schema)
+    told = schema["properties"]["limits"]["properties"]
+    assert {name: about["default"] for name, about in told.items()} == asdict(Limits())
+    for field in fields(Limits):
+        assert told[field.name]["type"] == {"int": "integer", "float": "number"}[str(field.type)]
+        assert told[field.name]["description"]
+    tcp = schema["$defs"]["tcp"]["properties"]
+    assert {name: tcp[name]["default"] for name in asdict(TcpLimits())} == asdict(TcpLimits())
+
+
+def test_the_example_holds(tmp_path: Path) -> None:
+    diagnostics = Diagnostics()
+    said = parse_agent_file(Source("agent.yaml", EXAMPLE.read_text()), diagnostics)
+    diagnostics.check()
+    assert said.transports
+
+
+def manifest(path: Path, *nodes: str, **types: str) -> ManifestOf:
+    places = [node.rpartition("/")[::2] for node in nodes]
+    told = {
+        "types": {f"p/msg/{name}": {"hash": value} for name, value in types.items()},
+        "entities": {"nodes": [{"namespace": space or "/", "name": name} for space, name in places]},
+    }
+    path.write_text(json.dumps(told))
+    return ManifestOf(path)
+
+
+ONE, TWO = "RIHS01_" + "1" * 64, "RIHS01_" + "2" * 64
+
+
+def test_hashes_of_clients_come_before_those_of_files(tmp_path: Path) -> None:
+    diagnostics = Diagnostics()
+    manifests = [manifest(tmp_path / "a.json", A=ONE), manifest(tmp_path / "b.json", A=ONE, B=TWO)]
+    clients = read_manifests(manifests, diagnostics)
+    diagnostics.check()
+    hashes = TypeHashes({"p/msg/B": ONE, "p/msg/C": TWO}.get, clients.common)
+    assert [hashes(f"p/msg/{name}") for name in "ABCD"] == [ONE, TWO, TWO, None]
+    assert hashes.differences(clients) == ["p/msg/B"]
+
+
+def test_a_manifest_is_of_its_nodes_or_of_a_key(tmp_path: Path) -> None:
+    """Two clients may have two definitions of a type; the agent's core asks by key and node."""
+    diagnostics = Diagnostics()
+    first = manifest(tmp_path / "a.json", "/imu", "/ns/other", A=ONE)
+    second = manifest(tmp_path / "b.json", "/imu", A=TWO)
+    keyed = ManifestOf.of("0xA1B2C3D4=b.json", tmp_path)
+    assert keyed == ManifestOf(second.path, "0xA1B2C3D4")
+    clients = read_manifests([first, keyed], diagnostics)
+    diagnostics.check()
+    assert clients.common == {}
+    found = Manifests(clients.by_client)
+    asked = found.hash_of(b"\1\2\3\4", "imu")
+    assert asked is not None
+    assert asked("p/msg/A") == ONE
+    asked = found.hash_of(b"\1\2\3\4", "ns/other")
+    assert asked is not None
+    assert asked("p/msg/A") == ONE
+    asked = found.hash_of(b"\xa1\xb2\xc3\xd4", "imu")
+    assert asked is not None
+    assert asked("p/msg/A") == TWO
+    assert found.hash_of(b"\1\2\3\4", "nobody") is None
+    assert TypeHashes({"p/msg/A": ONE}.get, {}).differences(clients) == ["p/msg/A"]
+
+
+def test_hashes_of_a_real_manifest_are_those_of_the_shipped_files() -> None:
+    golden = Path(__file__).resolve().parents[1] / "golden/static_configured_sender/manifest.json"
+    diagnostics = Diagnostics()
+    clients = read_manifests([ManifestOf(golden)], diagnostics)
+    diagnostics.check()
+    hashes = TypeHashes(type_hashes(), clients.common)
+    assert str(hashes("std_msgs/msg/Int32")).startswith("RIHS01_b6578ded")
+    assert hashes.differences(clients) == []
+    assert hashes("std_msgs/msg/../../Int32") is None
+
+
+def test_manifests_that_do_not_hold(tmp_path: Path) -> None:
+    diagnostics = Diagnostics()
+    (tmp_path / "no.json").write_text("[]")
+    manifests = [
+        manifest(tmp_path / "a.json", A=ONE),
+        manifest(tmp_path / "b.json", A=TWO),
+        manifest(tmp_path / "c.json", A="RIHS01_x"),
+        manifest(tmp_path / "d.json", "/n", A=ONE),
+        manifest(tmp_path / "e.json", "/n", A=TWO),
+        ManifestOf(tmp_path / "no.json"),
+        ManifestOf(tmp_path / "missing.json"),
+    ]
+    read_manifests(manifests, diagnostics)
+    told = [d.message.replace(f"{tmp_path}/", "") for d in diagnostics]
+    assert told == [
+        "b.json and a.json have different definitions of p/msg/A",
+        "c.json is no manifest of microros-gen",
+        "e.json and d.json have different definitions of p/msg/A",
+        "no.json is no manifest of microros-gen",
+        "missing.json cannot be read: No such file or directory",
+    ]
+
+
+def test_another_system_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.platform", "win32")
+    with pytest.raises(UserError, match="the agent needs Linux"):
+        serve(AgentOptions(transports=(PtyChoice(),)))

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One agent with several transports as a program: clients of each in the graph, configuration, signals, a manager."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from agent.client import XrceClient, int32_body
+from agent.observer import observing
+from agent.process import READY, own_domain, running_agent
+from agent.serial_link import SerialLink
+from agent.tcp_link import TcpLink
+from agent.test_command import run
+from microros_gen.agent.readiness import notify
+from microros_gen.agent.transport.discovery import GROUP
+
+DOMAIN = own_domain()
+ROOT = Path(__file__).resolve().parents[2]
+INT32 = "std_msgs/msg/Int32"
+ALL = ("udp4", "--port", "0", "udp6", "--port", "0", "tcp4", "--port", "0", "tcp6", "--port", "0", "pty")
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_clients_of_every_transport_are_in_the_graph_and_leave_it(number: int, tmp_path: Path) -> None:
+    link = tmp_path / "board"
+    with running_agent(DOMAIN, "--link", str(link), transport=ALL) as agent, observing(DOMAIN) as observer:
+        places = [agent.wait_for(READY).rpartition(" ")[2] for _ in range(4)]
+        ports = [int(place.rpartition(":")[2]) for place in places[:3]]
+        udp6 = socket.socket(socket.AF_INET6, socket.SOCK_DGRAM)
+        udp6.connect(("::1", ports[0]))
+        links = (udp6, TcpLink("127.0.0.1", ports[1]), TcpLink("::1", ports[2]), SerialLink(places[3]))
+        clients = [XrceClient(agent.port), *(XrceClient(each, key=n + 1) for n, each in enumerate(links))]  # type: ignore[arg-type]
+        writers = []
+        for index, client in enumerate(clients):
+            assert client.connect() == 0
+            observer.subscribe(f"/from_{index}", INT32)
+            writers.append(client.publisher(f"node_{index}", f"from_{index}", INT32, DOMAIN))
+        names = {f"/node_{index}" for index in range(5)}
+        observer.see(
+            lambda graph: (
+                names <= set(graph["nodes"]) and all(graph["publishers"].get(f"/from_{n}") for n in range(5))
+            )
+        )
+        for index, (client, writer) in enumerate(zip(clients, writers, strict=True)):
+            client.wait_until_subscribed(writer, int32_body(index), observer, f"/from_{index}")
+        assert agent.stop(number) == 0
+        observer.see(lambda graph: not names & set(graph["nodes"]), timeout_s=3)
+        assert not link.exists()
+
+
+@pytest.mark.ros
+def test_a_configuration_file(tmp_path: Path) -> None:
+    port = _free_port()
+    path = tmp_path / "agent.yaml"
+    path.write_text(
+        "version: 1\ntransports:\n  - udp4: {port: 0}\n  - tcp4: {port: 0}\n"
+        f"discovery: {{port: {port}}}\nlimits: {{clients: 1}}\nlog: {{format: json}}\n"
+    )
+    with running_agent(DOMAIN, transport=("-c", str(path))) as agent:
+        first = json.loads(agent.log[-1])
+        assert (first["event"], first["transport"]) == ("ready", "udp4")
+        agent.port = int(first["address"].rpartition(":")[2])
+        assert json.loads(agent.wait_for('"ready"'))["transport"] == "tcp4"
+        assert json.loads(agent.wait_for('"ready"'))["address"] == f"{GROUP}:{port}"
+        with XrceClient(agent.port) as client, XrceClient(agent.port, key=2) as other:
+            assert client.connect() == 0
+            assert other.connect() == 0x87  # RESOURCES: the file allows one
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asker:
+            asker.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton("127.0.0.1"))
+            asker.settimeout(3)
+            asker.sendto(bytes.fromhex("80000000020108000009fffd03000000"), (GROUP, port))
+            assert agent.port.to_bytes(2, "little") in asker.recv(1000)
+        assert agent.stop() == 0
+
+
+def _free_port() -> int:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.bind(("", 0))
+        port: int = probe.getsockname()[1]
+        return port
+
+
+@pytest.mark.ros
+def test_a_client_of_another_definition_is_named(tmp_path: Path) -> None:
+    """Its manifest says a hash that neither this machine nor the subscriber has."""
+    told = {"std_msgs/msg/Int32": {"hash": "RIHS01_" + "12" * 32}}
+    path = tmp_path / "manifest.json"
+    path.write_text(json.dumps({"types": told, "entities": {"nodes": [{"namespace": "/", "name": "old"}]}}))
+    with running_agent(DOMAIN, "--manifest", str(path)) as agent, XrceClient(agent.port) as client:
+        client.connect()
+        client.publisher("old", "aged", INT32, DOMAIN)
+        client.publisher("new", "fresh", INT32, DOMAIN, number=2)
+        with observing(DOMAIN) as observer:
+            observer.subscribe("/aged", INT32)
+            observer.subscribe("/fresh", INT32)
+            line = agent.wait_for("was generated with the type RIHS01_1212")
+            assert "/aged" in line
+            assert "/observer has RIHS01_b6578ded" in line
+            agent.stop()
+        rest = agent.wait_for("agent stopped")
+        assert not [line for line in (*agent.log, rest) if "/fresh" in line and "differ" in line]
+
+
+@pytest.mark.ros
+def test_every_message_as_json() -> None:
+    """Both directions, decoded, and the bytes themselves."""
+    with running_agent(DOMAIN, "-vv", "--log-format", "json") as agent, XrceClient(agent.port) as client:
+        client.connect()
+        question = json.loads(agent.wait_for('"way": "from"'))
+        assert question["event"] == "message"
+        assert bytes.fromhex(question["bytes"])[8:12] == b"XRCE"
+        (create,) = question["submessages"]
+        assert (create["name"], create["key"], create["mtu"]) == ("CREATE_CLIENT", "a1 b2 c3 d4", 512)
+        answer = json.loads(agent.wait_for('"way": "to"'))
+        assert answer["submessages"][0]["status"] == "OK"
+
+
+def test_faults_of_the_file_come_before_everything_else(tmp_path: Path) -> None:
+    (tmp_path / "agent.yaml").write_text("version: 1\ntransports: [upd4: {}]\ndomain: x\n")
+    result = run("--config", "agent.yaml", path=tmp_path)
+    assert result.returncode == 2
+    assert "agent.yaml:2:14: error: 'transports[0]' has no key 'upd4'. Did you mean 'udp4'?" in result.stderr
+    assert "agent.yaml:3:9: error: 'domain' must be a whole number" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "wanted"),
+    [
+        ((), "the agent has no transport. Name one, as `microros-gen agent udp4 --port 8888`"),
+        (("upd4",), "there is no transport 'upd4'. Did you mean 'udp4'?"),
+        (("udp4", "--port", "0", "tpc4"), "there is no transport 'tpc4'. Did you mean 'tcp4'?"),
+        (
+            ("udp4", "--port", "0", "--domain", "1", "tcp4", "--domain", "2"),
+            "--domain has two values, 1 and 2",
+        ),
+        (("pty", "--discovery"), "no UDP or TCP transport that discovery could tell of"),
+        (("udp4", "--limit", "client=1"), "there is no limit 'client'. Did you mean 'clients'?"),
+        (("udp4", "--manifest", "none.json"), "none.json cannot be read"),
+        (("udp4", "--interface-path", "none"), "the interface path 'none'"),
+        (("-c", "none.yaml"), "none.yaml cannot be read: No such file or directory"),
+        (
+            ("tcp4", "--port", "0", "--bind", "192.0.2.77"),
+            "'192.0.2.77' is not an IPv4 address of this machine",
+        ),
+    ],
+)
+def test_wrong_use_says_what_to_do(arguments: tuple[str, ...], wanted: str, tmp_path: Path) -> None:
+    result = run(*arguments, path=tmp_path)
+    assert result.returncode == 2, result.stderr
+    assert wanted in result.stderr
+
+
+def test_a_service_manager_is_told(tmp_path: Path) -> None:
+    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager:
+        manager.bind(str(tmp_path / "notify"))
+        manager.settimeout(1)
+        notify("READY=1", {"NOTIFY_SOCKET": str(tmp_path / "notify")})
+        assert manager.recv(100) == b"READY=1"
+    notify("READY=1", {"NOTIFY_SOCKET": str(tmp_path / "notify")})  # it is gone
+    notify("READY=1", {})
+
+
+UNIT = ROOT / "examples/agent/microros-agent.service"
+
+
+def test_the_unit_of_systemd_is_sound(tmp_path: Path) -> None:
+    """As systemd reads it, with a program that exists in place of the installed one."""
+    if shutil.which("systemd-analyze") is None:
+        pytest.skip("no systemd-analyze: apt-get install systemd")
+    text, count = re.subn(r"(?m)^ExecStart=\S+", f"ExecStart={sys.executable}", UNIT.read_text())
+    assert count == 1
+    unit = tmp_path / UNIT.name
+    unit.write_text(text)
+    done = subprocess.run(
+        ["systemd-analyze", "verify", str(unit)], capture_output=True, text=True, check=False, timeout=30
+    )
+    complaints = [line for line in done.stderr.splitlines() if UNIT.name in line]
+    assert (done.returncode, complaints) == (0, []), done.stderr
+    broken = tmp_path / "broken.service"
+    broken.write_text(text.replace("ProtectSystem=strict", "ProtectSystem=tight"))
+    other = subprocess.run(
+        ["systemd-analyze", "verify", str(broken)], capture_output=True, text=True, check=False, timeout=30
+    )
+    assert "protect system" in other.stderr
+
+
+def test_the_unit_starts_the_agent_with_options_that_there_are() -> None:
+    (line,) = re.findall(r"(?m)^ExecStart=\S+ agent (.*)$", UNIT.read_text())
+    result = run(*line.replace("/etc/microros/agent.yaml", str(ROOT / "examples/agent/none.yaml")).split())
+    assert "none.yaml cannot be read" in result.stderr
