@@ -79,9 +79,10 @@ static inline bool xrce_place_is_service(uint16_t place)
 /* Returns how many objects a place has at the agent when it is complete. */
 static inline uint8_t xrce_place_complete(uint16_t place)
 {
-  const uint8_t of_endpoint = xrce_place_is_service(place) ? XRCE_SERVICE_COMPLETE : XRCE_ENDPOINT_COMPLETE;
-
-  return xrce_place_is_participant(place) ? (uint8_t)XRCE_PARTICIPANT_COMPLETE : of_endpoint;
+  if (xrce_place_is_service(place)) {
+    return XRCE_SERVICE_COMPLETE;
+  }
+  return place < MICROROS_NODES_MAX ? (uint8_t)XRCE_PARTICIPANT_COMPLETE : (uint8_t)XRCE_ENDPOINT_COMPLETE;
 }
 
 #endif /* MICROROS_XRCE_OBJECTS_H */
