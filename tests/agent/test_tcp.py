@@ -133,7 +133,6 @@ def test_a_slow_reader_holds_up_nobody() -> None:
     transport = tcp(bench, output_bytes=20_000)
     with Served(transport, bench=bench) as served:
         slow = TcpLink("127.0.0.1", transport.port)
-        slow.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
         slow.send(CREATE_CLIENT)
         ping = bytes.fromhex("8100000002010800000afffd02000000")
         slow.socket.settimeout(20)
