@@ -93,7 +93,7 @@ def _description(item: PreconfiguredObject) -> Description:
         return Participant(item.name, item.domain)
     if item.kind == "topic":
         return Topic(item.name, item.type)
-    if item.kind == "publisher":
+    if item.kind in ("publisher", "subscriber"):
         return Group()
     return Endpoint(
         None, item.topic, Qos(item.reliable, Durability(item.durability), item.keep_last, item.depth)

@@ -12,8 +12,8 @@ from microros_gen.diagnostics import Span
 class PreconfiguredObject:
     """One object; `id` is (index << 4) | kind as in DDS-XRCE, `parent` that of what contains it.
 
-    A participant has `name` and `domain`, a topic `name` and `type` (names of DDS), a data writer `topic` (an object
-    id) and its quality of service; depth 0 stands for the default of 1.
+    A participant has `name` and `domain`, a topic `name` and `type` (names of DDS), a data writer or reader `topic` (an
+    object id) and its quality of service; depth 0 stands for the default of 1.
     """
 
     id: int

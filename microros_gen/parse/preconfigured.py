@@ -26,23 +26,31 @@ from microros_gen.parse.tree_read import check_keys, expect_mapping, read_choice
 from microros_gen.parse.yaml_tree import MappingNode, ScalarNode, SequenceNode, YamlNode, parse_yaml
 
 VERSION = 1
-KINDS: Mapping[str, int] = MappingProxyType({"participant": 1, "topic": 2, "publisher": 3, "data_writer": 5})
+KINDS: Mapping[str, int] = MappingProxyType(
+    {"participant": 1, "topic": 2, "publisher": 3, "subscriber": 4, "data_writer": 5, "data_reader": 6}
+)
 """Kinds of objects and the low four bits of their ids."""
 
+_QOS = ("reliability", "durability", "history", "depth")
 _KEYS: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = MappingProxyType(
     {
         "participant": (("id", "kind", "name"), ("domain",)),
         "topic": (("id", "kind", "parent", "name", "type"), ()),
         "publisher": (("id", "kind", "parent"), ()),
-        "data_writer": (
-            ("id", "kind", "parent", "topic"),
-            ("reliability", "durability", "history", "depth"),
-        ),
+        "subscriber": (("id", "kind", "parent"), ()),
+        "data_writer": (("id", "kind", "parent", "topic"), _QOS),
+        "data_reader": (("id", "kind", "parent", "topic"), _QOS),
     }
 )
 """Keys that an object must have, and may have."""
 _PARENT: Mapping[str, str] = MappingProxyType(
-    {"topic": "participant", "publisher": "participant", "data_writer": "publisher"}
+    {
+        "topic": "participant",
+        "publisher": "participant",
+        "subscriber": "participant",
+        "data_writer": "publisher",
+        "data_reader": "subscriber",
+    }
 )
 _DURABILITIES = ("volatile", "transient_local", "transient", "persistent")
 _HEX = re.compile(r"0[xX][0-9a-fA-F]{1,8}")

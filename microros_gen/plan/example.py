@@ -31,6 +31,14 @@ class Filling:
     texts: tuple[MemberValue, ...]
 
 
+@dataclass(frozen=True)
+class Shown:
+    """What the example prints of a message that it received: a format and an argument, where {message} is its name."""
+
+    format: str
+    expression: str
+
+
 def example_node(project: str) -> str:
     """Return the name of the example's node where the application file declares none."""
     return project.replace("+", "_")
@@ -61,15 +69,30 @@ def plan_filling(message: Message, messages: Mapping[TypeName, Message], text: s
     return Filling(stamps, values, texts)
 
 
+def plan_shown(message: Message, messages: Mapping[TypeName, Message]) -> Shown | None:
+    """Return the first number or text of `message` as printf takes it; None: it has neither."""
+    for path, field in _plain_members(message, messages, "", with_default=True):
+        if field.type == NamedType(_TIME):
+            return Shown("%d.%09u s", f"(int){{message}}.{path}.sec, (unsigned){{message}}.{path}.nanosec")
+        if isinstance(field.type, StringType) and not field.type.wide:
+            return Shown("%s", f"{{message}}.{path}.data")
+        if isinstance(field.type, Primitive):
+            real = field.type in (Primitive.FLOAT32, Primitive.FLOAT64)
+            return Shown("%g" if real else "%lld", f"({'double' if real else 'long long'}){{message}}.{path}")
+    return None
+
+
 def _plain_members(
-    message: Message, messages: Mapping[TypeName, Message], prefix: str
+    message: Message, messages: Mapping[TypeName, Message], prefix: str, *, with_default: bool = False
 ) -> Iterator[tuple[str, Field]]:
     for field in message.fields:
         path = f"{prefix}{field.name}"
-        if field.default is not None:
+        if field.default is not None and not with_default:
             continue
         if isinstance(field.type, NamedType) and field.type.name != _TIME:
-            yield from _plain_members(messages[field.type.name], messages, f"{path}.")
+            yield from _plain_members(
+                messages[field.type.name], messages, f"{path}.", with_default=with_default
+            )
         elif isinstance(field.type, (Primitive, StringType, NamedType)):
             yield path, field
 

@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from microros_gen.model.application import Qos
+from microros_gen.model.application import EndpointDecl, Qos
 from microros_gen.model.types import TypeName
-from microros_gen.plan.declared import publisher_declarations
-from microros_gen.plan.example import MemberValue, example_node, example_topics, plan_filling
+from microros_gen.plan.declared import publisher_declarations, subscription_declarations
+from microros_gen.plan.example import MemberValue, example_node, example_topics, plan_filling, plan_shown
 from microros_gen.plan.project import Project
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_names import include_path, snake_case
@@ -45,6 +46,28 @@ class PublisherView:
 
 
 @dataclass(frozen=True)
+class SubscriptionView:
+    """A subscription of the example, with its message and the first thing in it that can be printed.
+
+    `format` is what printf takes for `value`, both empty where the message has no plain member.
+    """
+
+    variable: str
+    node: str
+    message: str
+    function: str
+    init: str
+    qos: tuple[str, ...]
+    package: str
+    type: str
+    c_type: str
+    topic: str
+    storage: str
+    format: str
+    value: str
+
+
+@dataclass(frozen=True)
 class ExampleView:
     """The whole example."""
 
@@ -53,6 +76,7 @@ class ExampleView:
     includes: tuple[str, ...]
     nodes: tuple[NodeView, ...]
     publishers: tuple[PublisherView, ...]
+    subscriptions: tuple[SubscriptionView, ...]
     uses_time: bool
     hosted: bool
 
@@ -62,7 +86,8 @@ def example_view(project: Project) -> ExampleView:
     types = {plan.name: plan for plan in project.types}
     nodes = _nodes(project)
     publishers = tuple(_publishers(project, types, nodes))
-    used = sorted({p.type_name for p in publishers})
+    subscriptions = tuple(_subscriptions(project, types, nodes))
+    used = sorted({p.type_name for p in publishers} | {name for name, _ in subscriptions})
     includes = {include_path(types[name].files.header) for name in used}
     includes |= {include_path(types[name].files.storage) for name in used if types[name].storage}
     views = tuple(p.view for p in publishers)
@@ -70,11 +95,11 @@ def example_view(project: Project) -> ExampleView:
         includes.add("rosidl_runtime_c/string_functions.h")
     return ExampleView(
         title=project.name,
-        summary=", ".join(f"{p.view.package}/msg/{p.view.type} on {p.view.topic}" for p in publishers)
-        or "nothing",
+        summary=_summary(views, [view for _, view in subscriptions]),
         includes=tuple(sorted(includes)),
         nodes=nodes,
         publishers=views,
+        subscriptions=tuple(view for _, view in subscriptions),
         uses_time=any(view.stamps for view in views),
         hosted=project.target.hosted,
     )
@@ -120,17 +145,80 @@ def _publishers(
     ]
 
 
+def _summary(publishers: Sequence[PublisherView], subscriptions: Sequence[SubscriptionView]) -> str:
+    """Return what the example does, as a sentence without its end."""
+    every = "every EXAMPLE_PERIOD_MS milliseconds"
+    written = ", ".join(f"{p.package}/msg/{p.type} on {p.topic}" for p in publishers) or "nothing"
+    if not subscriptions:
+        return f"publishes {written} {every}"
+    read = ", ".join(f"{s.package}/msg/{s.type} on {s.topic}" for s in subscriptions)
+    return f"publishes {written} and looks {every} for {read}" if publishers else f"looks {every} for {read}"
+
+
+def _subscriptions(
+    project: Project, types: dict[TypeName, TypePlan], nodes: tuple[NodeView, ...]
+) -> list[tuple[TypeName, SubscriptionView]]:
+    runtime = project.runtime
+    if runtime.nodes:
+        declared = [endpoint for _, _, endpoint in subscription_declarations(project.application)]
+        return [
+            (
+                s.type,
+                _subscription(project, types[s.type], nodes[s.node], s.index, declared[s.index], s.storage),
+            )
+            for s in runtime.subscriptions
+        ]
+    topics = example_topics(project.roots[: runtime.subscriptions_max])
+    return [
+        (
+            root,
+            _subscription(
+                project,
+                types[root],
+                nodes[0],
+                index,
+                EndpointDecl("subscription", topic, str(root)),
+                types[root].c_name if types[root].storage else "",
+            ),
+        )
+        for index, (root, topic) in enumerate(topics)
+    ]
+
+
+def _subscription(
+    project: Project, plan: TypePlan, node: NodeView, index: int, endpoint: EndpointDecl, storage: str
+) -> SubscriptionView:
+    name = f"{snake_case(plan.name.name)}_received_{index}"
+    init, changes = _init(endpoint.qos, "subscription")
+    shown = plan_shown(plan.message, project.messages)
+    return SubscriptionView(
+        variable=f"subscription_{index}",
+        node=node.variable,
+        message=name,
+        function=f"take_{name}",
+        init=init,
+        qos=changes,
+        package=plan.name.package,
+        type=plan.name.name,
+        c_type=plan.c_name,
+        topic=endpoint.topic,
+        storage=storage,
+        format=shown.format if shown else "",
+        value=shown.expression.format(message=name) if shown else "",
+    )
+
+
 # rmw_qos_profile_sensor_data, as rclc_publisher_init_best_effort takes it.
 _SENSOR_DATA = Qos(reliability="best_effort", depth=5)
 
 
-def _init(qos: Qos) -> tuple[str, tuple[str, ...]]:
-    """Return the function that opens the publisher, and what differs from the default QoS, as C."""
+def _init(qos: Qos, what: str = "publisher") -> tuple[str, tuple[str, ...]]:
+    """Return the function that opens the publisher or subscription, and what differs from the default QoS, as C."""
     asked, default = replace(qos, span=None), Qos()
     if asked == default:
-        return "rclc_publisher_init_default", ()
+        return f"rclc_{what}_init_default", ()
     if asked == _SENSOR_DATA:
-        return "rclc_publisher_init_best_effort", ()
+        return f"rclc_{what}_init_best_effort", ()
     policies = [(p, getattr(asked, p)) for p in ("reliability", "durability", "history")]
     changes = [
         f"{policy} = RMW_QOS_POLICY_{policy.upper()}_{value.upper()}"
@@ -138,7 +226,7 @@ def _init(qos: Qos) -> tuple[str, tuple[str, ...]]:
         if value != getattr(default, policy)
     ]
     changes += [f"depth = {asked.depth}"] if asked.depth != default.depth else []
-    return "rclc_publisher_init", tuple(changes)
+    return f"rclc_{what}_init", tuple(changes)
 
 
 def _publisher(

@@ -13,7 +13,7 @@ void xrce_entities_remove(xrce_client_t * client, uint16_t place)
 {
   client->states[place].wanted = false;
   client->states[place].level = 0;
-  for (uint16_t i = 0; i < XRCE_ENDPOINTS; ++i) {
+  for (uint16_t i = 0; i < (uint16_t)XRCE_ENDPOINTS; ++i) {
     if (client->endpoints[i].participant == place) {
       client->states[MICROROS_NODES_MAX + i].wanted = false;
       client->states[MICROROS_NODES_MAX + i].level = 0;

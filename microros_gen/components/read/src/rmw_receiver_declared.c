@@ -9,9 +9,10 @@ bool rmw_receiver_take(
   xrce_endpoint_t * wanted, const rmw_section_t * section, const rmw_name_t * name, const char * given)
 {
   const char * type = wanted->type->dds_type_name;
+  const uint16_t end = (uint16_t)(section->first + section->count);
   microros_error_t error = section->undeclared;
 
-  for (uint16_t i = section->first; i < section->first + section->count; ++i) {
+  for (uint16_t i = section->first; i < end; ++i) {
     const microros_declared_endpoint_t * declared = &microros_declared_endpoints[i];
 
     if (
