@@ -46,21 +46,20 @@ rmw_ret_t rmw_publisher_open(
   const rmw_name_t name = rmw_name_of_topic(topic, node->name, node->namespace_);
   xrce_writer_t wanted = {node->context->impl, type_support->data, NULL, 0, 0, rmw_node_index(node), 0};
   const char * refused = rmw_qos_to_xrce(qos, &wanted.qos, &wanted.depth);
-  xrce_writer_t * writer;
-  rmw_ret_t result;
+  rmw_ret_t result = RMW_RET_ERROR;
 
   if (refused != NULL) {
     microros_error_set(microros_error_qos, topic, refused, 0, 0);
     return RMW_RET_UNSUPPORTED;
   }
-  if (!publisher_fits(&wanted) || !rmw_publisher_take(&wanted, &name, topic)) {
-    return RMW_RET_ERROR;
-  }
-  writer = &wanted.client->writers[wanted.index];
-  *writer = wanted;
-  result = rmw_place_open(writer->client, publisher_place(writer), writer->topic);
-  if (result == RMW_RET_OK) {
-    *publisher = publisher_hand_out(writer);
+  if (rmw_publisher_take(&wanted, &name, topic) && publisher_fits(&wanted)) {
+    xrce_writer_t * writer = &wanted.client->writers[wanted.index];
+
+    *writer = wanted;
+    result = rmw_place_open(writer->client, publisher_place(writer), writer->topic);
+    if (result == RMW_RET_OK) {
+      *publisher = publisher_hand_out(writer);
+    }
   }
   return result;
 }
