@@ -64,7 +64,7 @@ class Agent:
         self._ticked = clock()
         self.clients = ClientTable()
         held = Held(references or References(), preconfigured or Preconfigured(), manifests or Manifests())
-        self._deliveries = Deliveries(log)
+        self._deliveries = Deliveries(log, lambda error: self._fault(error, b""))
         self._lobby = Lobby(self.clients, bridge, log, limits, held, self._deliveries)
         self._operations = Operations(log, self._deliveries)
         self.samples = 0

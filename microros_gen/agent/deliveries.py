@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 from microros_gen.agent.clients import Client
 from microros_gen.agent.entities import Entity, Readable
 from microros_gen.agent.log import EventLog
-from microros_gen.agent.reading import Reading
+from microros_gen.agent.reading import RETRY_S, Reading
 from microros_gen.agent.ros.bridge import Source
 from microros_gen.agent.wire.data_messages import ReadData
 
@@ -20,8 +20,10 @@ CROWDED = 256
 class Deliveries:
     """Starts, wakes and ends readings; one at most for each object."""
 
-    def __init__(self, log: EventLog) -> None:
+    def __init__(self, log: EventLog, fault: Callable[[Exception], None]) -> None:
+        """`fault` is told of what should not happen: it ends the turn of one reading, and nobody else's."""
         self._log = log
+        self._fault = fault
         self._by_source: dict[int, Reading] = {}
         """By the identity of the source, which its reading keeps alive."""
         self._later: list[tuple[float, int, Reading]] = []
@@ -93,7 +95,11 @@ class Deliveries:
         if reading.over:
             return
         before = reading.entity.delivered
-        at = reading.deliver(now)
+        try:
+            at = reading.deliver(now)
+        except Exception as error:
+            self._fault(error)
+            at = now + RETRY_S
         self.delivered += reading.entity.delivered - before
         if reading.over:
             self._drop(reading.client, reading.entity.id)

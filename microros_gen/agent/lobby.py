@@ -93,7 +93,8 @@ class Lobby:
         `client` is who is known at this address. Everything else is counted, and not answered; but what comes from
         a client that is to be adopted is not dealt with here, and that client returned.
         """
-        self._count_stranger(now)
+        if client is None:
+            self._count_stranger(now)
         header = Header.decode(data)
         key = self._rivals.heard(transport, address, now) if client is None else None
         rival = self._clients.with_key(key) if key else None

@@ -3,6 +3,10 @@
 
 Nothing is queued here. What the delivery control (DDS-XRCE 1.0, 7.7.14 and table 9) or the window of the reliable
 stream does not let through yet stays in DDS, whose QoS says how much of it is kept.
+
+In FORMAT_DATA each sample is a message of its own, though several would fit and cost less: the rmw of micro-ROS takes
+one message at a time and has room for four samples by default, so a message with more loses some of a reliable stream.
+Who wants several in a message asks for a sequence format.
 """
 
 from __future__ import annotations
@@ -30,8 +34,8 @@ from microros_gen.agent.wire.samples import (
     VIEW_NEW,
     Sample,
     SampleInfo,
+    overhead,
     packs,
-    size_bound,
     write_samples,
 )
 
@@ -174,16 +178,15 @@ class Reading:
         """Return a DATA in one of the other formats, as full as the client's message size allows."""
         little = first[1] & FLAG_LITTLE
         samples = [self._sample(first, 0, now)]
-        sizes = [len(first) - 4]
-        room = self.client.session.link.room() - 8
+        fixed, each = overhead(self._format)
+        room = self.client.session.link.room() - 8 - fixed - each - (len(first) - 4)
         while self._format in SEQUENCES and len(samples) < self._left:
             taken = self._take()
             if taken is None:
                 break
             sample = self._sample(taken, len(samples), now)
-            sizes.append(len(sample.body))
-            fits = size_bound(self._format, sizes) <= room and taken[1] & FLAG_LITTLE == little
-            if not fits or not packs(samples[0].info, sample.info):
+            room -= each + len(sample.body)
+            if room < 0 or taken[1] & FLAG_LITTLE != little or not packs(samples[0].info, sample.info):
                 self.entity.held = taken
                 break
             samples.append(sample)

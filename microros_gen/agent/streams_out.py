@@ -14,6 +14,10 @@ from microros_gen.agent.wire.message import SUBMESSAGE_HEADER, header_bytes, sub
 HEARTBEAT_PERIOD_S = 0.2
 """Seconds between two HEARTBEATs while something is unacknowledged."""
 
+NEVER = float("-inf")
+REPEAT_S = 0.01
+"""Seconds in which a message is not sent again a second time."""
+
 
 @dataclass(frozen=True)
 class Link:
@@ -79,6 +83,8 @@ class ReliableOut:
         self._largest = max(largest, backlog_bytes)
         self._room = link.room()
         self._heartbeat_at = 0.0
+        self._repeated: dict[int, float] = {}
+        """When messages of the window were sent again."""
 
     def has_room(self) -> bool:
         """Return whether the next submessage, if it fits one message, would go out at once."""
@@ -103,8 +109,22 @@ class ReliableOut:
             return []  # older than what is known, or never sent
         for _ in range(done):
             self._unacknowledged.popleft()
-        again = [m for i, m in enumerate(self._unacknowledged) if missing >> i & 1]
+        again = self._repeat(first, missing, now) if missing else []
         return again + self._release(now)
+
+    def _repeat(self, first: int, missing: int, now: float) -> list[bytes]:
+        """Return what is asked for again; not what just was: a client says of every message what it still lacks."""
+        again = []
+        repeated: dict[int, float] = {}
+        for i, message in enumerate(self._unacknowledged):
+            sequence = (first + i) & 0xFFFF
+            before = self._repeated.get(sequence, NEVER)
+            if missing >> i & 1 and now - before >= REPEAT_S:
+                again.append(message)
+                before = now
+            repeated[sequence] = before
+        self._repeated = repeated
+        return again
 
     def heartbeat(self, now: float) -> Heartbeat | None:
         """Return the HEARTBEAT that is due at `now` (seconds, monotonic), if one is."""

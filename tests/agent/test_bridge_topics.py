@@ -171,9 +171,7 @@ def test_what_is_destroyed_gives_everything_back(bridged: Bridged) -> None:
         return sum(_target(fd) == "anon_inode:[eventfd]" for fd in Path("/proc/self/fd").iterdir())
 
     topic = Topic("rt/again", DDS_INT32)
-    keeper = bridged.bridge.create_node(
-        "keeper", bridged.domain
-    )  # with the last node its DDS participant goes
+    bridged.bridge.create_node("first", bridged.domain).destroy()
     before = descriptors()
     for _ in range(5):
         node = bridged.bridge.create_node("again", bridged.domain)
@@ -187,7 +185,6 @@ def test_what_is_destroyed_gives_everything_back(bridged: Bridged) -> None:
         with pytest.raises(BridgeError, match="/again"):
             writer.publish(int32(1))
         assert descriptors() == before
-    keeper.destroy()
 
 
 def _target(descriptor: Path) -> str:
@@ -211,6 +208,19 @@ def test_domains_are_apart(bridged: Bridged, bridge_observer: Observer) -> None:
         assert f"/in_{bridged.domain}" not in there_seen
         for node in nodes:
             node.destroy()
+
+
+def test_the_agent_keeps_its_place_in_the_graph_when_clients_go(
+    bridged: Bridged, bridge_observer: Observer
+) -> None:
+    """A client that comes back is seen at once: others need not discover the agent anew."""
+    bridged.bridge.create_node("first", bridged.domain).destroy()
+    own = f"/_microros_agent_{os.getpid()}"
+    bridge_observer.see(lambda g: own in g["nodes"] and "/first" not in g["nodes"])
+    with opened(bridged.domain) as another:
+        another.bridge.create_node("second", bridged.domain).destroy()
+        bridge_observer.see(lambda g: g["nodes"].count(own) == 2)
+    bridge_observer.see(lambda g: g["nodes"].count(own) == 1)
 
 
 def test_domains_are_limited_and_reused() -> None:

@@ -8,13 +8,14 @@ agent's decoders.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
 
 from agent.fakes import Bench
+from microros_gen.agent.framing import FrameDecoder, LengthDecoder, encode_frame, encode_length
 from microros_gen.agent.representation.reference_file import read_references
 from microros_gen.diagnostics import Source
 
@@ -68,16 +69,25 @@ def meaning(kind: int, payload: bytes) -> Meaning:
     return (kind, payload[16:] if kind == TIME else payload)
 
 
-def lines(name: str) -> list[tuple[str, bytes]]:
-    """Return direction and message of each line of a dialogue."""
+Line = tuple[str, bytes]
+"""Direction and bytes."""
+
+
+def lines(name: str) -> list[Line]:
+    """Return each line of a dialogue."""
     text = (HERE / f"{name}.txt").read_text(encoding="ascii")
     return [(line[0], bytes.fromhex(line[2:])) for line in text.splitlines() if line[0] != "#"]
+
+
+def unframed(pieces: Iterable[Line], feed: dict[str, Callable[[bytes], list[bytes]]]) -> list[Line]:
+    """Return the messages of a byte stream that was recorded in pieces."""
+    return [(direction, message) for direction, piece in pieces for message in feed[direction](piece)]
 
 
 class Replay:
     """An agent that is told what the client of a record said."""
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, said: Iterable[Line]) -> None:
         references = HERE / "references.xml"
         self.bench = Bench(
             references=read_references([Source(str(references), references.read_text("ascii"))])
@@ -85,7 +95,7 @@ class Replay:
         self.record, self.agent = Side(), Side()
         self.waiting: list[Meaning] = []
         self.graph: list[str] = []
-        for direction, message in lines(name):
+        for direction, message in said:
             if direction == ">":
                 self._note(self.bench.say(message))
                 self.graph = max(self.graph, list(self.bench.bridge.graph), key=len)
@@ -120,7 +130,7 @@ class Replay:
 
 @pytest.mark.parametrize("name", sorted(path.stem for path in HERE.glob("*.txt")))
 def test_a_recorded_client_is_answered_as_by_the_public_agent(name: str) -> None:
-    replay = Replay(name)
+    replay = Replay(lines(name))
     assert replay.waiting == [], "nothing more than the public agent says"
     assert replay.bench.bridge.graph == [], "the client said good-bye"
     assert replay.bench.log.counters == {}, "no fault is found in what public clients send"
@@ -130,9 +140,41 @@ def test_a_recorded_client_is_answered_as_by_the_public_agent(name: str) -> None
     "name", ["binary", "xml", "reference", "session_with_key", "fragments", "best_effort"]
 )
 def test_the_same_comes_of_it_in_ros_whichever_way_it_is_described(name: str) -> None:
-    replay = Replay(name)
+    replay = Replay(lines(name))
     assert [text.replace("62:", "61:") for text in replay.graph] == MADE
     size = 1500 if name == "fragments" else 16
     samples = [b"m%09d" % n + bytes(97 + (i + n) % 26 for i in range(10, size)) for n in (1, 2)]
     found = [(label, body[8 : 8 + size]) for label, body in replay.bench.bridge.published]
     assert found == [(MADE[1], sample) for sample in samples[: 1 if size > 400 else 2]]
+
+
+def test_the_same_over_tcp() -> None:
+    pieces = lines("streams/tcp")
+    messages = unframed(pieces, {">": LengthDecoder().feed, "<": LengthDecoder().feed})
+    replay = Replay(messages)
+    assert (replay.waiting, replay.bench.log.counters) == ([], {})
+    for side in "<>":
+        sent = b"".join(piece for direction, piece in pieces if direction == side)
+        assert sent == b"".join(
+            encode_length(message) for direction, message in messages if direction == side
+        )
+
+
+def test_the_same_over_a_serial_line() -> None:
+    pieces = lines("streams/serial")
+    faults: list[tuple[str, str]] = []
+    agent, client = (FrameDecoder(lambda *fault: faults.append(fault), address) for address in (0, 1))
+
+    def from_client(piece: bytes) -> list[bytes]:
+        return [payload for source, payload in agent.feed(piece) if source == 1]
+
+    def from_agent(piece: bytes) -> list[bytes]:
+        return [payload for source, payload in client.feed(piece) if source == 0]
+
+    messages = unframed(pieces, {">": from_client, "<": from_agent})
+    replay = Replay(messages)
+    assert (replay.waiting, replay.bench.log.counters, faults) == ([], {}, [])
+    for side, source in ((">", 1), ("<", 0)):
+        sent = b"".join(piece for direction, piece in pieces if direction == side)
+        frames = (encode_frame(m, 1 - source, source) for direction, m in messages if direction == side)
+        assert sent == b"".join(frames)

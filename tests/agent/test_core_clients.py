@@ -109,6 +109,7 @@ def test_strangers_are_limited_and_clients_served_meanwhile() -> None:
     assert bench.log.counters == {"too_many_strangers": 41}
     bench.say("81 01 04 00" + WRITE)
     assert len(bench.bridge.published) == 1
+    assert len(bench.say(PING)) == 1, "whoever is in session is no stranger"
     bench.now += 1
     assert len(bench.say(PING, "stranger")) == 1
 

@@ -516,3 +516,22 @@ def test_readings_that_are_replaced_leave_nothing_behind() -> None:
         listener.read(stream=1, control=DeliveryControl(0xFFFF, min_pace_period=0xFFFF))
     assert len(bench.agent._deliveries._later) <= 300
     assert values(listener.pass_time(66.0)) != [], "the last one goes on"
+
+
+def test_a_fault_with_one_source_leaves_the_others_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    bench = subscribing()
+    for sequence, create in enumerate(reader_entities(2, topic="b")):
+        bench.say(message(create, sequence=10 + sequence))
+    listener = Listener(bench)
+    source, other = bench.bridge.sources
+
+    def broken() -> None:
+        raise KeyError("broken")
+
+    monkeypatch.setattr(source, "take", broken)
+    listener.read()
+    listener.say(ReadData(0x30, 0x26, 1, delivery=FOREVER))
+    source.put(sample(1))
+    other.put(sample(2))
+    assert values(listener.take()) == [2]
+    assert set(bench.log.counters) == {"internal_KeyError"}

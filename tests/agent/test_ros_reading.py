@@ -144,7 +144,7 @@ def test_twenty_requests_of_ros_are_answered_by_a_slow_client(
 def test_twenty_requests_of_a_client_get_their_replies(
     client: XrceClient, observer: Observer, domain: int
 ) -> None:
-    observer.ask(do="serve", service="/held", type=GET_TYPES, hold=10)
+    observer.ask(do="serve", service="/held", type=GET_TYPES, hold=20)
     requester = service(client, 0x17, "asker", "/held", domain)
     asked: dict[bytes, int] = {}
     for i in range(20):

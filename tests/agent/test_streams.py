@@ -157,6 +157,18 @@ def test_the_window_holds_back_and_an_acknack_releases() -> None:
     assert stream.acknowledge(300, 0, 0.0) == [], "never sent"
 
 
+def test_what_was_just_repeated_is_not_repeated_again() -> None:
+    """A client that gets messages 1 to 9 says nine times that it lacks 0; forged ones cannot multiply either."""
+    stream = ReliableOut(LINK, 0x80, 1000)
+    for i in range(10):
+        stream.push(bytes([i]), 0.0)
+    answers = [stream.acknowledge(0, 0b1, 0.001 * i) for i in range(9)]
+    assert [sequence_of(m) for sent in answers for m in sent] == [0]
+    assert [sequence_of(m) for m in stream.acknowledge(0, 0b11, 0.009)] == [1]
+    assert [sequence_of(m) for m in stream.acknowledge(0, 0b11, 0.011)] == [0]
+    assert [sequence_of(m) for m in stream.acknowledge(1, 0b1, 0.1)] == [1]
+
+
 def test_the_backlog_is_bounded() -> None:
     stream = ReliableOut(LINK, 0x80, 10)
     for _ in range(16):

@@ -29,7 +29,7 @@ Cdr & stream()
   static Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, CdrVersion::XCDRv1);
   return cdr;
 }
-}  // namespace
+} // namespace
 
 uint32_t codec_encode(const rosidl_message_type_support_t * handle, const void * message)
 {
@@ -54,7 +54,9 @@ uint32_t codec_encode_again(const rosidl_message_type_support_t * handle, const 
   Cdr & cdr = stream();
   cdr.reset();
   cdr.set_encoding_flag(EncodingAlgorithmFlag::PLAIN_CDR);
-  return callbacks(handle)->cdr_serialize(message, cdr) ? static_cast<uint32_t>(cdr.get_serialized_data_length()) : 0;
+  return callbacks(handle)->cdr_serialize(message, cdr)
+           ? static_cast<uint32_t>(cdr.get_serialized_data_length())
+           : 0;
 }
 
 bool codec_decode_again(const rosidl_message_type_support_t * handle, uint32_t, void * message)

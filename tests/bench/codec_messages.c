@@ -186,8 +186,9 @@ static codec_case_t point_cloud2_case(void)
 
 const codec_case_t * codec_case(const char * name)
 {
-  static codec_case_t (*const make[])(void) = {int32_case, string_case, imu_case, joint_state_case,
-    laser_scan_case, twist_stamped_case, point_cloud2_case};
+  static codec_case_t (*const make[])(void) = {int32_case,       string_case,     imu_case,
+                                               joint_state_case, laser_scan_case, twist_stamped_case,
+                                               point_cloud2_case};
   static codec_case_t found;
   for (size_t i = 0; i < sizeof(make) / sizeof(*make); ++i) {
     found = make[i]();

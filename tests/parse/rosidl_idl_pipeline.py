@@ -91,6 +91,21 @@ def ros_makes_python(folder: Path, output: Path) -> bool:
     return True
 
 
+def ros_cpp_compiles(folder: Path, output: Path) -> bool:
+    """Return whether the C++ that rosidl_generator_cpp makes of the `msg/Foo.idl` in `folder` compiles with g++."""
+    if not _generated(folder, output, "rosidl_generator_cpp"):
+        return False
+    headers = output.parent / "headers"
+    headers.mkdir(exist_ok=True)
+    (headers / "pkg_a").symlink_to(output)
+    (output / "msg" / "rosidl_generator_cpp__visibility_control.hpp").write_text(
+        "#define ROSIDL_GENERATOR_CPP_PUBLIC_pkg_a\n"
+    )
+    include = [f"-I{headers}", *(f"-I{p}" for p in sorted((Path(sys.prefix) / "include").glob("*")))]
+    command = ["g++", "-std=gnu++17", "-fsyntax-only", "-x", "c++", *include, str(output / "msg" / "foo.hpp")]
+    return subprocess.run(command, capture_output=True, check=False).returncode == 0
+
+
 def _generated(folder: Path, output: Path, generator: str) -> bool:
     """Run one generator in a process of its own: after an exception the template engine is not usable again."""
     share = Path(sys.prefix) / "share"
@@ -115,6 +130,7 @@ def _generated(folder: Path, output: Path, generator: str) -> bool:
 
 def _generate(arguments: str, generator: str) -> None:
     from rosidl_generator_c import generate_c
+    from rosidl_generator_cpp import generate_cpp
     from rosidl_generator_py import generate_py
     from rosidl_generator_type_description import generate_type_hash
     from rosidl_typesupport_fastrtps_c import generate_typesupport_fastrtps_c
@@ -126,6 +142,8 @@ def _generate(arguments: str, generator: str) -> None:
             generate_type_hash(arguments)
             if generator == "rosidl_generator_c":
                 generate_c(arguments, disable_description_codegen=True)
+            elif generator == "rosidl_generator_cpp":
+                generate_cpp(arguments)
             elif generator == "rosidl_generator_py":
                 generate_py(arguments, ["rosidl_typesupport_fastrtps_c"])
             else:

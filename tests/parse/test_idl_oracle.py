@@ -25,7 +25,7 @@ from idl_corpus import (
     parts,
 )
 from idl_strategies import messages
-from rosidl_idl_pipeline import RosMessage, ros_c_compiles, ros_idl, ros_makes_python
+from rosidl_idl_pipeline import RosMessage, ros_c_compiles, ros_cpp_compiles, ros_idl, ros_makes_python
 
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.model.derived import messages_of
@@ -122,6 +122,22 @@ def test_what_ros_makes_python_of_has_no_warning(text: str, tmp_path: Path) -> N
     assert not list(diagnostics)
     assert ros_idl(text, tmp_path) is not None
     assert ros_makes_python(tmp_path, tmp_path / "py")
+
+
+@pytest.mark.parametrize(
+    ("text", "compiles"),
+    [
+        (const("const short EINVAL = 1;"), False),
+        (msg("int32 errno;"), False),
+        (const("const short E_INVALID = 1;"), True),
+    ],
+)
+def test_names_that_only_cpp_cannot_compile_have_a_warning(text: str, compiles: bool, tmp_path: Path) -> None:
+    diagnostics = Diagnostics()
+    assert read_idl(Source("Foo.idl", text), "pkg_a", "msg", diagnostics).declarations
+    assert ros_idl(text, tmp_path) is not None
+    assert ros_cpp_compiles(tmp_path, tmp_path / "cpp") is compiles
+    assert bool(list(diagnostics)) is not compiles
 
 
 @pytest.mark.parametrize("text", [GOOD[0], GOOD[30], GOOD[60], GOOD[-1]])

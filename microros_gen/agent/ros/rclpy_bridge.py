@@ -29,6 +29,8 @@ MAXIMUM_DOMAIN = 232
 """Largest ROS domain id: the ports of larger ones do not exist (RTPS 2.2, 9.6.1)."""
 DOMAIN_OF_AGENT = 255
 """Clients that ask for this domain (a convention of the public client) get the agent's own, ROS_DOMAIN_ID."""
+OWN_NODE = "_microros_agent"
+"""Begin of the name of the agent's own node in a domain; `ros2 node list` leaves out names with an underscore."""
 RMW = "rmw_fastrtps_cpp"
 """The one RMW implementation whose type supports are made here."""
 
@@ -166,7 +168,7 @@ class RclpyBridge:
             raise BridgeError(f"domain {domain} does not exist (0 to {MAXIMUM_DOMAIN})", Status.INVALID_DATA)
         if domain not in self._contexts:
             self._make_room()
-            self._contexts[domain] = _Context(domain)
+            self._contexts[domain] = _Context(self._handles, domain)
         return self._contexts[domain]
 
     def _make_room(self) -> None:
@@ -179,22 +181,27 @@ class RclpyBridge:
 
 
 class _Context:
-    def __init__(self, domain: int) -> None:
+    """A ROS context. Its own node, hidden by its name, keeps the DDS participant: that goes with the last node, and
+    until others discover a new one some seconds pass, which a client that comes back would have to wait."""
+
+    def __init__(self, handles: Any, domain: int) -> None:
         context_class = importlib.import_module("rclpy.context").Context
         self._context = context_class()
-        try:
-            self._context.init(args=[], domain_id=domain, initialize_logging=False)
-        except FAILURES as error:
-            raise BridgeError(f"domain {domain}: {first_line(error)}") from error
-        self.handle = self._context.handle
         self.nodes = 0
         self.topics = TopicTypes()
+        try:
+            self._context.init(args=[], domain_id=domain, initialize_logging=False)
+            self.handle = self._context.handle
+            self._own = handles.Node(f"{OWN_NODE}_{os.getpid()}", "/", self.handle, None, False, False)
+        except FAILURES as error:
+            raise BridgeError(f"domain {domain}: {first_line(error)}") from error
 
     def leave(self) -> None:
         """One node less."""
         self.nodes -= 1
 
     def close(self) -> None:
+        self._own.destroy_when_not_in_use()
         self._context.try_shutdown()
         self._context.destroy()
 

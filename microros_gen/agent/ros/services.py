@@ -25,6 +25,9 @@ IDENTITY_BYTES = 24
 """SampleIdentity of DDS-RPC: GUID, then the sequence number as signed high and unsigned low word."""
 WAIT_FOR_SERVER_S = 5.0
 """How long a request waits for a service that has not been there yet."""
+SETTLE_S = 0.1
+"""From the discovery of a service to the first request: what is sent before the service has found its client too is
+only delivered with the writer's next heartbeat, 3 s later."""
 HELD_REQUESTS, HELD_BYTES = 64, 262_144
 """Requests of one service client that wait for it, and their size together."""
 VANISHED_CLIENTS = 256
@@ -169,6 +172,9 @@ class RawRequester(_RawService):
         self._report = ros.report
         self._servers = servers
         self._there = False
+        self._found: float | None = None
+        self._look_until = time.monotonic() + WAIT_FOR_SERVER_S
+        servers.wait_for(self)
         self._held: deque[tuple[float, bytes]] = deque()
         self._dropped = 0
 
@@ -191,21 +197,28 @@ class RawRequester(_RawService):
         return None if message is None else (self._info.request.number + self._dropped, message)
 
     def find_server(self) -> bool:
-        """Return whether the service was there once; then what is held is sent."""
-        if not self._there and self._handle.service_server_is_available():
-            self._there = True
-            while self._held:
-                self._send_held(self._held.popleft()[1])
-        return self._there
+        """Return whether the service was there once, and had time to find this client; then what is held is sent."""
+        if self._there:
+            return True
+        now = time.monotonic()
+        if self._found is None and self._handle.service_server_is_available():
+            self._found = now
+        if self._found is None or now < self._found + SETTLE_S:
+            return False
+        self._there = True
+        while self._held:
+            self._send_held(self._held.popleft()[1])
+        return True
 
     def still_waits(self) -> bool:
-        """Drop what waits for too long; return whether something waits."""
+        """Drop what waits for too long; return whether the service is still to be looked for."""
         if self._descriptor < 0 or self.find_server():
             return False
-        while self._held and self._held[0][0] < time.monotonic():
+        now = time.monotonic()
+        while self._held and self._held[0][0] < now and self._found is None:
             self._held.popleft()
             self._drop()
-        return bool(self._held)
+        return bool(self._held) or now < self._look_until
 
     def _send_held(self, serialized: bytes) -> None:
         try:

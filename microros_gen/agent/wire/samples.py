@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 
 from microros_gen.agent.wire.cdr import Reader, Writer
 from microros_gen.agent.wire.constants import DataFormat
@@ -24,6 +25,15 @@ LIFE_CYCLE = UNREGISTERED | DISPOSED
 _SEQUENCE, _TIME = 1, 2
 """SampleInfoFormat: what is there beside the state."""
 MILLISECONDS_A_DECISECOND = 100
+_OVERHEAD = MappingProxyType(
+    {  # a SampleInfo has 12 bytes, a count or a length 4, a SampleInfoDelta 4; up to 3 align a length
+        DataFormat.DATA: (0, 0),
+        DataFormat.SAMPLE: (0, 12),
+        DataFormat.DATA_SEQ: (4, 7),
+        DataFormat.SAMPLE_SEQ: (4, 19),
+        DataFormat.PACKED_SAMPLES: (16, 11),
+    }
+)
 SEQUENCES = frozenset((DataFormat.DATA_SEQ, DataFormat.SAMPLE_SEQ, DataFormat.PACKED_SAMPLES))
 
 
@@ -85,10 +95,9 @@ def packs(base: SampleInfo, info: SampleInfo) -> bool:
     return 0 <= steps <= 0xFF and 0 <= later // MILLISECONDS_A_DECISECOND <= 0xFFFF
 
 
-def size_bound(form: int, sizes: Sequence[int]) -> int:
-    """Return what samples with bodies of these sizes take at most after the ids, in bytes."""
-    each = {DataFormat.DATA: 0, DataFormat.SAMPLE: 12, DataFormat.DATA_SEQ: 7, DataFormat.SAMPLE_SEQ: 19}
-    return sum(sizes) + len(sizes) * each.get(DataFormat(form), 11) + (4 if form in SEQUENCES else 0) + 12
+def overhead(form: int) -> tuple[int, int]:
+    """Return what samples in layout `form` take at most beside their bodies, in bytes: all together, and each."""
+    return _OVERHEAD[DataFormat(form)]
 
 
 def _read_info(reader: Reader) -> SampleInfo:
