@@ -13,14 +13,14 @@ from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.model.application import Application, EndpointDecl, Named, Transport
 from microros_gen.model.component import Catalogue, Profile
 from microros_gen.model.derived import declaring_name
-from microros_gen.model.names import expand_topic_name
 from microros_gen.model.selection import Selection
 from microros_gen.model.target import Target
 from microros_gen.model.types import TypeName
 from microros_gen.parse.application import parse_agent_address, parse_application
 from microros_gen.plan.agent_files import check_entities
 from microros_gen.plan.capacity import Capacities, Defaults, Entity, Root, plan_capacities
-from microros_gen.plan.project import Project, plan_project, publisher_declarations, type_name
+from microros_gen.plan.declared import declarations, full_name, node_name, type_name
+from microros_gen.plan.project import Project, plan_project
 from microros_gen.plan.streams import DEFAULT_MTU, WRITE_DATA_OVERHEAD
 from microros_gen.plan.types import plan_types
 from microros_gen.resolve.interfaces import InterfaceSet, resolve_interfaces, split_type_name
@@ -132,11 +132,16 @@ def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Dia
     interfaces = _interfaces(resolved, finder, diagnostics)
     capacities = _capacities(resolved, interfaces, diagnostics)
     diagnostics.check()
-    received = _received(selection, capacities)
+    received = _received(application, selection, capacities)
     types = plan_types(interfaces.messages, capacities, interfaces.type_hash, diagnostics, received)
     diagnostics.check()
     project = plan_project(
-        application, selection, resolved.request.target, types, _published(interfaces), diagnostics
+        application,
+        selection,
+        resolved.request.target,
+        types,
+        _published(interfaces),
+        diagnostics,
     )
     diagnostics.check()
     packages = sorted({entry.name.package for entry in interfaces})
@@ -283,14 +288,10 @@ def _capacities(resolved: Resolved, interfaces: InterfaceSet, diagnostics: Diagn
             endpoint.limits,
             endpoint.type_span or endpoint.span,
             room,
-            Entity(
-                endpoint.kind,
-                index,
-                expand_topic_name(endpoint.topic, node.name, node.namespace),
-                expand_topic_name("~", node.name, node.namespace),
-            ),
+            Entity(kind, index, full_name(node, endpoint), node_name(node), kind == "publisher"),
         )
-        for index, (_, node, endpoint) in enumerate(publisher_declarations(application))
+        for kind in ("publisher", "subscription")
+        for index, (_, node, endpoint) in enumerate(declarations(application, kind))
     ]
     known = {root.type for root in declared}
     roots = declared + [
@@ -300,10 +301,16 @@ def _capacities(resolved: Resolved, interfaces: InterfaceSet, diagnostics: Diagn
     return plan_capacities(interfaces.messages, roots, application.limits, defaults, diagnostics)
 
 
-def _received(selection: Selection, capacities: Capacities) -> tuple[TypeName, ...]:
-    """Return the types that have a decoder: every root, where decoding is selected."""
-    decodes = any(c.component.name == "cdr_decode" for c in selection.components)
-    return tuple(capacities.limits) if decodes else ()
+def _received(application: Application, selection: Selection, capacities: Capacities) -> tuple[TypeName, ...]:
+    """Return the types that have a decoder: those that are received where entities alone decode, else every root."""
+    decoding = next((c for c in selection.components if c.component.name == "cdr_decode"), None)
+    if decoding is None:
+        return ()
+    by_entities = all(reason.startswith("needed by ") for reason in decoding.reasons)
+    if not by_entities or not application.nodes or selection.has("services"):
+        return tuple(capacities.limits)
+    subscribed = {type_name(e.type) for _, _, e in declarations(application, "subscription")}
+    return tuple(name for name in capacities.limits if name in subscribed)
 
 
 def _root(name: TypeName, application: Application, room: int) -> Root:

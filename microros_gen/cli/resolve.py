@@ -62,6 +62,7 @@ def pool_rows(planned: Planned) -> list[tuple[str, str, str]]:
     rows = [
         ("nodes", str(runtime.nodes_max), source),
         ("publishers", str(runtime.publishers_max), source),
+        *_receiving_rows(planned),
         *_stream_rows(streams),
         (
             "error text",
@@ -72,6 +73,20 @@ def pool_rows(planned: Planned) -> list[tuple[str, str, str]]:
     ]
     if not runtime.declared:
         rows.insert(2, ("names", f"{runtime.name_size} bytes each", "pools.name_size"))
+    return rows
+
+
+def _receiving_rows(planned: Planned) -> list[tuple[str, str, str]]:
+    runtime = planned.project.runtime
+    rows = []
+    if runtime.subscriptions_max:
+        source = "declared in nodes:" if runtime.declared else "pools: or one for each interface"
+        rows.append(("subscriptions", str(runtime.subscriptions_max), source))
+    if runtime.queues:
+        slots = f"{runtime.queue_slots} slots, {runtime.queues_size} bytes"
+        rows.append(("queues", slots, "queue: or depth, times the largest sample"))
+    if runtime.reassembles:
+        rows.append(("fragments", f"{runtime.reassembly_size} bytes", "the largest sample above the MTU"))
     return rows
 
 

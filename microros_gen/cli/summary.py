@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from microros_gen.build.compile import BuildReport
 from microros_gen.build.measure import Usage
 from microros_gen.cli.pipeline import Planned
+from microros_gen.plan.runtime import PublisherPlan, SubscriptionPlan
 
 
 def plan_summary(planned: Planned) -> str:
@@ -17,7 +19,8 @@ def plan_summary(planned: Planned) -> str:
     lines = [
         ("profile", f"{project.name} for {project.target.name}: {_components(planned)}"),
         ("agent", _agent(planned)),
-        *(("publishes", line) for line in _entities(planned)),
+        *(("publishes", line) for line in _entities(planned, "publish", runtime.publishers)),
+        *(("receives", line) for line in _entities(planned, "subscribe", runtime.subscriptions)),
         (
             "streams",
             f"reliable {runtime.reliable_slots} x {runtime.reliable_slot_size} bytes,"
@@ -65,19 +68,18 @@ def _components(planned: Planned) -> str:
     return f"{', '.join(own)} and {below} components below them (`resolve` says why)"
 
 
-def _entities(planned: Planned) -> list[str]:
+def _entities(
+    planned: Planned, component: str, declared: Sequence[PublisherPlan | SubscriptionPlan]
+) -> list[str]:
     runtime = planned.project.runtime
     if runtime.declared:
-        return [
-            f"{p.topic} ({p.type}, {'reliable' if p.reliable else 'best effort'})" for p in runtime.publishers
-        ]
-    if not planned.project.selection.has("publish"):
+        return [f"{d.topic} ({d.type}, {'reliable' if d.reliable else 'best effort'})" for d in declared]
+    if not planned.project.selection.has(component):
         return []
+    places = runtime.publishers_max if component == "publish" else runtime.subscriptions_max
     shown = [str(root) for root in planned.project.roots[:6]]
     more = len(planned.project.roots) - len(shown)
-    return [
-        f"up to {runtime.publishers_max} of {', '.join(shown)}{f' and {more} more types' if more else ''}"
-    ]
+    return [f"up to {places} of {', '.join(shown)}{f' and {more} more types' if more else ''}"]
 
 
 def _defaults(planned: Planned) -> str:

@@ -83,7 +83,8 @@ class LimitRule:
 class EndpointDecl:
     """A publisher, subscription, service or client of a node.
 
-    `topic` holds the service's name for the latter two. {node} and {ns} in it are replaced.
+    `topic` holds the service's name for the latter two. {node} and {ns} in it are replaced. `queue`: how many samples
+    wait on the device at most until they are taken; None: follows from the depth. Publishers have none.
     """
 
     kind: str
@@ -94,6 +95,7 @@ class EndpointDecl:
     span: Span | None = None
     type_span: Span | None = None
     topic_span: Span | None = None
+    queue: int | None = None
 
 
 @dataclass(frozen=True)

@@ -94,6 +94,28 @@ def _entities(project: Project) -> dict[str, Any]:
             for n in project.runtime.nodes
         ],
         "publishers": [_publisher(project, p) for p in project.runtime.publishers],
+        **_subscriptions(project),
+    }
+
+
+def _subscriptions(project: Project) -> dict[str, Any]:
+    """Return the declared subscriptions; nothing where subscriptions are not selected."""
+    runtime = project.runtime
+    if not runtime.subscriptions_max:
+        return {}
+    queues = runtime.queues
+    return {
+        "subscriptions": [
+            {
+                "node": s.node,
+                "topic": s.topic,
+                "type": str(s.type),
+                "reliable": s.reliable,
+                "queue": queues[s.index].slots,
+                "slot_size": queues[s.index].slot_size,
+            }
+            for s in runtime.subscriptions
+        ]
     }
 
 
@@ -140,6 +162,9 @@ def _pools(project: Project) -> dict[str, int]:
     return {
         "nodes": runtime.nodes_max,
         "publishers": runtime.publishers_max,
+        **({"subscriptions": runtime.subscriptions_max} if runtime.subscriptions_max else {}),
+        **({"queues": runtime.queues_size} if runtime.queues else {}),
+        **({"reassembly": runtime.reassembly_size} if runtime.reassembly_size else {}),
         "name_size": runtime.name_size,
         "reliable_slots": runtime.reliable_slots,
         "reliable_slot_size": runtime.reliable_slot_size,

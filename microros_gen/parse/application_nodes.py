@@ -105,6 +105,7 @@ def _endpoints(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> Iter
                 span=endpoint.span,
                 type_span=span_of(type_node),
                 topic_span=span_of(name),
+                queue=int_of(child(endpoint, "queue")),
             )
 
 

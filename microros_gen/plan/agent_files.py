@@ -3,21 +3,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.model.application import Application, EndpointDecl, Qos
-from microros_gen.model.names import expand_topic_name
 from microros_gen.model.selection import Selection
-from microros_gen.plan.creation import participant_reference, topic_reference, writer_reference
+from microros_gen.plan.creation import (
+    participant_reference,
+    reader_reference,
+    topic_reference,
+    writer_reference,
+)
+from microros_gen.plan.declared import declarations, full_name
 from microros_gen.plan.example import example_node, example_topics
 from microros_gen.plan.names import dds_topic, dds_type
-from microros_gen.plan.project import Project, publisher_declarations
+from microros_gen.plan.project import Project
 
 REFERENCES = "agent/references.xml"
 ENTITIES = "agent/entities.json"
-_KINDS = {"participant": 1, "topic": 2, "publisher": 3, "data_writer": 5}
+_KINDS = {
+    "participant": 1,
+    "topic": 2,
+    "publisher": 3,
+    "subscriber": 4,
+    "data_writer": 5,
+    "data_reader": 6,
+}
+_REFERENCES = {"publisher": writer_reference, "subscription": reader_reference}
 
 
 @dataclass(frozen=True)
@@ -31,8 +43,11 @@ class AgentNode:
 
 
 @dataclass(frozen=True)
-class AgentWriter:
-    """A topic, its publisher and its data writer. `qos` holds what XRCE carries, nothing is left to a default."""
+class AgentEndpoint:
+    """A topic with its publisher and data writer, or (`reads`) its subscriber and data reader.
+
+    `qos` holds what XRCE carries, nothing is left to a default. `index` is that of its objects.
+    """
 
     index: int
     node: int
@@ -40,7 +55,18 @@ class AgentWriter:
     dds_type: str
     qos: Qos
     topic_reference: str
-    writer_reference: str
+    reference: str
+    reads: bool = False
+
+    @property
+    def group(self) -> str:
+        """The kind of the object between participant and data writer or reader."""
+        return "subscriber" if self.reads else "publisher"
+
+    @property
+    def kind(self) -> str:
+        """The kind of the object that the client writes or reads."""
+        return "data_reader" if self.reads else "data_writer"
 
 
 @dataclass(frozen=True)
@@ -52,7 +78,7 @@ class AgentFiles:
 
     key: int | None
     nodes: tuple[AgentNode, ...]
-    writers: tuple[AgentWriter, ...]
+    endpoints: tuple[AgentEndpoint, ...]
     complete: bool
     adopt: bool = False
 
@@ -67,7 +93,8 @@ def plan_agent_files(project: Project) -> AgentFiles:
     runtime = project.runtime
     if not runtime.declared:
         return AgentFiles(runtime.client_key, *_of_the_example(project), complete=False)
-    declared = [endpoint for _, _, endpoint in publisher_declarations(project.application)]
+    written = [endpoint.qos for _, _, endpoint in declarations(project.application, "publisher")]
+    read = [endpoint.qos for _, _, endpoint in declarations(project.application, "subscription")]
     nodes = tuple(
         AgentNode(
             n.index,
@@ -77,11 +104,15 @@ def plan_agent_files(project: Project) -> AgentFiles:
         )
         for n in runtime.nodes
     )
-    writers = tuple(
-        _writer(p.index, p.node, p.topic, p.dds_type, declared[p.index].qos) for p in runtime.publishers
-    )
+    endpoints = [
+        _endpoint(p.index, p.node, p.topic, p.dds_type, written[p.index]) for p in runtime.publishers
+    ]
+    endpoints += [
+        _endpoint(runtime.publisher_places + s.index, s.node, s.topic, s.dds_type, read[s.index], reads=True)
+        for s in runtime.subscriptions
+    ]
     adopt = project.selection.liveliness == "none" and runtime.client_key is not None
-    return AgentFiles(runtime.client_key, nodes, writers, complete=True, adopt=adopt)
+    return AgentFiles(runtime.client_key, nodes, tuple(endpoints), complete=True, adopt=adopt)
 
 
 def check_entities(application: Application, selection: Selection, diagnostics: Diagnostics) -> None:
@@ -91,42 +122,58 @@ def check_entities(application: Application, selection: Selection, diagnostics: 
         diagnostics.error(
             f"entities: preconfigured ({chosen.reason}) needs `nodes:`: the agent makes what is declared there",
             application.entities.span if application.entities else application.spans.get("interfaces"),
-            "Declare the nodes and their publishers, or write `entities: reference`",
+            "Declare the nodes and what they own, or write `entities: reference`",
         )
     if selection.entities == "reference":
         _check_references(application, diagnostics)
 
 
 def _check_references(application: Application, diagnostics: Diagnostics) -> None:
-    """One reference is one description: publishers of one topic share it, so they must not differ."""
-    first: dict[str, EndpointDecl] = {}
-    for _, node, endpoint in publisher_declarations(application):
-        topic = expand_topic_name(endpoint.topic, node.name, node.namespace)
-        other = first.setdefault(topic, endpoint)
-        same = (other.type, _carried(other.qos)) == (endpoint.type, _carried(endpoint.qos))
-        if not same:
-            diagnostics.error(
-                f"two publishers of {topic} differ in type or QoS and would get one reference name, "
-                f"'{writer_reference(topic)}' (the other: {other.span})",
-                endpoint.topic_span or endpoint.span,
-                "Make them alike, or write `entities: binary`",
-            )
+    """One reference is one description: endpoints of one topic share it, so they must not differ."""
+    first: dict[tuple[str, str], EndpointDecl] = {}
+    for _, node, endpoint in declarations(application, *_REFERENCES):
+        topic = full_name(node, endpoint)
+        on_topic = first.setdefault(("", topic), endpoint)
+        alike = first.setdefault((endpoint.kind, topic), endpoint)
+        if (alike.type, _carried(alike.qos)) != (endpoint.type, _carried(endpoint.qos)):
+            what, other, reference = f"{endpoint.kind}s", alike, _REFERENCES[endpoint.kind](topic)
+        elif on_topic.type != endpoint.type:
+            what, other, reference = "endpoints", on_topic, topic_reference(topic)
+        else:
+            continue
+        diagnostics.error(
+            f"two {what} of {topic} differ in type or QoS and would get one reference name, "
+            f"'{reference}' (the other: {other.span})",
+            endpoint.topic_span or endpoint.span,
+            "Make them alike, or write `entities: binary`",
+        )
 
 
-def _of_the_example(project: Project) -> tuple[tuple[AgentNode, ...], tuple[AgentWriter, ...]]:
+def _of_the_example(project: Project) -> tuple[tuple[AgentNode, ...], tuple[AgentEndpoint, ...]]:
     runtime = project.runtime
     name = example_node(project.name)
     node = AgentNode(0, name, 0, participant_reference(name, runtime.nodes_max))
-    topics: Mapping[str, str] = {
-        f"/{topic}": dds_type(root) for root, topic in example_topics(project.roots[: runtime.publishers_max])
-    }
-    writers = tuple(_writer(i, 0, topic, topics[topic], Qos()) for i, topic in enumerate(topics))
-    return (node,), writers if project.selection.has("publish") else ()
+    written = runtime.publishers_max if project.selection.has("publish") else 0
+    endpoints = [
+        _endpoint(index, 0, f"/{topic}", dds_type(root), Qos())
+        for index, (root, topic) in enumerate(example_topics(project.roots[:written]))
+    ]
+    endpoints += [
+        _endpoint(index, 0, f"/{topic}", dds_type(root), Qos(), reads=True)
+        for index, (root, topic) in enumerate(
+            example_topics(project.roots[: runtime.subscriptions_max]), runtime.publisher_places
+        )
+    ]
+    return (node,), tuple(endpoints)
 
 
-def _writer(index: int, node: int, topic: str, type_: str, qos: Qos) -> AgentWriter:
-    references = topic_reference(topic), writer_reference(topic)
-    return AgentWriter(index, node, dds_topic(topic), type_, _carried(qos), *references)
+def _endpoint(
+    index: int, node: int, topic: str, type_: str, qos: Qos, *, reads: bool = False
+) -> AgentEndpoint:
+    reference = reader_reference(topic) if reads else writer_reference(topic)
+    return AgentEndpoint(
+        index, node, dds_topic(topic), type_, _carried(qos), topic_reference(topic), reference, reads
+    )
 
 
 def _carried(qos: Qos) -> Qos:

@@ -59,6 +59,11 @@ def writer_reference(topic: str) -> str:
     return f"{topic[1:]}__dw"
 
 
+def reader_reference(topic: str) -> str:
+    """Return the reference of a topic's data reader: `/imu/data` → `imu/data__dr`."""
+    return f"{topic[1:]}__dr"
+
+
 def _binary(names: CreateNames) -> tuple[int, int, int]:
     topic = _align4(4 + names.topic + _NUL + 2) + 4 + names.type + _NUL
     return 8 + names.participant + _NUL, topic, 14

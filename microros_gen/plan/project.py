@@ -16,17 +16,17 @@ from microros_gen.model.target import Target
 from microros_gen.model.types import Message, TypeName
 from microros_gen.plan.board import BoardPlan, plan_board
 from microros_gen.plan.creation import CreateNames, create_size, participant_reference
+from microros_gen.plan.declared import pool, publisher_declarations, type_name
 from microros_gen.plan.names import dds_topic, dds_type, participant_name
-from microros_gen.plan.runtime import NodePlan, PublisherPlan, RuntimePlan
-from microros_gen.plan.streams import StreamPlan, Written, plan_streams
+from microros_gen.plan.receiving import plan_receiving
+from microros_gen.plan.runtime import NodePlan, PublisherPlan, RuntimePlan, SubscriptionPlan
+from microros_gen.plan.streams import Received, StreamPlan, Written, plan_streams
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_own_limits import LimitSet
-from microros_gen.resolve.interfaces import split_type_name
 
 SESSION_ID = 0x81
 DEFAULT_NAME_SIZE = 64
 ERROR_TEXT_SIZE = 160
-LARGEST_POOL = 250
 _FRAMING = {True: "on", False: "off", None: "either"}
 
 
@@ -93,9 +93,9 @@ def plan_project(
     name = "+".join(selection.profiles)
     by_name = {plan.name: plan for plan in types}
     nodes, publishers = _declared(application, by_name)
-    create = _create_size(application, selection, nodes, publishers, roots)
-    streams = _streams(application, selection, by_name, roots, create, diagnostics)
-    _check_budget(application, streams, diagnostics)
+    receiving = plan_receiving(application, selection, by_name, roots, diagnostics)
+    create = _create_size(application, selection, nodes, (*publishers, *receiving.subscriptions), roots)
+    streams = _streams(application, selection, by_name, roots, create, receiving.received, diagnostics)
     runtime = RuntimePlan(
         plan_id="",
         error_text_size=ERROR_TEXT_SIZE if application.error_text else 0,
@@ -109,10 +109,8 @@ def plan_project(
         reliable_slots=streams.reliable_slots,
         reliable_slot_size=streams.reliable_slot_size,
         declared=bool(nodes),
-        nodes_max=len(nodes) or _pool(application, "nodes", 1, diagnostics),
-        publishers_max=len(publishers)
-        if nodes
-        else _pool(application, "publishers", len(roots) if selection.has("publish") else 0, diagnostics),
+        nodes_max=len(nodes) or pool(application, "nodes", 1, diagnostics),
+        publishers_max=_publishers_max(application, selection, publishers, roots, diagnostics),
         name_size=0 if nodes else application.pools.get("name_size", DEFAULT_NAME_SIZE),
         nodes=nodes,
         publishers=publishers,
@@ -129,30 +127,18 @@ def plan_project(
         framing=_FRAMING[application.transport.framing],
         type_name_size=0 if nodes else _longest_type(roots) + 1,
         creation_size=streams.creation_size,
+        subscriptions=receiving.subscriptions,
+        subscriptions_max=receiving.subscriptions_max,
+        queues=receiving.queues,
+        reassembly_size=streams.reassembly_size,
         fragments=streams.fragments,
         reliable_input_slots=streams.reliable_input_slots,
         reliable_input_slot_size=streams.input_size if streams.reliable_input_slots else 0,
     )
+    _check_budget(application, streams, runtime.queues_size, diagnostics)
     board = plan_board(application, target, runtime, diagnostics)
     runtime = replace(runtime, plan_id=_plan_id(runtime, selection, types))
     return Project(name, application, selection, target, types, roots, streams, runtime, board)
-
-
-def publisher_declarations(application: Application) -> tuple[tuple[int, NodeDecl, EndpointDecl], ...]:
-    """Return every declared publisher with its node and the node's index, in the order of the file."""
-    return tuple(
-        (index, node, endpoint)
-        for index, node in enumerate(application.nodes)
-        for endpoint in node.endpoints
-        if endpoint.kind == "publisher"
-    )
-
-
-def type_name(text: str) -> TypeName:
-    """Return the name that `pkg/Type` or `pkg/msg/Type` stands for (already checked)."""
-    name = split_type_name(text)
-    assert name is not None, text
-    return name
 
 
 def _declared(
@@ -180,6 +166,7 @@ def _streams(
     types: Mapping[TypeName, TypePlan],
     roots: tuple[TypeName, ...],
     create: int,
+    received: tuple[Received, ...],
     diagnostics: Diagnostics,
 ) -> StreamPlan:
     if not selection.has("publish"):
@@ -192,7 +179,9 @@ def _streams(
     else:
         written = tuple(Written(str(r), types[r].max_encoded_size, True, True) for r in roots)
     reliable_input = selection.has("stream_reliable_input")
-    return plan_streams(application, selection.transport, written, create, diagnostics, reliable_input)
+    return plan_streams(
+        application, selection.transport, written, create, diagnostics, reliable_input, received
+    )
 
 
 def _written(
@@ -208,7 +197,7 @@ def _create_size(
     application: Application,
     selection: Selection,
     nodes: tuple[NodePlan, ...],
-    publishers: tuple[PublisherPlan, ...],
+    endpoints: tuple[PublisherPlan | SubscriptionPlan, ...],
     roots: tuple[TypeName, ...],
 ) -> int:
     """Return the size of the largest CREATE; 0: the client creates nothing."""
@@ -223,8 +212,8 @@ def _create_size(
     else:
         names = CreateNames(
             max(len(n.participant_name) for n in nodes),
-            max((len(p.dds_topic) for p in publishers), default=len("rt/")),
-            max((len(p.dds_type) for p in publishers), default=0),
+            max((len(p.dds_topic) for p in endpoints), default=len("rt/")),
+            max((len(p.dds_type) for p in endpoints), default=0),
             max(len(participant_reference(n.participant_name, len(nodes))) for n in nodes),
         )
     return create_size(names, selection.entities)
@@ -234,15 +223,18 @@ def _longest_type(roots: tuple[TypeName, ...]) -> int:
     return max((len(dds_type(r)) for r in roots), default=0)
 
 
-def _pool(application: Application, key: str, default: int, diagnostics: Diagnostics) -> int:
-    value = application.pools.get(key, default)
-    if value > LARGEST_POOL:
-        diagnostics.error(
-            f"{value} {key} are more than the {LARGEST_POOL} that one session holds",
-            hint="Select fewer interfaces, or say how many there are at once with "
-            f"`pools: {{{key}: N}}` in the application file",
-        )
-    return value
+def _publishers_max(
+    application: Application,
+    selection: Selection,
+    publishers: tuple[PublisherPlan, ...],
+    roots: tuple[TypeName, ...],
+    diagnostics: Diagnostics,
+) -> int:
+    least = 1 if selection.has("publish") and selection.has("read") else 0
+    if application.nodes:
+        return max(len(publishers), least)
+    default = len(roots) if selection.has("publish") else 0
+    return max(pool(application, "publishers", default, diagnostics), least)
 
 
 def _client_key(application: Application, name: str) -> int | None:
@@ -259,13 +251,15 @@ def _client_key(application: Application, name: str) -> int | None:
     return int.from_bytes(hashlib.sha256(text.encode()).digest()[:4], "big") or 1
 
 
-def _check_budget(application: Application, streams: StreamPlan, diagnostics: Diagnostics) -> None:
+def _check_budget(
+    application: Application, streams: StreamPlan, queues: int, diagnostics: Diagnostics
+) -> None:
     budget = application.memory.ram_budget
-    if budget is not None and streams.ram > budget:
+    if budget is not None and streams.ram + queues > budget:
         diagnostics.error(
-            f"the streams alone take {streams.ram} bytes of RAM and memory.ram_budget is {budget}"
+            f"the streams alone take {streams.ram + queues} bytes of RAM and memory.ram_budget is {budget}"
             f" (reliable {streams.reliable_slots} x {streams.reliable_slot_size}, best effort"
-            f" {streams.best_effort_size}, input {streams.input_size})",
+            f" {streams.best_effort_size}, input {streams.input_size}{f', queues {queues}' if queues else ''})",
             application.memory.ram_span,
             "Lower pools.history or the limits of the largest message, or raise the budget",
         )

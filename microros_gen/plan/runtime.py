@@ -49,6 +49,63 @@ class PublisherPlan:
 
 
 @dataclass(frozen=True)
+class SubscriptionPlan:
+    """A declared subscription, as PublisherPlan.
+
+    `index` counts subscriptions alone. For a message of variable length, `storage` is what the names of its storage
+    begin with in C, `header` declares it, `c_type` is its struct and `buffers` are the members that have memory of
+    their own.
+    """
+
+    index: int
+    node: int
+    topic: str
+    dds_topic: str
+    type: TypeName
+    reliable: bool
+    storage: str = ""
+    header: str = ""
+    c_type: str = ""
+    buffers: tuple[str, ...] = ()
+
+    @property
+    def dds_type(self) -> str:
+        """The type's name on the wire: `std_msgs::msg::dds_::Int32_`."""
+        return dds_type(self.type)
+
+
+@dataclass(frozen=True)
+class QueuePlan:
+    """What waits for the application to take it: `slots` samples, of at most `slot_size` bytes each.
+
+    A sample is what DATA carries behind the object's id: for a subscription the CDR body.
+    """
+
+    slots: int
+    slot_size: int
+
+
+@dataclass(frozen=True)
+class EndpointRow:
+    """A row of the table of declared endpoints, as PublisherPlan; an empty name is a place that nobody declared."""
+
+    name: str = ""
+    dds_type: str = ""
+    node: int = 0
+    limited: str = ""
+
+
+@dataclass(frozen=True)
+class QueueRow:
+    """Where a queue lies in the storage of all: its first slot, and the first byte of that."""
+
+    slots: int
+    slot_size: int
+    first: int
+    offset: int
+
+
+@dataclass(frozen=True)
 class RuntimePlan:
     """Sizes are bytes, times are milliseconds.
 
@@ -61,6 +118,9 @@ class RuntimePlan:
     `fragments`: some reliable message is larger than the MTU, `reliable_slot_size` holds it whole.
     `reliable_input_slots`: messages of the agent's reliable stream that the client holds at a time, the one that is
     being handled among them; 0: there is no such stream.
+    `subscriptions_max`, `services_max`, `clients_max`: places of each, at least one of what is selected; `queues` has
+    one entry for each of them, in this order. `reassembly_size`: the largest DATA that comes in fragments, with its
+    header; 0: none does.
     `error_text_size` 0: codes only. `best_effort_size` 0 or `reliable_slots` 0: there is no such stream.
     """
 
@@ -103,6 +163,54 @@ class RuntimePlan:
     reliable_input_slot_size: int = 0
     type_name_size: int = 0
     creation_size: int = 0
+    subscriptions: tuple[SubscriptionPlan, ...] = ()
+    subscriptions_max: int = 0
+    services_max: int = 0
+    clients_max: int = 0
+    queues: tuple[QueuePlan, ...] = ()
+    reassembly_size: int = 0
+
+    @property
+    def receives(self) -> bool:
+        """Whether there are endpoints that receive: then `read` is selected."""
+        return self.subscriptions_max + self.services_max + self.clients_max > 0
+
+    @property
+    def publisher_places(self) -> int:
+        """Places of publishers, which come first among the endpoints; a table needs one place at least."""
+        return max(self.publishers_max, 0 if self.receives else 1)
+
+    @property
+    def endpoints(self) -> tuple[EndpointRow, ...]:
+        """The declared endpoints in the order of their places, with the places that nobody declared."""
+        publishers = [EndpointRow(p.topic, p.dds_type, p.node, p.limited) for p in self.publishers]
+        subscriptions = [EndpointRow(s.topic, s.dds_type, s.node) for s in self.subscriptions]
+        rows = publishers + [EndpointRow()] * (self.publisher_places - len(publishers))
+        return (*rows, *subscriptions, *[EndpointRow()] * (self.subscriptions_max - len(subscriptions)))
+
+    @property
+    def queue_rows(self) -> tuple[QueueRow, ...]:
+        """The queues with their places in the storage."""
+        rows, first, offset = [], 0, 0
+        for queue in self.queues:
+            rows.append(QueueRow(queue.slots, queue.slot_size, first, offset))
+            first, offset = first + queue.slots, offset + queue.slots * queue.slot_size
+        return tuple(rows)
+
+    @property
+    def queue_slots(self) -> int:
+        """Slots of all queues together."""
+        return sum(queue.slots for queue in self.queues)
+
+    @property
+    def queues_size(self) -> int:
+        """Bytes of all slots together."""
+        return sum(queue.slots * queue.slot_size for queue in self.queues)
+
+    @property
+    def reassembles(self) -> bool:
+        """Whether some DATA comes in fragments."""
+        return self.reassembly_size > 0
 
     @property
     def reliable_front(self) -> int:

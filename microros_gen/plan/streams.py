@@ -42,12 +42,24 @@ class Written:
 
 
 @dataclass(frozen=True)
+class Received:
+    """What an endpoint receives: where it was declared, the largest DATA behind the object's id, on which streams."""
+
+    label: str
+    max_size: int
+    reliable: bool
+    best_effort: bool
+    span: Span | None = None
+
+
+@dataclass(frozen=True)
 class StreamPlan:
     """Bytes of each stream's storage; 0 or no slots where a stream is not needed.
 
     `mtu`: the largest message that is sent. `fragments`: some reliable message is larger, and goes in pieces.
     `creation_size`: of a request to create on the reliable stream. `reliable_input_slots`: messages of the agent's
-    reliable stream that are held at a time; the one that is being handled is in the input buffer.
+    reliable stream that are held at a time; the one that is being handled is in the input buffer. `reassembly_size`:
+    the largest DATA, with its header, where some is larger than the input buffer; else 0.
     """
 
     mtu: int
@@ -58,13 +70,14 @@ class StreamPlan:
     creation_size: int = 0
     fragments: bool = False
     reliable_input_slots: int = 0
+    reassembly_size: int = 0
 
     @property
     def ram(self) -> int:
         """Bytes of all buffers together."""
         reliable = self.reliable_slots * self.reliable_slot_size
         inputs = max(1, self.reliable_input_slots) * self.input_size
-        return self.best_effort_size + reliable + inputs + self.creation_size
+        return self.best_effort_size + reliable + inputs + self.creation_size + self.reassembly_size
 
 
 def plan_streams(
@@ -74,18 +87,22 @@ def plan_streams(
     create: int,
     diagnostics: Diagnostics,
     reliable_input: bool = False,
+    received: Iterable[Received] = (),
 ) -> StreamPlan:
     """Size the streams; a message that cannot fit its stream is an error with the number that would do.
 
     `transport` is the selected one. `create` is the size of the largest CREATE (plan/creation.py), 0 where the client
     creates nothing (entities: preconfigured). With `creation: reliable` it has storage of its own, and the reliable
     stream is there for it. A reliable message above the MTU goes in fragments, a best-effort one and a CREATE cannot.
-    `reliable_input`: the agent's reliable stream is selected. `pools.slot_size` makes each buffer at least so large.
+    `reliable_input`: the agent's reliable stream is selected; a reliable DATA above the MTU comes in fragments.
+    `pools.slot_size` makes each buffer at least so large.
     """
-    messages = tuple(written)
+    messages, samples = tuple(written), tuple(received)
     ceiling = application.transport.mtu or DEFAULT_MTU[transport]
     for message in messages:
         _check_fits(message, ceiling, application, diagnostics)
+    for sample in samples:
+        _check_received(sample, ceiling, application, diagnostics)
     _check_create(create, ceiling, application, diagnostics)
     asked = application.pools.get("slot_size", 0)
     least = min(asked, ceiling)
@@ -106,15 +123,17 @@ def plan_streams(
     elif not reliable:
         slots, reliable = 1, WRITE_DATA_OVERHEAD
     best_effort = max(best_effort, least) if best_effort else 0
+    largest = max((_align4(WRITE_DATA_OVERHEAD + s.max_size) for s in samples), default=0)
     return StreamPlan(
         mtu=ceiling if fragments else max(best_effort, reliable, create),
         best_effort_size=best_effort,
         reliable_slots=slots,
         reliable_slot_size=_align4(reliable + FRAGMENT_HEADER) if fragments else reliable,
-        input_size=max(WRITE_SIDE_INPUT, least),
+        input_size=max(WRITE_SIDE_INPUT, least, min(ceiling, largest)),
         creation_size=creation,
         fragments=fragments,
         reliable_input_slots=_input_slots(application, reliable_input, diagnostics),
+        reassembly_size=largest - MESSAGE_HEADER if largest > ceiling else 0,
     )
 
 
@@ -157,6 +176,27 @@ def _check_fits(message: Written, ceiling: int, application: Application, diagno
             span,
             f"Set transport.mtu: {size}, or lower its limits{message.hint}, or {reliable}: reliable messages"
             " are sent in fragments",
+        )
+
+
+def _check_received(
+    sample: Received, ceiling: int, application: Application, diagnostics: Diagnostics
+) -> None:
+    size = _align4(WRITE_DATA_OVERHEAD + sample.max_size)
+    span = sample.span or application.transport.mtu_span or application.transport.span
+    if sample.max_size > LARGEST_BODY:
+        diagnostics.error(
+            f"{sample.label} takes up to {sample.max_size} bytes, and a message holds {LARGEST_BODY} at most",
+            span,
+            "Lower its limits",
+        )
+    elif sample.best_effort and size > ceiling:
+        declare = "declare its subscription under `nodes:` as reliable"
+        reliable = declare if sample.reliable else "make it reliable"
+        diagnostics.error(
+            f"{sample.label} takes up to {size} bytes when it arrives and {_mtu_is(application)} {ceiling}",
+            span,
+            f"Set transport.mtu: {size}, or lower its limits, or {reliable}: reliable messages come in fragments",
         )
 
 

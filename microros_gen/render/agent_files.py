@@ -10,8 +10,8 @@ from typing import Any
 from microros_gen.plan.agent_files import (
     ENTITIES,
     REFERENCES,
+    AgentEndpoint,
     AgentFiles,
-    AgentWriter,
     object_id,
     plan_agent_files,
 )
@@ -30,8 +30,8 @@ def render_agent_files(project: Project) -> dict[str, bytes]:
 def references_xml(files: AgentFiles) -> str:
     """Return the profiles that the client names, as the public agent reads them with `-r`."""
     blocks = {n.reference: _participant(n.reference, n.name) for n in files.nodes}
-    blocks |= {w.topic_reference: _topic(w) for w in files.writers}
-    blocks |= {w.writer_reference: _data_writer(w) for w in files.writers}
+    blocks |= {e.topic_reference: _topic(e) for e in files.endpoints}
+    blocks |= {e.reference: _data(e) for e in files.endpoints}
     return '<?xml version="1.0" encoding="UTF-8"?>\n<profiles>\n' + "".join(blocks.values()) + "</profiles>\n"
 
 
@@ -43,9 +43,9 @@ def entities_json(files: AgentFiles) -> str:
         objects.append(
             {"id": participant, "kind": "participant", "name": node.name, "domain": node.domain_id}
         )
-        for writer in files.writers:
-            if writer.node == node.index:
-                objects += _writer_objects(writer, participant)
+        for endpoint in files.endpoints:
+            if endpoint.node == node.index:
+                objects += _objects(endpoint, participant)
     key = "*" if files.key is None else f"0x{files.key:08X}"
     lines = ",\n".join(f"        {json.dumps(entry, ensure_ascii=False)}" for entry in objects)
     adopt = '"adopt": true, ' if files.adopt else ""
@@ -60,42 +60,48 @@ def _participant(reference: str, name: str) -> str:
     )
 
 
-def _topic(writer: AgentWriter) -> str:
+def _topic(endpoint: AgentEndpoint) -> str:
     return (
-        f'  <topic profile_name="{escape(writer.topic_reference)}">\n'
-        f"    <kind>NO_KEY</kind>\n    <name>{escape(writer.topic)}</name>\n"
-        f"    <dataType>{escape(writer.dds_type)}</dataType>\n  </topic>\n"
+        f'  <topic profile_name="{escape(endpoint.topic_reference)}">\n'
+        f"    <kind>NO_KEY</kind>\n    <name>{escape(endpoint.topic)}</name>\n"
+        f"    <dataType>{escape(endpoint.dds_type)}</dataType>\n  </topic>\n"
     )
 
 
-def _data_writer(writer: AgentWriter) -> str:
-    qos = writer.qos
+def _data(endpoint: AgentEndpoint) -> str:
+    qos = endpoint.qos
     depth = f"        <depth>{qos.depth}</depth>\n" if qos.depth else ""
     return (
-        f'  <data_writer profile_name="{escape(writer.writer_reference)}">\n'
-        f"    <topic>\n      <kind>NO_KEY</kind>\n      <name>{escape(writer.topic)}</name>\n"
-        f"      <dataType>{escape(writer.dds_type)}</dataType>\n"
+        f'  <{endpoint.kind} profile_name="{escape(endpoint.reference)}">\n'
+        f"    <topic>\n      <kind>NO_KEY</kind>\n      <name>{escape(endpoint.topic)}</name>\n"
+        f"      <dataType>{escape(endpoint.dds_type)}</dataType>\n"
         f"      <historyQos>\n        <kind>{qos.history.upper()}</kind>\n{depth}      </historyQos>\n    </topic>\n"
         f"    <qos>\n      <durability>\n        <kind>{qos.durability.upper()}</kind>\n      </durability>\n"
         f"      <reliability>\n        <kind>{qos.reliability.upper()}</kind>\n      </reliability>\n    </qos>\n"
-        f"  </data_writer>\n"
+        f"  </{endpoint.kind}>\n"
     )
 
 
-def _writer_objects(writer: AgentWriter, participant: str) -> list[dict[str, Any]]:
-    topic, publisher = _id(writer.index, "topic"), _id(writer.index, "publisher")
+def _objects(endpoint: AgentEndpoint, participant: str) -> list[dict[str, Any]]:
+    topic, group = _id(endpoint.index, "topic"), _id(endpoint.index, endpoint.group)
     return [
-        {"id": topic, "kind": "topic", "parent": participant, "name": writer.topic, "type": writer.dds_type},
-        {"id": publisher, "kind": "publisher", "parent": participant},
         {
-            "id": _id(writer.index, "data_writer"),
-            "kind": "data_writer",
-            "parent": publisher,
+            "id": topic,
+            "kind": "topic",
+            "parent": participant,
+            "name": endpoint.topic,
+            "type": endpoint.dds_type,
+        },
+        {"id": group, "kind": endpoint.group, "parent": participant},
+        {
+            "id": _id(endpoint.index, endpoint.kind),
+            "kind": endpoint.kind,
+            "parent": group,
             "topic": topic,
-            "reliability": writer.qos.reliability,
-            "durability": writer.qos.durability,
-            "history": writer.qos.history,
-            "depth": writer.qos.depth,
+            "reliability": endpoint.qos.reliability,
+            "durability": endpoint.qos.durability,
+            "history": endpoint.qos.history,
+            "depth": endpoint.qos.depth,
         },
     ]
 

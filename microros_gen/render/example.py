@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 
 from microros_gen.model.application import Qos
 from microros_gen.model.types import TypeName
+from microros_gen.plan.declared import publisher_declarations
 from microros_gen.plan.example import MemberValue, example_node, example_topics, plan_filling
-from microros_gen.plan.project import Project, publisher_declarations
+from microros_gen.plan.project import Project
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_names import include_path, snake_case
 

@@ -146,10 +146,16 @@ def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectVi
         f"publisher `{p.topic}` of {p.type}, {'reliable' if p.reliable else 'best effort'}{_own_limits(project, p)}"
         for p in runtime.publishers
     ]
+    declared += [
+        f"subscription `{s.topic}` of {s.type}, {'reliable' if s.reliable else 'best effort'}"
+        for s in runtime.subscriptions
+    ]
     pools = [
         f"up to {runtime.nodes_max} node(s), named by the application",
-        f"up to {runtime.publishers_max} publisher(s) of {', '.join(str(r) for r in project.roots)}",
     ]
+    of_roots = ", ".join(str(root) for root in project.roots)
+    for name, places in (("publisher", runtime.publishers_max), ("subscription", runtime.subscriptions_max)):
+        pools += [f"up to {places} {name}(s) of {of_roots}"] if places else []
     return _ProjectView(
         title=project.name,
         image=project.name,
@@ -169,5 +175,7 @@ def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectVi
             _Bytes("reliable output", runtime.reliable_slots * runtime.reliable_slot_size),
             _Bytes("best-effort output", runtime.best_effort_size),
             _Bytes("input", runtime.input_size),
+            *((_Bytes("queues", runtime.queues_size),) if runtime.queues else ()),
+            *((_Bytes("fragments that arrive", runtime.reassembly_size),) if runtime.reassembles else ()),
         ),
     )

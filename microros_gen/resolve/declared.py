@@ -12,6 +12,7 @@ from microros_gen.model.names import expand_topic_name
 from microros_gen.resolve.profiles import at
 
 STREAM_BEST_EFFORT = "stream_best_effort"
+STREAM_BEST_EFFORT_INPUT = "stream_best_effort_input"
 STREAM_RELIABLE = "stream_reliable"
 STREAM_RELIABLE_INPUT = "stream_reliable_input"
 
@@ -66,7 +67,8 @@ def stream_demands(application: Application, selected: frozenset[str], entities:
     if "subscribe" in selected:
         text = "subscriptions without `nodes:` (rclc_subscription_init_default makes a reliable one)"
         yield Demand(STREAM_RELIABLE_INPUT, text, span)
-        yield Demand(STREAM_BEST_EFFORT, "READ_DATA of subscriptions", span)
+        text = "subscriptions without `nodes:` (rclc_subscription_init_best_effort makes a best effort one)"
+        yield Demand(STREAM_BEST_EFFORT_INPUT, text, span)
 
 
 def _creation_demands(application: Application, entities: str) -> Iterator[Demand]:
@@ -89,9 +91,8 @@ def _endpoint_demands(node: NodeDecl, endpoint: EndpointDecl, selected: frozense
         stream = STREAM_RELIABLE if reliable else STREAM_BEST_EFFORT
         yield Demand(stream, f"a {_reliability(reliable)} publisher on {where}", endpoint.span)
     elif endpoint.kind == "subscription":
-        yield Demand(STREAM_BEST_EFFORT, f"READ_DATA of a subscription on {where}", endpoint.span)
-        if reliable:
-            yield Demand(STREAM_RELIABLE_INPUT, f"a reliable subscription on {where}", endpoint.span)
+        stream = STREAM_RELIABLE_INPUT if reliable else STREAM_BEST_EFFORT_INPUT
+        yield Demand(stream, f"a {_reliability(reliable)} subscription on {where}", endpoint.span)
 
 
 def _reliability(reliable: bool) -> str:

@@ -97,6 +97,15 @@ def _endpoint_cases(
             f"'nodes[0].{key}[0].limits' must be a mapping such as {{string: 32, sequence: 8}}",
         ),
     }
+    if kind != "publisher":
+        cases[f"{path}.queue"] = KeyCase(
+            one(f"{entry}, queue: 3"),
+            lambda a: _endpoint(a).queue,
+            3,
+            one(f"{name_key}: a, type: {type_name}, queue: 0"),
+            f"3:{start + 21 + len(name_key) + len(type_name)}",
+            f"'nodes[0].{key}[0].queue' must be a whole number between 1 and 250; it is 0",
+        )
     if name_key == "topic":
         for qos, value, wrong in (
             ("reliability", "best_effort", "best"),
@@ -314,6 +323,7 @@ _TOP = {
             "parameters": "'4'",
             "history": 17,
             "input_history": 0,
+            "queue": 251,
             "name_size": 7,
         }.items()
     },

@@ -32,6 +32,12 @@ _BEST = "      - {topic: fast, type: std_msgs/msg/Int32, qos: {reliability: best
 _SURE = "      - {topic: sure, type: std_msgs/msg/UInt8}\n"
 _LARGE = "      - {topic: large, type: std_msgs/msg/String}\nlimits: {'*': {string: 2000}}\n"
 _BOTH = _NODES + _BEST + _SURE
+_READER = "version: 1\nprofiles: [pure_reader]\nnodes:\n  - name: probe\n    subscriptions:\n"
+_HEARD = "      - {topic: heard, type: std_msgs/msg/Int32, qos: {reliability: best_effort}}\n"
+_SAID = (
+    "      - {topic: said, type: std_msgs/msg/String, limits: {string: 3000}, queue: 2}\n"
+    "      - {topic: word, type: std_msgs/msg/String, limits: {string: 8}}\n"
+)
 _SERIAL = "transport: {type: serial, device: /dev/ttyACM0, baud: 115200}\n"
 
 APPLICATIONS: Mapping[str, str] = MappingProxyType(
@@ -54,6 +60,12 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "reliable_creation": _BOTH + "creation: reliable\npools: {input_history: 2}\n",
         "ordered_input": _BOTH + "creation: reliable\n",
         "large": _NODES + _LARGE,
+        "reader": _READER + _HEARD + _SAID + "pools: {input_history: 2}\n",
+        "reader_pool": "version: 1\nprofiles: [pure_reader]\ninterfaces: [std_msgs/msg/Int32]\n",
+        "reader_xml": _READER + _SAID + "entities: xml\nerrors: code\nlimits: {'*': {string: 12}}\n",
+        "reader_reference": _READER + _HEARD + "entities: reference\n",
+        "reader_preconfigured": _READER + _HEARD + "entities: preconfigured\nliveliness: none\n",
+        "reader_and_sender": _BOTH + "    subscriptions:\n" + _HEARD + "components: [+subscribe]\n",
         "xml": _BOTH + "entities: xml\nliveliness: none\n",
         "xml_pool": _INT32 + "entities: xml\n",
         "reference": _BOTH + "entities: reference\n",
@@ -72,6 +84,12 @@ AWAITED: Mapping[str, frozenset[str]] = MappingProxyType(
         "reliable_creation": frozenset({"stream_reliable_input", "entities"}),
         "ordered_input": frozenset({"stream_reliable_input", "entities"}),
         "large": frozenset({"stream_reliable"}),
+        "reader": frozenset({"subscribe"}),
+        "reader_pool": frozenset({"subscribe"}),
+        "reader_xml": frozenset({"subscribe", "entities_xml"}),
+        "reader_reference": frozenset({"subscribe", "entities_reference"}),
+        "reader_preconfigured": frozenset({"subscribe", "entities_preconfigured"}),
+        "reader_and_sender": frozenset({"subscribe"}),
         "xml": frozenset({"entities_xml"}),
         "xml_pool": frozenset({"entities_xml"}),
         "reference": frozenset({"entities_reference"}),

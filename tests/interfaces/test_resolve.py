@@ -295,9 +295,9 @@ def test_all_of_common_interfaces_resolves_quickly() -> None:
     requests = [p.name for p in finder.packages()]
     best = 1.0
     for _ in range(3):
-        start = time.perf_counter()
+        start = time.process_time()
         interfaces, said = resolve(finder, *requests)
-        best = min(best, time.perf_counter() - start)
+        best = min(best, time.process_time() - start)
     assert said == []
     assert len(interfaces) > 180
     assert best < 0.4, f"{best:.3f} s"

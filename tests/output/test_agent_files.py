@@ -181,7 +181,7 @@ def test_preconfigured_needs_nodes(tmp_path: Path) -> None:
     )
     assert "microros.yaml:3:11: error: entities: preconfigured" in said
     assert "needs `nodes:`" in said
-    assert said.endswith("Declare the nodes and their publishers, or write `entities: reference`")
+    assert said.endswith("Declare the nodes and what they own, or write `entities: reference`")
 
 
 @pytest.mark.parametrize("entities", ["binary", "xml", "reference"])

@@ -332,11 +332,11 @@ def test_reading_the_standard_interfaces_takes_a_fraction_of_a_second() -> None:
     assert len(sources) > 150
     best = 1.0
     for _ in range(3):
-        start = time.perf_counter()
+        start = time.process_time()
         for source, path in sources:
             assert (
                 parse_msg(source, TypeName(path.parent.parent.name, "msg", path.stem), Diagnostics())
                 is not None
             )
-        best = min(best, time.perf_counter() - start)
+        best = min(best, time.process_time() - start)
     assert best < 0.25, f"{best:.3f} s"

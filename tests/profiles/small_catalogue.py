@@ -67,6 +67,7 @@ def small_catalogue() -> Catalogue:
         _component("cdr"),
         _component("cdr_decode", ready=False, needs="cdr"),
         _component("stream_best_effort", needs="session"),
+        _component("stream_best_effort_input", ready=False, needs="session"),
         _component("stream_reliable", needs="session", sends="HEARTBEAT", receives="ACKNACK"),
         _component(
             "stream_reliable_input",

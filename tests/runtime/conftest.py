@@ -27,7 +27,8 @@ def programs(tmp_path_factory: pytest.TempPathFactory) -> ProgramFactory:
         names = [name for name in components(plan, liveliness) if name != "port_posix"]
         tree = render(tmp_path_factory.mktemp("client"), plan, names)
         ping = "client_ping.c" if liveliness == "ping" else "client_no_ping.c"
-        return build(tree, ["port_fake.c", "types.c", "client.c", ping], "client")
+        read = ["types_read.c", "client_read.c"] if plan.receives else ["types.c", "client_no_read.c"]
+        return build(tree, ["port_fake.c", "client.c", ping, *read], "client")
 
     return compiled
 

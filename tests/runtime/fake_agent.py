@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 LOGIN_TAIL = bytes.fromhex("58524345 0100 010f")
-KINDS = {1: "participant", 2: "topic", 3: "publisher", 5: "datawriter"}
+KINDS = {1: "participant", 2: "topic", 3: "publisher", 4: "subscriber", 5: "datawriter", 6: "datareader"}
 WINDOW = 16
 
 

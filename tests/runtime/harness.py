@@ -18,7 +18,7 @@ from tempfile import TemporaryDirectory
 from microros_gen.build.toolchain import LIBRARY_FLAGS, WARNINGS
 from microros_gen.model.selection import ChosenComponent, Selection
 from microros_gen.model.types import TypeName
-from microros_gen.plan.runtime import NodePlan, PublisherPlan, RuntimePlan
+from microros_gen.plan.runtime import NodePlan, PublisherPlan, QueuePlan, RuntimePlan
 from microros_gen.render.environment import make_environment
 from microros_gen.sources.components import components_folder, load_catalogue
 
@@ -32,6 +32,7 @@ CORE = (
     "rosidl_runtime",
     "node",
     "publish",
+    "qos",
     "cdr",
     "port_posix",
 )
@@ -82,14 +83,25 @@ DECLARED = replace(
 )
 
 
+READER = replace(
+    POOL,
+    subscriptions_max=2,
+    queues=(QueuePlan(3, 16), QueuePlan(3, 16)),
+    reliable_input_slots=2,
+    reliable_input_slot_size=64,
+)
+
+
 def components(plan: RuntimePlan, liveliness: str = "ping") -> tuple[str, ...]:
     """Return the components that the resolver selects for `plan`."""
     names = [*CORE, f"entities_{plan.entities}", f"transport_{plan.transport}"]
+    names = [name for name in names if name != "publish" or plan.publisher_places]
     framed = plan.transport == "serial" or (plan.transport == "custom" and plan.framing != "off")
     names += ["framing"] if framed else []
     names += ["entities", "session_close"] if plan.entities != "preconfigured" else []
     names += ["stream_reliable_input"] if plan.reliable_input_slots else []
     names += ["stream_best_effort"] if plan.best_effort_size else []
+    names += ["subscribe", "read", "cdr_decode", "stream_best_effort_input"] if plan.receives else []
     names += ["stream_reliable"] if plan.reliable_slots else []
     names += {"ping": ["ping"], "acknack": ["liveliness_acknack"], "none": []}[liveliness]
     return tuple(sorted(names))

@@ -46,7 +46,11 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
     planned, out = plan(options, place / "out")
     write(planned, out)
     sources = sorted(p for p in (out / "src").rglob("*.c") if p.parent.name != "port_posix")
-    return build(Tree(out, tuple(sources)), ["port_fake.c", "client.c", "client_ping.c"], "own_limits")
+    return build(
+        Tree(out, tuple(sources)),
+        ["port_fake.c", "client.c", "client_ping.c", "client_no_read.c"],
+        "own_limits",
+    )
 
 
 @pytest.fixture

@@ -11,11 +11,13 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.plan.runtime import RuntimePlan
+from microros_gen.plan.runtime import QueuePlan, RuntimePlan, SubscriptionPlan
 from runtime.harness import (
     DECLARED,
     FIXTURES,
+    INT32,
     POOL,
+    READER,
     Tree,
     compile_objects,
     compilers,
@@ -39,6 +41,28 @@ CREATION = replace(
     reliable_input_slots=3,
     reliable_input_slot_size=64,
 )
+ONLY_READER = replace(
+    DECLARED,
+    publishers=(),
+    publishers_max=0,
+    reliable_slots=0,
+    reliable_slot_size=0,
+    subscriptions=(SubscriptionPlan(0, 0, "/arm/go", "rt/arm/go", INT32, True),),
+    subscriptions_max=1,
+    queues=(QueuePlan(4, 4),),
+    reliable_input_slots=1,
+    reliable_input_slot_size=64,
+)
+BEST_EFFORT_READER = replace(
+    ONLY_READER,
+    reliable_input_slots=0,
+    reliable_input_slot_size=0,
+    error_text_size=0,
+    queues=(QueuePlan(1, 4),),
+)
+FRAGMENTED_READER = replace(
+    READER, entities="xml", mtu=64, reassembly_size=3000, queues=(QueuePlan(3, 2990),) * 2
+)
 RELIABLE = {
     "creation": "reliable",
     "creation_size": 128,
@@ -56,6 +80,12 @@ VARIANTS = {
     "block-none": (BLOCKING, "none"),
     "fragments-acknack": (FRAGMENTS, "acknack"),
     "creation-none": (CREATION, "none"),
+    "reader-ping": (READER, "ping"),
+    "reader-best-effort-none": (BEST_EFFORT_READER, "none"),
+    "reader-only-none": (ONLY_READER, "none"),
+    "reader-fragments-xml-ping": (FRAGMENTED_READER, "ping"),
+    "reader-preconfigured-ping": (replace(ONLY_READER, entities="preconfigured"), "ping"),
+    "reader-reference-ping": (replace(ONLY_READER, entities="reference"), "ping"),
 }
 FORBIDDEN = re.compile(
     r"\b(malloc|calloc|realloc|free|\w*printf|puts|fputs|fwrite|strtol|strdup|abort|exit|__assert\w*)$"
@@ -75,6 +105,12 @@ COMPILATIONS = [
     ("fragments-acknack", "clang", ("-Os",)),
     ("creation-none", "gcc", ("-Os",)),
     ("creation-none", "clang", ("-m32", "-O1")),
+    ("reader-ping", "gcc", ("-m32", "-Os")),
+    ("reader-only-none", "clang", ("-Os",)),
+    ("reader-only-none", "gcc", ("-m32", "-O2")),
+    ("reader-best-effort-none", "gcc", ("-Os",)),
+    ("reader-fragments-xml-ping", "clang", ("-m32", "-O1")),
+    ("reader-preconfigured-ping", "gcc", ("-O2",)),
 ]
 
 
@@ -157,14 +193,23 @@ def test_no_symbol_that_is_not_selected(plan: RuntimePlan, liveliness: str, tmp_
     outside = {name for name in needed - names if not name.startswith(("_GLOBAL_OFFSET", "__stack_chk"))}
     assert outside <= {"memcpy", "memset", "memcmp", "memmove", "strlen", "strcmp", "strncmp"}
     assert any("ping" in name for name in names) == (liveliness == "ping")
-    assert any("acknack" in name for name in names) == (liveliness == "acknack" or plan.reliable_slots > 0)
-    assert any("stream_reliable" in name for name in names) == (plan.reliable_slots > 0)
+    acknack = {name for name in names if "acknack" in name and "xrce_read" not in name}
+    assert bool(acknack) == (liveliness == "acknack" or plan.reliable_slots > 0)
+    streams = {name for name in names if "stream_reliable" in name and "input" not in name}
+    assert bool(streams) == (plan.reliable_slots > 0)
+    assert any("xrce_read" in name for name in names) == plan.receives
+    assert any("subscription" in name for name in names if name.startswith("r")) == (
+        plan.subscriptions_max > 0
+    )
+    assert any("fragments" in name for name in names) == (plan.receives and plan.reliable_input_slots > 0)
+    assert ("rcl_publish" in names) == (plan.publisher_places > 0)
     assert any("reliable_input" in name for name in names) == (plan.reliable_input_slots > 0)
-    assert any("best_effort" in name for name in names if "xrce" in name) == (plan.best_effort_size > 0)
+    best_effort = {name for name in names if "xrce_stream_best_effort" in name and "input" not in name}
+    assert bool(best_effort) == (plan.best_effort_size > 0)
     pieces = {"stream_flow", "stream_send_place", "stream_send_of", "stream_send_piece"}
     assert bool(pieces & _local(objects)) == plan.fragments
     _creates_as_the_plan_says(plan, names, b"".join(o.read_bytes() for o in objects))
-    prefixes = ("rcl", "rclc", "rmw", "rcutils", "rosidl", "xrce", "port", "microros")
+    prefixes = ("rcl", "rclc", "rmw", "rcutils", "rosidl", "xrce", "cdr", "port", "microros")
     assert all(name.startswith(prefixes) for name in names), "no name of ours can meet an application's"
 
 
@@ -172,7 +217,7 @@ def _creates_as_the_plan_says(plan: RuntimePlan, names: set[str], content: bytes
     """No way to describe entities but the selected one, and none at all where they are preconfigured."""
     creation = {"xrce_creation_send", "xrce_describe", "xrce_entities_on_status", "xrce_session_leave"}
     assert names & creation == (set() if plan.entities == "preconfigured" else creation)
-    assert any("reliable_input" in name for name in names) == (plan.creation == "reliable")
+    assert any("reliable_input" in name for name in names) == (plan.reliable_input_slots > 0)
     for word, way in (
         (b"<dds>", "xml"),
         (b"</name>", "xml"),

@@ -232,7 +232,8 @@ static rcl_ret_t call_entity(char ** word)
   return call_session(word);
 }
 
-int client_ping(char ** word); /* client_ping.c, or client_no_ping.c */
+int client_ping(char ** word);                         /* client_ping.c, or client_no_ping.c */
+int client_read(char ** word, rcl_node_t * node_list); /* client_read.c, or client_no_read.c */
 
 static rcl_ret_t call(const char * line)
 {
@@ -249,6 +250,9 @@ static rcl_ret_t call(const char * line)
   for (size_t i = 0; i < WORDS && at != NULL; ++i) {
     word[i] = at;
     at = strtok(NULL, " ");
+  }
+  if (strncmp(word[0], "read_", 5) == 0) {
+    return client_read(word, nodes);
   }
   return strncmp(word[0], "ping", 4) == 0 ? client_ping(word) : call_entity(word);
 }

@@ -5,6 +5,12 @@
 
 #include <string.h>
 
+/* types_read.c has decoders. */
+#ifndef INT32_DECODE
+#define INT32_DECODE NULL
+#define STRING_DECODE NULL
+#endif
+
 enum { STRING_LIMIT = 8 };
 
 static void put_u32(uint8_t * at, uint32_t value)
@@ -31,7 +37,7 @@ static uint32_t int32_size(const void * message, cdr_fault_t * fault)
 }
 
 static const microros_message_type_t int32_type = {
-  "std_msgs::msg::dds_::Int32_", 4, int32_encode, int32_size, NULL};
+  "std_msgs::msg::dds_::Int32_", 4, int32_encode, int32_size, INT32_DECODE};
 static const rosidl_message_type_support_t int32_support = {"microros", &int32_type};
 
 const rosidl_message_type_support_t *
@@ -67,7 +73,7 @@ static uint32_t string_encode(const void * message, uint8_t * body, cdr_fault_t 
 }
 
 static const microros_message_type_t string_type = {
-  "std_msgs::msg::dds_::String_", STRING_LIMIT + 5, string_encode, string_size, NULL};
+  "std_msgs::msg::dds_::String_", STRING_LIMIT + 5, string_encode, string_size, STRING_DECODE};
 static const rosidl_message_type_support_t string_support = {"microros", &string_type};
 
 const rosidl_message_type_support_t *

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "microros/cdr_decode.h"
 #include "microros/error.h"
 #include "microros/message_type.h"
+#include "microros/rmw_decode.h"
 #include "rmw/rmw.h"
 
 #include <stddef.h>
@@ -9,33 +9,10 @@
 /* Representation identifier and options; CDR_BE and CDR_LE are 0 and 1 (OMG DDS-XTypes 1.3, 7.6.3.1.2). */
 enum { ENCAPSULATION_SIZE = 4, CDR_LITTLE_ENDIAN = 1 };
 
-static bool is_little_endian_here(void)
-{
-  const uint16_t one = 1u;
-
-  return *(const uint8_t *)&one != 0u;
-}
-
-static rmw_ret_t deserialize_refuse(const microros_message_type_t * type, const cdr_fault_t * fault)
-{
-  microros_error_t error = microros_error_field;
-
-  if (fault->kind == CDR_FAULT_END) {
-    error = microros_error_body_end;
-  } else if (fault->kind == CDR_FAULT_VALUE) {
-    error = microros_error_value;
-  } else {
-    /* above a limit */
-  }
-  microros_error_set(error, type->dds_type_name, fault->field, fault->found, fault->fits);
-  return RMW_RET_ERROR;
-}
-
 rmw_ret_t rmw_deserialize(
   const rmw_serialized_message_t * serialized_message, const rosidl_message_type_support_t * type_support,
   void * ros_message)
 {
-  cdr_fault_t fault = {"", 0, 0, CDR_FAULT_LIMIT};
   const microros_message_type_t * type;
   const uint8_t * bytes;
   uint32_t representation;
@@ -52,7 +29,7 @@ rmw_ret_t rmw_deserialize(
   size = (bytes == NULL) ? 0u : serialized_message->buffer_length;
   if (size < (size_t)ENCAPSULATION_SIZE) {
     const cdr_fault_t short_of = {"encapsulation", ENCAPSULATION_SIZE, (uint32_t)size, CDR_FAULT_END};
-    return deserialize_refuse(type, &short_of);
+    return rmw_decode_refuse(type, &short_of);
   }
   representation = ((uint32_t)bytes[0] << 8) | bytes[1];
   if (representation > (uint32_t)CDR_LITTLE_ENDIAN) {
@@ -63,9 +40,5 @@ rmw_ret_t rmw_deserialize(
   bytes = &bytes[ENCAPSULATION_SIZE];
   size -= (size_t)ENCAPSULATION_SIZE;
   size = (size > UINT32_MAX) ? UINT32_MAX : size;
-  const bool swap = (representation == (uint32_t)CDR_LITTLE_ENDIAN) != is_little_endian_here();
-  if (!cdr_decode(type, bytes, (uint32_t)size, swap, ros_message, &fault)) {
-    return deserialize_refuse(type, &fault);
-  }
-  return RMW_RET_OK;
+  return rmw_decode(type, bytes, (uint32_t)size, representation != (uint32_t)CDR_LITTLE_ENDIAN, ros_message);
 }

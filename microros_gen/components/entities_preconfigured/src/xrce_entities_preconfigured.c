@@ -6,15 +6,15 @@
 void xrce_entities_add(xrce_client_t * client, uint16_t place)
 {
   client->states[place].wanted = true;
-  client->states[place].level = place < MICROROS_NODES_MAX ? XRCE_PARTICIPANT_COMPLETE : XRCE_WRITER_COMPLETE;
+  client->states[place].level = xrce_place_complete(place);
 }
 
 void xrce_entities_remove(xrce_client_t * client, uint16_t place)
 {
   client->states[place].wanted = false;
   client->states[place].level = 0;
-  for (uint16_t i = 0; i < MICROROS_PUBLISHERS_MAX; ++i) {
-    if (client->writers[i].participant == place) {
+  for (uint16_t i = 0; i < XRCE_ENDPOINTS; ++i) {
+    if (client->endpoints[i].participant == place) {
       client->states[MICROROS_NODES_MAX + i].wanted = false;
       client->states[MICROROS_NODES_MAX + i].level = 0;
     }

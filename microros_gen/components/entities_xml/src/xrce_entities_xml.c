@@ -32,13 +32,13 @@ static uint8_t * xml_put_participant(uint8_t * at, const xrce_participant_t * pa
   return xml_put(at, texts);
 }
 
-/* The name and the type of a writer's topic, in what stands around them. */
+/* The name and the type of an endpoint's topic, in what stands around them. */
 static uint8_t * xml_put_topic(
-  uint8_t * at, const xrce_writer_t * writer, const char * before, const char * behind)
+  uint8_t * at, const xrce_endpoint_t * endpoint, const char * before, const char * behind)
 {
   const char * const texts[] = {
-    before,        "<name>rt", writer->topic, "</name><dataType>", writer->type->dds_type_name,
-    "</dataType>", behind,     NULL};
+    before, "<name>rt", endpoint->name, "</name><dataType>", endpoint->type->dds_type_name, "</dataType>",
+    behind, NULL};
 
   return xml_put(at, texts);
 }
@@ -66,22 +66,26 @@ static uint8_t * xml_put_depth(uint8_t * at, uint16_t depth)
   return xrce_describe_text(at, "</depth>");
 }
 
-static uint8_t * xml_put_data_writer(uint8_t * at, const xrce_writer_t * writer)
+static uint8_t * xml_put_data(uint8_t * at, const xrce_endpoint_t * endpoint, bool reads)
 {
   const char * const texts[] = {
     "</historyQos></topic><qos><durability><kind>",
-    (writer->qos & XRCE_QOS_TRANSIENT_LOCAL) != 0u ? "TRANSIENT_LOCAL" : "VOLATILE",
+    (endpoint->qos & XRCE_QOS_TRANSIENT_LOCAL) != 0u ? "TRANSIENT_LOCAL" : "VOLATILE",
     "</kind></durability><reliability><kind>",
-    (writer->qos & XRCE_QOS_RELIABLE) != 0u ? "RELIABLE" : "BEST_EFFORT",
-    "</kind></reliability></qos></data_writer></dds>",
+    (endpoint->qos & XRCE_QOS_RELIABLE) != 0u ? "RELIABLE" : "BEST_EFFORT",
+    reads ? "</kind></reliability></qos></data_reader></dds>"
+          : "</kind></reliability></qos></data_writer></dds>",
     NULL};
 
-  at = xml_put_topic(at, writer, "<dds><data_writer><topic><kind>NO_KEY</kind>", "<historyQos><kind>KEEP_");
-  at = xrce_describe_text(at, (writer->qos & XRCE_QOS_KEEP_LAST) != 0u ? "LAST</kind>" : "ALL</kind>");
-  return xml_put(xml_put_depth(at, writer->depth), texts);
+  at = xml_put_topic(
+    at, endpoint,
+    reads ? "<dds><data_reader><topic><kind>NO_KEY</kind>" : "<dds><data_writer><topic><kind>NO_KEY</kind>",
+    "<historyQos><kind>KEEP_");
+  at = xrce_describe_text(at, (endpoint->qos & XRCE_QOS_KEEP_LAST) != 0u ? "LAST</kind>" : "ALL</kind>");
+  return xml_put(xml_put_depth(at, endpoint->depth), texts);
 }
 
-/* The text of a publisher is empty. */
+/* The text of a publisher or subscriber is empty. */
 uint8_t * xrce_describe(
   const xrce_client_t * client, uint16_t place, uint8_t kind, uint8_t * blob, uint8_t * format)
 {
@@ -91,9 +95,11 @@ uint8_t * xrce_describe(
   if (kind == XRCE_KIND_PARTICIPANT) {
     end = xml_put_participant(blob, &client->participants[place]);
   } else if (kind == XRCE_KIND_TOPIC) {
-    end = xml_put_topic(blob, xrce_entities_writer(client, place), "<dds><topic>", "</topic></dds>");
+    end = xml_put_topic(blob, xrce_entities_endpoint(client, place), "<dds><topic>", "</topic></dds>");
   } else if (kind == XRCE_KIND_DATAWRITER) {
-    end = xml_put_data_writer(blob, xrce_entities_writer(client, place));
+    end = xml_put_data(blob, xrce_entities_endpoint(client, place), false);
+  } else if (xrce_place_is_reader(place) && kind == XRCE_KIND_DATAREADER) {
+    end = xml_put_data(blob, xrce_entities_endpoint(client, place), true);
   }
   *end++ = 0;
   return end;

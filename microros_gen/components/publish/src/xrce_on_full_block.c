@@ -4,7 +4,7 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_write.h"
 
-xrce_write_t xrce_write_on_full(xrce_writer_t * writer, uint8_t ** room)
+xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room)
 {
   const uint32_t start = port_time_ms();
 

@@ -8,7 +8,7 @@
 #include "microros/xrce_wire.h"
 #include "microros/xrce_write.h"
 
-xrce_write_t xrce_write_on_full(xrce_writer_t * writer, uint8_t ** room)
+xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room)
 {
   xrce_client_t * client = writer->client;
 

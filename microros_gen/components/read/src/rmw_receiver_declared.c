@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* `nodes:` is in the application file: only what it declares can be opened; the names are constants. */
+#include "microros/plan.h"
+#include "microros/rmw_receiver.h"
+#include "microros/text.h"
+#include "microros/xrce_client.h"
+
+bool rmw_receiver_take(
+  xrce_endpoint_t * wanted, const rmw_section_t * section, const rmw_name_t * name, const char * given)
+{
+  const char * type = wanted->type->dds_type_name;
+  microros_error_t error = section->undeclared;
+
+  for (uint16_t i = section->first; i < section->first + section->count; ++i) {
+    const microros_declared_endpoint_t * declared = &microros_declared_endpoints[i];
+
+    if (
+      declared->node != wanted->participant || !rmw_name_equals(name, declared->name) ||
+      !microros_text_equals(declared->dds_type, type)) {
+      continue;
+    }
+    if (!wanted->client->states[MICROROS_NODES_MAX + i].wanted) {
+      wanted->name = declared->name;
+      wanted->index = i;
+      return true;
+    }
+    error = section->taken;
+  }
+  microros_error_set(error, given, type, 0, 0);
+  return false;
+}

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What an application declares, as the other parts of the plan go through it."""
+
+from __future__ import annotations
+
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.model.application import Application, EndpointDecl, NodeDecl
+from microros_gen.model.names import expand_topic_name
+from microros_gen.model.types import TypeName
+from microros_gen.resolve.interfaces import split_type_name
+
+LARGEST_POOL = 250
+
+
+def declarations(application: Application, *kinds: str) -> tuple[tuple[int, NodeDecl, EndpointDecl], ...]:
+    """Return every declared endpoint of these kinds with its node and the node's index, in the order of the file."""
+    return tuple(
+        (index, node, endpoint)
+        for index, node in enumerate(application.nodes)
+        for endpoint in node.endpoints
+        if endpoint.kind in kinds
+    )
+
+
+def publisher_declarations(application: Application) -> tuple[tuple[int, NodeDecl, EndpointDecl], ...]:
+    """Return every declared publisher, as `declarations`."""
+    return declarations(application, "publisher")
+
+
+def subscription_declarations(application: Application) -> tuple[tuple[int, NodeDecl, EndpointDecl], ...]:
+    """Return every declared subscription, as `declarations`."""
+    return declarations(application, "subscription")
+
+
+def full_name(node: NodeDecl, endpoint: EndpointDecl) -> str:
+    """Return the fully qualified name of an endpoint's topic or service: `/imu/data`."""
+    return expand_topic_name(endpoint.topic, node.name, node.namespace)
+
+
+def node_name(node: NodeDecl) -> str:
+    """Return the fully qualified name of a node: `/arm/imu`."""
+    return expand_topic_name("~", node.name, node.namespace)
+
+
+def type_name(text: str) -> TypeName:
+    """Return the name that `pkg/Type` or `pkg/msg/Type` stands for (already checked)."""
+    name = split_type_name(text)
+    assert name is not None, text
+    return name
+
+
+def pool(application: Application, key: str, default: int, diagnostics: Diagnostics) -> int:
+    """Return how many places `pools: {key: N}` gives, `default` without it; too many are an error."""
+    value = application.pools.get(key, default)
+    if value > LARGEST_POOL:
+        diagnostics.error(
+            f"{value} {key} are more than the {LARGEST_POOL} that one session holds",
+            hint="Select fewer interfaces, or say how many there are at once with "
+            f"`pools: {{{key}: N}}` in the application file",
+        )
+    return value

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Endpoints that receive: their places, the queues in which samples wait, and the largest sample of each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.model.application import Application, EndpointDecl, Qos
+from microros_gen.model.selection import Selection
+from microros_gen.model.types import (
+    ArrayType,
+    Message,
+    NamedType,
+    SequenceType,
+    StringType,
+    TypeName,
+    element_of,
+)
+from microros_gen.plan.declared import full_name, pool, subscription_declarations, type_name
+from microros_gen.plan.names import dds_topic
+from microros_gen.plan.runtime import QueuePlan, SubscriptionPlan
+from microros_gen.plan.streams import Received
+from microros_gen.plan.types import TypePlan
+from microros_gen.plan.types_names import include_path
+
+LARGEST_DEFAULT_QUEUE = 4
+_SLOT_ALIGNMENT = 4
+
+
+@dataclass(frozen=True)
+class Receiving:
+    """`queues` has one entry for each place that receives, in the order of the places."""
+
+    subscriptions: tuple[SubscriptionPlan, ...] = ()
+    subscriptions_max: int = 0
+    queues: tuple[QueuePlan, ...] = ()
+    received: tuple[Received, ...] = ()
+
+
+def plan_receiving(
+    application: Application,
+    selection: Selection,
+    types: Mapping[TypeName, TypePlan],
+    roots: tuple[TypeName, ...],
+    diagnostics: Diagnostics,
+) -> Receiving:
+    """Plan the subscriptions; without `nodes:` each of the pool can have any of the `roots`.
+
+    A slot holds the largest sample under the subscription's own limits.
+    """
+    if not selection.has("subscribe"):
+        return Receiving()
+    if not application.nodes:
+        return _pooled(application, types, roots, diagnostics)
+    subscriptions, queues, received = [], [], []
+    for index, (node_index, node, endpoint) in enumerate(subscription_declarations(application)):
+        topic, name = full_name(node, endpoint), type_name(endpoint.type)
+        reliable = endpoint.qos.reliability == "reliable"
+        size = types[name].largest("subscription", index)
+        plan = SubscriptionPlan(index, node_index, topic, dds_topic(topic), name, reliable)
+        subscriptions.append(_with_storage(plan, types))
+        queues.append(_queue(endpoint, size))
+        received.append(
+            Received(
+                f"{endpoint.type} on {topic}",
+                size,
+                reliable,
+                not reliable,
+                endpoint.type_span or endpoint.span,
+            )
+        )
+    queues = queues or [QueuePlan(1, _SLOT_ALIGNMENT)]
+    return Receiving(tuple(subscriptions), len(queues), tuple(queues), tuple(received))
+
+
+def _with_storage(plan: SubscriptionPlan, types: Mapping[TypeName, TypePlan]) -> SubscriptionPlan:
+    type_ = types[plan.type]
+    if not type_.storage:
+        return plan
+    messages = {name: known.message for name, known in types.items()}
+    return replace(
+        plan,
+        storage=type_.storage_name(plan.topic),
+        header=include_path(type_.files.storage),
+        c_type=type_.c_name,
+        buffers=tuple(_buffers(type_.message, messages, "")),
+    )
+
+
+def _buffers(message: Message, messages: Mapping[TypeName, Message], prefix: str) -> Iterator[str]:
+    """Yield the strings and sequences that are there in a message without elements: `header.frame_id`."""
+    for field in message.fields:
+        element = element_of(field.type)
+        indices = range(field.type.size) if isinstance(field.type, ArrayType) else (None,)
+        for index in indices:
+            member = f"{prefix}{field.name}" + ("" if index is None else f"[{index}]")
+            if isinstance(field.type, SequenceType) or isinstance(element, StringType):
+                yield member
+            elif isinstance(element, NamedType):
+                yield from _buffers(messages[element.name], messages, f"{member}.")
+
+
+def default_queue(qos: Qos) -> int:
+    """Return how many samples wait where the application file does not say."""
+    return LARGEST_DEFAULT_QUEUE if qos.history == "keep_all" else min(qos.depth, LARGEST_DEFAULT_QUEUE)
+
+
+def _queue(endpoint: EndpointDecl, size: int) -> QueuePlan:
+    return QueuePlan(endpoint.queue or default_queue(endpoint.qos), _slot(size))
+
+
+def _pooled(
+    application: Application,
+    types: Mapping[TypeName, TypePlan],
+    roots: tuple[TypeName, ...],
+    diagnostics: Diagnostics,
+) -> Receiving:
+    places = pool(application, "subscriptions", len(roots), diagnostics)
+    slots = application.pools.get("queue", LARGEST_DEFAULT_QUEUE)
+    largest = max((types[root].max_encoded_size for root in roots), default=0)
+    received = tuple(Received(str(r), types[r].max_encoded_size, True, True) for r in roots)
+    queue = QueuePlan(slots, _slot(largest))
+    return Receiving((), max(places, 1), (queue,) * max(places, 1), received)
+
+
+def _slot(size: int) -> int:
+    """Return the bytes of a slot: a body, padded as some writers do."""
+    return (max(size, 1) + _SLOT_ALIGNMENT - 1) // _SLOT_ALIGNMENT * _SLOT_ALIGNMENT
