@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from functools import partial
 from dataclasses import dataclass
+from functools import partial
 from typing import ClassVar
 
 from microros_gen.agent.wire.cdr import Reader, Writer
