@@ -227,8 +227,9 @@ class Operations:
 
     def _timestamp(self, client: Client, submessage: Submessage, now: float) -> None:
         assert isinstance(submessage, Timestamp)
-        received = time.time_ns() - round((now - client.heard) * 1e9)
-        received, sent = (divmod(moment, 1_000_000_000) for moment in (received, time.time_ns()))
+        here = time.time_ns()
+        received = divmod(here - round((now - client.heard) * 1e9), 1_000_000_000)
+        sent = divmod(here, 1_000_000_000)
         client.send(client.session.unnumbered(TimestampReply(sent, received, submessage.transmit)))
 
     def _answer(self, client: Client, request: int, object_id: int, status: Status, now: float) -> None:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import ClassVar
 
 from microros_gen.agent.wire.cdr import Reader, Writer
@@ -217,8 +218,8 @@ class Info:
         """Write the payload; return the flags beside the byte order."""
         writer.identifier(self.request).identifier(self.object)
         writer.u8(self.status).u8(self.implementation_status)
-        writer.optional(lambda config: self._write_config(writer, config), self.config)
-        writer.optional(lambda activity: self._write_activity(writer, activity), self.activity)
+        writer.optional(partial(self._write_config, writer), self.config)
+        writer.optional(partial(self._write_activity, writer), self.activity)
         return 0
 
     @staticmethod

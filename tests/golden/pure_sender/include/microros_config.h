@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "993083e3e01bc20b"
-#define rcl_init rcl_init__plan_993083e3e01bc20b
-#define rclc_support_init rclc_support_init__plan_993083e3e01bc20b
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_993083e3e01bc20b
+#define MICROROS_PLAN_ID "205b8425a83a17aa"
+#define rcl_init rcl_init__plan_205b8425a83a17aa
+#define rclc_support_init rclc_support_init__plan_205b8425a83a17aa
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_205b8425a83a17aa
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u
@@ -42,6 +42,9 @@
 /* places */
 #define MICROROS_NODES_MAX 1u
 #define MICROROS_PUBLISHERS_MAX 1u
+#define MICROROS_SUBSCRIPTIONS_MAX 0u
+#define MICROROS_SERVICES_MAX 0u
+#define MICROROS_CLIENTS_MAX 0u
 #define MICROROS_NAME_SIZE 64u
 #define MICROROS_TYPE_NAME_SIZE 28u
 

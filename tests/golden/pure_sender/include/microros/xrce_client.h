@@ -27,7 +27,7 @@ struct xrce_client_t {
   uint32_t close_timeout_ms;
   xrce_object_state_t states[XRCE_PLACES];
   xrce_participant_t participants[MICROROS_NODES_MAX];
-  xrce_writer_t writers[MICROROS_PUBLISHERS_MAX];
+  xrce_endpoint_t endpoints[XRCE_ENDPOINTS];
   uint8_t input[MICROROS_INPUT_SIZE];
 };
 

@@ -22,19 +22,19 @@ typedef enum xrce_write_t {
 } xrce_write_t;
 
 /* Pumps, encodes, sends. XRCE_WRITE_REFUSED fills *fault. */
-xrce_write_t xrce_write_message(xrce_writer_t * writer, const void * message, cdr_fault_t * fault);
+xrce_write_t xrce_write_message(xrce_endpoint_t * writer, const void * message, cdr_fault_t * fault);
 
 /* The same with a body that is encoded already; `size` is not above xrce_route_capacity. */
-xrce_write_t xrce_write_body(xrce_writer_t * writer, const uint8_t * body, size_t size);
+xrce_write_t xrce_write_body(xrce_endpoint_t * writer, const uint8_t * body, size_t size);
 
 /* Returns room for the writer's next submessage, or NULL: no session, or no room. */
-uint8_t * xrce_write_reserve(const xrce_writer_t * writer);
+uint8_t * xrce_write_reserve(const xrce_endpoint_t * writer);
 
 /* There is no room: XRCE_WRITTEN and *room when there is now, else why not. One of on_full_*.c is there. */
-xrce_write_t xrce_write_on_full(xrce_writer_t * writer, uint8_t ** room);
+xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room);
 
 /* Why there is no room. */
-xrce_write_t xrce_write_obstacle(const xrce_writer_t * writer);
+xrce_write_t xrce_write_obstacle(const xrce_endpoint_t * writer);
 
 #ifdef __cplusplus
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The middleware interface, as far as applications call it. Publishing and rmw_serialize link with the
- * component `publish`, rmw_deserialize with `cdr_decode`.
+ * component `publish`, taking with `subscribe`, rmw_deserialize with `cdr_decode`.
  */
 #ifndef MICROROS_RMW_RMW_H
 #define MICROROS_RMW_RMW_H
@@ -39,6 +39,22 @@ rmw_ret_t rmw_publish(
 rmw_ret_t rmw_publish_serialized_message(
   const rmw_publisher_t * publisher, const rmw_serialized_message_t * serialized_message,
   rmw_publisher_allocation_t * allocation);
+
+/*
+ * Receives what has come, without waiting, and decodes the oldest sample; *taken is false when there is none. RMW_RET_ERROR,
+ * with a text: a sample was thrown away, as rcl_take says.
+ */
+rmw_ret_t rmw_take(
+  const rmw_subscription_t * subscription, void * ros_message, bool * taken,
+  rmw_subscription_allocation_t * allocation);
+
+rmw_ret_t rmw_take_with_info(
+  const rmw_subscription_t * subscription, void * ros_message, bool * taken,
+  rmw_message_info_t * message_info, rmw_subscription_allocation_t * allocation);
+
+rmw_ret_t rmw_take_serialized_message(
+  const rmw_subscription_t * subscription, rmw_serialized_message_t * serialized_message, bool * taken,
+  rmw_subscription_allocation_t * allocation);
 
 /* Gives the largest size under the limits, encapsulation included. `message_bounds` is not used. */
 rmw_ret_t rmw_get_serialized_message_size(

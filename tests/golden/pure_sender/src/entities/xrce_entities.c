@@ -21,10 +21,20 @@ enum {
 };
 
 static const uint8_t writer_kinds[] = {XRCE_KIND_TOPIC, XRCE_KIND_PUBLISHER, XRCE_KIND_DATAWRITER};
+static const uint8_t reader_kinds[] = {XRCE_KIND_TOPIC, XRCE_KIND_SUBSCRIBER, XRCE_KIND_DATAREADER};
 
-const xrce_writer_t * xrce_entities_writer(const xrce_client_t * client, uint16_t place)
+/* Returns what the object of an endpoint is that comes after `level` others. */
+static uint8_t entities_kind(uint16_t place, uint8_t level)
 {
-  return &client->writers[place - MICROROS_NODES_MAX];
+  if (xrce_place_is_service(place)) {
+    return place < XRCE_REQUESTERS_AT ? (uint8_t)XRCE_KIND_REPLIER : (uint8_t)XRCE_KIND_REQUESTER;
+  }
+  return xrce_place_is_reader(place) ? reader_kinds[level] : writer_kinds[level];
+}
+
+const xrce_endpoint_t * xrce_entities_endpoint(const xrce_client_t * client, uint16_t place)
+{
+  return &client->endpoints[place - MICROROS_NODES_MAX];
 }
 
 uint8_t * xrce_describe_text(uint8_t * at, const char * text)
@@ -35,11 +45,6 @@ uint8_t * xrce_describe_text(uint8_t * at, const char * text)
   return at;
 }
 
-static bool entities_is_participant(uint16_t place)
-{
-  return place < MICROROS_NODES_MAX;
-}
-
 /* Returns how many objects the place should have at the agent. */
 static uint8_t entities_goal(const xrce_client_t * client, uint16_t place)
 {
@@ -48,20 +53,21 @@ static uint8_t entities_goal(const xrce_client_t * client, uint16_t place)
   if (!state->wanted || state->stale) {
     return 0;
   }
-  return entities_is_participant(place) ? (uint8_t)XRCE_PARTICIPANT_COMPLETE : (uint8_t)XRCE_WRITER_COMPLETE;
+  return xrce_place_complete(place);
 }
 
-/* Whether a place can move on: a writer needs its participant, a participant outlives its writers. */
+/* Whether a place can move on: an endpoint needs its participant, a participant outlives its endpoints. */
 static bool entities_is_free(const xrce_client_t * client, uint16_t place, uint8_t goal)
 {
-  if (!entities_is_participant(place)) {
-    const xrce_object_state_t * parent = &client->states[xrce_entities_writer(client, place)->participant];
+  const xrce_object_state_t * parent;
 
+  if (!xrce_place_is_participant(place)) {
+    parent = &client->states[xrce_entities_endpoint(client, place)->participant];
     return goal == 0u || (parent->level != 0u && !parent->stale);
   }
   if (goal == 0u) {
-    for (uint16_t i = 0; i < MICROROS_PUBLISHERS_MAX; ++i) {
-      if (client->writers[i].participant == place && client->states[MICROROS_NODES_MAX + i].level != 0u) {
+    for (uint16_t i = 0; i < XRCE_ENDPOINTS; ++i) {
+      if (client->endpoints[i].participant == place && client->states[MICROROS_NODES_MAX + i].level != 0u) {
         return false;
       }
     }
@@ -129,9 +135,11 @@ static uint8_t * entities_put_owner(
     xrce_put_le16(end, client->participants[place].domain_id);
     return &end[2];
   }
-  parent = xrce_object_id(xrce_entities_writer(client, place)->participant, XRCE_KIND_PARTICIPANT);
+  parent = xrce_object_id(xrce_entities_endpoint(client, place)->participant, XRCE_KIND_PARTICIPANT);
   if (kind == XRCE_KIND_DATAWRITER) {
     parent = xrce_object_id((uint16_t)(place - MICROROS_NODES_MAX), XRCE_KIND_PUBLISHER);
+  } else if (xrce_place_is_reader(place) && kind == XRCE_KIND_DATAREADER) {
+    parent = xrce_object_id((uint16_t)(place - MICROROS_NODES_MAX), XRCE_KIND_SUBSCRIBER);
   }
   xrce_put_be16(end, parent);
   return &end[2];
@@ -160,9 +168,9 @@ static void entities_send(xrce_client_t * client, uint32_t now)
   enum { CREATE_FLAGS = XRCE_FLAG_LITTLE_ENDIAN | XRCE_FLAG_REUSE | XRCE_FLAG_REPLACE };
   xrce_entities_t * entities = &client->entities;
   const uint16_t place = entities->cursor;
-  const bool participant = entities_is_participant(place);
+  const bool participant = xrce_place_is_participant(place);
   const uint8_t level = (uint8_t)(client->states[place].level - (entities->deleting ? 1u : 0u));
-  const uint8_t kind = participant ? (uint8_t)XRCE_KIND_PARTICIPANT : writer_kinds[level];
+  const uint8_t kind = participant ? (uint8_t)XRCE_KIND_PARTICIPANT : entities_kind(place, level);
   const uint16_t index = participant ? place : (uint16_t)(place - MICROROS_NODES_MAX);
   uint8_t * room = xrce_creation_room(client);
   uint8_t * end = &room[DELETE_SIZE];
@@ -257,8 +265,8 @@ void xrce_entities_add(xrce_client_t * client, uint16_t place)
 void xrce_entities_remove(xrce_client_t * client, uint16_t place)
 {
   client->states[place].wanted = false;
-  for (uint16_t i = 0; i < MICROROS_PUBLISHERS_MAX; ++i) {
-    if (client->writers[i].participant == place) {
+  for (uint16_t i = 0; i < XRCE_ENDPOINTS; ++i) {
+    if (client->endpoints[i].participant == place) {
       client->states[MICROROS_NODES_MAX + i].wanted = false;
     }
   }

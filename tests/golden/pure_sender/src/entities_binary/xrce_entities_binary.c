@@ -29,45 +29,57 @@ static uint8_t * binary_put_participant(uint8_t * blob, const xrce_participant_t
 }
 
 /* No type reference, but a type name, padded to four from the blob's begin. */
-static uint8_t * binary_put_topic(uint8_t * blob, const xrce_writer_t * writer)
+static uint8_t * binary_put_topic(uint8_t * blob, const xrce_endpoint_t * endpoint)
 {
-  uint8_t * end = binary_put_string(blob, "rt", "", writer->topic);
+  uint8_t * end = binary_put_string(blob, "rt", "", endpoint->name);
 
   *end++ = 0;
   *end++ = 1;
   while (xrce_size_between(blob, end) % 4u != 0u) {
     *end++ = 0;
   }
-  return binary_put_string(end, "", "", writer->type->dds_type_name);
+  return binary_put_string(end, "", "", endpoint->type->dds_type_name);
 }
 
 /* QoS: flags, depth where there is one; neither deadline, lifespan, user data nor ownership strength. */
-static uint8_t * binary_put_data_writer(uint8_t * blob, const xrce_writer_t * writer)
+static uint8_t * binary_put_data_writer(uint8_t * blob, const xrce_endpoint_t * endpoint)
 {
   (void)memset(blob, 0, 14);
-  xrce_put_be16(&blob[0], xrce_object_id(writer->index, XRCE_KIND_TOPIC));
+  xrce_put_be16(&blob[0], xrce_object_id(endpoint->index, XRCE_KIND_TOPIC));
   blob[2] = 1;
-  blob[4] = writer->qos;
-  if (writer->depth == 0u) {
+  blob[4] = endpoint->qos;
+  if (endpoint->depth == 0u) {
     return &blob[11];
   }
   blob[6] = 1;
-  xrce_put_le16(&blob[8], writer->depth);
+  xrce_put_le16(&blob[8], endpoint->depth);
   return &blob[14];
+}
+
+/* As a data writer's, but neither filter by time nor by content where that has ownership strength. */
+static uint8_t * binary_put_data_reader(uint8_t * blob, const xrce_endpoint_t * endpoint)
+{
+  uint8_t * end = binary_put_data_writer(blob, endpoint);
+
+  *end++ = 0;
+  return end;
 }
 
 uint8_t * xrce_describe(
   const xrce_client_t * client, uint16_t place, uint8_t kind, uint8_t * blob, uint8_t * format)
 {
   *format = XRCE_FORMAT_BINARY;
+  if (xrce_place_is_reader(place) && kind == XRCE_KIND_DATAREADER) {
+    return binary_put_data_reader(blob, xrce_entities_endpoint(client, place));
+  }
   switch (kind) {
     case XRCE_KIND_PARTICIPANT:
       return binary_put_participant(blob, &client->participants[place]);
     case XRCE_KIND_TOPIC:
-      return binary_put_topic(blob, xrce_entities_writer(client, place));
+      return binary_put_topic(blob, xrce_entities_endpoint(client, place));
     case XRCE_KIND_DATAWRITER:
-      return binary_put_data_writer(blob, xrce_entities_writer(client, place));
-    default: /* a publisher: neither name nor QoS */
+      return binary_put_data_writer(blob, xrce_entities_endpoint(client, place));
+    default: /* a publisher or subscriber: neither name nor QoS */
       xrce_put_le16(blob, 0);
       return &blob[2];
   }

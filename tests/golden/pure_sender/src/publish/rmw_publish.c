@@ -11,7 +11,8 @@
 /* Bytes 00 01 00 00: XCDR1, little endian, no options (OMG DDS-XTypes 1.3, 7.6.3.1.2). */
 enum { ENCAPSULATION_SIZE = 4, CDR_LITTLE_ENDIAN = 1 };
 
-static rmw_ret_t publish_report(const xrce_writer_t * writer, xrce_write_t outcome, const cdr_fault_t * fault)
+static rmw_ret_t publish_report(
+  const xrce_endpoint_t * writer, xrce_write_t outcome, const cdr_fault_t * fault)
 {
   uint32_t waiting;
 
@@ -25,14 +26,14 @@ static rmw_ret_t publish_report(const xrce_writer_t * writer, xrce_write_t outco
       break;
     case XRCE_WRITE_FULL:
       waiting = xrce_route_unacknowledged(writer->client);
-      microros_error_set(microros_error_stream_full, writer->topic, NULL, waiting, waiting + 1u);
+      microros_error_set(microros_error_stream_full, writer->name, NULL, waiting, waiting + 1u);
       break;
     case XRCE_WRITE_NO_SESSION:
-      microros_error_set(microros_error_no_session, writer->topic, NULL, 0, 0);
+      microros_error_set(microros_error_no_session, writer->name, NULL, 0, 0);
       break;
     case XRCE_WRITE_NOT_SENT:
     default:
-      microros_error_set(microros_error_not_sent, writer->topic, NULL, 0, 0);
+      microros_error_set(microros_error_not_sent, writer->name, NULL, 0, 0);
       break;
   }
   return RMW_RET_ERROR;
@@ -41,7 +42,7 @@ static rmw_ret_t publish_report(const xrce_writer_t * writer, xrce_write_t outco
 rmw_ret_t rmw_publisher_write(const rmw_publisher_t * publisher, const void * ros_message)
 {
   cdr_fault_t fault = {"", 0, 0, CDR_FAULT_LIMIT};
-  xrce_writer_t * writer = publisher->data;
+  xrce_endpoint_t * writer = publisher->data;
   const xrce_write_t outcome = xrce_write_message(writer, ros_message, &fault);
 
   return outcome == XRCE_WRITTEN ? RMW_RET_OK : publish_report(writer, outcome, &fault);
@@ -63,7 +64,7 @@ rmw_ret_t rmw_publish_serialized_message(
 {
   const cdr_fault_t fault = {"", 0, 0, CDR_FAULT_LIMIT};
   const uint8_t * bytes;
-  xrce_writer_t * writer;
+  xrce_endpoint_t * writer;
   size_t capacity;
   size_t size;
 

@@ -3,7 +3,7 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_write.h"
 
-xrce_write_t xrce_write_on_full(xrce_writer_t * writer, uint8_t ** room)
+xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room)
 {
   (void)room;
   ++writer->client->session.statistics.dropped;

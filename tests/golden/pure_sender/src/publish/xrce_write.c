@@ -10,36 +10,36 @@
 /* What stands before the body in a submessage. */
 enum { BODY_OFFSET = XRCE_SUBMESSAGE_HEADER + XRCE_OBJECT_PREFIX };
 
-static bool write_is_reliable(const xrce_writer_t * writer)
+static bool write_is_reliable(const xrce_endpoint_t * writer)
 {
   return (writer->qos & XRCE_QOS_RELIABLE) != 0u;
 }
 
-static bool write_has_session(const xrce_writer_t * writer)
+static bool write_has_session(const xrce_endpoint_t * writer)
 {
   return writer->client->session.state == XRCE_READY &&
-         writer->client->states[MICROROS_NODES_MAX + writer->index].level == XRCE_WRITER_COMPLETE;
+         writer->client->states[MICROROS_NODES_MAX + writer->index].level == XRCE_ENDPOINT_COMPLETE;
 }
 
-uint8_t * xrce_write_reserve(const xrce_writer_t * writer)
+uint8_t * xrce_write_reserve(const xrce_endpoint_t * writer)
 {
   return write_has_session(writer) ? xrce_route_reserve(writer->client, write_is_reliable(writer)) : NULL;
 }
 
-xrce_write_t xrce_write_obstacle(const xrce_writer_t * writer)
+xrce_write_t xrce_write_obstacle(const xrce_endpoint_t * writer)
 {
   return write_has_session(writer) ? XRCE_WRITE_FULL : XRCE_WRITE_NO_SESSION;
 }
 
 /* Pumps, and returns XRCE_WRITTEN with the room for a submessage, or why there is none. */
-static xrce_write_t write_begin(xrce_writer_t * writer, uint8_t ** room)
+static xrce_write_t write_begin(xrce_endpoint_t * writer, uint8_t ** room)
 {
   xrce_session_pump(writer->client);
   *room = xrce_write_reserve(writer);
   return *room != NULL ? XRCE_WRITTEN : xrce_write_on_full(writer, room);
 }
 
-static xrce_write_t write_end(xrce_writer_t * writer, uint8_t * room, size_t size)
+static xrce_write_t write_end(xrce_endpoint_t * writer, uint8_t * room, size_t size)
 {
   xrce_client_t * client = writer->client;
 
@@ -53,7 +53,7 @@ static xrce_write_t write_end(xrce_writer_t * writer, uint8_t * room, size_t siz
   return XRCE_WRITTEN;
 }
 
-xrce_write_t xrce_write_message(xrce_writer_t * writer, const void * message, cdr_fault_t * fault)
+xrce_write_t xrce_write_message(xrce_endpoint_t * writer, const void * message, cdr_fault_t * fault)
 {
   uint8_t * room;
   size_t size;
@@ -66,7 +66,7 @@ xrce_write_t xrce_write_message(xrce_writer_t * writer, const void * message, cd
   return size == 0u ? XRCE_WRITE_REFUSED : write_end(writer, room, size);
 }
 
-xrce_write_t xrce_write_body(xrce_writer_t * writer, const uint8_t * body, size_t size)
+xrce_write_t xrce_write_body(xrce_endpoint_t * writer, const uint8_t * body, size_t size)
 {
   uint8_t * room;
   const xrce_write_t outcome = write_begin(writer, &room);

@@ -49,6 +49,12 @@ extern const char microros_error_value[];
 extern const char microros_error_memory_rule[];
 extern const char microros_error_memory_given[];
 extern const char microros_error_memory_buffer[];
+extern const char microros_error_subscription_undeclared[];
+extern const char microros_error_subscription_open[];
+extern const char microros_error_subscriptions_full[];
+extern const char microros_error_subscription_qos[];
+extern const char microros_error_sample_large[];
+extern const char microros_error_read_refused[];
 
 /*
  * Makes this the last error. What `name`, `detail`, `found` and `fits` mean is said beside the texts; the

@@ -3,8 +3,9 @@
 #ifndef MICROROS_MESSAGE_TYPE_H
 #define MICROROS_MESSAGE_TYPE_H
 
-#include <stdbool.h>
 #include <stdint.h>
+
+struct cdr_in_t;
 
 typedef enum cdr_fault_kind_t {
   CDR_FAULT_LIMIT, /* more bytes of a string, or elements of a sequence, than fit */
@@ -32,10 +33,9 @@ typedef struct microros_message_type_t {
   uint32_t (*encode)(const void * message, uint8_t * body, cdr_fault_t * fault);
   /* Returns the exact length of the body; 0: refused, *fault is filled. */
   uint32_t (*encoded_size)(const void * message, cdr_fault_t * fault);
-  /* Reads `size` bytes, `swap` where they are big endian on a little endian target or the reverse, into the
-   * storage that the message has. False: refused, *fault is filled, the contents of the message are unspecified
-   * (sizes stay within capacities). NULL for a type that is only sent. */
-  bool (*decode)(const uint8_t * body, uint32_t size, bool swap, void * message, cdr_fault_t * fault);
+  /* Reads the body into the storage that the message has. NULL for a type that is only sent. Called by cdr_decode
+   * (microros/cdr_decode.h), which says whether it was read. */
+  void (*decode)(struct cdr_in_t * in, void * message);
 } microros_message_type_t;
 
 #endif /* MICROROS_MESSAGE_TYPE_H */

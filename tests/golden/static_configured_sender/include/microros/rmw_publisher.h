@@ -32,13 +32,10 @@ bool rmw_publisher_is_open(const rmw_publisher_t * publisher);
 /* rmw_publish for an open publisher and a message that is not NULL. */
 rmw_ret_t rmw_publisher_write(const rmw_publisher_t * publisher, const void * ros_message);
 
-/* Finds a free place for the writer and fills its topic and index in; false, with a text: there is none.
+/* Finds a free place for the writer and fills its topic and index in, and its type where its declaration has limits
+ * of its own; false, with a text: there is none. The place is taken when the client's table of writers has it.
  * `given` is the topic as the caller wrote it. */
-bool rmw_publisher_take(xrce_writer_t * writer, const rmw_name_t * topic, const char * given);
-
-/* Gives the flags and depth that XRCE carries for `qos`; returns NULL, or the name of a policy that it cannot
- * carry. */
-const char * rmw_qos_to_xrce(const rmw_qos_profile_t * qos, uint8_t * flags, uint16_t * depth);
+bool rmw_publisher_take(xrce_endpoint_t * writer, const rmw_name_t * topic, const char * given);
 
 #ifdef __cplusplus
 }

@@ -37,8 +37,8 @@ void xrce_entities_on_status(xrce_client_t * client, const uint8_t * payload, si
 /* Whether every wanted entity is at the agent. */
 bool xrce_entities_settled(const xrce_client_t * client);
 
-/* Returns the writer of a place. */
-const xrce_writer_t * xrce_entities_writer(const xrce_client_t * client, uint16_t place);
+/* Returns the endpoint of a place. */
+const xrce_endpoint_t * xrce_entities_endpoint(const xrce_client_t * client, uint16_t place);
 
 /*
  * The stream, as one of xrce_creation_*.c has it. Whether a new request may go now; without one, nothing is taken.

@@ -20,7 +20,7 @@ enum { XRCE_DONE = 0, XRCE_SILENT = 1 };
 /* The application opens a place: what it is to be is filled in. */
 void xrce_entities_add(xrce_client_t * client, uint16_t place);
 
-/* The application closes a place; with a participant go its writers. */
+/* The application closes a place; with a participant go its endpoints. */
 void xrce_entities_remove(xrce_client_t * client, uint16_t place);
 
 /* Waits at most `timeout_ms` until the agent has what is wanted of this place, or has let it go. */

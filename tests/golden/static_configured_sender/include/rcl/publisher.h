@@ -50,8 +50,9 @@ rcl_publisher_options_t rcl_publisher_get_default_options(void);
 
 /*
  * Encodes into the stream, carries the session on and does not wait, unless `on_full` is block (then at most
- * MICROROS_ON_FULL_BLOCK_MS). RCL_RET_OK: the stream has taken it. RCL_RET_ERROR: a field above its limit, no
- * room, or no session; the text says which, and `dropped` of rmw_uros_get_statistics counts the last two.
+ * MICROROS_ON_FULL_BLOCK_MS). RCL_RET_OK: the stream has taken it. RCL_RET_ERROR: a field above the limit that this
+ * publisher has in the application file, no room, or no session; the text says which, and `dropped` of
+ * rmw_uros_get_statistics counts the last two.
  * Of a reliable message that is larger than MICROROS_MTU at most 16 fragments go at once, the others in later calls:
  * rcl_publish, rmw_uros_spin_once, rmw_uros_flush.
  */

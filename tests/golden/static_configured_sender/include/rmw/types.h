@@ -55,6 +55,23 @@ typedef struct rmw_publisher_allocation_s {
   void * data;
 } rmw_publisher_allocation_t;
 
+/* Filters by content are not carried: `content_filter_options` is not read. */
+typedef struct rmw_subscription_options_s {
+  void * rmw_specific_subscription_payload;
+  bool ignore_local_publications;
+  rmw_unique_network_flow_endpoints_requirement_t require_unique_network_flow_endpoints;
+  void * content_filter_options;
+} rmw_subscription_options_t;
+
+typedef struct rmw_subscription_s {
+  const char * implementation_identifier;
+  void * data;
+  const char * topic_name;
+  rmw_subscription_options_t options;
+  bool can_loan_messages;
+  bool is_cft_enabled;
+} rmw_subscription_t;
+
 typedef struct rmw_subscription_allocation_s {
   const char * implementation_identifier;
   void * data;

@@ -15,11 +15,12 @@ extern "C" {
 
 /* Counters since rcl_init; each starts again at 0 after 2^32 - 1. */
 typedef struct rmw_uros_statistics_t {
-  uint32_t sent;       /* datagrams handed to the transport */
-  uint32_t resent;     /* reliable datagrams sent again */
-  uint32_t received;   /* datagrams that came in */
-  uint32_t malformed;  /* of these, thrown away in whole or in part */
-  uint32_t dropped;    /* messages that no stream took, or that made room for newer ones */
+  uint32_t sent;      /* datagrams handed to the transport */
+  uint32_t resent;    /* reliable datagrams sent again */
+  uint32_t received;  /* datagrams that came in */
+  uint32_t malformed; /* of these, thrown away in whole or in part */
+  uint32_t
+    dropped; /* messages that no stream took, or that made room for newer ones; samples that came and went so */
   uint32_t reconnects; /* sessions opened after one was lost */
   uint32_t refused;    /* creations that the agent refused while it re-created entities */
 } rmw_uros_statistics_t;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Objects by the names under which the agent finds them in its file of references; the names are those of the rmw of
- * micro-ROS: "participant_profile" of a client with one node, "imu/data__t" of a topic and "imu/data__dw" of its data
- * writer. A node among several has its own: "arm/imu__p". A publisher has no name; its text is empty.
+ * micro-ROS: "participant_profile" of a client with one node, "imu/data__t" of a topic, "imu/data__dw" of its data
+ * writer and "imu/data__dr" of its data reader. A node among several has its own: "arm/imu__p". A publisher or
+ * subscriber has no name; its text is empty.
  */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"
@@ -28,10 +29,13 @@ uint8_t * xrce_describe(
   *format = XRCE_FORMAT_REFERENCE;
   if (kind == XRCE_KIND_PARTICIPANT) {
     end = reference_put_participant(blob, &client->participants[place]);
-  } else if (kind == XRCE_KIND_PUBLISHER) {
+  } else if (kind == XRCE_KIND_PUBLISHER || (xrce_place_is_reader(place) && kind == XRCE_KIND_SUBSCRIBER)) {
     *format = XRCE_FORMAT_XML;
+  } else if (xrce_place_is_reader(place)) {
+    end = xrce_describe_text(blob, &xrce_entities_endpoint(client, place)->name[1]);
+    end = xrce_describe_text(end, kind == XRCE_KIND_TOPIC ? "__t" : "__dr");
   } else {
-    end = xrce_describe_text(blob, &xrce_entities_writer(client, place)->topic[1]);
+    end = xrce_describe_text(blob, &xrce_entities_endpoint(client, place)->name[1]);
     end = xrce_describe_text(end, kind == XRCE_KIND_TOPIC ? "__t" : "__dw");
   }
   *end++ = 0;

@@ -10,9 +10,17 @@
 /* Returns what the place was waiting for: the next object, or the last one when that is to be deleted. */
 static const char * place_kind(const xrce_client_t * client, uint16_t place)
 {
-  static const char * const objects[] = {"topic", "publisher", "datawriter", "datawriter"};
+  static const char * const of_writer[] = {"topic", "publisher", "datawriter", "datawriter"};
+  static const char * const of_reader[] = {"topic", "subscriber", "datareader", "datareader"};
+  const uint8_t level = client->states[place].level;
 
-  return place < MICROROS_NODES_MAX ? "node" : objects[client->states[place].level];
+  if (xrce_place_is_participant(place)) {
+    return "node";
+  }
+  if (xrce_place_is_service(place)) {
+    return place < XRCE_REQUESTERS_AT ? "replier" : "requester";
+  }
+  return xrce_place_is_reader(place) ? of_reader[level] : of_writer[level];
 }
 
 rmw_ret_t rmw_place_open(xrce_client_t * client, uint16_t place, const char * name)

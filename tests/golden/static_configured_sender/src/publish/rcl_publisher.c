@@ -110,7 +110,7 @@ rcl_ret_t rcl_publish_serialized_message(
 
 rcl_ret_t rcl_publisher_wait_for_all_acked(const rcl_publisher_t * publisher, rcl_duration_value_t timeout)
 {
-  const xrce_writer_t * writer;
+  const xrce_endpoint_t * writer;
   uint32_t timeout_ms = UINT32_MAX;
 
   if (!rcl_publisher_is_valid(publisher)) {

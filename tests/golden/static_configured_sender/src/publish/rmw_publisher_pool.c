@@ -5,7 +5,7 @@
 #include "microros/text.h"
 #include "microros/xrce_client.h"
 
-bool rmw_publisher_take(xrce_writer_t * writer, const rmw_name_t * topic, const char * given)
+bool rmw_publisher_take(xrce_endpoint_t * writer, const rmw_name_t * topic, const char * given)
 {
   static char topics[MICROROS_PUBLISHERS_MAX][MICROROS_NAME_SIZE];
   const size_t size = rmw_name_size(topic);
@@ -22,7 +22,7 @@ bool rmw_publisher_take(xrce_writer_t * writer, const rmw_name_t * topic, const 
   for (uint16_t i = 0; i < MICROROS_PUBLISHERS_MAX; ++i) {
     if (!writer->client->states[MICROROS_NODES_MAX + i].wanted) {
       rmw_name_copy(topic, topics[i]);
-      writer->topic = topics[i];
+      writer->name = topics[i];
       writer->index = i;
       return true;
     }

@@ -2,6 +2,14 @@
 #ifndef STD_MSGS__MSG__INT32_H
 #define STD_MSGS__MSG__INT32_H
 
+/**
+ * @file
+ * std_msgs/msg/Int32: what an application includes for it.
+ *
+ * Bytes with 32-bit pointers (with 64-bit ones), and of the CDR body under the limits of this application:
+ * - std_msgs__msg__Int32: 4, body 4
+ */
+
 #include "std_msgs/msg/detail/int32__functions.h"
 #include "std_msgs/msg/detail/int32__struct.h"
 #include "std_msgs/msg/detail/int32__type_support.h"

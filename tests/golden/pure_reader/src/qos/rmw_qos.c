@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "microros/rmw_publisher.h"
+#include "microros/rmw_qos.h"
 #include "microros/xrce_wire.h"
 
 #include <stddef.h>

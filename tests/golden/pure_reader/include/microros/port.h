@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What the library asks of the system below it. A port implements the groups that the selection uses; each
+ * function is a symbol of its own, so that what nobody calls is not linked. The library calls these from the
+ * task that calls it, and keeps no pointer that it hands over.
+ *
+ * Groups: time and sleep, unique id, UDP, serial line. A further group (mutex, tasks, OS timers, wake-up, memory sections,
+ * other transports) is added here with the component that needs it.
+ */
+#ifndef MICROROS_PORT_H
+#define MICROROS_PORT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* --- time and sleep --- */
+
+/* Returns milliseconds since some start; never goes back, starts again at 0 after 2^32 - 1. */
+uint32_t port_time_ms(void);
+
+/* Returns nanoseconds since 1970-01-01 00:00 UTC, as far as the system knows. */
+int64_t port_time_epoch_ns(void);
+
+/* Sleeps at least `duration_ms`; 0 yields. */
+void port_sleep_ms(uint32_t duration_ms);
+
+/* --- unique id --- */
+
+/* Returns a number that no other device has and that stays over a restart; never 0. */
+uint32_t port_unique_id(void);
+
+/* --- UDP --- */
+
+/* One socket; `handle` is the port's own, of which the library only keeps a copy. */
+typedef struct port_udp_t {
+  intptr_t handle;
+} port_udp_t;
+
+/* Opens a socket that talks to one peer and hears no other. `host` is an IPv4 address in digits, copied before
+ * the call returns. False: no network, or no such address. Does not block. */
+bool port_udp_open(port_udp_t * udp, const char * host, uint16_t port);
+
+void port_udp_close(port_udp_t * udp);
+
+/* Sends one datagram without blocking. False: not sent. */
+bool port_udp_send(port_udp_t * udp, const uint8_t * data, size_t size);
+
+/* Takes one datagram without blocking. Returns its length, 0 when there is none, -1 when it did not fit
+ * `capacity`. */
+int32_t port_udp_receive(port_udp_t * udp, uint8_t * buffer, size_t capacity);
+
+/* --- serial line --- */
+
+/* One line of bytes; `handle` is the port's own, of which the library only keeps a copy. */
+typedef struct port_serial_t {
+  intptr_t handle;
+} port_serial_t;
+
+/* Opens the line; `device` is its name where there is an operating system, "" for the one that a board has.
+ * False: there is no such line, or it cannot have `baud` bits per second. Does not block. */
+bool port_serial_open(port_serial_t * serial, const char * device, uint32_t baud);
+
+void port_serial_close(port_serial_t * serial);
+
+/* Hands all bytes to the line. Waits for its pace at most: ten bits a byte. False: they were not all taken. */
+bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size);
+
+/* Takes what has arrived, without blocking. Returns how many bytes that is, at most `capacity`. */
+size_t port_serial_read(port_serial_t * serial, uint8_t * buffer, size_t capacity);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_PORT_H */

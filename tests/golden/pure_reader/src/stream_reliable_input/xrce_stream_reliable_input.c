@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/xrce_stream_reliable_input.h"
+
+#include "microros/xrce_client.h"
+#include "microros/xrce_routes.h"
+#include "microros/xrce_wire.h"
+
+#include <string.h>
+
+/* An ACKNACK has this many bits, and the agent sends no more than these ahead. Numbers from half of 2^16 on are old. */
+enum { ACKNACK_MESSAGE = 13, WINDOW = 16, HALF = 0x8000 };
+
+void xrce_stream_reliable_input_reset(xrce_stream_reliable_input_t * stream)
+{
+  (void)memset(stream, 0, sizeof(*stream));
+}
+
+/* Tells the agent whose turn it is, and which messages behind that are known but not here. */
+static void input_acknowledge(xrce_client_t * client)
+{
+  const xrce_stream_reliable_input_t * stream = &client->reliable_input;
+  const uint16_t missing = (uint16_t)(stream->announced & ~xrce_stream_reliable_input_map(stream));
+  uint8_t message[ACKNACK_MESSAGE];
+
+  xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_NONE, 0);
+  xrce_put_submessage(&message[4], XRCE_ACKNACK, XRCE_FLAG_LITTLE_ENDIAN, XRCE_ACKNACK_SIZE);
+  xrce_put_le16(&message[8], stream->next);
+  xrce_put_be16(&message[10], missing);
+  message[12] = XRCE_STREAM_RELIABLE;
+  (void)xrce_session_send(&client->session, message, sizeof(message)); /* the agent asks again */
+}
+
+/* There are `count` messages from the one on whose turn it is. */
+static void input_announce(xrce_stream_reliable_input_t * stream, uint16_t count)
+{
+  const uint32_t map = count < WINDOW ? ((uint32_t)1u << count) - 1u : 0xffffu;
+
+  stream->announced = (uint16_t)(stream->announced | map);
+}
+
+static void input_advance(xrce_stream_reliable_input_t * stream)
+{
+  ++stream->next;
+  stream->announced >>= 1;
+}
+
+/* Hands on the message whose turn it is. A malformed one is counted; it would be no better a second time. */
+static void input_hand_on(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
+{
+  input_advance(&client->reliable_input);
+  if (!xrce_session_take_submessages(client, message, size, now)) {
+    ++client->session.statistics.malformed;
+  }
+}
+
+/* Hands on what is kept from the message on whose turn it is. */
+static void input_hand_on_kept(xrce_client_t * client, uint32_t now)
+{
+  xrce_stream_reliable_input_t * stream = &client->reliable_input;
+  size_t size = 0;
+  const uint8_t * message = xrce_stream_reliable_input_kept(stream, stream->next, &size);
+
+  while (message != NULL) {
+    input_hand_on(client, message, size, now);
+    message = xrce_stream_reliable_input_kept(stream, stream->next, &size);
+  }
+}
+
+bool xrce_stream_reliable_input_take(
+  xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
+{
+  xrce_stream_reliable_input_t * stream = &client->reliable_input;
+  const uint16_t sequence = xrce_get_le16(&message[2]);
+  const uint16_t ahead = (uint16_t)(sequence - stream->next);
+
+  if (message[1] != XRCE_STREAM_RELIABLE) {
+    return false;
+  }
+  if (client->session.state != XRCE_READY) {
+    return true;
+  }
+  if (ahead == 0u) {
+    input_hand_on(client, message, size, now);
+    input_hand_on_kept(client, now);
+  } else if (ahead < WINDOW) {
+    input_announce(stream, (uint16_t)(ahead + 1u));
+    xrce_stream_reliable_input_keep(stream, sequence, message, size);
+  }
+  input_acknowledge(client);
+  return true;
+}
+
+/* Goes past messages that cannot be had any more; what is kept of them is handed on. */
+static void input_skip(xrce_client_t * client, uint16_t first, uint32_t now)
+{
+  xrce_stream_reliable_input_t * stream = &client->reliable_input;
+
+  for (uint8_t i = 0; i < WINDOW && stream->next != first; ++i) {
+    size_t size = 0;
+    const uint8_t * message = xrce_stream_reliable_input_kept(stream, stream->next, &size);
+
+    if (message != NULL) {
+      input_hand_on(client, message, size, now);
+    } else {
+      input_advance(stream);
+    }
+  }
+  stream->next = first; /* nothing is kept beyond the window */
+  input_hand_on_kept(client, now);
+}
+
+bool xrce_stream_reliable_input_on_heartbeat(
+  xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags, uint32_t now)
+{
+  xrce_stream_reliable_input_t * stream = &client->reliable_input;
+  uint16_t first;
+  uint16_t known;
+
+  if (size < XRCE_HEARTBEAT_SIZE) {
+    return false;
+  }
+  if (payload[4] != XRCE_STREAM_RELIABLE || client->session.state != XRCE_READY) {
+    return true;
+  }
+  first = xrce_get_u16(&payload[0], flags);
+  if ((uint16_t)(first - stream->next) < HALF) {
+    input_skip(client, first, now);
+  }
+  known = (uint16_t)(xrce_get_u16(&payload[2], flags) - stream->next + 1u);
+  if (known < HALF) {
+    input_announce(stream, known);
+  }
+  input_acknowledge(client);
+  return true;
+}
