@@ -1,10 +1,11 @@
 /*
  * An application for pure_reader, to start from: copy it out of this folder and change it.
- * It publishes nothing every EXAMPLE_PERIOD_MS milliseconds.
+ * It looks every EXAMPLE_PERIOD_MS milliseconds for std_msgs/msg/Int32 on int32.
  */
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>
 #include <rclc/rclc.h>
+#include <std_msgs/msg/int32.h>
 
 #include <stdint.h>
 #include <stdio.h>
@@ -13,13 +14,15 @@
 #define EXAMPLE_PERIOD_MS 100
 #endif
 
-/* How often it publishes before it ends: here, for years. */
+/* How often it does so before it ends: here, for years. */
 #ifndef EXAMPLE_SAMPLES
 #define EXAMPLE_SAMPLES UINT32_MAX
 #endif
 
 static rclc_support_t support;
 static rcl_node_t node;
+static rcl_subscription_t subscription_0;
+static std_msgs__msg__Int32 int32_received_0;
 
 static rcl_ret_t application_init(void)
 {
@@ -29,11 +32,20 @@ static rcl_ret_t application_init(void)
   if (result == RCL_RET_OK) {
     result = rclc_node_init_default(&node, "pure_reader", "", &support);
   }
+  if (result == RCL_RET_OK) {
+    result = rclc_subscription_init_default(
+      &subscription_0, &node,
+      ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32), "int32");
+  }
+  if (result == RCL_RET_OK && !std_msgs__msg__Int32__init(&int32_received_0)) {
+    result = RCL_RET_ERROR;
+  }
   return result;
 }
 
 static void application_fini(void)
 {
+  (void)rcl_subscription_fini(&subscription_0, &node);
   (void)rcl_node_fini(&node);
   (void)rclc_support_fini(&support);
 }
@@ -43,6 +55,25 @@ static void report(const char * what)
 {
   (void)fprintf(stderr, "%s: %s\n", what, rcl_get_error_string().str);
   rcl_reset_error();
+}
+
+/* Takes what has come since the last call. */
+static uint32_t take_int32_received_0(void)
+{
+  uint32_t failed = 0;
+  rcl_ret_t result = rcl_take(&subscription_0, &int32_received_0, NULL, NULL);
+
+  while (result != RCL_RET_SUBSCRIPTION_TAKE_FAILED) {
+    if (result != RCL_RET_OK) {
+      report("int32");
+      ++failed;
+    } else {
+      (void)printf("int32: %lld\n", (long long)int32_received_0.data);
+      (void)fflush(stdout);
+    }
+    result = rcl_take(&subscription_0, &int32_received_0, NULL, NULL);
+  }
+  return failed;
 }
 
 int main(void)
@@ -55,6 +86,7 @@ int main(void)
     return 1;
   }
   for (uint32_t count = 0; count < EXAMPLE_SAMPLES; ++count) {
+    failed += take_int32_received_0();
     rclc_sleep_ms(EXAMPLE_PERIOD_MS);
   }
   application_fini();

@@ -66,7 +66,7 @@ static bool entities_is_free(const xrce_client_t * client, uint16_t place, uint8
     return goal == 0u || (parent->level != 0u && !parent->stale);
   }
   if (goal == 0u) {
-    for (uint16_t i = 0; i < XRCE_ENDPOINTS; ++i) {
+    for (uint16_t i = 0; i < (uint16_t)XRCE_ENDPOINTS; ++i) {
       if (client->endpoints[i].participant == place && client->states[MICROROS_NODES_MAX + i].level != 0u) {
         return false;
       }
@@ -265,7 +265,7 @@ void xrce_entities_add(xrce_client_t * client, uint16_t place)
 void xrce_entities_remove(xrce_client_t * client, uint16_t place)
 {
   client->states[place].wanted = false;
-  for (uint16_t i = 0; i < XRCE_ENDPOINTS; ++i) {
+  for (uint16_t i = 0; i < (uint16_t)XRCE_ENDPOINTS; ++i) {
     if (client->endpoints[i].participant == place) {
       client->states[MICROROS_NODES_MAX + i].wanted = false;
     }

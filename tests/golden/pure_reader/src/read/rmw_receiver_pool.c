@@ -11,6 +11,7 @@ bool rmw_receiver_take(
 {
   static char names[XRCE_RECEIVERS][MICROROS_NAME_SIZE];
   const size_t size = rmw_name_size(name);
+  const uint16_t end = (uint16_t)(section->first + section->count);
 
   if (size >= MICROROS_NAME_SIZE) {
     microros_error_set(microros_error_name_long, given, NULL, (uint32_t)size, (uint32_t)size + 1u);
@@ -21,7 +22,7 @@ bool rmw_receiver_take(
       microros_error_name, wanted->type->dds_type_name, "too long for the stream of this plan", 0, 0);
     return false;
   }
-  for (uint16_t i = section->first; i < section->first + section->count; ++i) {
+  for (uint16_t i = section->first; i < end; ++i) {
     if (!wanted->client->states[MICROROS_NODES_MAX + i].wanted) {
       char * text = names[i - MICROROS_PUBLISHERS_MAX];
 

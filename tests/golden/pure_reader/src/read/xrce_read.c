@@ -151,7 +151,7 @@ void xrce_read_step(xrce_client_t * client, uint32_t now)
     }
     return;
   }
-  for (uint16_t i = 0; i < XRCE_RECEIVERS; ++i) {
+  for (uint16_t i = 0; i < (uint16_t)XRCE_RECEIVERS; ++i) {
     reading->receiver = (uint16_t)(reading->receiver + 1u);
     reading->receiver = reading->receiver < XRCE_RECEIVERS ? reading->receiver : 0u;
     if (read_wants(client, reading->receiver, now, &samples)) {
@@ -165,7 +165,7 @@ void xrce_read_renew(xrce_client_t * client, uint32_t now)
 {
   client->reading.outstanding = false;
   client->reading.sequence = 0;
-  for (uint16_t i = 0; i < XRCE_RECEIVERS; ++i) {
+  for (uint16_t i = 0; i < (uint16_t)XRCE_RECEIVERS; ++i) {
     xrce_receiver_t * receiver = &client->receivers[i];
 
     if (receiver->request != XRCE_REQUEST_NONE) {

@@ -14,7 +14,7 @@
 #define EXAMPLE_PERIOD_MS 100
 #endif
 
-/* How often it publishes before it ends: here, for years. */
+/* How often it does so before it ends: here, for years. */
 #ifndef EXAMPLE_SAMPLES
 #define EXAMPLE_SAMPLES UINT32_MAX
 #endif
