@@ -54,6 +54,16 @@ nodes:
 limits: {"*": {string: 16}}
 """
 
+_READER = """\
+version: 1
+profiles: [pure_reader]
+limits: {"*": {string: 24, sequence: 6}}
+nodes:
+  - name: ear
+    subscriptions:
+      - {topic: said, type: std_msgs/msg/String, limits: {string: 3000}, queue: 2}
+      - {topic: joints, type: sensor_msgs/msg/JointState}
+"""
 VARIANTS: Mapping[str, str] = MappingProxyType(
     {
         "pool": _POOL,
@@ -71,6 +81,12 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         "best-effort-ping-drop": _BEST_EFFORT + "on_full: drop_oldest\nsession: {key: 7}\n",
         "best-effort-reference-reliable-held": _BEST_EFFORT
         + "entities: reference\ncreation: reliable\npools: {input_history: 2}\n",
+        "reader": _READER
+        + "      - {topic: fast, type: std_msgs/msg/Int32, qos: {reliability: best_effort}}\n",
+        "reader-code-none-preconfigured": _READER
+        + "entities: preconfigured\nliveliness: none\nerrors: code\n",
+        "reader-pool-xml": "version: 1\nprofiles: [pure_reader]\ninterfaces: [std_msgs/msg/String]\n"
+        + "entities: xml\nlimits: {'*': {string: 2000}}\ntransport: {mtu: 2400}\n",
     }
 )
 """Application files by name. Together they select every alternative file of the components that are ready."""

@@ -181,7 +181,7 @@ def test_ram_is_split_as_the_compiler_lays_it_out(measured: Measured) -> None:
         report.folder.path,
         "sizeof(struct xrce_client_t)",
         "sizeof(((struct xrce_client_t *)0)->reliable)",
-        "sizeof(xrce_writer_t)",
+        "sizeof(xrce_endpoint_t)",
         "sizeof(sensor_msgs__msg__Imu)",
         "sizeof(sensor_msgs__msg__Imu__Storage)",
     )

@@ -83,8 +83,8 @@ IN_THE_FILE = {
     ),
     "a component that is not there yet": (
         "[pure_sender]",
-        "[pure_sender, pure_reader]",
-        r"microros\.yaml:2:25: error: .*pure_reader.*subscribe.*does not have yet",
+        "[pure_sender, managed_service]",
+        r"microros\.yaml:2:25: error: .*managed_service.*lifecycle.*does not have yet",
     ),
     "contradictory components": (
         "profiles: [pure_sender]",

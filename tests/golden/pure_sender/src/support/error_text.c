@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* errors: text. All words of the library are here. */
+/* errors: text. The words of the library are here, but for those of a component that brings its own. */
 #include "microros/error.h"
 #include "microros/error_state.h"
 #include "microros/xrce_transport.h"
@@ -49,14 +49,6 @@ const char microros_error_value[] = "%t.%d: %n is above %m";
 const char microros_error_memory_rule[] = "memory rule '%d' names no string or sequence of %t";
 const char microros_error_memory_given[] = "the allocator gives no memory for %n bytes";
 const char microros_error_memory_buffer[] = "the buffer has %n bytes and the message takes %m";
-const char microros_error_subscription_undeclared[] =
-  "subscription not declared: add to its node's subscriptions:%y: {topic: %s, type: %D}";
-const char microros_error_subscription_open[] = "subscription %s is open already";
-const char microros_error_subscriptions_full[] =
-  "all %n subscriptions are open: set pools: {subscriptions: %m}%y";
-const char microros_error_subscription_qos[] = "subscription %s: XRCE carries no such QoS: %d";
-const char microros_error_sample_large[] = "%s: %n bytes have come and %m fit: raise limits%y";
-const char microros_error_read_refused[] = "%s: the agent refuses READ_DATA: %a";
 const char microros_error_framing[] = "custom transport: set transport: {framing: %d}%y";
 
 /* From status 0x80 on (OMG DDS-XRCE 1.0, 7.7.2). */
