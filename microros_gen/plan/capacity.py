@@ -10,6 +10,7 @@ in each of the two:
    then `Header`, then the root type itself);
 3. `*`.
 
+One number for a sequence of messages (`transforms: 2`) is how many of them, and nothing below.
 A bound in the interface file caps whatever a rule says. Where no rule speaks, the default holds and is
 recorded as such; with defaults switched off a bound is the capacity, and without one the field is an error.
 
@@ -34,7 +35,7 @@ from microros_gen.model.types import (
     TypeName,
     element_of,
 )
-from microros_gen.plan.capacity_rules import LARGEST_LIMIT, RuleChecker, absolute_path
+from microros_gen.plan.capacity_rules import LARGEST_LIMIT, RuleChecker, absolute_path, is_count
 from microros_gen.plan.types_size import FieldLimits, TypeLimits, WireSizes
 
 
@@ -155,11 +156,11 @@ def plan_capacities(
     checker.check(application)
     limits: dict[TypeName, TypeLimits | None] = {}
     decided: dict[tuple[TypeName, tuple[str, ...], str], Capacity] = {}
-    shared = _Tier(application)
+    shared = _Tier(messages, application)
     own: list[EntityLimits] = []
     for root in roots:
         checker.check(root.rules, root.type)
-        tiers = [_Tier(root.rules, root.type), shared] if root.rules else [shared]
+        tiers = [_Tier(messages, root.rules, root.type), shared] if root.rules else [shared]
         walk = _Walk(messages, root, tiers, defaults)
         found = walk.type_limits(root.type, (), (str(root.type),))
         walk.report_unset(found, diagnostics)
@@ -187,8 +188,13 @@ def _topic_limits(
 class _Tier:
     """Rules of one origin, ready for look-up."""
 
-    def __init__(self, rules: Iterable[LimitRule], root: TypeName | None = None) -> None:
+    def __init__(
+        self, messages: Mapping[TypeName, Message], rules: Iterable[LimitRule], root: TypeName | None = None
+    ) -> None:
         self._rules = {absolute_path(rule.path, root): rule for rule in rules}
+        self._counts = frozenset(
+            path for path, rule in self._rules.items() if rule.single and is_count(path, messages)
+        )
         self._starts = frozenset(path[0] for path in self._rules)
         self._anywhere = self._rules.get(("*",))
 
@@ -208,8 +214,9 @@ class _Tier:
 
     def _from(self, start: str, path: tuple[str, ...], lengths: Iterable[int]) -> Iterator[LimitRule]:
         for length in lengths:
-            rule = self._rules.get((start, *path[:length]))
-            if rule is not None:
+            key = (start, *path[:length])
+            rule = self._rules.get(key)
+            if rule is not None and (length == len(path) or key not in self._counts):
                 yield rule
 
 

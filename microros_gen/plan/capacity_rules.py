@@ -124,6 +124,20 @@ def bound_of(field_type: FieldType) -> int | None:
     return field_type.bound if isinstance(field_type, (SequenceType, StringType)) else None
 
 
+def is_count(path: tuple[str, ...], messages: Mapping[TypeName, Message]) -> bool:
+    """Return whether `path`, its type first, ends at a sequence of messages: one number there counts them."""
+    message = next((m for m in messages.values() if str(m.name) == path[0]), None)
+    found: FieldType | None = None
+    for name in path[1:]:
+        field = next((f for f in message.fields if f.name == name), None) if message is not None else None
+        if field is None:
+            return False
+        found = field.type
+        element = element_of(found)
+        message = messages[element.name] if isinstance(element, NamedType) else None
+    return isinstance(found, SequenceType) and message is not None
+
+
 def absolute_path(path: tuple[str, ...], root: TypeName | None) -> tuple[str, ...]:
     """Return `path` with its type first; the own limits of an entity may start at a member."""
     if root is None or path == ("*",) or (path and "/" in path[0]):

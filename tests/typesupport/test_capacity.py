@@ -146,6 +146,25 @@ def test_one_number_means_what_the_field_is(messages: Mapping[TypeName, Message]
     assert value(capacities, "leaf.text") == 8
 
 
+def test_one_number_for_a_sequence_of_messages_counts_them_and_nothing_below(
+    messages: Mapping[TypeName, Message],
+) -> None:
+    leaf = (rule("*", string=30, sequence=5), rule("pkg/msg/Leaf.raw", 7, 7, single=True))
+    of_root = rule("pkg/msg/Root.middle.leaves", 2, 2, single=True)
+    of_middle = rule("pkg/msg/Middle.leaves", 2, 2, single=True)
+    own = (Root(ROOT, (rule("middle.leaves", 2, 2, single=True),)),)
+    for capacities in (
+        plan(messages, *leaf, of_root),
+        plan(messages, *leaf, of_middle),
+        plan(messages, *leaf, roots=own),
+    ):
+        assert value(capacities, "middle.leaves", "sequence") == 2
+        assert value(capacities, "middle.leaves.text") == 30
+        assert value(capacities, "middle.leaves.raw", "sequence") == 7
+    one_for_all = plan(messages, *leaf, rule("pkg/msg/Root.middle.leaf", 3, 3, single=True))
+    assert value(one_for_all, "middle.leaf.text") == value(one_for_all, "middle.leaf.raw", "sequence") == 3
+
+
 def test_bounds_cap_general_rules(messages: Mapping[TypeName, Message]) -> None:
     capacities = plan(messages, rule("*", string=99, sequence=99))
     assert value(capacities, "leaf.brief") == 10
