@@ -39,7 +39,7 @@ class Share:
 
 @dataclass(frozen=True)
 class Entity:
-    """A node or publisher. `ram`: its own places in the library; `flash`: of its type's support, used by
+    """A node, publisher or subscription. `ram`: its own places in the library; `flash`: of its type's support, used by
     `type_users` entities; `message`: messages of its type (with their storage) that the application keeps.
     """
 
@@ -55,9 +55,10 @@ class Entity:
 
 _INDEXED = (
     (re.compile(r"(?:^|\.)(?:participants|nodes)\[(\d+)\]"), "node"),
-    (re.compile(r"(?:^|\.)(?:writers|publishers|topics)\[(\d+)\]"), "publisher"),
-    (re.compile(r"(?:^|\.)(?:readers|subscriptions)\[(\d+)\]"), "subscription"),
+    (re.compile(r"(?:^|\.)(?:publishers|topics)\[(\d+)\]"), "publisher"),
+    (re.compile(r"(?:^|\.)(?:receivers|subscriptions)\[(\d+)\]"), "subscription"),
 )
+_ENDPOINTS = re.compile(r"(?:^|\.)endpoints\[(\d+)\]")
 _STATES = re.compile(r"(?:^|\.)states\[(\d+)\]")
 _SLOT = re.compile(r"^\.(?:reliable|reliable_output)\.\w+\[(\d+)\]")
 _CLIENT = "xrce_client_t"
@@ -67,6 +68,8 @@ _MEMBERS = {
     "reliable_output": "reliable stream",
     "reliable_input": "input stream",
     "input": "input buffer",
+    "slots": "queues",
+    "queues": "queues",
 }
 
 
@@ -84,7 +87,11 @@ def entities(folder: Folder, pieces: Iterable[Piece], parts: Iterable[RamPart]) 
     for piece in pieces:
         if piece.owner.group == "type support":
             flash[piece.owner.name] = flash.get(piece.owner.name, 0) + piece.flash
-    return (*_nodes(folder.manifest, by_use), *_publishers(folder.manifest, by_use, flash))
+    return (
+        *_nodes(folder.manifest, by_use),
+        *_publishers(folder.manifest, by_use, flash),
+        *_subscriptions(folder.manifest, by_use, flash),
+    )
 
 
 def library_ram(parts: Iterable[RamPart]) -> int:
@@ -122,7 +129,10 @@ def _use(manifest: Mapping[str, Any], piece: Piece, kind: str, path: str) -> str
         match = _STATES.search(text)
         if match:
             place, nodes = int(match[1]), int(manifest["pools"]["nodes"])
-            return f"node {place}" if place < nodes else f"publisher {place - nodes}"
+            return f"node {place}" if place < nodes else _endpoint(manifest, place - nodes)
+        match = _ENDPOINTS.search(text)
+        if match:
+            return _endpoint(manifest, int(match[1]))
     if kind == _CLIENT or (piece.owner.name == "support" and path.startswith(".session")):
         slot = _SLOT.match(path)
         if slot:
@@ -134,6 +144,14 @@ def _use(manifest: Mapping[str, Any], piece: Piece, kind: str, path: str) -> str
             (piece.source or "").rpartition("/")[2][:-2], piece.owner.name
         )
     return piece.owner.name if piece.owner.group == "start-up" else piece.owner.group
+
+
+def _endpoint(manifest: Mapping[str, Any], index: int) -> str:
+    """Return whose place this is: those of publishers come first."""
+    pools = manifest["pools"]
+    subscriptions = int(pools.get("subscriptions", 0))
+    publishers = max(int(pools["publishers"]), 0 if subscriptions else 1)
+    return f"publisher {index}" if index < publishers else f"subscription {index - publishers}"
 
 
 def _of_application(folder: Folder, kind: str) -> str:
@@ -175,6 +193,29 @@ def _publishers(
             sum(1 for p in declared if p["type"] == known["type"]) if known else count,
             sum(by_use.get(f"message of {kind}", 0) for kind in kinds),
             shares,
+        )
+
+
+def _subscriptions(
+    manifest: Mapping[str, Any], by_use: Mapping[str, int], flash: Mapping[str, int]
+) -> Iterator[Entity]:
+    """Yield the subscriptions; the bytes of its queue are its own."""
+    declared = manifest["entities"].get("subscriptions", [])
+    count = int(manifest["pools"].get("subscriptions", 0))
+    for index in range(count):
+        known = declared[index] if index < len(declared) else None
+        kinds = {known["type"]} if known else set(manifest["types"])
+        parts = {part for kind in kinds for part in manifest["types"][kind]["parts"]} | kinds
+        queue = known["queue"] * known["slot_size"] if known else by_use.get("queues", 0) // count
+        yield Entity(
+            "subscription",
+            known["topic"] if known else f"subscription {index} of the pool",
+            known["type"] if known else None,
+            by_use.get(f"subscription {index}", 0) + queue,
+            sum(flash.get(part, 0) for part in parts),
+            sum(1 for s in declared if s["type"] == known["type"]) if known else count,
+            sum(by_use.get(f"message of {kind}", 0) for kind in kinds),
+            (),
         )
 
 

@@ -192,7 +192,7 @@ def test_ram_is_split_as_the_compiler_lays_it_out(measured: Measured) -> None:
     assert len(slots) == pools["reliable_slots"]
     assert set(slots.values()) == {pools["reliable_slot_size"]}
     assert reliable >= sum(slots.values())
-    mine = [p for p in parts if ".writers[1]" in p.path]
+    mine = [p for p in parts if ".endpoints[1]" in p.path]
     assert 0 < sum(p.size for p in mine) <= writer
     assert {p.use for p in mine} == {"publisher 1"}
     entities = {e.name: e for e in report.entities}

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Subscriptions without an executor: rclpy, this project's agent and an image with sanitizers, also of 32 bit."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+import pytest
+from agent.observer import Observer
+from agent.process import AgentProcess
+
+from e2e.images import C_FILES, SANITIZE, Images, started
+from e2e.relay import Relay
+
+pytestmark = pytest.mark.ros
+
+APPLICATION = """\
+version: 1
+profiles: [pure_reader]
+nodes:
+  - name: ear
+    subscriptions:
+      - {topic: numbers, type: std_msgs/msg/Int32, queue: 8, qos: {depth: 1000}}
+      - {topic: words, type: std_msgs/msg/String, qos: {reliability: best_effort, depth: 5}}
+limits: {"*": {string: 8}}
+"""
+LAST = 299
+
+
+def publish(observer: Observer, topic: str, type_name: str, *values: object) -> None:
+    data = [{"data": value} for value in values]
+    observer.ask(do="publish", topic=topic, type=type_name, values=data)
+
+
+def await_match(observer: Observer, topic: str) -> None:
+    end = time.monotonic() + 15
+    while not observer.ask(do="matched", topic=topic):
+        assert time.monotonic() < end, f"nobody subscribes to {topic}"
+        time.sleep(0.05)
+
+
+@pytest.mark.parametrize("entities", ["binary", "xml"])
+def test_rclpy_publishes_and_the_client_takes(
+    images: Images,
+    image_port: Relay,
+    agent: AgentProcess,
+    observer: Observer,
+    tmp_path: Path,
+    entities: str,
+) -> None:
+    """Every reliable sample once and in order; a word above its limit is refused in words; the graph shows the node."""
+    flags = ("-m32", *SANITIZE) if entities == "xml" else SANITIZE
+    image = images.build(image_port.port, f"{APPLICATION}entities: {entities}\n", "gcc", flags)
+    program = image.application(C_FILES / "listen.c", tmp_path / "listen", "-std=c99", "-Wall", "-Werror")
+    publish(observer, "/numbers", "std_msgs/msg/Int32")
+    publish(observer, "/words", "std_msgs/msg/String")
+    with started(program, str(LAST)) as process:
+        await_match(observer, "/numbers")
+        await_match(observer, "/words")
+        publish(observer, "/words", "std_msgs/msg/String", "short", "much longer", "again")
+        time.sleep(0.3)
+        for value in range(0, LAST + 1, 50):
+            publish(observer, "/numbers", "std_msgs/msg/Int32", *range(value, min(value + 50, LAST + 1)))
+        out, errors = process.communicate(timeout=30)
+    assert (process.returncode, errors) == (0, "")
+    lines = out.splitlines()
+    assert [line for line in lines if line.startswith("number")] == [f"number {i}" for i in range(LAST + 1)]
+    assert [line for line in lines if line.startswith("word")] == ["word short", "word again"]
+    (refused,) = (line for line in lines if line.startswith("refused"))
+    assert (
+        refused.endswith("16 bytes have come and 16 fit: raise limits in microros.yaml")
+        or "limit 8" in refused
+    )
