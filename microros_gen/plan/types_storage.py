@@ -169,7 +169,7 @@ def plan_storage(
         units: list[StorageUnit] = []
         lower = [(names[t.type, t.topic], t.topic, t.limits) for t in topics if t.type == name]
         for base, topic, own in [*lower, (c_name(name), "", limits)]:
-            planner = _Planner(messages, homes, base, topic, diagnostics)
+            planner = _Planner(messages, homes, name, base, topic, diagnostics)
             planner.unit(name, own, "")
             units += planner.units
             pending += planner.shared
@@ -220,6 +220,7 @@ class _Planner:
         self,
         messages: Mapping[TypeName, Message],
         homes: Mapping[TypeName, TypeLimits | None],
+        owner: TypeName,
         base: str,
         topic: str,
         diagnostics: Diagnostics,
@@ -228,9 +229,14 @@ class _Planner:
         self.shared: list[TypeName] = []
         self._messages = messages
         self._homes = homes
+        self._owner = owner
         self._base = base
         self._topic = topic
         self._diagnostics = diagnostics
+
+    def place(self, path: str) -> str:
+        """Return what a user knows the member at `path` by."""
+        return f"{self._owner}.{path}" + (f" on {self._topic}" if self._topic else "")
 
     def unit(self, name: TypeName, limits: TypeLimits, path: str) -> str:
         """Plan the unit for the use of `name` at `path` ("" for the owner); return its name."""
@@ -288,7 +294,7 @@ class _UnitBuilder:
             count = (limits.sequence or 0) if limits else 0
         defaults = _defaults(field)
         if sequence and count is not None and len(defaults) > count:
-            self._too_small(field, "sequence", len(defaults), count)
+            self._too_small(field, member, "sequence", len(defaults), count)
             defaults = defaults[:count]
         if isinstance(element, StringType):
             self._strings(field, element, member, count, (limits.string or 0) if limits else 0, defaults)
@@ -325,7 +331,7 @@ class _UnitBuilder:
         texts = tuple(str(value) for value in defaults)
         for text in texts:
             if text_length(text, element.wide) > length:
-                self._too_small(field, "string", text_length(text, element.wide), length)
+                self._too_small(field, member, "string", text_length(text, element.wide), length)
         if count is None:
             self.members.append(StorageMember(member, (length + 1,), characters=element))
             self.steps.append(BindText(member, member, element.wide, texts[0] if texts else ""))
@@ -376,9 +382,10 @@ class _UnitBuilder:
                 return True
         return False
 
-    def _too_small(self, field: Field, kind: str, needed: int, limit: int) -> None:
+    def _too_small(self, field: Field, member: str, kind: str, needed: int, limit: int) -> None:
+        place = self._planner.place(f"{self._path}.{member}" if self._path else member)
         self._diagnostics.error(
-            f"the default value of '{field.name}' needs a {kind} limit of {needed}, and the limit is {limit}",
+            f"the default value of '{field.name}' needs a {kind} limit of {needed}, and that of {place} is {limit}",
             field.span,
             f"Set its {kind} limit to {needed}",
         )

@@ -12,7 +12,7 @@ from microros_gen.diagnostics import Diagnostics, Source, Span, UserError
 from microros_gen.model.application import LimitRule
 from microros_gen.model.types import Message, TypeName
 from microros_gen.parse.msg import parse_msg
-from microros_gen.plan.capacity import Capacities, Defaults, Origin, Root, plan_capacities
+from microros_gen.plan.capacity import Capacities, Defaults, Entity, Origin, Root, plan_capacities
 from microros_gen.plan.types import plan_types
 from microros_gen.plan.types_size import WireSizes
 
@@ -232,7 +232,30 @@ def test_a_default_value_above_the_limit_is_refused(tmp_path: Path) -> None:
     plan_types({name: message}, capacities, lambda _: "RIHS01_0", diagnostics)
     found = [d.headline() for d in diagnostics]
     assert [line.split(": ")[0] for line in found] == ["D.msg:1:1", "D.msg:2:1", "D.msg:3:1"]
-    assert "the default value of 'greeting' needs a string limit of 5, and the limit is 2" in found[0]
+    assert (
+        "default value of 'greeting' needs a string limit of 5, and that of pkg/msg/D.greeting is 2"
+        in found[0]
+    )
+
+
+def test_a_default_value_above_a_limit_names_the_use_and_the_topic() -> None:
+    diagnostics = Diagnostics()
+    texts = {"In": 'string word "hello"\n', "Out": "In[] parts\nIn one\n"}
+    messages: dict[TypeName, Message] = {}
+    for short, text in texts.items():
+        name = TypeName("pkg", "msg", short)
+        message = parse_msg(Source(f"{short}.msg", text), name, diagnostics)
+        assert message is not None
+        messages[name] = message
+    name = TypeName("pkg", "msg", "Out")
+    low = Root(name, (rule("one.word", string=4),), entity=Entity("publisher", 0, "/low", "/n"))
+    roots = (Root(name, entity=Entity("publisher", 1, "/all", "/n")), low)
+    rules = (rule("*", string=9, sequence=2), rule("pkg/msg/Out.parts.word", string=3))
+    capacities = plan_capacities(messages, roots, rules, Defaults(), diagnostics)
+    plan_types(messages, capacities, lambda _: "RIHS01_0", diagnostics)
+    found = "\n".join(d.headline() for d in diagnostics)
+    assert "limit of 5, and that of pkg/msg/Out.parts.word is 3" in found
+    assert "limit of 5, and that of pkg/msg/Out.one.word on /low is 4" in found
 
 
 def test_a_message_beyond_32_bits_is_refused(messages: Mapping[TypeName, Message]) -> None:

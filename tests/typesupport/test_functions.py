@@ -32,11 +32,16 @@ class Allocator(ctypes.Structure):
 
 
 class Memory:
-    """Counts blocks of the C library's allocator, and fails when `left` allocations are used up."""
+    """Counts blocks of the C library's allocator, and fails when `left` allocations are used up.
+
+    Blocks of `foreign` are left alone, as by the arena; without `grows` no block changes its size.
+    """
 
     def __init__(self) -> None:
         self.live: set[int] = set()
         self.left = 1 << 30
+        self.grows = True
+        self.foreign: set[int] = set()
         libc = ctypes.CDLL(None)
         for function in (libc.malloc, libc.calloc, libc.realloc):
             function.restype = ctypes.c_void_p
@@ -60,12 +65,12 @@ class Memory:
         return block
 
     def _free(self, block: int | None) -> None:
-        if block:
+        if block and block not in self.foreign:
             self.live.remove(block)
             self._libc.free(ctypes.c_void_p(block))
 
     def _grow(self, block: int | None, size: int) -> int | None:
-        if self.left == 0:
+        if self.left == 0 or not self.grows:
             return None
         self.left -= 1
         self.live.discard(block or 0)
@@ -194,6 +199,38 @@ def test_sequences_grow_and_compare(
         assert made
         call("Sequence__destroy", ctypes.c_void_p(made), result=None)  # type: ignore[arg-type]
         assert not memory.live, plan.name
+
+
+def test_a_sequence_in_static_storage_grows_into_the_arena(
+    everything: Generated, functions_library: ctypes.CDLL, memory: Memory
+) -> None:
+    """The arena cannot tell how large a block of the application is: growing asks for a new one and copies; where it
+    fails, the sequence is as it was."""
+    structs = CStructs(everything.messages)
+    memory.grows = False
+    for name in ("test_msgs/msg/MultiNested", "test_msgs/msg/WStrings", "sensor_msgs/msg/JointState"):
+        plan = everything.plan(name)
+        call = Functions(functions_library, plan)
+        source, copy = CString(), CString()
+        assert call("Sequence__init", source, ctypes.c_size_t(3))
+        own = structs.structure(plan.name)()
+        assert call("init", own)
+        before = structs.read(plan.name, own)
+        place = ctypes.addressof(own)
+        copy.data, copy.size, copy.capacity = place, 1, 1
+        memory.foreign.add(place)
+        memory.left = 0
+        assert not call("Sequence__copy", source, copy)
+        assert (copy.data, copy.size, copy.capacity) == (place, 1, 1)
+        assert structs.read(plan.name, own) == before
+        memory.left = 1 << 30
+        assert call("Sequence__copy", source, copy)
+        assert copy.data in memory.live
+        assert (copy.size, copy.capacity) == (3, 3)
+        assert call("Sequence__are_equal", source, copy)
+        call("Sequence__fini", source, result=None)
+        call("Sequence__fini", copy, result=None)
+        assert not memory.live, name
 
 
 def test_null_is_refused_or_ignored(everything: Generated, functions_library: ctypes.CDLL) -> None:
