@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Clients that come and go for long: nothing stays in the graph, in memory or unaccounted for."""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+
+import pytest
+
+from agent.process import own_domain
+from agent.soak import Place, World
+from agent.soak_processes import Peer, agent_process
+
+pytestmark = pytest.mark.ros
+
+TOLERATED = {"fault_late_reply"}
+"""A client that crashed and came again is not told what it asked for before."""
+GROWTH_KIB = 16_384
+"""What the process may grow after it is warm; each of many thousand lives would cost more if it left anything."""
+
+
+def soak(folder: Path, places: int, seconds: float, timeout_s: float) -> tuple[World, dict[str, object]]:
+    """Let clients live; return what was seen, and the agent's last words."""
+    domain = own_domain()
+    with agent_process(folder, domain, timeout_s, forget_s=3 * timeout_s) as agent:
+        peer = Peer(domain)
+        world = World(agent, domain, seconds, spread_s=min(seconds / 2, 10))
+        try:
+            world.run([Place(number, world) for number in range(places)])
+            end = time.monotonic() + 60 + timeout_s
+            while nodes := [name for name in peer.nodes() if name.startswith("/soak/node_")]:
+                assert time.monotonic() < end, f"still in the graph: {nodes}"
+                time.sleep(0.2)
+        finally:
+            peer.close()
+        agent.process.terminate()
+        assert agent.process.wait(timeout=60) == 0
+        events = agent.events()
+    (stopped,) = (event for event in events if event["event"] == "stopped")
+    for event in events:
+        if event["level"] in ("warning", "error"):
+            world.count[f"log {event['event']}"] += 1
+        elif event["event"].startswith("client_"):  # type: ignore[attr-defined]
+            world.count[str(event["event"])] += 1
+    return world, stopped
+
+
+def check(world: World, stopped: dict[str, object]) -> None:
+    """Hold what was seen to account."""
+    faults = {key: n for key, n in stopped.items() if key.startswith("fault_")}
+    assert set(faults) <= TOLERATED, faults
+    warnings = {key: n for key, n in world.count.items() if key.startswith("log ")}
+    assert set(warnings) <= {"log bad_input"}, warnings
+    assert world.count["samples accounted for"] > 0
+    assert world.count["samples down"] > 0
+
+
+def test_clients_come_and_go(tmp_path: Path) -> None:
+    world, stopped = soak(tmp_path, places=20, seconds=4, timeout_s=3)
+    check(world, stopped)
+
+
+@pytest.mark.long
+def test_a_hundred_clients_come_and_go_for_ten_minutes(tmp_path: Path) -> None:
+    seconds = float(os.environ.get("SOAK_SECONDS", "600"))
+    world, stopped = soak(tmp_path, places=100, seconds=seconds, timeout_s=6)
+    warm = [kib for at, kib in world.rss if seconds / 4 < at < seconds / 2]
+    late = [kib for at, kib in world.rss if 3 * seconds / 4 < at < seconds]
+    print(dict(world.count), dict(world.ends))
+    print(f"RSS in MiB: warm {max(warm) / 1024:.1f}, late {max(late) / 1024:.1f}; last words: {stopped}")
+    check(world, stopped)
+    assert max(late) - max(warm) < GROWTH_KIB
