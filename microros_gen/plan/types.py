@@ -7,12 +7,13 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 
 from microros_gen.diagnostics import Diagnostics
+from microros_gen.model.derived import declaring_name
 from microros_gen.model.types import Message, TypeName
 from microros_gen.plan.capacity import Capacities
 from microros_gen.plan.layout import I386, ILP32, LP64, DataModel, StructLayouts
 from microros_gen.plan.names import dds_type
 from microros_gen.plan.types_decode import DecodePlan, decode_files, plan_decoders
-from microros_gen.plan.types_names import TypeFiles, c_name, type_files
+from microros_gen.plan.types_names import TypeFiles, c_name, include_path, type_files
 from microros_gen.plan.types_own_limits import LimitSet, plan_limit_sets, sent_limits, topic_names
 from microros_gen.plan.types_size import TypeLimits, WireSizes, is_fixed
 from microros_gen.plan.types_storage import StorageUnit, plan_storage, storage_extents
@@ -155,6 +156,7 @@ def plan_types(
             )
         )
     _check_sizes(plans, diagnostics)
+    _check_files(plans, diagnostics)
     return tuple(plans)
 
 
@@ -165,4 +167,20 @@ def _check_sizes(plans: Iterable[TypePlan], diagnostics: Diagnostics) -> None:
                 f"{plan.name} takes up to {plan.max_encoded_size} bytes under its limits",
                 plan.message.span,
                 f"Lower its limits: a message has at most {LARGEST_BODY} bytes",
+            )
+
+
+def _check_files(plans: Iterable[TypePlan], diagnostics: Diagnostics) -> None:
+    """Two names that differ in capitals only (`HTTPServer`, `HttpServer`) give one header, here as in ROS 2."""
+    first: dict[str, TypeName] = {}
+    reported = set()
+    for plan in plans:
+        name = declaring_name(plan.name)
+        other = first.setdefault(plan.files.header, name)
+        if other != name and name not in reported:
+            reported.add(name)
+            diagnostics.error(
+                f"{name} and {other} are both {include_path(plan.files.header)} in C",
+                plan.message.span,
+                "Rename one of them, or leave it out",
             )

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from ts_build import TEST_RULES, WARNINGS, Generated, generate, run
 
+from microros_gen.diagnostics import UserError
 from microros_gen.model.application import LimitRule
 from microros_gen.model.types import Primitive
 from microros_gen.plan.types_names import snake_case
@@ -226,3 +227,24 @@ def test_a_header_says_what_a_message_takes(motor: Generated) -> None:
     assert "  uint_least16_t names__text[2][5];  /* each 4 UTF-16 units and the terminator */\n" in kept
     for source in motor.sources(".c"):
         run(["gcc", *WARNINGS, "-fsyntax-only", *motor.includes, source])
+
+
+def test_two_types_of_one_file_name_are_refused(tmp_path: Path) -> None:
+    """HTTPServer and HttpServer give http_server.h both: neither may replace the other in silence."""
+    for file, text in (
+        ("msg/HTTPServer.msg", "int8 a"),
+        ("msg/HttpServer.msg", "int8 a"),
+        ("srv/DoIT.srv", "int8 a\n---\n"),
+        ("srv/DoIt.srv", "int8 a\n---\n"),
+        ("srv/HttpServer.srv", "---\n"),
+    ):
+        (tmp_path / "twice" / file).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "twice" / file).write_text(text)
+    with pytest.raises(UserError) as raised:
+        generate(["twice"], TEST_RULES, tmp_path / "out", [tmp_path])
+    found = [d.headline() for d in raised.value.diagnostics]
+    assert len(found) == 2
+    assert re.search(
+        r"HttpServer\.msg:1:1: error: twice/msg/HttpServer and twice/msg/HTTPServer are", found[0]
+    )
+    assert "are both twice/srv/do_it.h in C. Rename one of them" in found[1]
