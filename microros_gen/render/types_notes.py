@@ -76,4 +76,10 @@ def _default(field: Field) -> Iterator[str]:
 
 
 def _literal(element: Primitive | StringType, value: ScalarValue) -> str:
-    return string(str(value)) if isinstance(element, StringType) else number(element, value)
+    return _text(str(value)) if isinstance(element, StringType) else number(element, value)
+
+
+def _text(text: str) -> str:
+    """Return `text` in quotes for readers: as in C, but letters of every script are shown."""
+    shown = "".join(c if ord(c) > 0x7F and c.isprintable() else string(c)[1:-1] for c in text)
+    return f'"{shown}"'

@@ -176,7 +176,7 @@ module a { module msg {
     @default (value=100) short speed;
     @unit (value="degC") @min (-40.5) float temperature;
     @unit (value="A") sequence<float, 3> currents;
-    @default (value="id/*le*/") string<16> mode;
+    @default (value="id/*le*/ é\t") string<16> mode;
     @verbatim (language="comment", text="Names.") sequence<wstring<4>, 2> names;
     @default (value="(1, 2, 3)") sequence<uint32> counts;
     @key uint8 id;
@@ -207,7 +207,7 @@ def test_a_struct_says_what_the_interface_file_says(motor: Generated) -> None:
         "speed": ["Shaft speed. [rpm]", "Range: -6000 to 6000", "Default: 100"],
         "temperature": ["[degC]", "At least -40.5"],
         "currents": ["[A]", "At most 3 elements."],
-        "mode": ["At most 16 bytes of UTF-8, without the terminator.", 'Default: "id/ *le* /"'],
+        "mode": ["At most 16 bytes of UTF-8, without the terminator.", 'Default: "id/ *le* / é\\011"'],
         "names": ["Names.", "At most 2 elements.", "Each at most 4 UTF-16 units, without the terminator."],
         "counts": ["Default: {1U, 2U, 3U}"],
         "id": [""],
