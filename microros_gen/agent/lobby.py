@@ -96,7 +96,9 @@ class Lobby:
         if client is None:
             self._count_stranger(now)
         header = Header.decode(data)
-        key = self._rivals.heard(transport, address, now) if client is None else None
+        # What is out of session may be another client's by now: systems give a port to one after another.
+        left = client is None and header.session not in OUT_OF_SESSION
+        key = self._rivals.heard(transport, address, now) if left else None
         rival = self._clients.with_key(key) if key else None
         if rival is not None:
             self._rivals.fight(rival, transport, address)
@@ -149,6 +151,7 @@ class Lobby:
         self._clients.remove(client)
         self._deliveries.forget(client)
         client.objects.clear()
+        client.session.reset()  # what its streams hold is not kept alive by who still knows the client
         self._tell(client, "client_gone", "client {client} " + why)
 
     def send_away(self, client: Client) -> None:

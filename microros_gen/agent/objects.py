@@ -48,6 +48,8 @@ _SERVED = frozenset(
         ObjectKind.APPLICATION,
     )
 )
+LARGEST_REPRESENTATION = 65_000
+"""Bytes of a representation that an INFO has room for, beside what else it says; a longer one is not kept."""
 _CONTAINER = {
     ObjectKind.TOPIC: ObjectKind.PARTICIPANT,
     ObjectKind.PUBLISHER: ObjectKind.PARTICIPANT,
@@ -176,7 +178,8 @@ class ObjectTree:
         description = describe(create, self._references, self._known(create.parent))
         outcome = self._place(_Wanted(object_id, create.parent, description, create.reuse, create.replace))
         if outcome.status is Status.OK and outcome.entity is not None:
-            outcome.entity.representation = create.representation
+            fits = len(create.representation.body) <= LARGEST_REPRESENTATION
+            outcome.entity.representation = create.representation if fits else None
         return outcome
 
     def _place(self, wanted: _Wanted) -> Outcome:

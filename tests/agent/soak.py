@@ -100,7 +100,7 @@ class Place:
         elif how == "vanish":
             self.key += 0x10000
         self.client = self._fresh()
-        yield chance.uniform(0, world.agent.timeout_s)
+        yield chance.uniform(0, 6)
 
     def _fresh(self) -> SoakClient:
         mtu = self.chance.choice((128, 256, 512, 1024))

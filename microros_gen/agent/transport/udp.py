@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Hashable
 
 from microros_gen.agent.transport.base import Receive
@@ -10,6 +11,8 @@ from microros_gen.agent.transport.sockets import Protocol, open_socket, place_na
 
 BATCH = 64
 """Datagrams that are read before the answers go out."""
+TURN_S = 0.02
+"""Seconds after which it is the turn of others, if the datagrams of a batch are costly ones."""
 MAXIMUM_DATAGRAM = 65_535
 
 
@@ -42,6 +45,7 @@ class Udp:
     def pump(self, receive: Receive) -> None:
         """See Transport."""
         take = self._socket.recvfrom
+        end = time.monotonic() + TURN_S
         for _ in range(BATCH):
             try:
                 data, peer = take(MAXIMUM_DATAGRAM)
@@ -50,6 +54,8 @@ class Udp:
             except OSError:
                 continue  # an ICMP error for something sent earlier
             receive(data, (self, peer), self)
+            if time.monotonic() > end:
+                return
 
     def send(self, data: bytes, address: Hashable) -> None:
         """See Transport."""

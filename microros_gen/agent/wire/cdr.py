@@ -10,6 +10,8 @@ from typing import TypeVar
 from microros_gen.agent.wire.errors import MalformedError
 
 T = TypeVar("T")
+MOST_ELEMENTS = 8_192
+"""Elements of one sequence: samples in a message of 64 KiB, each with its length, are not more."""
 
 
 class Reader:
@@ -102,6 +104,8 @@ class Reader:
         count = self.u32()
         if count > self.remaining():
             raise MalformedError("truncated", f"{count} elements announced, {self.remaining()} bytes left")
+        if count > MOST_ELEMENTS:
+            raise MalformedError("too_many_elements", f"{count}; at most {MOST_ELEMENTS} are taken")
         return tuple(read() for _ in range(count))
 
     def _number(self, code: str, size: int) -> int:

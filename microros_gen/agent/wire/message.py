@@ -10,6 +10,8 @@ from microros_gen.agent.wire.constants import FLAG_LITTLE, SubmessageId
 from microros_gen.agent.wire.errors import MalformedError
 
 CREATE_CLIENT = int(SubmessageId.CREATE_CLIENT)
+MOST_REQUESTS = 256
+"""Submessages of one message that are no samples. Clients send a few; each may take ROS 2 a millisecond."""
 SUBMESSAGE_HEADER = 4
 """Bytes of a submessage header."""
 Span = tuple[int, int, int, int]
@@ -56,7 +58,8 @@ def split(data: bytes, at: int, rest_when_zero: bool = False) -> list[Span]:
     A submessage header begins at a multiple of 4 from the start of `data`. With `rest_when_zero` a WRITE_DATA
     of length 0 takes everything to the end: so a client sends more than 65,535 bytes in fragments. So does a
     CREATE_CLIENT of 16 bytes that says it has properties: the public client (2.4, 3.0) does not count them.
-    MalformedError when a payload leaves the message; trailing bytes too few for a header are padding.
+    MalformedError when a payload leaves the message, or there are more than `MOST_REQUESTS`; trailing bytes too few
+    for a header are padding.
     """
     found: list[Span] = []
     size = len(data)
@@ -70,7 +73,15 @@ def split(data: bytes, at: int, rest_when_zero: bool = False) -> list[Span]:
             raise MalformedError("submessage_length", f"{end - size} bytes more than there are")
         found.append((data[at], data[at + 1], at + SUBMESSAGE_HEADER, end))
         at = end + (-end & 3)
+    if len(found) > MOST_REQUESTS:
+        _check_requests(found)
     return found
+
+
+def _check_requests(spans: list[Span]) -> None:
+    requests = sum(span[0] != SubmessageId.WRITE_DATA for span in spans)
+    if requests > MOST_REQUESTS:
+        raise MalformedError("too_many_requests", f"{requests} in one message")
 
 
 def submessage_bytes(identifier: int, payload: bytes, flags: int = FLAG_LITTLE) -> bytes:

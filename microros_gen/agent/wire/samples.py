@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from microros_gen.agent.wire.cdr import Reader, Writer
+from microros_gen.agent.wire.cdr import MOST_ELEMENTS, Reader, Writer
 from microros_gen.agent.wire.constants import DataFormat
 from microros_gen.agent.wire.errors import MalformedError
 
@@ -148,10 +148,10 @@ def _read_data_sequence(reader: Reader) -> tuple[Sample, ...]:
         if inner.remaining() < 4:
             return samples
     except MalformedError:
-        pass
+        pass  # perhaps without lengths
     counted = Reader(whole, 0, len(whole), reader.little)
     count = counted.u32()
     size, left = divmod(counted.remaining(), count) if count else (0, 0)
-    if not size or left:
+    if not size or left or count > MOST_ELEMENTS:
         raise MalformedError("data_sequence", f"{count} samples in {counted.remaining()} bytes")
     return tuple(Sample(counted.raw(size)) for _ in range(count))
