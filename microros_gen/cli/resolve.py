@@ -63,6 +63,7 @@ def pool_rows(planned: Planned) -> list[tuple[str, str, str]]:
         ("nodes", str(runtime.nodes_max), source),
         ("publishers", str(runtime.publishers_max), source),
         *_receiving_rows(planned),
+        *_running_rows(planned),
         *_stream_rows(streams),
         (
             "error text",
@@ -87,6 +88,19 @@ def _receiving_rows(planned: Planned) -> list[tuple[str, str, str]]:
         rows.append(("queues", slots, "queue: or depth, times the largest sample"))
     if runtime.reassembles:
         rows.append(("fragments", f"{runtime.reassembly_size} bytes", "the largest sample above the MTU"))
+    return rows
+
+
+def _running_rows(planned: Planned) -> list[tuple[str, str, str]]:
+    runtime = planned.project.runtime
+    source = "declared in nodes:, or pools:" if runtime.declared else "pools: or one"
+    rows = []
+    if runtime.has_timers:
+        rows.append(("timers", str(runtime.timers_max), source))
+    if runtime.has_executors:
+        rows.append(("executors", str(runtime.executors_max), source))
+        rows.append(("handles", f"{runtime.handles_max} each", "one for each entity that an executor can run"))
+        rows.append(("guard conditions", str(runtime.guard_conditions_max), "pools.guard_conditions"))
     return rows
 
 

@@ -100,11 +100,12 @@ class EndpointDecl:
 
 @dataclass(frozen=True)
 class TimerDecl:
-    """A timer of a node; its period in microseconds."""
+    """A timer of a node; its period in microseconds. `kind` is what makes it ready: clock, rtos or hardware."""
 
     name: str
     period_us: int
     span: Span | None = None
+    kind: str = "clock"
 
 
 @dataclass(frozen=True)

@@ -165,6 +165,16 @@ def _pools(project: Project) -> dict[str, int]:
         **({"subscriptions": runtime.subscriptions_max} if runtime.subscriptions_max else {}),
         **({"queues": runtime.queues_size} if runtime.queues else {}),
         **({"reassembly": runtime.reassembly_size} if runtime.reassembly_size else {}),
+        **({"timers": runtime.timers_max} if runtime.has_timers else {}),
+        **(
+            {
+                "executors": runtime.executors_max,
+                "handles": runtime.handles_max,
+                "guard_conditions": runtime.guard_conditions_max,
+            }
+            if runtime.has_executors
+            else {}
+        ),
         "name_size": runtime.name_size,
         "reliable_slots": runtime.reliable_slots,
         "reliable_slot_size": runtime.reliable_slot_size,

@@ -42,7 +42,18 @@ LARGEST_UDP_PAYLOAD = 65_507
 """Bytes that fit one UDP datagram over IPv4 (RFC 768, RFC 791)."""
 
 _BLOCK = re.compile(r"block ([0-9]+) ?(ms|s)")
-_POOLS_BESIDE_NODES = ("history", "input_history", "slot_size")
+_POOLS_BESIDE_NODES = (
+    "history",
+    "input_history",
+    "slot_size",
+    "timers",
+    "executors",
+    "handles",
+    "guard_conditions",
+    "wait_sets",
+    "ros_clocks",
+    "jump_callbacks",
+)
 _WITHOUT_ADDRESS = ("serial", "custom")
 _ONLY_FOR = {"device": "serial", "baud": "serial", "framing": "custom"}
 

@@ -132,7 +132,10 @@ def _qos(node: YamlNode | None) -> Qos:
 
 def _timer(item: YamlNode, diagnostics: Diagnostics) -> TimerDecl:
     return TimerDecl(
-        text_of(child(item, "name")) or "", positive_time(item, "period", diagnostics) or 0, item.span
+        name=text_of(child(item, "name")) or "",
+        period_us=positive_time(item, "period", diagnostics) or 0,
+        span=item.span,
+        kind=text_of(child(item, "kind")) or TimerDecl.kind,
     )
 
 

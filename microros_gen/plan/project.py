@@ -19,6 +19,7 @@ from microros_gen.plan.creation import CreateNames, create_size, participant_ref
 from microros_gen.plan.declared import pool, publisher_declarations, type_name
 from microros_gen.plan.names import dds_topic, dds_type, participant_name
 from microros_gen.plan.receiving import plan_receiving
+from microros_gen.plan.running import plan_running
 from microros_gen.plan.runtime import NodePlan, PublisherPlan, RuntimePlan, SubscriptionPlan
 from microros_gen.plan.streams import Received, StreamPlan, Written, plan_streams
 from microros_gen.plan.types import TypePlan
@@ -94,6 +95,7 @@ def plan_project(
     by_name = {plan.name: plan for plan in types}
     nodes, publishers = _declared(application, by_name)
     receiving = plan_receiving(application, selection, by_name, roots, diagnostics)
+    running = plan_running(application, selection, receiving.subscriptions_max, diagnostics)
     create = _create_size(application, selection, nodes, (*publishers, *receiving.subscriptions), roots)
     streams = _streams(application, selection, by_name, roots, create, receiving.received, diagnostics)
     runtime = RuntimePlan(
@@ -130,6 +132,14 @@ def plan_project(
         subscriptions=receiving.subscriptions,
         subscriptions_max=receiving.subscriptions_max,
         queues=receiving.queues,
+        timers=running.timers,
+        timers_max=running.timers_max,
+        executors_max=running.executors_max,
+        handles_max=running.handles_max,
+        guard_conditions_max=running.guard_conditions_max,
+        wait_sets_max=running.wait_sets_max,
+        ros_clocks_max=running.ros_clocks_max,
+        jump_callbacks_max=running.jump_callbacks_max,
         reassembly_size=streams.reassembly_size,
         fragments=streams.fragments,
         reliable_input_slots=streams.reliable_input_slots,

@@ -86,6 +86,17 @@ class QueuePlan:
 
 
 @dataclass(frozen=True)
+class TimerPlan:
+    """A declared timer; its period in nanoseconds. `kind` is clock, rtos or hardware: what makes it ready."""
+
+    index: int
+    node: int
+    name: str
+    period_ns: int
+    kind: str = "clock"
+
+
+@dataclass(frozen=True)
 class EndpointRow:
     """A row of the table of declared endpoints, as PublisherPlan; an empty name is a place that nobody declared."""
 
@@ -121,6 +132,8 @@ class RuntimePlan:
     `subscriptions_max`, `services_max`, `clients_max`: places of each, at least one of what is selected; `queues` has
     one entry for each of them, in this order. `reassembly_size`: the largest DATA that comes in fragments, with its
     header; 0: none does.
+    `timers_max`, `executors_max` with `handles_max` each, `guard_conditions_max`, `wait_sets_max`, `ros_clocks_max`,
+    `jump_callbacks_max`: places of each; 0 timers, executors or clocks: the component is not selected.
     `error_text_size` 0: codes only. `best_effort_size` 0 or `reliable_slots` 0: there is no such stream.
     """
 
@@ -169,6 +182,65 @@ class RuntimePlan:
     clients_max: int = 0
     queues: tuple[QueuePlan, ...] = ()
     reassembly_size: int = 0
+    timers: tuple[TimerPlan, ...] = ()
+    timers_max: int = 0
+    executors_max: int = 0
+    handles_max: int = 0
+    guard_conditions_max: int = 0
+    wait_sets_max: int = 0
+    ros_clocks_max: int = 0
+    jump_callbacks_max: int = 0
+
+    @property
+    def has_subscriptions(self) -> bool:
+        """Whether `subscribe` is selected."""
+        return self.subscriptions_max > 0
+
+    @property
+    def has_timers(self) -> bool:
+        """Whether `timers` is selected."""
+        return self.timers_max > 0
+
+    @property
+    def has_executors(self) -> bool:
+        """Whether `executor` is selected."""
+        return self.executors_max > 0
+
+    @property
+    def has_clocks(self) -> bool:
+        """Whether `clock` is selected."""
+        return self.ros_clocks_max > 0
+
+    @property
+    def has_steady_time(self) -> bool:
+        """Whether something asks the port for the time since its start."""
+        return self.has_clocks or self.has_executors
+
+    @property
+    def has_rtos_timers(self) -> bool:
+        """Whether a timer of the system drives a declared one."""
+        return any(timer.kind == "rtos" for timer in self.timers)
+
+    @property
+    def has_hardware_timers(self) -> bool:
+        """Whether the application drives a declared timer."""
+        return any(timer.kind == "hardware" for timer in self.timers)
+
+    @property
+    def has_ticked_timers(self) -> bool:
+        """Whether something else than its clock makes a timer ready."""
+        return self.has_rtos_timers or self.has_hardware_timers
+
+    @property
+    def waited_kinds(self) -> tuple[tuple[str, bool], ...]:
+        """What one can wait for, and whether there are places for any."""
+        return (
+            ("subscription", self.has_subscriptions),
+            ("guard_condition", self.guard_conditions_max > 0),
+            ("timer", self.has_timers),
+            ("client", self.clients_max > 0),
+            ("service", self.services_max > 0),
+        )
 
     @property
     def receives(self) -> bool:

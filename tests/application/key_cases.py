@@ -320,6 +320,11 @@ _TOP = {
             "clients": "",
             "timers": "[]",
             "executors": "true",
+            "handles": 0,
+            "guard_conditions": -1,
+            "wait_sets": 0,
+            "ros_clocks": 251,
+            "jump_callbacks": 0,
             "parameters": "'4'",
             "history": 17,
             "input_history": 0,
@@ -469,6 +474,14 @@ _NODES = {
         "3:21",
         "'nodes[0].timers[0].name' must be a name of lower-case letters, digits and _ that "
         "begins with a letter",
+    ),
+    "nodes[].timers[].kind": KeyCase(
+        _in_node("timers: [{name: t, period: 1 s, kind: rtos}]"),
+        lambda a: _node(a).timers[0].kind,
+        "rtos",
+        _in_node("timers: [{name: t, period: 1 s, kind: os}]"),
+        "3:45",
+        "'nodes[0].timers[0].kind' must be one of clock, rtos, hardware",
     ),
     "nodes[].timers[].period": KeyCase(
         _in_node("timers: [{name: t, period: 50us}]"),

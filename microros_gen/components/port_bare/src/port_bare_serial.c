@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/port.h"
 #include "microros/port_bare.h"
+#include "microros/port_bare_wait.h"
 #include "microros/port_board.h"
 #include "microros/port_uart.h"
 
@@ -33,6 +34,11 @@ void port_uart_lost(void)
 uint32_t port_bare_serial_lost(void)
 {
   return port_ring.lost;
+}
+
+bool port_bare_serial_arrived(void)
+{
+  return port_ring.put != port_ring.taken;
 }
 
 bool port_serial_open(port_serial_t * serial, const char * device, uint32_t baud)

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Timers on the steady clock of `support`, the short way; codes are those of rcl_timer_init2. */
+#ifndef MICROROS_RCLC_TIMER_H
+#define MICROROS_RCLC_TIMER_H
+
+#include "rcl/timer.h"
+#include "rclc/types.h"
+#include "rclc/visibility_control.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* `timeout_ns` is the period. Without `autostart` rcl_timer_reset starts it. */
+rcl_ret_t rclc_timer_init_default2(
+  rcl_timer_t * timer, rclc_support_t * support, const uint64_t timeout_ns,
+  const rcl_timer_callback_t callback, bool autostart);
+
+/* With autostart. */
+rcl_ret_t rclc_timer_init_default(
+  rcl_timer_t * timer, rclc_support_t * support, const uint64_t timeout_ns,
+  const rcl_timer_callback_t callback);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RCLC_TIMER_H */

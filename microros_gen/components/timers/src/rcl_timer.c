@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/error.h"
+#include "microros/port.h"
+#include "microros/rcl_timer.h"
+
+#include <string.h>
+
+rcl_timer_impl_t rcl_timers[MICROROS_TIMERS_MAX];
+
+rcl_timer_t rcl_get_zero_initialized_timer(void)
+{
+  const rcl_timer_t timer = {NULL};
+
+  return timer;
+}
+
+rcl_ret_t rcl_timer_check(const rcl_timer_t * timer)
+{
+  if (timer == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "timer");
+  }
+  if (timer->impl == NULL || timer->impl->clock == NULL) {
+    return microros_error_refuse(RCL_RET_TIMER_INVALID, "timer");
+  }
+  return RCL_RET_OK;
+}
+
+static rcl_ret_t timer_begin(
+  rcl_timer_impl_t * timer, rcl_clock_t * clock, int64_t period, rcl_timer_callback_t callback, bool autostart)
+{
+  rcl_time_point_value_t now;
+  const rcl_ret_t result = rcl_clock_get_now(clock, &now);
+
+  if (result != RCL_RET_OK) {
+    return result;
+  }
+  (void)memset(timer, 0, sizeof(*timer));
+  timer->clock = clock;
+  timer->callback = callback;
+  timer->period = period;
+  timer->last_call_time = now;
+  timer->next_call_time = now + period;
+  timer->canceled = !autostart;
+  if (autostart && !rcl_timer_source_start(timer)) {
+    timer->clock = NULL;
+    return microros_error_named(RCL_RET_ERROR, microros_error_timer, "the system starts none");
+  }
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_timer_init2(
+  rcl_timer_t * timer, rcl_clock_t * clock, rcl_context_t * context, int64_t period,
+  const rcl_timer_callback_t callback, rcl_allocator_t allocator, bool autostart)
+{
+  rcl_timer_impl_t * place;
+  rcl_ret_t result;
+
+  (void)allocator;
+  if (timer == NULL || clock == NULL || context == NULL || period < 0) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "timer, clock, context or period");
+  }
+  if (timer->impl != NULL) {
+    return microros_error_named(RCL_RET_ALREADY_INIT, microros_error_timer, "initialized already");
+  }
+  if (!rcl_context_is_valid(context)) {
+    return microros_error_refuse(RCL_RET_NOT_INIT, "context");
+  }
+  place = rcl_timer_source_take(period);
+  if (place == NULL) {
+    microros_error_set(
+      microros_error_pool_full, "timers", NULL, MICROROS_TIMERS_MAX, MICROROS_TIMERS_MAX + 1u);
+    return RCL_RET_BAD_ALLOC;
+  }
+  result = timer_begin(place, clock, period, callback, autostart);
+  if (result == RCL_RET_OK) {
+    timer->impl = place;
+  }
+  return result;
+}
+
+rcl_ret_t rcl_timer_init(
+  rcl_timer_t * timer, rcl_clock_t * clock, rcl_context_t * context, int64_t period,
+  const rcl_timer_callback_t callback, rcl_allocator_t allocator)
+{
+  return rcl_timer_init2(timer, clock, context, period, callback, allocator, true);
+}
+
+rcl_ret_t rcl_timer_cancel(rcl_timer_t * timer)
+{
+  const rcl_ret_t result = rcl_timer_check(timer);
+
+  if (result == RCL_RET_OK) {
+    timer->impl->canceled = true;
+    rcl_timer_source_stop(timer->impl);
+  }
+  return result;
+}
+
+rcl_ret_t rcl_timer_fini(rcl_timer_t * timer)
+{
+  if (timer != NULL && timer->impl != NULL) {
+    rcl_timer_source_stop(timer->impl);
+    timer->impl->clock = NULL;
+    timer->impl = NULL;
+  }
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_timer_reset(rcl_timer_t * timer)
+{
+  rcl_ret_t result = rcl_timer_check(timer);
+  rcl_time_point_value_t now;
+  rcl_timer_impl_t * impl;
+
+  if (result == RCL_RET_OK) {
+    result = rcl_clock_get_now(timer->impl->clock, &now);
+  }
+  if (result != RCL_RET_OK) {
+    return result;
+  }
+  impl = timer->impl;
+  rcl_timer_source_stop(impl);
+  impl->next_call_time = now + impl->period;
+  impl->canceled = !rcl_timer_source_start(impl);
+  if (impl->canceled) {
+    return microros_error_named(RCL_RET_ERROR, microros_error_timer, "the system starts none");
+  }
+  port_wake(); /* who waits has to look when this one is due */
+  if (impl->on_reset != NULL) {
+    impl->on_reset(impl->on_reset_data, 1);
+  } else {
+    ++impl->resets;
+  }
+  return RCL_RET_OK;
+}

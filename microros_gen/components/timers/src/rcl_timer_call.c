@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/error.h"
+#include "microros/rcl_timer.h"
+
+/* Returns when the next call is due after one that was due at `due`: periods that have gone by are left out. */
+static int64_t call_next(int64_t due, int64_t period, int64_t now)
+{
+  const int64_t next = due + period;
+
+  if (next > now) {
+    return next;
+  }
+  return period == 0 ? now : next + (1 + (now - next) / period) * period;
+}
+
+static rcl_ret_t call_now(rcl_timer_t * timer, rcl_timer_call_info_t * call_info)
+{
+  rcl_timer_impl_t * impl = timer->impl;
+  int64_t since_last_call;
+  rcl_time_point_value_t now;
+  const rcl_ret_t result = rcl_clock_get_now(impl->clock, &now);
+
+  if (result != RCL_RET_OK) {
+    return result;
+  }
+  if (now < 0) {
+    return microros_error_named(RCL_RET_ERROR, microros_error_timer, "the time of its clock is negative");
+  }
+  since_last_call = now - impl->last_call_time;
+  call_info->expected_call_time = impl->next_call_time;
+  call_info->actual_call_time = now;
+  impl->last_call_time = now;
+  impl->next_call_time = call_next(impl->next_call_time, impl->period, now);
+  rcl_timer_source_called(impl);
+  if (impl->callback != NULL) {
+    impl->callback(timer, since_last_call);
+  }
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_timer_call_with_info(rcl_timer_t * timer, rcl_timer_call_info_t * call_info)
+{
+  const rcl_ret_t result = rcl_timer_check(timer);
+
+  if (result != RCL_RET_OK) {
+    return result;
+  }
+  if (call_info == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "call_info");
+  }
+  if (timer->impl->canceled) {
+    return microros_error_named(RCL_RET_TIMER_CANCELED, microros_error_timer, "canceled");
+  }
+  return call_now(timer, call_info);
+}
+
+rcl_ret_t rcl_timer_call(rcl_timer_t * timer)
+{
+  rcl_timer_call_info_t info;
+
+  return rcl_timer_call_with_info(timer, &info);
+}
+
+rcl_ret_t rcl_timer_get_time_until_next_call(const rcl_timer_t * timer, int64_t * time_until_next_call)
+{
+  rcl_ret_t result = rcl_timer_check(timer);
+  rcl_time_point_value_t now;
+
+  if (result != RCL_RET_OK) {
+    return result;
+  }
+  if (time_until_next_call == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "time_until_next_call");
+  }
+  if (timer->impl->canceled) {
+    return RCL_RET_TIMER_CANCELED;
+  }
+  result = rcl_clock_get_now(timer->impl->clock, &now);
+  if (result == RCL_RET_OK) {
+    *time_until_next_call = timer->impl->next_call_time - now;
+  }
+  return result;
+}
+
+/* Whether only somebody who sets it changes what the clock says. */
+static bool look_is_set_by_hand(rcl_clock_t * clock)
+{
+  bool overridden = false;
+
+  return clock->type == RCL_ROS_TIME &&
+         rcl_is_enabled_ros_time_override(clock, &overridden) == RCL_RET_OK && overridden;
+}
+
+rcl_ret_t rcl_timer_look(const rcl_timer_t * timer, bool * is_ready, int64_t * look_again_ns)
+{
+  int64_t until = 0;
+  rcl_ret_t result;
+
+  *is_ready = false;
+  *look_again_ns = INT64_MAX;
+  result = rcl_timer_get_time_until_next_call(timer, &until);
+  if (result == RCL_RET_TIMER_CANCELED) {
+    return RCL_RET_OK;
+  }
+  if (result != RCL_RET_OK || rcl_timer_source_ticks(timer->impl, is_ready)) {
+    return result;
+  }
+  *is_ready = until <= 0;
+  if (!*is_ready && !look_is_set_by_hand(timer->impl->clock)) {
+    *look_again_ns = until;
+  }
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_timer_is_ready(const rcl_timer_t * timer, bool * is_ready)
+{
+  const rcl_ret_t result = rcl_timer_check(timer);
+  int64_t look_again_ns;
+
+  if (result != RCL_RET_OK) {
+    return result;
+  }
+  if (is_ready == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "is_ready");
+  }
+  return rcl_timer_look(timer, is_ready, &look_again_ns);
+}

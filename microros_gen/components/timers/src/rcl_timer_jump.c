@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Timers on a clock whose time jumps; linked with the ROS clock alone. */
+#include "microros/port.h"
+#include "microros/rcl_timer.h"
+
+static bool jump_changes_time(const rcl_time_jump_t * jump)
+{
+  return jump->clock_change == RCL_ROS_TIME_ACTIVATED || jump->clock_change == RCL_ROS_TIME_DEACTIVATED;
+}
+
+/* The period goes on in the new time where it was in the old one; a time of 0 is not set, and tells nothing. */
+static void jump_carry_over(rcl_timer_impl_t * timer, int64_t now, bool before_jump)
+{
+  if (before_jump) {
+    timer->remaining = now != 0 ? timer->next_call_time - now : 0;
+  } else if (now != 0 && timer->remaining != 0) {
+    timer->next_call_time = now + timer->remaining;
+    timer->last_call_time = timer->next_call_time - timer->period;
+    timer->remaining = 0;
+  }
+}
+
+/* Back to before the last call: the period begins again. */
+static void jump_settle(rcl_timer_impl_t * timer, int64_t now)
+{
+  if (timer->next_call_time > now && now < timer->last_call_time) {
+    timer->next_call_time = now + timer->period;
+    timer->last_call_time = now;
+  }
+}
+
+void rcl_timer_on_jump(const rcl_clock_t * clock, const rcl_time_jump_t * jump, bool before_jump)
+{
+  for (size_t i = 0; i < MICROROS_TIMERS_MAX; ++i) {
+    rcl_timer_impl_t * timer = &rcl_timers[i];
+    rcl_time_point_value_t now;
+
+    if (timer->clock != clock || rcl_clock_get_now(timer->clock, &now) != RCL_RET_OK) {
+      continue;
+    }
+    if (jump_changes_time(jump)) {
+      jump_carry_over(timer, now, before_jump);
+    } else if (!before_jump) {
+      jump_settle(timer, now);
+    }
+  }
+  if (!before_jump) {
+    port_wake(); /* who waits has to look again */
+  }
+}

@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What a timer has. */
+#include "microros/error.h"
+#include "microros/rcl_timer.h"
+
+rcl_ret_t rcl_timer_clock(rcl_timer_t * timer, rcl_clock_t ** clock)
+{
+  if (timer == NULL || clock == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "timer or clock");
+  }
+  if (rcl_timer_check(timer) != RCL_RET_OK) {
+    return RCL_RET_TIMER_INVALID;
+  }
+  *clock = timer->impl->clock;
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_timer_get_time_since_last_call(const rcl_timer_t * timer, int64_t * time_since_last_call)
+{
+  rcl_ret_t result = rcl_timer_check(timer);
+  rcl_time_point_value_t now;
+
+  if (result != RCL_RET_OK) {
+    return result;
+  }
+  if (time_since_last_call == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "time_since_last_call");
+  }
+  result = rcl_clock_get_now(timer->impl->clock, &now);
+  if (result == RCL_RET_OK) {
+    *time_since_last_call = now - timer->impl->last_call_time;
+  }
+  return result;
+}
+
+rcl_ret_t rcl_timer_get_period(const rcl_timer_t * timer, int64_t * period)
+{
+  const rcl_ret_t result = rcl_timer_check(timer);
+
+  if (result != RCL_RET_OK) {
+    return result;
+  }
+  if (period == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "period");
+  }
+  *period = timer->impl->period;
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_timer_exchange_period(const rcl_timer_t * timer, int64_t new_period, int64_t * old_period)
+{
+  const rcl_ret_t result = rcl_timer_check(timer);
+
+  if (result != RCL_RET_OK) {
+    return result;
+  }
+  if (old_period == NULL || new_period < 0) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "new_period or old_period");
+  }
+  *old_period = timer->impl->period;
+  timer->impl->period = new_period;
+  return RCL_RET_OK;
+}
+
+rcl_timer_callback_t rcl_timer_get_callback(const rcl_timer_t * timer)
+{
+  return rcl_timer_check(timer) == RCL_RET_OK ? timer->impl->callback : NULL;
+}
+
+rcl_timer_callback_t rcl_timer_exchange_callback(rcl_timer_t * timer, const rcl_timer_callback_t new_callback)
+{
+  const rcl_timer_callback_t old_callback = rcl_timer_get_callback(timer);
+
+  if (rcl_timer_check(timer) == RCL_RET_OK) {
+    timer->impl->callback = new_callback;
+  }
+  return old_callback;
+}
+
+rcl_ret_t rcl_timer_is_canceled(const rcl_timer_t * timer, bool * is_canceled)
+{
+  const rcl_ret_t result = rcl_timer_check(timer);
+
+  if (result != RCL_RET_OK) {
+    return result;
+  }
+  if (is_canceled == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "is_canceled");
+  }
+  *is_canceled = timer->impl->canceled;
+  return RCL_RET_OK;
+}
+
+const rcl_allocator_t * rcl_timer_get_allocator(const rcl_timer_t * timer)
+{
+  static rcl_allocator_t allocator;
+
+  if (rcl_timer_check(timer) != RCL_RET_OK) {
+    return NULL;
+  }
+  allocator = rcl_get_default_allocator();
+  return &allocator;
+}
+
+rcl_ret_t rcl_timer_set_on_reset_callback(
+  const rcl_timer_t * timer, rcl_event_callback_t on_reset_callback, const void * user_data)
+{
+  const rcl_ret_t result = rcl_timer_check(timer);
+  rcl_timer_impl_t * impl;
+
+  if (result != RCL_RET_OK) {
+    return result;
+  }
+  impl = timer->impl;
+  impl->on_reset = on_reset_callback;
+  impl->on_reset_data = on_reset_callback != NULL ? user_data : NULL;
+  if (on_reset_callback != NULL && impl->resets != 0u) {
+    on_reset_callback(user_data, impl->resets);
+    impl->resets = 0;
+  }
+  return RCL_RET_OK;
+}
