@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`make bench`: generate and build, encode and decode beside Fast CDR, instructions, flash of types, firmware.
+"""`make bench`: generate and build, encode and decode beside Fast CDR, instructions, flash of types, firmware,
+the agent.
 
 Times depend on the machine; so each stands beside a peer that ran in the same minutes. Instruction counts come
 from callgrind and repeat exactly with one compiler.
@@ -13,18 +14,27 @@ import sys
 import tempfile
 from pathlib import Path
 
+from agent_bench import bench_agent
+from agent_sides import Target
 from codec import bench_codec
 from footprint import bench_footprint
 from generation import Seconds, bench_generate, median, row, timed, tool
 from instructions import bench_instructions
 from type_flash import bench_type_flash
 
+PARTS = ("generate", "build", "instructions", "codec", "types", "footprint", "agent")
+
 
 def main() -> int:
     """Run the selected parts and print one table each."""
     parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("parts", nargs="*", default=PARTS, metavar="PART", help=", ".join(PARTS))
     parser.add_argument(
-        "parts", nargs="*", default=["generate", "build", "instructions", "codec", "types", "footprint"]
+        "--agent",
+        nargs=3,
+        type=int,
+        metavar=("PORT", "PROCESS", "DOMAIN"),
+        help="measure another, which runs",
     )
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
@@ -41,6 +51,8 @@ def main() -> int:
             bench_type_flash(work)
         if "footprint" in options.parts:
             bench_footprint(work / "footprint")
+        if "agent" in options.parts:
+            bench_agent(work / "agent", Target(*options.agent) if options.agent else None)
     return 0
 
 

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The table of the agent's bench: this project's agent, or with its port and process any other that runs already."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
+from itertools import count
+from pathlib import Path
+
+from agent_rates import (
+    Case,
+    Rate,
+    client_to_dds,
+    dds_to_client,
+    dds_to_dds,
+    loopback_trip,
+    median_of,
+    memory,
+    round_trip,
+)
+from agent_sides import BEST_EFFORT, RELIABLE, Programs, Target, build_programs, own_agent
+
+RUNS = 3
+SAMPLES = 60_000
+FRAGMENTED = 30_000
+TRIPS = 10_000
+PACED = 17_000
+"""Samples a second on a best-effort stream; the rate at which the public agent was recorded."""
+CLIENTS = (1, 10, 100)
+Measure = Callable[[Programs, Target, Case, int, int], Rate]
+
+
+@dataclass(frozen=True)
+class Row:
+    """A case, its number of samples, and what is recorded of the public agent: each way, samples a second or text."""
+
+    case: Case
+    samples: int
+    to_dds: str = ""
+    to_client: str = ""
+
+
+ROWS = (
+    Row(Case(64, 512, RELIABLE), SAMPLES, "43,000 /s, 28 us"),
+    Row(Case(1024, 2048, RELIABLE), SAMPLES, "44,000 /s"),
+    Row(Case(1024, 512, RELIABLE), FRAGMENTED, "18,000 /s"),
+    Row(Case(64, 512, BEST_EFFORT, PACED), SAMPLES, "17,000 /s, 11.5 us"),
+    Row(Case(1024, 2048, BEST_EFFORT, PACED), SAMPLES),
+)
+TRIP_RECORDED = "83 to 95 us median, 172 us p99"
+MEMORY_RECORDED = {0: "15 MB", 1: "20 MB", 10: "39 MB", 100: "400 MB, 608 threads"}
+
+
+def bench_agent(work: Path, other: Target | None = None) -> None:
+    """Print the table; `other`: an agent that runs already, in place of one that is started here."""
+    programs = build_programs(work)
+    if programs is None:
+        print("agent: not measured: the ROS 2 wheels or a C compiler is missing")
+        return
+    print(
+        "agent: one client over UDP on this machine; counted at a DDS reader in another process, or in the client"
+    )
+    print(
+        f"  KEEP_ALL; median of {RUNS} runs, losses of the worst; us: user and system time of the agent a sample"
+    )
+    print(
+        "  recorded: the public agent 2.4.3 in another machine's minutes (docs/figures.md), not of this run"
+    )
+    with _target(other) as target:
+        _calibrate(programs, target.domain)
+        keys = count(0xB0000000 + (os.getpid() & 0xFFFF) * 0x1000)
+        _print_rates(programs, target, keys)
+        _print_trips(programs, target, keys)
+    with _target(other) as target:
+        print(f"  {'memory, clients with a node, 2 publishers, 2 subscriptions':<60}")
+        for clients, megabytes, threads in memory(target, CLIENTS):
+            seen = f"{megabytes:6.1f} MB, {threads} threads"
+            print(f"    {f'{clients} clients':<38} {seen:<58} {MEMORY_RECORDED[clients]}")
+    print()
+
+
+@contextmanager
+def _target(other: Target | None) -> Iterator[Target]:
+    if other is not None:
+        yield other
+        return
+    with own_agent(1 + os.getpid() % 100) as target:
+        yield target
+
+
+def _calibrate(programs: Programs, domain: int) -> None:
+    """Show what the machine does without any agent in these minutes; the sides are not what limits."""
+    print(f"  load average {os.getloadavg()[0]:.1f}; without any agent, in the same minutes:")
+    print(f"    {'UDP datagram to a process and back':<38} {loopback_trip(programs, TRIPS)}")
+    for size in (64, 1024):
+        rate = dds_to_dds(programs, domain, size, SAMPLES)
+        print(f"    {f'the same DDS writer to reader, {size} B':<38} {rate.per_second:9,.0f} /s")
+
+
+def _print_rates(programs: Programs, target: Target, keys: Iterator[int]) -> None:
+    for title, measure in (("client to DDS", client_to_dds), ("DDS to client", dds_to_client)):
+        print(f"  {title:<99} recorded")
+        for row in ROWS:
+            once = partial(_rate, measure, programs, target, row, keys)
+            recorded = row.to_dds if measure is client_to_dds else row.to_client
+            print(f"    {row.case!s:<48} {median_of(RUNS, once)!s:<48} {recorded}", flush=True)
+
+
+def _rate(measure: Measure, programs: Programs, target: Target, row: Row, keys: Iterator[int]) -> Rate:
+    return measure(programs, target, row.case, row.samples, next(keys))
+
+
+def _print_trips(programs: Programs, target: Target, keys: Iterator[int]) -> None:
+    print("  client, agent, DDS, agent, client; 64 B")
+    for stream, title in ((RELIABLE, "reliable"), (BEST_EFFORT, "best effort")):
+        trips = [round_trip(programs, target, stream, TRIPS, next(keys)) for _ in range(RUNS)]
+        middle = sorted(trips, key=lambda trip: trip.median_us)[RUNS // 2]
+        print(f"    {title:<38} {middle!s:<58} {TRIP_RECORDED if stream == RELIABLE else ''}", flush=True)
