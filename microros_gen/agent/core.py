@@ -9,6 +9,7 @@ from __future__ import annotations
 import time
 import traceback
 from collections.abc import Callable, Hashable
+from functools import partial
 from pathlib import Path
 
 from microros_gen.agent.clients import Client, ClientTable
@@ -116,38 +117,45 @@ class Agent:
         self._to_acknowledge.clear()
 
     def tick(self) -> None:
-        """Send what is due and look for time-outs; to be called when `due` says, or some ten times a second."""
+        """Send what is due and look for time-outs; to be called when `due` says, or some ten times a second.
+
+        Never raises.
+        """
         now = self._clock()
-        try:
-            self._deliveries.run(now)
-        except Exception as error:
-            self._fault(error, b"")
+        self._guarded(partial(self._deliveries.run, now))
         if self._stopped:
-            self._try_again(now)
+            self._guarded(partial(self._try_again, now))
         if now >= self._ticked + TICK_S:
             self._ticked = now
-            self._look_after_clients(now)
+            for client in self.clients:
+                self._guarded(partial(self._look_after, client, now))
 
-    def _look_after_clients(self, now: float) -> None:
-        for client in self.clients:
-            silent = now - client.heard
-            if client.asleep:
-                if silent > self._limits.sleep_timeout_s:
-                    self._lobby.dismiss(client, "forgotten: it was not heard any more")
-                continue
-            for message in client.session.heartbeats(now):
-                client.send(message)
-            if silent > client.timeout_s:
-                self._lobby.put_to_sleep(client)
-            elif silent > client.timeout_s / 2 and now - client.probed > client.timeout_s / (2 * PROBES):
-                client.probed = now
-                client.send(client.session.probe())
+    def _look_after(self, client: Client, now: float) -> None:
+        silent = now - client.heard
+        if client.asleep:
+            if silent > self._limits.sleep_timeout_s:
+                self._lobby.dismiss(client, "forgotten: it was not heard any more")
+            return
+        for message in client.session.heartbeats(now):
+            client.send(message)
+        if silent > client.timeout_s:
+            self._lobby.put_to_sleep(client)
+        elif silent > client.timeout_s / 2 and now - client.probed > client.timeout_s / (2 * PROBES):
+            client.probed = now
+            client.send(client.session.probe())
 
     def close(self) -> None:
-        """Take all clients and their entities out of the ROS graph."""
+        """Take all clients and their entities out of the ROS graph. Never raises."""
         for client in self.clients:
-            self._lobby.dismiss(client, "dropped: the agent stops")
-        self._bridge.close()
+            self._guarded(partial(self._lobby.dismiss, client, "dropped: the agent stops"))
+        self._guarded(self._bridge.close)
+
+    def _guarded(self, do: Callable[[], None]) -> None:
+        """Do something for one client; a fault in it is not the others' concern."""
+        try:
+            do()
+        except Exception as error:
+            self._fault(error, b"")
 
     def _receive(self, data: bytes, address: Hashable, transport: Transport) -> None:
         start = header_size(data)

@@ -8,6 +8,7 @@ single message takes long.
 from __future__ import annotations
 
 import gc
+import io
 import random
 import time
 import tracemalloc
@@ -22,6 +23,7 @@ from agent.test_core import entities, message
 from agent.test_core_reading import FOREVER, reader_entities, sample
 from agent.test_core_storm import services
 from microros_gen.agent.limits import Limits
+from microros_gen.agent.log import BURST, EventLog, Level
 from microros_gen.agent.objects import LARGEST_REPRESENTATION
 from microros_gen.agent.wire.cdr import MOST_ELEMENTS
 from microros_gen.agent.wire.constants import Format
@@ -512,3 +514,51 @@ def test_memory_stays_where_it_is() -> None:
     finally:
         tracemalloc.stop()
     stage.unharmed()
+
+
+# Log and faults
+
+
+def test_the_log_is_bounded_and_says_so(stage: Stage) -> None:
+    """A line for each refusal would fill disks, and hold up the agent where nobody reads."""
+    for _ in range(3 * BURST):
+        stage.say(Delete(1, 0x99), ReadData(1, 0x99, 0x80), stream=0)
+    refused = stage.bench.text.getvalue().count("reading from 0x0099 refused")
+    assert BURST <= refused < 3 * BURST
+
+
+def test_what_was_withheld_is_told() -> None:
+    out, moment = io.StringIO(), [0.0]
+    log = EventLog(out, clock=lambda: moment[0])
+    for number in range(BURST + 7):
+        log.emit(Level.INFO, "created", "{number}", number=number)
+    log.emit(Level.INFO, "deleted", "other events are not meant")
+    assert out.getvalue().splitlines()[BURST - 1 :] == [str(BURST - 1), "other events are not meant"]
+    moment[0] += 1.0
+    log.emit(Level.INFO, "created", "again")
+    told = "warning: 7 events 'created' before this one were not written: too many at once"
+    assert out.getvalue().splitlines()[-2:] == [told, "again"]
+
+
+@pytest.mark.parametrize("moment", ["time-out", "end"])
+def test_a_fault_with_one_client_is_not_the_concern_of_others(
+    monkeypatch: pytest.MonkeyPatch, moment: str
+) -> None:
+    """ROS 2 may refuse to let go of an entity: all others leave, and the agent goes on."""
+    stage = Stage()
+    others = [label for label in stage.bench.bridge.graph if label.startswith(("/v ", "/w "))]
+    assert len(others) == 2
+
+    def broken() -> None:
+        raise RuntimeError("ROS 2 has lost its mind")
+
+    monkeypatch.setattr(stage.source(), "destroy", broken)
+    if moment == "time-out":
+        stage.bench.wait(6)
+        stage.bench.wait(20)
+        assert len(stage.bench.agent.clients) == 0
+    else:
+        stage.bench.agent.close()
+        assert stage.bench.bridge.closed
+    assert not set(others) & set(stage.bench.bridge.graph)
+    assert stage.bench.log.counters["internal_RuntimeError"] > 0
