@@ -80,7 +80,7 @@ class Place:
         if chance.random() < 0.5:
             yield from self._be_called(client)
         yield from self._account(client, written)
-        how = chance.choices(ENDS, (35, 15, 10, 10, 20, 10))[0]
+        how = chance.choices(ENDS, (40, 20, 10, 5, 15, 10))[0]
         if how == "move" and self.session >= 0x80:
             how = "leave"
         world.ends[how] += 1
@@ -275,11 +275,14 @@ class World:
     def run(self, places: list[Place]) -> None:
         """Let all of them live to their ends."""
         courses = {place: _Course(place.lives()) for place in places}
-        rss_at = 0.0
+        rss_at, before = 0.0, time.monotonic()
         while courses:
             for descriptor, _ in self._poll.poll(10):
                 self._read(descriptor)
             now = time.monotonic()
+            if now - before > self.agent.timeout_s / 3:
+                self._stalled(places)
+            before = now
             self._line.write()
             for place, course in list(courses.items()):
                 place.client.tick(now)
@@ -292,6 +295,12 @@ class World:
                 rss_at = now + 2
                 self.rss.append((now - self.began, self.agent.rss_kib))
         self._line.close()
+
+    def _stalled(self, places: list[Place]) -> None:
+        """This process did not run for long: its clients may have been taken for asleep, and were."""
+        self.count["stalls of this process"] += 1
+        for place in places:
+            place.gap_allowed = True
 
     def _read(self, descriptor: int) -> None:
         link = self._links[descriptor]

@@ -24,10 +24,10 @@ GROWTH_KIB = 16_384
 def soak(folder: Path, places: int, seconds: float, timeout_s: float) -> tuple[World, dict[str, object]]:
     """Let clients live; return what was seen, and the agent's last words.
 
-    `timeout_s` is longer than any stop of this process on a busy machine: who does not answer for that long has crashed.
+    `timeout_s` is longer than any stop of this process on a busy machine: who is silent for longer crashed.
     """
     domain = own_domain()
-    with agent_process(folder, domain, timeout_s, forget_s=5 * timeout_s) as agent:
+    with agent_process(folder, domain, timeout_s, forget_s=4 * timeout_s) as agent:
         peer = Peer(domain)
         world = World(agent, domain, seconds, spread_s=min(seconds / 2, 10))
         try:
@@ -68,7 +68,7 @@ def test_clients_come_and_go(tmp_path: Path) -> None:
 @pytest.mark.long
 def test_a_hundred_clients_come_and_go_for_ten_minutes(tmp_path: Path) -> None:
     seconds = float(os.environ.get("SOAK_SECONDS", "600"))
-    world, stopped = soak(tmp_path, places=100, seconds=seconds, timeout_s=15)
+    world, stopped = soak(tmp_path, places=100, seconds=seconds, timeout_s=30)
     warm = [kib for at, kib in world.rss if seconds / 4 < at < seconds / 2]
     late = [kib for at, kib in world.rss if 3 * seconds / 4 < at < seconds]
     print(dict(world.count), dict(world.ends))
