@@ -188,7 +188,11 @@ def _streams(
             _written(index, node, endpoint, types) for index, (_, node, endpoint) in enumerate(declarations)
         )
     else:
-        written = tuple(Written(str(r), types[r].max_encoded_size, True, True) for r in roots)
+        spans = {named.name: named.span for named in application.interfaces}
+        written = tuple(
+            Written(str(r), types[r].max_encoded_size, True, True, spans.get(str(r)) or spans.get(r.package))
+            for r in roots
+        )
     reliable_input = selection.has("stream_reliable_input")
     return plan_streams(
         application, selection.transport, written, create, diagnostics, reliable_input, received
