@@ -140,6 +140,7 @@ def plan_project(
         wait_sets_max=running.wait_sets_max,
         ros_clocks_max=running.ros_clocks_max,
         jump_callbacks_max=running.jump_callbacks_max,
+        has_time_sync=selection.has("time_sync"),
         reassembly_size=streams.reassembly_size,
         fragments=streams.fragments,
         reliable_input_slots=streams.reliable_input_slots,
