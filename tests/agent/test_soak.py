@@ -62,7 +62,7 @@ def check(world: World, stopped: dict[str, object]) -> None:
     assert set(faults) <= TOLERATED, faults
     warnings = {key: n for key, n in world.count.items() if key.startswith("log ")}
     assert set(warnings) <= {"log bad_input"}, warnings
-    assert world.count["samples accounted for"] > 0
+    assert world.count["accounts that are right"] > 0
     assert world.count["samples down"] > 0
 
 
