@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "63f20578f8291caf"
-#define rcl_init rcl_init__plan_63f20578f8291caf
-#define rclc_support_init rclc_support_init__plan_63f20578f8291caf
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_63f20578f8291caf
+#define MICROROS_PLAN_ID "82f18c52614d208e"
+#define rcl_init rcl_init__plan_82f18c52614d208e
+#define rclc_support_init rclc_support_init__plan_82f18c52614d208e
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_82f18c52614d208e
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

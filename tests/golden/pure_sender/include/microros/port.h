@@ -4,7 +4,7 @@
  * function is a symbol of its own, so that what nobody calls is not linked. The library calls these from the
  * task that calls it, and keeps no pointer that it hands over.
  *
- * Groups: time and sleep, unique id, UDP, serial line. A further group (mutex, tasks, OS timers, wake-up, memory sections,
+ * Groups: time and sleep, waiting, timers, unique id, UDP, serial line. A further group (mutex, tasks, memory sections,
  * other transports) is added here with the component that needs it.
  */
 #ifndef MICROROS_PORT_H
@@ -28,6 +28,37 @@ int64_t port_time_epoch_ns(void);
 
 /* Sleeps at least `duration_ms`; 0 yields. */
 void port_sleep_ms(uint32_t duration_ms);
+
+/* Returns nanoseconds since some start; never goes back. Clocks and the executor's periods use it. */
+int64_t port_time_steady_ns(void);
+
+/* --- waiting; for the executor --- */
+
+/*
+ * Waits until something may have arrived on the transport with this handle (of port_udp_t, port_serial_t; -1: there is
+ * none), until port_wake, or for `timeout_ms`; may come back early. A port_wake since the last wait counts. The processor
+ * rests meanwhile.
+ */
+void port_wait(intptr_t handle, uint32_t timeout_ms);
+
+/* Ends the wait that is under way, or else the next one. May be called by any task, and by an interrupt. */
+void port_wake(void);
+
+/* --- timers; for those that the application file declares with a `kind` --- */
+
+/* Called at each tick, by an interrupt or any task; `timer` is the number that the timer was started with. */
+typedef void (*port_timer_tick_t)(uint16_t timer);
+
+/* `kind: rtos`. Starts a timer of the system that ticks every `period_ns`, for the first time in one period; `timer` is
+ * below MICROROS_TIMERS_MAX, and each number is one timer. False: there is none. */
+bool port_timer_start(uint16_t timer, int64_t period_ns, port_timer_tick_t tick);
+
+/* After it no tick comes. */
+void port_timer_stop(uint16_t timer);
+
+/* `kind: hardware`: the same two, which the application provides on every system. */
+bool port_hardware_timer_start(uint16_t timer, int64_t period_ns, port_timer_tick_t tick);
+void port_hardware_timer_stop(uint16_t timer);
 
 /* --- unique id --- */
 
