@@ -51,7 +51,7 @@ def fuzzer(run: Callable[[int, int], None]) -> Callable[[int, int], None]:
 
 @pytest.mark.parametrize("name", ["datagrams", "tcp_bytes", "serial_bytes", "discovery_datagrams"])
 def test_a_slice(name: str) -> None:
-    FUZZERS[name](1, 4_000)
+    FUZZERS[name](1, 2_000)
 
 
 @pytest.mark.long
