@@ -72,13 +72,15 @@ def test_tcp_and_an_agent_that_starts_anew(images: Images, observer: Observer, d
     image = images.build(0, text, "gcc", flags)
     where = ("tcp4", "--port", str(port))
     observer.subscribe("/tcp", "std_msgs/msg/Int32")
-    with running_agent(domain, "--domain", str(domain), transport=where) as agent:
-        with started(image.program) as running:
-            until(observer, ["/tcp"], LAST)
-            agent.stop()
-            with running_agent(domain, "--domain", str(domain), transport=where):
-                samples = until(observer, ["/tcp"], 4 * LAST - 1)
-                running.communicate(timeout=15)
+    with (
+        running_agent(domain, "--domain", str(domain), transport=where) as agent,
+        started(image.program) as running,
+    ):
+        until(observer, ["/tcp"], LAST)
+        agent.stop()
+        with running_agent(domain, "--domain", str(domain), transport=where):
+            samples = until(observer, ["/tcp"], 4 * LAST - 1)
+            running.communicate(timeout=15)
     values = [sample["data"] for sample in samples["/tcp"]]
     assert values == sorted(values)
     shutil.rmtree(image.out.parent)  # its port is this test's
