@@ -141,6 +141,7 @@ def plan_project(
         ros_clocks_max=running.ros_clocks_max,
         jump_callbacks_max=running.jump_callbacks_max,
         has_time_sync=selection.has("time_sync"),
+        fixed_messages=all(plan.fixed_size for plan in types if plan.wire is not None),
         reassembly_size=streams.reassembly_size,
         fragments=streams.fragments,
         reliable_input_slots=streams.reliable_input_slots,

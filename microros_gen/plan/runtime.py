@@ -134,6 +134,7 @@ class RuntimePlan:
     header; 0: none does.
     `timers_max`, `executors_max` with `handles_max` each, `guard_conditions_max`, `wait_sets_max`, `ros_clocks_max`,
     `jump_callbacks_max`: places of each; 0 timers, executors or clocks: the component is not selected.
+    `fixed_messages`: no message that is sent has a string or sequence.
     `error_text_size` 0: codes only. `best_effort_size` 0 or `reliable_slots` 0: there is no such stream.
     """
 
@@ -191,6 +192,7 @@ class RuntimePlan:
     ros_clocks_max: int = 0
     jump_callbacks_max: int = 0
     has_time_sync: bool = False
+    fixed_messages: bool = False
 
     @property
     def has_subscriptions(self) -> bool:
@@ -211,6 +213,17 @@ class RuntimePlan:
     def has_clocks(self) -> bool:
         """Whether `clock` is selected."""
         return self.ros_clocks_max > 0
+
+    @property
+    def has_sockets(self) -> bool:
+        """Whether the transport goes over a socket of the port."""
+        return self.transport in ("udp", "tcp")
+
+    @property
+    def agent_place(self) -> str:
+        """Where the agent is: `192.168.1.10:8888`, `[::1]:8888`."""
+        host = f"[{self.agent_host}]" if ":" in self.agent_host else self.agent_host
+        return f"{host}:{self.agent_port}"
 
     @property
     def has_steady_time(self) -> bool:
@@ -304,6 +317,11 @@ class RuntimePlan:
     def error_mode(self) -> str:
         """`text` or `code`: which file speaks for errors."""
         return "text" if self.error_text_size else "code"
+
+    @property
+    def refusal_mode(self) -> str:
+        """`told` or `never`: whether an encoder can refuse a message."""
+        return "never" if self.fixed_messages else "told"
 
     @property
     def limited_headers(self) -> tuple[str, ...]:

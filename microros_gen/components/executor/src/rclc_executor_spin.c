@@ -101,8 +101,9 @@ rcl_ret_t rclc_executor_spin_some(rclc_executor_t * executor, const uint64_t tim
   }
   result = executor_wait(executor, timeout_ns > (uint64_t)INT64_MAX ? -1 : (int64_t)timeout_ns);
   if (
-    result == RCL_RET_OK && executor->trigger_function(
-                              executor->handles, (unsigned int)executor->max_handles, executor->trigger_object)) {
+    result == RCL_RET_OK &&
+    executor->trigger_function(
+      executor->handles, (unsigned int)executor->max_handles, executor->trigger_object)) {
     result = executor_process(executor);
   }
   return result;
@@ -128,13 +129,12 @@ static void executor_rest(int64_t duration_ns)
 
 rcl_ret_t rclc_executor_spin(rclc_executor_t * executor)
 {
-  rcl_ret_t result;
-
   if (executor == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "executor");
   }
   for (;;) {
-    result = rclc_executor_spin_some(executor, executor->timeout_ns);
+    const rcl_ret_t result = rclc_executor_spin_some(executor, executor->timeout_ns);
+
     if (!executor_goes_on(executor, result)) {
       return result;
     }
