@@ -4,11 +4,17 @@
 from __future__ import annotations
 
 import importlib.util
+import os
 import sys
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
+settings.register_profile("repeatable", derandomize=True)
+settings.load_profile(
+    os.environ.get("HYPOTHESIS_PROFILE", "repeatable")
+)  # `default` draws new examples each time
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 
