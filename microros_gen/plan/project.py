@@ -144,6 +144,7 @@ def plan_project(
         has_discovery=selection.has("discovery"),
         discovery_port=application.transport.discover or DISCOVERY_PORT,
         has_time_sync=selection.has("time_sync"),
+        fixed_messages=all(plan.fixed_size for plan in types if plan.wire is not None),
         reassembly_size=streams.reassembly_size,
         fragments=streams.fragments,
         reliable_input_slots=streams.reliable_input_slots,

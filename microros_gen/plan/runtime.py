@@ -138,6 +138,7 @@ class RuntimePlan:
     header; 0: none does.
     `timers_max`, `executors_max` with `handles_max` each, `guard_conditions_max`, `wait_sets_max`, `ros_clocks_max`,
     `jump_callbacks_max`: places of each; 0 timers, executors or clocks: the component is not selected.
+    `fixed_messages`: no message that is sent has a string or sequence.
     `error_text_size` 0: codes only. `best_effort_size` 0 or `reliable_slots` 0: there is no such stream.
     """
 
@@ -197,6 +198,7 @@ class RuntimePlan:
     has_time_sync: bool = False
     has_discovery: bool = False
     discovery_port: int = DISCOVERY_PORT
+    fixed_messages: bool = False
 
     @property
     def has_subscriptions(self) -> bool:
@@ -326,6 +328,11 @@ class RuntimePlan:
     def error_mode(self) -> str:
         """`text` or `code`: which file speaks for errors."""
         return "text" if self.error_text_size else "code"
+
+    @property
+    def refusal_mode(self) -> str:
+        """`told` or `never`: whether an encoder can refuse a message."""
+        return "never" if self.fixed_messages else "told"
 
     @property
     def limited_headers(self) -> tuple[str, ...]:
