@@ -52,8 +52,6 @@ void xrce_discovery_end(xrce_discovery_t * discovery)
 
 static void discovery_ask(xrce_discovery_t * discovery, uint32_t now)
 {
-  uint8_t question[XRCE_DISCOVERY_QUESTION];
-
   if (!discovery->open) {
     discovery->open = port_multicast_open(&discovery->group);
     discovery->pause_ms = MICROROS_RETRY_FIRST_MS;
@@ -61,6 +59,8 @@ static void discovery_ask(xrce_discovery_t * discovery, uint32_t now)
     return;
   }
   if (discovery->open) {
+    uint8_t question[XRCE_DISCOVERY_QUESTION];
+
     xrce_discovery_write_question(question);
     (void)port_multicast_send(
       &discovery->group, XRCE_DISCOVERY_GROUP, MICROROS_DISCOVERY_PORT, question, sizeof(question));
