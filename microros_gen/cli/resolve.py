@@ -99,7 +99,9 @@ def _running_rows(planned: Planned) -> list[tuple[str, str, str]]:
         rows.append(("timers", str(runtime.timers_max), source))
     if runtime.has_executors:
         rows.append(("executors", str(runtime.executors_max), source))
-        rows.append(("handles", f"{runtime.handles_max} each", "one for each entity that an executor can run"))
+        rows.append(
+            ("handles", f"{runtime.handles_max} each", "one for each entity that an executor can run")
+        )
         rows.append(("guard conditions", str(runtime.guard_conditions_max), "pools.guard_conditions"))
     return rows
 

@@ -197,7 +197,10 @@ def _type_hint(name: str, scope: Scope) -> str | None:
     near = nearest(name, [*scope.typedefs, *_BASES, "string", "wstring"])
     if name[0].isupper() and (near is None or near.strip("?'").rpartition("'")[2] not in scope.typedefs):
         return f"Another interface is written '{scope.modules[0]}::msg::{name}'"
-    return near
+    return near or (
+        "Write a type of IDL (boolean, octet, int32, double, string), a typedef that stands above, or another "
+        f"interface with its package ('{scope.modules[0]}::msg::Name')"
+    )
 
 
 def _model_type(written: Written, element: ElementType) -> FieldType:

@@ -5,9 +5,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from microros_gen.model.application import DISCOVERY_PORT
 from microros_gen.model.types import TypeName
 from microros_gen.plan.names import dds_type
 from microros_gen.plan.types_names import include_path, type_files
+
+DISCOVERY_GROUP = "239.255.0.2"
+"""Where clients ask for agents and agents listen (OMG DDS-XRCE 1.0, 9.3)."""
 
 
 @dataclass(frozen=True)
@@ -192,6 +196,8 @@ class RuntimePlan:
     ros_clocks_max: int = 0
     jump_callbacks_max: int = 0
     has_time_sync: bool = False
+    has_discovery: bool = False
+    discovery_port: int = DISCOVERY_PORT
     fixed_messages: bool = False
 
     @property
@@ -218,6 +224,11 @@ class RuntimePlan:
     def has_sockets(self) -> bool:
         """Whether the transport goes over a socket of the port."""
         return self.transport in ("udp", "tcp")
+
+    @property
+    def discovers(self) -> bool:
+        """Whether a session searches for its agent by itself."""
+        return self.agent_host == DISCOVERY_GROUP
 
     @property
     def agent_place(self) -> str:

@@ -113,6 +113,8 @@ class EncoderViews:
         builder = _Builder(self._plans, plan, self._largest)
         at = builder.at_view() if wire.at_steps is not None else None
         functions = builder.functions()
+        largest = builder.largest(plan.c_name, plan.limits) if plan.root else ()
+        limit_sets = tuple(builder.limit_set(own) for own in plan.limit_sets if own.sends)
         handle = f"rosidl_typesupport_c__get_message_type_support_handle__{plan.c_name}"
         return TypeSupportView(
             guard=guard(plan.files.type_support),
@@ -127,13 +129,13 @@ class EncoderViews:
             header_includes=builder.header_includes(),
             includes=builder.includes(),
             size_assertion=builder.size_assertion(),
-            largest=builder.largest(plan.c_name, plan.limits) if plan.root else (),
+            largest=largest,
             at=at,
             table=tuple(_table_declaration(member) for member in wire.limit_members),
             tables=tuple(builder.tables),
             functions=functions,
             decode=f"{plan.c_name}__decode" if plan.received else "NULL",
-            limit_sets=tuple(builder.limit_set(own) for own in plan.limit_sets if own.sends),
+            limit_sets=limit_sets,
         )
 
 
@@ -143,6 +145,7 @@ class _Builder:
     def __init__(self, plans: Mapping[TypeName, TypePlan], plan: TypePlan, largest: LargestSizes) -> None:
         self.tables: list[TableView] = []
         self._largest = largest
+        self._named: set[TypeName] = set()
         self._plans = plans
         self._plan = plan
         self._name = plan.c_name
@@ -175,7 +178,7 @@ class _Builder:
         found = {"microros/cdr.h"}
         if self._plan.root or self._plan.limit_sets:
             found.add("microros/cdr_sizes.h")
-        for name in self._plan.wire.calls if self._plan.wire else ():
+        for name in (*(self._plan.wire.calls if self._plan.wire else ()), *self._named):
             found.add(include_path(type_files(name).type_support))
         if self._plan.received:
             found.add(include_path(decode_files(self._plan.files)[0]))
@@ -186,9 +189,10 @@ class _Builder:
         return f"sizeof({self._name}) == {cdr_size(self._plan.struct_sizes)}"
 
     def largest(self, name: str, limits: TypeLimits | None) -> tuple[str, ...]:
-        """Return the conditions that show the size that begins with `name`."""
-        size = f"(uint32_t){name}__MAX_ENCODED_SIZE"
-        return self._largest.conditions(self._plan.name, limits, size)
+        """Return the conditions that show the size that begins with `name`; `includes` has what they need then."""
+        found = self._largest.of(self._plan.name, limits, name)
+        self._named.update(found.types)
+        return found.conditions
 
     def limit_set(self, own: LimitSet) -> LimitSetView:
         """Return the view of the type under the limits of some entities."""

@@ -4,14 +4,14 @@
 plan/types_size.py has the size from the members of the type; here it follows from the steps that are generated, and
 the compiler works it out once more. A line is one part of variable length: where it ends, which is where the next
 line begins. Elements of a sequence behind its first have one stride, so two of them are listed at most; and what was
-listed from a position of the same alignment is not listed again. So the text grows with the members of the types.
+listed from a position of the same alignment is not listed again, be it in the assertion of a type that is part of
+this one. So the text grows with the members.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from microros_gen.model.types import FieldType, Primitive, SequenceType, StringType, TypeName, element_of
 from microros_gen.plan.types import TypePlan
@@ -36,8 +36,7 @@ LARGEST_UNSIGNED = 0xFFFF
 """What `unsigned int` holds at least: sums of larger numbers need a suffix."""
 
 
-@dataclass(frozen=True)
-class _At:
+class _At(NamedTuple):
     """A position: `offset` bytes behind `base`, which is `computed` by an expression in C or, None, a number."""
 
     base: int
@@ -90,46 +89,80 @@ class _Alignments:
         return max(own, LENGTH_SIZE if isinstance(kind, SequenceType) else 1)
 
 
+_Use = tuple[TypeName, "TypeLimits | None"]
+"""A type under the limits that its table has; None where it has no table."""
+
+_Passed = dict[tuple[int, int], tuple[_At, _At]]
+"""A step of a type, at a position modulo the largest alignment: that position, and where the type ended."""
+
+
+class LargestSize(NamedTuple):
+    """The conditions that show a largest size, and the types whose own sizes they name."""
+
+    conditions: tuple[str, ...]
+    types: tuple[TypeName, ...]
+
+
 class LargestSizes:
-    """Makes the conditions of the types of one plan."""
+    """Makes the conditions of the types of one plan; a root is listed once, for itself and for types it is in."""
 
     def __init__(self, plans: Mapping[TypeName, TypePlan]) -> None:
-        self._plans = plans
-        self._alignments = _Alignments(plans)
+        self.plans = plans
+        self.alignments = _Alignments(plans)
+        self._roots: dict[TypeName, tuple[LargestSize, _Passed]] = {}
 
-    def conditions(self, name: TypeName, limits: TypeLimits | None, size: str) -> tuple[str, ...]:
-        """Return the conditions, in C, that hold where `size` is the largest body of a type that has an encoder.
+    def of(self, name: TypeName, limits: TypeLimits | None, c_name: str) -> LargestSize:
+        """Return the conditions, in C, that hold where `c_name`__MAX_ENCODED_SIZE is the largest body of a type.
 
-        `limits`: those of an entity, or of the type itself.
+        `limits`: those of a root itself, or of an entity with names of its own that begin with `c_name`.
         """
-        return _Listing(self._plans, self._alignments).conditions(name, limits, size)
+        if c_name == self.plans[name].c_name:
+            return self._root(name)[0]
+        return _Listing(self).of(name, limits, c_name)[0]
+
+    def passed(self, name: TypeName, limits: TypeLimits | None) -> _Passed:
+        """Return what the conditions of the type itself say of a use; nothing where limits differ or it is no root."""
+        plan = self.plans[name]
+        if not plan.root or plan.fixed_size or (limits is not None and limits != plan.limits):
+            return {}
+        return dict(self._root(name)[1])
+
+    def _root(self, name: TypeName) -> tuple[LargestSize, _Passed]:
+        if name not in self._roots:
+            plan = self.plans[name]
+            self._roots[name] = _Listing(self).of(name, plan.limits, plan.c_name)
+        return self._roots[name]
 
 
 class _Listing:
     """Walks through the steps of one body, from its first byte.
 
     `_base` is where the encoder's variable `position` stands, `_end` the position behind the last step, `_table`
-    the limits that the present function is given. `_known`: for a type under some limits, and a step of it at a
-    position modulo its largest alignment, a position where that step was, and where the type ended.
+    the limits that the present function is given.
     """
 
-    def __init__(self, plans: Mapping[TypeName, TypePlan], alignments: _Alignments) -> None:
-        self._plans = plans
+    def __init__(self, sizes: LargestSizes) -> None:
+        self._sizes = sizes
         self._lines: list[str] = []
-        self._alignments = alignments
-        self._known: dict[tuple[TypeName, TypeLimits | None], dict[tuple[int, int], tuple[_At, _At]]] = {}
+        self._named: set[TypeName] = set()
+        self._known: dict[_Use, _Passed] = {}
         self._base = self._end = _At(0)
         self._table: Mapping[str, int | TypeLimits | None] = {}
 
-    def conditions(self, name: TypeName, limits: TypeLimits | None, size: str) -> tuple[str, ...]:
-        """Return the conditions; the last one is about `size`."""
-        wire = self._plans[name].wire
+    def of(self, name: TypeName, limits: TypeLimits | None, c_name: str) -> tuple[LargestSize, _Passed]:
+        """Return the conditions, the last one about the size; and what they say, for types that this one is in."""
+        wire = self._sizes.plans[name].wire
+        size = f"{c_name}__MAX_ENCODED_SIZE"
+        passed: _Passed = {}
         if wire is not None and wire.root_steps is not None:
             for step in wire.root_steps:
                 self._step(step)
         else:
+            self._known[name, limits if wire is not None and wire.limit_members else None] = passed
             self._message(name, limits, _At(0))
-        return (*self._lines, f"({size} == {_whole(self._end)})")
+        self._lines.append(f"((uint32_t){size} == {_whole(self._end)})")
+        largest = LargestSize(tuple(self._lines), tuple(sorted(self._named)))
+        return largest, {key: (at, _At(end.value, size)) for key, (at, end) in passed.items()}
 
     def _step(self, step: Step) -> None:
         _STEPS[type(step)](self, step, self._place(step.place))
@@ -139,7 +172,7 @@ class _Listing:
 
     def _message(self, name: TypeName, limits: TypeLimits | None, at: _At) -> _At:
         """Move behind a message that begins at `at`; return that position."""
-        wire = self._plans[name].wire
+        wire = self._sizes.plans[name].wire
         if wire is None or wire.at_steps is None:
             raise ValueError(f"no encoder of {name} starts at any position")
         table = wire.limit_members if limits is not None else ()
@@ -150,16 +183,18 @@ class _Listing:
         self._table = outer
         return self._moved(end)
 
-    def _from(self, steps: tuple[Step, ...], use: tuple[TypeName, TypeLimits | None]) -> _At:
+    def _from(self, steps: tuple[Step, ...], use: _Use) -> _At:
         """Pass the steps of a type, until the rest of it was listed from a position of the same alignment."""
-        known = self._known.setdefault(use, {})
-        largest = self._alignments.of(use[0])
+        if use not in self._known:
+            self._known[use] = self._sizes.passed(*use)
+        known = self._known[use]
+        largest = self._sizes.alignments.of(use[0])
         passed: dict[tuple[int, int], _At] = {}
         for index, step in enumerate(steps):
             if self._base.literal and self._end is self._base:
                 key = (index, self._base.value % largest)
                 if key in known:
-                    end = self._like(*known[key], largest)
+                    end = self._like(use[0], *known[key])
                     break
                 passed[key] = self._base
             self._step(step)
@@ -168,10 +203,13 @@ class _Listing:
         known.update({key: (at, end) for key, at in passed.items()})
         return end
 
-    def _like(self, from_: _At, to: _At, largest: int) -> _At:
-        """Pass what takes the same bytes as what is between two positions."""
+    def _like(self, name: TypeName, from_: _At, to: _At) -> _At:
+        """Pass what takes the same bytes as the end of another message of a type, between two positions."""
         at = self._base
-        text = f"CDR_END_LIKE({at.text}, {from_.text}, {to.text}, {largest}U)"
+        if to.computed is not None:
+            self._named.add(name)
+        alignment = self._sizes.alignments.of(name)
+        text = f"CDR_END_LIKE({at.text}, {from_.text}, {to.text}, {alignment}U)"
         return self._line(text, at.value + to.value - from_.value)
 
     def _settled(self, at: _At) -> _At:

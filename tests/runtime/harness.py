@@ -115,6 +115,7 @@ def components(plan: RuntimePlan, liveliness: str = "ping") -> tuple[str, ...]:
     names += ["stream_best_effort"] if plan.best_effort_size else []
     names += ["subscribe", "read", "cdr_decode", "stream_best_effort_input"] if plan.receives else []
     names += ["stream_reliable"] if plan.reliable_slots else []
+    names += ["discovery"] if plan.has_discovery else []
     names += ["time_sync"] if plan.has_time_sync else []
     names += ["executor"] if plan.has_executors else []
     names += ["timers"] if plan.has_timers else []

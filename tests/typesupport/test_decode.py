@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import ctypes
 import importlib
+import mmap
+import os
 import random
 from collections.abc import Iterator
 from typing import Any
@@ -193,7 +195,10 @@ def test_what_does_not_fit_is_refused_with_its_field(limits_case: Generated, lib
             refused = decoder.into(decoder.message, body)
             assert refused, (plan.name, path)
             assert names_member(refused.path, path), (plan.name, path, refused)
-            assert (refused.found, refused.fits, refused.kind) == (size, size - 1, CAPACITY), (path, is_string)
+            assert (refused.found, refused.fits, refused.kind) == (size, size - 1, CAPACITY), (
+                path,
+                is_string,
+            )
             member.capacity, member.size = capacity, size
             assert decoder.into(decoder.message, body) is None, (plan.name, path)
             checked += 1
@@ -270,6 +275,29 @@ def test_a_message_without_storage_takes_what_is_empty(
     assert decoder.into(empty, bytes(8) + b"\1\0\0\0" + bytes(4) + b"\1\0\0\0" + bytes(96)) == Refused(
         "name", 1, 0, CAPACITY
     )
+
+
+@pytest.mark.parametrize("wide", [False, True])
+def test_the_nul_that_empty_strings_share_is_not_written_to(
+    everything: Generated, functions_library: ctypes.CDLL, wide: bool
+) -> None:
+    """Threads share it. Here it is on a page that nobody can write to; a child process reads into it."""
+    decoder = one(everything, functions_library, "test_msgs/msg/WStrings" if wide else "std_msgs/msg/String")
+    message = decoder.bind()
+    map_page = ctypes.CDLL(None).mmap
+    map_page.restype = ctypes.c_void_p
+    page = map_page(None, ctypes.c_size_t(4096), mmap.PROT_READ, mmap.MAP_PRIVATE | mmap.MAP_ANON, -1, 0)
+    text = message.wstring_value if wide else message.data
+    text.data, text.size, text.capacity = page, 0, 1
+    child = os.fork()
+    if child == 0:
+        decoder.into(message, bytes(1000))
+        os._exit(0)
+    assert os.waitpid(child, 0)[1] == 0
+    owned = ctypes.create_string_buffer(b"xx")
+    text.data = ctypes.addressof(owned)
+    decoder.into(message, bytes(1000))
+    assert owned.raw[0] == 0, "an empty string of one's own gets its NUL"
 
 
 @pytest.mark.parametrize("length", [2**16, 2**29, 2**30 + 1, 2**31, 2**32 - 1])

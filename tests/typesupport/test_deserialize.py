@@ -20,8 +20,8 @@ APPLICATION = """\
 version: 1
 profiles: [pure_sender]
 components: [{components}]
-interfaces: [sensor_msgs/msg/JointState]
-limits: {{"*": {{string: 5, sequence: 2}}}}
+interfaces: [sensor_msgs/msg/JointState, sensor_msgs/msg/PointCloud2, shape_msgs/msg/SolidPrimitive]
+limits: {{"*": {{string: 5, sequence: 2}}, shape_msgs/msg/SolidPrimitive: {{dimensions: 3, polygon: 2}}}}
 memory: {{arena: 0}}
 """
 
@@ -30,10 +30,16 @@ PROGRAM = r"""
 #include <rcl/rcl.h>
 #include <rmw/rmw.h>
 #include <sensor_msgs/msg/joint_state.h>
+#include <sensor_msgs/msg/point_cloud2.h>
+#include <shape_msgs/msg/solid_primitive.h>
 #include <stdio.h>
 #include <string.h>
 
 static sensor_msgs__msg__JointState sent, found;
+static sensor_msgs__msg__PointCloud2 cloud;
+static sensor_msgs__msg__PointCloud2__Storage cloud_storage;
+static shape_msgs__msg__SolidPrimitive shape;
+static shape_msgs__msg__SolidPrimitive__Storage shape_storage;
 static sensor_msgs__msg__JointState__Storage sent_storage, found_storage;
 static uint8_t bytes[512];
 static rmw_serialized_message_t buffer = {bytes, 0, sizeof(bytes), {0}};
@@ -55,6 +61,38 @@ static void fill(sensor_msgs__msg__JointState * message)
   message->position.data[0] = 0.5;
   message->position.data[1] = -2.0;
   message->position.size = 2;
+}
+
+/* A member of an element, a bound, and data that are not there. */
+static void refuse_members(void)
+{
+  const rosidl_message_type_support_t * const of_cloud = ROSIDL_GET_MSG_TYPE_SUPPORT(sensor_msgs, msg, PointCloud2);
+  const rosidl_message_type_support_t * const of_shape =
+    ROSIDL_GET_MSG_TYPE_SUPPORT(shape_msgs, msg, SolidPrimitive);
+  size_t size = 0;
+
+  sensor_msgs__msg__PointCloud2__bind(&cloud, &cloud_storage);
+  shape_msgs__msg__SolidPrimitive__bind(&shape, &shape_storage);
+  cloud.fields.size = 2;
+  memcpy(cloud.fields.data[1].name.data, "inten", 6);
+  cloud.fields.data[1].name.size = 5;
+  show("cloud", rmw_serialize(&cloud, of_cloud, &buffer));
+  cloud.fields.data[1].name.capacity = 4;
+  show("element read", rmw_deserialize(&buffer, of_cloud, &cloud));
+  cloud.fields.data[1].name.capacity = 6;
+  buffer.buffer_length -= 30;
+  show("element cut", rmw_deserialize(&buffer, of_cloud, &cloud));
+  cloud.fields.data[1].name.size = 6;
+  show("element sent", rmw_uros_get_serialized_message_size(&cloud, of_cloud, &size));
+  cloud.fields.data = NULL;
+  show("no data", rmw_serialize(&cloud, of_cloud, &buffer));
+  shape.dimensions.size = 4;
+  show("bound sent", rmw_serialize(&shape, of_shape, &buffer));
+  memset(bytes, 0, 32);
+  bytes[1] = 1;
+  bytes[8] = 4;
+  buffer.buffer_length = 52;
+  show("bound read", rmw_deserialize(&buffer, of_shape, &shape));
 }
 
 int main(void)
@@ -92,6 +130,7 @@ int main(void)
   show("only sent", rmw_deserialize(&buffer, &other, &found));
   sent.position.size = 3;
   show("too much", rmw_uros_get_serialized_message_size(&sent, support, &size));
+  refuse_members();
   return 0;
 }
 """
@@ -110,6 +149,13 @@ NULL: 11 serialized_message, type_support or ros_message: NULL or not initialize
 other order: 1 sensor_msgs/msg/JointState.header.frame_id: the message ends: 83886080 bytes needed, 52 left
 only sent: 3 sensor_msgs/msg/JointState has no decoder: no profile that receives it
 too much: 1 sensor_msgs/msg/JointState.position: 3, limit 2: raise limits
+cloud: 0 
+element read: 1 sensor_msgs/msg/PointCloud2.fields[1].name: 5, capacity for 3: raise limits, or that of your buffer
+element cut: 1 sensor_msgs/msg/PointCloud2.fields[1].offset: the message ends: 6 bytes needed, 1 left
+element sent: 1 sensor_msgs/msg/PointCloud2.fields[1].name: 6, limit 5: raise limits
+no data: 1 sensor_msgs/msg/PointCloud2.fields has a size, 2, and no data: NULL
+bound sent: 1 shape_msgs/msg/SolidPrimitive.dimensions: 4, and its interface file allows 3
+bound read: 1 shape_msgs/msg/SolidPrimitive.dimensions: 4, and its interface file allows 3
 """  # noqa: W291 (printed so)
 
 

@@ -54,6 +54,7 @@ static void test_without_memory(void)
 
 static void test_strings(void)
 {
+  const rosidl_runtime_c__String zeros = {NULL, 0, 0};
   rosidl_runtime_c__String a;
   rosidl_runtime_c__String b;
 
@@ -65,6 +66,7 @@ static void test_strings(void)
   CHECK(!rosidl_runtime_c__String__are_equal(&a, &b));
   CHECK(rosidl_runtime_c__String__assign(&b, "less") && b.capacity == 11u);
   CHECK(!rosidl_runtime_c__String__copy(NULL, &b));
+  CHECK(!rosidl_runtime_c__String__copy(&zeros, &b) && b.size == 4u); /* as ROS 2 does */
   rosidl_runtime_c__String__fini(&a);
   rosidl_runtime_c__String__fini(&b);
 }

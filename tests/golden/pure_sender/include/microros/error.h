@@ -59,6 +59,9 @@ extern const char microros_error_pool_full[];
 extern const char microros_error_clock[];
 extern const char microros_error_timer[];
 extern const char microros_error_executor[];
+extern const char microros_error_field_bound[];
+extern const char microros_error_field_capacity[];
+extern const char microros_error_field_data[];
 
 /*
  * Makes this the last error. What `name`, `detail`, `found` and `fits` mean is said beside the texts; the
