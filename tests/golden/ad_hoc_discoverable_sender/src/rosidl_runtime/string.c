@@ -8,7 +8,7 @@
 
 static char * string_empty(void)
 {
-  static char nothing = 0; /* what every empty string points to; never written */
+  static char nothing = 0; /* what every empty string points to: threads share it, so nobody writes to it */
 
   return &nothing;
 }

@@ -38,7 +38,8 @@ void cdr_get_string(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bou
     (void)memcpy(text->data, from, size);
   }
   if ((capacity > 1U) || ((capacity == 1U) && (text->data[0] != '\0'))) {
-    text->data[size] = '\0'; /* not to the NUL that all empty strings share (rosidl_runtime_c__String__init) */
+    text->data[size] =
+      '\0'; /* not to the NUL that all empty strings share (rosidl_runtime_c__String__init) */
   }
   text->size = size;
 }

@@ -8,8 +8,8 @@
 struct cdr_in_t;
 
 typedef enum cdr_fault_kind_t {
-  CDR_FAULT_LIMIT,    /* more than the limit of the application file: bytes of a string, elements of a sequence */
-  CDR_FAULT_END,      /* the body ends before the member does: `found` bytes needed, `fits` left */
+  CDR_FAULT_LIMIT, /* more than the limit of the application file: bytes of a string, elements of a sequence */
+  CDR_FAULT_END,   /* the body ends before the member does: `found` bytes needed, `fits` left */
   CDR_FAULT_VALUE,    /* a value that the type does not have: `found`, and `fits` is the largest */
   CDR_FAULT_BOUND,    /* more than the bound of the interface file */
   CDR_FAULT_CAPACITY, /* more than the capacity of the message that is read into */

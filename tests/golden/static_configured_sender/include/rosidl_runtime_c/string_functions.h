@@ -2,8 +2,9 @@
 /*
  * Functions on strings. Where more room is needed than the string has, the default allocator supplies it; a
  * buffer with room enough is kept, whoever supplied it. An empty string needs no memory: it points to a NUL
- * that all share, with a capacity of 1. Every function returns false for a NULL string, and when no memory
- * was left; the string then still holds what it held before.
+ * that all share, with a capacity of 1; threads share it too, so nothing writes to it, a decoder neither. Every
+ * function returns false for a NULL string, and when no memory was left; the string then still holds what it
+ * held before.
  */
 #ifndef MICROROS_ROSIDL_RUNTIME_C_STRING_FUNCTIONS_H
 #define MICROROS_ROSIDL_RUNTIME_C_STRING_FUNCTIONS_H
@@ -23,13 +24,14 @@ bool rosidl_runtime_c__String__init(rosidl_runtime_c__String * str);
 /* Gives the memory back and leaves the string without any; the arena leaves a buffer of the user's alone. */
 void rosidl_runtime_c__String__fini(rosidl_runtime_c__String * str);
 
+/* As in ROS 2, `input` needs data: a string of zeros, which nobody initialized, is refused, whatever its size. */
 bool rosidl_runtime_c__String__copy(
   const rosidl_runtime_c__String * input, rosidl_runtime_c__String * output);
 
 bool rosidl_runtime_c__String__are_equal(
   const rosidl_runtime_c__String * lhs, const rosidl_runtime_c__String * rhs);
 
-/* Copies `n` bytes of `value` and terminates them. */
+/* Copies `n` bytes of `value` and terminates them; false for a NULL `value`, also where `n` is 0, as in ROS 2. */
 bool rosidl_runtime_c__String__assignn(rosidl_runtime_c__String * str, const char * value, size_t n);
 
 bool rosidl_runtime_c__String__assign(rosidl_runtime_c__String * str, const char * value);
