@@ -223,8 +223,9 @@ def test_members_made_at_random_are_taken_or_refused_as_by_ros(
     ours, theirs = read(text).declarations, ros_idl(text, tmp_path)
     if theirs is not None and not ours:
         # What the parser takes and the C generator does not, or has no meaning: each has a line in the corpus.
-        # An annotation before `::` is the beginning of a scoped name too (OMG IDL 4.2, 7.4.15.3): here it is read so.
-        assert "@default" in member or "A" in member or re.search(r"@\w+ ::", member)
+        # An annotation before `::` may be the beginning of a scoped name (OMG IDL 4.2, 7.4.15.3): here it is read so.
+        # `long long ;` is for ROS a long of the name `long`, which is a keyword (7.2.3).
+        assert "@default" in member or "A" in member or re.search(r"@\w+ ::|\blong +;", member)
         return
     assert bool(ours) == (theirs is not None)
     if ours and theirs is not None:
