@@ -29,7 +29,7 @@ uint16_t xrce_discovery_take(xrce_discovery_t * discovery)
   const xrce_place_t * place = &discovery->places[discovery->next];
   char * at = discovery->host;
 
-  for (uint8_t i = 0; i < PORT_MULTICAST_ADDRESS; ++i) {
+  for (size_t i = 0; i < PORT_MULTICAST_ADDRESS; ++i) {
     if (i != 0u) {
       *at++ = '.';
     }

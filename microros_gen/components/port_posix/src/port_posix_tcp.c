@@ -31,7 +31,7 @@ void port_tcp_close(port_tcp_t * tcp)
 /* Whether the connection only needs time: it is being made, has no room, or nothing came. */
 static bool tcp_needs_time(int error)
 {
-  return error == EAGAIN || error == EWOULDBLOCK || error == EINTR || error == EINPROGRESS;
+  return error == EAGAIN || error == EINTR || error == EINPROGRESS;
 }
 
 /* ENOTCONN is what some systems say of a connection that is being made; one that failed has its error as well. */

@@ -8,7 +8,8 @@
 
 static uint_least16_t * string_empty(void)
 {
-  static uint_least16_t nothing = 0; /* what every empty string points to: threads share it, so nobody writes to it */
+  static uint_least16_t nothing =
+    0; /* what every empty string points to: threads share it, so nobody writes to it */
 
   return &nothing;
 }

@@ -59,10 +59,9 @@ static uint8_t entities_goal(const xrce_client_t * client, uint16_t place)
 /* Whether a place can move on: an endpoint needs its participant, a participant outlives its endpoints. */
 static bool entities_is_free(const xrce_client_t * client, uint16_t place, uint8_t goal)
 {
-  const xrce_object_state_t * parent;
-
   if (!xrce_place_is_participant(place)) {
-    parent = &client->states[xrce_entities_endpoint(client, place)->participant];
+    const xrce_object_state_t * parent = &client->states[xrce_entities_endpoint(client, place)->participant];
+
     return goal == 0u || (parent->level != 0u && !parent->stale);
   }
   if (goal == 0u) {

@@ -68,6 +68,7 @@ static inline bool xrce_place_is_participant(uint16_t place)
 
 static inline bool xrce_place_is_reader(uint16_t place)
 {
+  /* cppcheck-suppress incorrectLogicOperator ; a plan without subscriptions has none */
   return MICROROS_SUBSCRIPTIONS_MAX != 0u && place >= XRCE_READERS_AT && place < XRCE_REPLIERS_AT;
 }
 
