@@ -153,6 +153,7 @@ void xrce_read_step(xrce_client_t * client, uint32_t now)
   }
   for (uint16_t i = 0; i < (uint16_t)XRCE_RECEIVERS; ++i) {
     reading->receiver = (uint16_t)(reading->receiver + 1u);
+    /* cppcheck-suppress knownConditionTrueFalse ; a plan with one receiver has no other */
     reading->receiver = reading->receiver < XRCE_RECEIVERS ? reading->receiver : 0u;
     if (read_wants(client, reading->receiver, now, &samples)) {
       read_begin(client, samples, now);
