@@ -25,6 +25,7 @@ rcl_subscription_options_t rcl_subscription_get_default_options(void)
   return options;
 }
 
+/* cppcheck-suppress constParameter ; the signature is that of ROS 2 */
 rcl_ret_t rcl_subscription_options_fini(rcl_subscription_options_t * option)
 {
   if (option == NULL) {
