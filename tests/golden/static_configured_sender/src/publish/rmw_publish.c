@@ -62,6 +62,7 @@ rmw_ret_t rmw_publish_serialized_message(
   const rmw_publisher_t * publisher, const rmw_serialized_message_t * serialized_message,
   rmw_publisher_allocation_t * allocation)
 {
+  static const cdr_fault_t none = {.field = ""}; /* bytes are not looked into */
   const uint8_t * bytes;
   xrce_endpoint_t * writer;
   size_t capacity;
@@ -80,5 +81,5 @@ rmw_ret_t rmw_publish_serialized_message(
     return RMW_RET_ERROR;
   }
   return publish_report(
-    writer, xrce_write_body(writer, &bytes[ENCAPSULATION_SIZE], size - ENCAPSULATION_SIZE), NULL);
+    writer, xrce_write_body(writer, &bytes[ENCAPSULATION_SIZE], size - ENCAPSULATION_SIZE), &none);
 }
