@@ -152,11 +152,11 @@ def test_what_is_lost_is_told_once_and_counted() -> None:
     report(NoServer("/n", "/s [T]", "nobody served it for 5 s", 1))
     assert text.getvalue().splitlines() == [
         "warning: client /s [T] of /n: a request was dropped: nobody served it for 5 s"
-        " (further ones are only counted until somebody does)",
+        " (further ones are only counted, until somebody does)",
         "service /r [T] of /n: a reply was dropped: the client that asked is gone (further ones are only counted)",
         "client /s [T] of /n: it is served now; 3 requests were dropped before",
         "warning: client /s [T] of /n: a request was dropped: nobody served it for 5 s"
-        " (further ones are only counted until somebody does)",
+        " (further ones are only counted, until somebody does)",
     ]
     assert log.counters == {"no_server": 4, "no_client": 3}
 

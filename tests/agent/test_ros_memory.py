@@ -8,6 +8,7 @@ import gc
 import os
 import tracemalloc
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
@@ -63,7 +64,7 @@ def heap_bytes() -> int:
 
 @pytest.fixture
 def agent() -> Iterator[tuple[Agent, Bridged]]:
-    with opened(own_domain()) as bridged, open(os.devnull, "w") as out:
+    with opened(own_domain()) as bridged, Path(os.devnull).open("w") as out:
         yield Agent(bridged.bridge, EventLog(out), Limits()), bridged
 
 

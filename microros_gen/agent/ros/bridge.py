@@ -118,7 +118,10 @@ class NoServer:
     lost: int
 
     def __str__(self) -> str:
-        return f"client {self.endpoint} of {self.node}: a request was dropped: {self.reason}"
+        return (
+            f"client {self.endpoint} of {self.node}: a request was dropped: {self.reason}"
+            " (further ones are only counted, until somebody does)"
+        )
 
 
 @dataclass(frozen=True)
@@ -142,7 +145,10 @@ class NoClient:
     lost: int
 
     def __str__(self) -> str:
-        return f"service {self.endpoint} of {self.node}: a reply was dropped: the client that asked is gone"
+        return (
+            f"service {self.endpoint} of {self.node}: a reply was dropped: the client that asked is gone"
+            " (further ones are only counted)"
+        )
 
 
 GraphReport = (

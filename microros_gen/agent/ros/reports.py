@@ -39,13 +39,10 @@ def graph_reporter(log: EventLog) -> Callable[[GraphReport], None]:
 
     def report(told: GraphReport) -> None:
         level, event = _EVENTS[type(told)]
-        text = "{told}"
         if isinstance(told, NoServer | NoClient):
             log.counters[event] += 1
             if told.lost > 1:
                 return
-            until = " until somebody does" if isinstance(told, NoServer) else ""
-            text += f" (further ones are only counted{until})"
-        log.emit(level, event, text, told=str(told), **asdict(told))
+        log.emit(level, event, "{told}", told=str(told), **asdict(told))
 
     return report
