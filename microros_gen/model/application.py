@@ -98,7 +98,8 @@ class EndpointDecl:
     """A publisher, subscription, service or client of a node.
 
     `topic` holds the service's name for the latter two. {node} and {ns} in it are replaced. `queue`: how many samples
-    wait on the device at most until they are taken; None: follows from the depth. Publishers have none.
+    wait on the device at most until they are taken; None: follows from the depth. Publishers have none. `given`: the
+    fully qualified name that the source has, where `remap:` makes it `topic`; empty: the same.
     """
 
     kind: str
@@ -110,6 +111,7 @@ class EndpointDecl:
     type_span: Span | None = None
     topic_span: Span | None = None
     queue: int | None = None
+    given: str = ""
 
 
 @dataclass(frozen=True)
@@ -173,7 +175,7 @@ class TaskDecl:
 
 @dataclass(frozen=True)
 class NodeDecl:
-    """A node and what it owns."""
+    """A node and what it owns. `given_name`, `given_namespace`: what the source has, where `remap:` changes them."""
 
     name: str
     namespace: str = "/"
@@ -184,6 +186,8 @@ class NodeDecl:
     parameters: tuple[ParameterDecl, ...] = ()
     executors: tuple[ExecutorDecl, ...] = ()
     name_span: Span | None = None
+    given_name: str = ""
+    given_namespace: str = ""
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from microros_gen.diagnostics import Diagnostics, Span, nearest
@@ -16,7 +16,6 @@ from microros_gen.model.application import (
     TimerDecl,
 )
 from microros_gen.model.names import (
-    NameFault,
     absolute,
     expand_topic_name,
     expanded_fault,
@@ -25,6 +24,7 @@ from microros_gen.model.names import (
     substitute,
     topic_fault,
 )
+from microros_gen.parse.application_remap import rename_endpoints, rename_node
 from microros_gen.parse.limits import endpoint_limits
 from microros_gen.parse.tree_values import (
     bool_of,
@@ -33,6 +33,7 @@ from microros_gen.parse.tree_values import (
     items,
     named_of,
     number_of,
+    report_name,
     size_of,
     span_of,
     text_of,
@@ -81,11 +82,13 @@ def _node(item: YamlNode, diagnostics: Diagnostics) -> NodeDecl:
         parameters=tuple(_parameter(p, diagnostics) for p in items(child(item, "parameters"))),
         name_span=span_of(name) or item.span,
     )
+    remap = child(item, "remap")
+    node = rename_node(node, remap, diagnostics)
     node = replace(node, endpoints=tuple(_endpoints(item, node, diagnostics)))
     executors = tuple(_executor(e, node, diagnostics) for e in items(child(item, "executors")))
     for kind, named in (("timer", node.timers), ("parameter", node.parameters), ("executor", executors)):
         check_unique(kind, [(n.name, n.span) for n in named], diagnostics)
-    return replace(node, executors=executors)
+    return rename_endpoints(replace(node, executors=executors), remap, diagnostics)
 
 
 def _endpoints(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> Iterator[EndpointDecl]:
@@ -223,32 +226,3 @@ def check_unique(kind: str, named: list[tuple[str, Span | None]], diagnostics: D
             where = f"; the first is in line {first.line}" if first else ""
             diagnostics.error(f"there are two {kind}s '{name}'{where}", span, "Give each a name of its own")
         seen.setdefault(name, span)
-
-
-def report_name(
-    node: YamlNode | None, what: str, judge: Callable[[str], NameFault | None], diagnostics: Diagnostics
-) -> bool:
-    """Report what `judge` finds wrong with the text of `node`, at the character.
-
-    Return whether it is right.
-    """
-    text = text_of(node)
-    if text is None or node is None:
-        return False
-    fault = judge(text)
-    if fault is None:
-        return True
-    diagnostics.error(
-        f"{what} '{text}' {fault.message}", _character_span(node, text, fault.index), fault.hint
-    )
-    return False
-
-
-def _character_span(node: YamlNode, text: str, index: int) -> Span:
-    span = node.span
-    line = span.source.line(span.line)
-    start = span.column - 1
-    start += 0 if isinstance(node, ScalarNode) and node.plain else 1
-    if line[start : start + len(text)] != text or index >= len(text):
-        return span
-    return Span(span.source, span.line, start + index + 1)

@@ -160,7 +160,15 @@ def _declared(
     application: Application, types: Mapping[TypeName, TypePlan]
 ) -> tuple[tuple[NodePlan, ...], tuple[PublisherPlan, ...]]:
     nodes = tuple(
-        NodePlan(i, n.name, n.namespace, participant_name(n.name, n.namespace), n.domain_id)
+        NodePlan(
+            i,
+            n.name,
+            n.namespace,
+            participant_name(n.name, n.namespace),
+            n.domain_id,
+            n.given_name,
+            n.given_namespace,
+        )
         for i, n in enumerate(application.nodes)
     )
     publishers = []
@@ -170,7 +178,16 @@ def _declared(
         name = type_name(endpoint.type)
         own = types[name].limit_set("publisher", index)
         publishers.append(
-            PublisherPlan(index, node_index, topic, dds_topic(topic), name, reliable, own.name if own else "")
+            PublisherPlan(
+                index,
+                node_index,
+                topic,
+                dds_topic(topic),
+                name,
+                reliable,
+                own.name if own else "",
+                endpoint.given,
+            )
         )
     return nodes, tuple(publishers)
 

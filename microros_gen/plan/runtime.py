@@ -16,13 +16,28 @@ DISCOVERY_GROUP = "239.255.0.2"
 
 @dataclass(frozen=True)
 class NodePlan:
-    """A declared node. `participant_name` is what goes on the wire: `name`, or `namespace/name`."""
+    """A declared node. `participant_name` is what goes on the wire: `name`, or `namespace/name`.
+
+    `given_name` and `given_namespace` are what the source passes, where `remap:` changes them.
+    """
 
     index: int
     name: str
     namespace: str
     participant_name: str
     domain_id: int
+    given_name: str = ""
+    given_namespace: str = ""
+
+    @property
+    def source_name(self) -> str:
+        """The name that the source passes."""
+        return self.given_name or self.name
+
+    @property
+    def source_namespace(self) -> str:
+        """The namespace that the source passes, as ROS 2 reports it."""
+        return "/" + (self.given_namespace or self.namespace).strip("/")
 
     @property
     def full_namespace(self) -> str:
@@ -35,7 +50,7 @@ class PublisherPlan:
     """A declared publisher; `topic` is the expanded ROS name (`/imu/data`), `dds_topic` is `rt` + topic.
 
     `limited` begins the C names of its type under limits of its own (plan/types_own_limits.py); empty: those of the
-    type.
+    type. `given` is the expanded name that the source has, where `remap:` makes it `topic`.
     """
 
     index: int
@@ -45,6 +60,7 @@ class PublisherPlan:
     type: TypeName
     reliable: bool
     limited: str = field(default="", repr=False)
+    given: str = field(default="", repr=False)
 
     @property
     def dds_type(self) -> str:
@@ -71,6 +87,7 @@ class SubscriptionPlan:
     header: str = ""
     c_type: str = ""
     buffers: tuple[str, ...] = ()
+    given: str = field(default="", repr=False)
 
     @property
     def dds_type(self) -> str:
@@ -108,6 +125,7 @@ class EndpointRow:
     dds_type: str = ""
     node: int = 0
     limited: str = ""
+    given: str = ""
 
 
 @dataclass(frozen=True)
@@ -280,10 +298,15 @@ class RuntimePlan:
     @property
     def endpoints(self) -> tuple[EndpointRow, ...]:
         """The declared endpoints in the order of their places, with the places that nobody declared."""
-        publishers = [EndpointRow(p.topic, p.dds_type, p.node, p.limited) for p in self.publishers]
-        subscriptions = [EndpointRow(s.topic, s.dds_type, s.node) for s in self.subscriptions]
+        publishers = [EndpointRow(p.topic, p.dds_type, p.node, p.limited, p.given) for p in self.publishers]
+        subscriptions = [EndpointRow(s.topic, s.dds_type, s.node, given=s.given) for s in self.subscriptions]
         rows = publishers + [EndpointRow()] * (self.publisher_places - len(publishers))
         return (*rows, *subscriptions, *[EndpointRow()] * (self.subscriptions_max - len(subscriptions)))
+
+    @property
+    def remaps(self) -> bool:
+        """Whether some name of the source is another one on the wire."""
+        return any(node.given_name for node in self.nodes) or any(row.given for row in self.endpoints)
 
     @property
     def queue_rows(self) -> tuple[QueueRow, ...]:

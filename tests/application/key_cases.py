@@ -458,6 +458,14 @@ _NODES = {
         "1:30",
         "'nodes[0].domain_id' must be a whole number between 0 and 232; it is 233",
     ),
+    "nodes[].remap": KeyCase(
+        "nodes: [{name: a, remap: {__ns: /b}}]",
+        lambda a: (_node(a).namespace, _node(a).given_namespace),
+        ("/b", "/"),
+        "nodes: [{name: a, remap: [b]}]",
+        "1:26",
+        "'nodes[0].remap' must be a mapping such as {imu/data: /left/imu, __ns: /left}; it is a list",
+    ),
     "nodes[].timers": KeyCase(
         _in_node("timers: [{name: t, period: 1.5 ms}]"),
         lambda a: [_timer(t) for t in _node(a).timers],
