@@ -198,6 +198,7 @@ class RuntimePlan:
     has_time_sync: bool = False
     has_discovery: bool = False
     has_session_state: bool = False
+    has_sleep: bool = False
     discovery_port: int = DISCOVERY_PORT
     fixed_messages: bool = False
 

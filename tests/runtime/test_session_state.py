@@ -12,7 +12,7 @@ from runtime.reading_agent import ReadingAgent
 
 CLOSED, CONNECTING, CONNECTED, LOST, RECONNECTING = range(5)
 NONE, SILENT, FORGOTTEN, UNACKNOWLEDGED, BROKEN, REFUSED = range(6)
-PLAN = replace(READER, has_session_state=True)
+PLAN = replace(READER, has_session_state=True, has_sleep=True)
 PERIOD = POOL.liveliness_period_ms
 
 
@@ -54,7 +54,7 @@ class Watched:
 
 
 def test_the_agent_starts_anew(bench: Bench) -> None:
-    """Entities come back, the publisher counts what it gave up, the subscription goes on: nobody does anything for it."""
+    """Entities come back, the publisher counts what it gave up, the subscription goes on."""
     watched = Watched(bench)
     assert watched.news() == [(CONNECTING, NONE), (CONNECTED, NONE)]
     watched.agent.restart()
