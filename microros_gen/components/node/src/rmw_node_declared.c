@@ -22,7 +22,7 @@ uint16_t rmw_node_take(xrce_client_t * client, const char * name, const char * n
       !rmw_name_equals(&wanted, microros_declared_node_namespace(declared))) {
       continue;
     }
-    if (!client->states[i].wanted) {
+    if (xrce_place_is_free(&client->states[i])) {
       participant->name = declared->name;
       participant->namespace_ = declared->namespace_;
       participant->domain_id = declared->domain_id;
