@@ -67,6 +67,7 @@ def names(tmp_path_factory: pytest.TempPathFactory) -> Names:
 def ros() -> Any:
     pytest.importorskip("rclpy")
     import rclpy.expand_topic_name
+    import rclpy.validate_full_topic_name
     import rclpy.validate_namespace
     import rclpy.validate_node_name
     import rclpy.validate_topic_name
@@ -77,8 +78,19 @@ def ros() -> Any:
 @given(name=NAMES, namespace=st.sampled_from(["/", "/ns", "/a/b"]))
 @settings(max_examples=400)
 def test_topics(names: Names, ros: Any, name: str, namespace: str) -> None:
-    """Two things are for the application file alone: substitutions, and `~x`, which rcl joins to the node's name."""
-    theirs = accepted(ros.validate_topic_name.validate_topic_name, name)
+    """Substitutions are for the application file alone, and so is `~x`, which rcl joins to the node's name.
+
+    How long a name may be is a matter of the plan: it is declared, or `pools: {name_size: …}` bounds it.
+    """
+
+    def judge(text: str) -> None:
+        ros.validate_topic_name.validate_topic_name(text)
+        full = ros.expand_topic_name.expand_topic_name(text, "node", namespace)
+        ros.validate_full_topic_name.validate_full_topic_name(full)
+
+    if len(name) > 200:
+        return
+    theirs = accepted(judge, name)
     if "{" in name or (name.startswith("~") and name[1:2] not in ("", "/")):
         assert not names.accepts("topic", name)
         return
@@ -91,7 +103,6 @@ def test_topics(names: Names, ros: Any, name: str, namespace: str) -> None:
 @given(name=NAMES)
 @settings(max_examples=300)
 def test_nodes_and_namespaces(names: Names, ros: Any, name: str) -> None:
-    """How long a name may be is a matter of the plan: it is declared, or `pools: {name_size: …}` bounds it."""
     if len(name) > 200:
         return
     assert names.accepts("node", name) == accepted(ros.validate_node_name.validate_node_name, name)

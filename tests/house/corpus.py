@@ -70,6 +70,10 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "reader_reference": _READER + _HEARD + "entities: reference\n",
         "reader_preconfigured": _READER + _HEARD + "entities: preconfigured\nliveliness: none\n",
         "reader_and_sender": _BOTH + "    subscriptions:\n" + _HEARD + "components: [+subscribe]\n",
+        "remapped": _BOTH.replace("name: probe", "name: probe\n    remap: {fast: quick, __ns: /left}")
+        + "    subscriptions:\n"
+        + _HEARD
+        + "components: [+subscribe]\n",
         "timers": _BOTH + "    timers: [{name: tick, period: 1 s}]\ncomponents: [+timers]\n",
         "timers_ticked": _BOTH
         + "    timers: [{name: a, period: 1 s, kind: rtos}, {name: b, period: 2 s, kind: hardware}]\n"
