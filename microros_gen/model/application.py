@@ -65,7 +65,8 @@ class Transport:
 class Qos:
     """QoS of an endpoint.
 
-    The values are those of rmw/types.h in lower case, the defaults rmw_qos_profile_default.
+    The values are those of rmw/types.h in lower case, the defaults rmw_qos_profile_default. `deadline_ms` and
+    `lifespan_ms`: 0 for none.
     """
 
     reliability: str = "reliable"
@@ -73,6 +74,8 @@ class Qos:
     history: str = "keep_last"
     depth: int = 10
     span: Span | None = None
+    deadline_ms: int = 0
+    lifespan_ms: int = 0
 
 
 @dataclass(frozen=True)

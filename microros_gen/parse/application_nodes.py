@@ -12,7 +12,6 @@ from microros_gen.model.application import (
     ExecutorDecl,
     NodeDecl,
     ParameterDecl,
-    Qos,
     TimerDecl,
 )
 from microros_gen.model.names import (
@@ -24,6 +23,7 @@ from microros_gen.model.names import (
     substitute,
     topic_fault,
 )
+from microros_gen.parse.application_qos import endpoint_qos
 from microros_gen.parse.application_remap import rename_endpoints, rename_node
 from microros_gen.parse.limits import endpoint_limits
 from microros_gen.parse.tree_values import (
@@ -103,7 +103,7 @@ def _endpoints(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> Iter
                 kind=kind,
                 topic=substitute(text_of(name) or "", node.name, node.namespace),
                 type=type_name,
-                qos=_qos(child(endpoint, "qos")),
+                qos=endpoint_qos(child(endpoint, "qos"), diagnostics),
                 limits=endpoint_limits(child(endpoint, "limits"), type_name),
                 span=endpoint.span,
                 type_span=span_of(type_node),
@@ -120,17 +120,6 @@ def _check_expanded(name: YamlNode | None, what: str, node: NodeDecl, diagnostic
             full = expand_topic_name(text, node.name, node.namespace)
             shown = full if len(full) <= 60 else f"{full[:60]}…"
             diagnostics.error(f"{what} '{shown}' {fault.message}", name.span, fault.hint)
-
-
-def _qos(node: YamlNode | None) -> Qos:
-    default = Qos()
-    return Qos(
-        reliability=text_of(child(node, "reliability")) or default.reliability,
-        durability=text_of(child(node, "durability")) or default.durability,
-        history=text_of(child(node, "history")) or default.history,
-        depth=int_of(child(node, "depth")) or default.depth,
-        span=span_of(node),
-    )
 
 
 def _timer(item: YamlNode, diagnostics: Diagnostics) -> TimerDecl:

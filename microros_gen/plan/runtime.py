@@ -156,7 +156,7 @@ class RuntimePlan:
     header; 0: none does.
     `timers_max`, `executors_max` with `handles_max` each, `guard_conditions_max`, `wait_sets_max`, `ros_clocks_max`,
     `jump_callbacks_max`: places of each; 0 timers, executors or clocks: the component is not selected.
-    `fixed_messages`: no message that is sent has a string or sequence.
+    `fixed_messages`: no message that is sent has a string or sequence. `timed_qos`: one has a deadline or lifespan.
     `error_text_size` 0: codes only. `best_effort_size` 0 or `reliable_slots` 0: there is no such stream.
     """
 
@@ -219,6 +219,7 @@ class RuntimePlan:
     has_sleep: bool = False
     discovery_port: int = DISCOVERY_PORT
     fixed_messages: bool = False
+    timed_qos: bool = False
 
     @property
     def has_subscriptions(self) -> bool:

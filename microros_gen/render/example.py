@@ -226,7 +226,13 @@ def _init(qos: Qos, what: str = "publisher") -> tuple[str, tuple[str, ...]]:
         if value != getattr(default, policy)
     ]
     changes += [f"depth = {asked.depth}"] if asked.depth != default.depth else []
+    changes += _times("deadline", asked.deadline_ms) + _times("lifespan", asked.lifespan_ms)
     return f"rclc_{what}_init", tuple(changes)
+
+
+def _times(policy: str, milliseconds: int) -> list[str]:
+    parts = (("sec", milliseconds // 1000), ("nsec", milliseconds % 1000 * 1_000_000))
+    return [f"{policy}.{part} = {value}" for part, value in parts if value]
 
 
 def _publisher(
