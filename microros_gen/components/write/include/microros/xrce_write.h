@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* WRITE_DATA: one message of a writer, encoded into the stream's room. */
+/* WRITE_DATA: one message of an endpoint, encoded into the stream's room. */
 #ifndef MICROROS_XRCE_WRITE_H
 #define MICROROS_XRCE_WRITE_H
 
@@ -26,6 +26,10 @@ xrce_write_t xrce_write_message(xrce_endpoint_t * writer, const void * message, 
 
 /* The same with a body that is encoded already; `size` is not above xrce_route_capacity. */
 xrce_write_t xrce_write_body(xrce_endpoint_t * writer, const uint8_t * body, size_t size);
+
+/* Pumps, and returns XRCE_WRITTEN with the room for a submessage, or why there is none. For endpoints of services, which
+ * fill it in themselves. */
+xrce_write_t xrce_write_begin(xrce_endpoint_t * writer, uint8_t ** room);
 
 /* Returns room for the writer's next submessage, or NULL: no session, or no room. */
 uint8_t * xrce_write_reserve(const xrce_endpoint_t * writer);
