@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from microros_gen.agent.objects import ObjectTree
 from microros_gen.agent.services import Calls
-from microros_gen.agent.session import Session
+from microros_gen.agent.session import Ready, Session
 from microros_gen.agent.transport.base import Transport
 
 if TYPE_CHECKING:
@@ -37,10 +37,15 @@ class Client:
     """It did not open its session with this agent (see `preconfigured`)."""
     unacknowledged: set[int] = field(default_factory=set)
     """Reliable input streams whose ACKNACK is still to be sent."""
-    ready: deque[tuple[bytes, int, int, bool]] = field(default_factory=deque)
-    """To be processed: message, offset of its first submessage, its stream, whether fragments made it."""
+    ready: deque[Ready] = field(default_factory=deque)
+    """To be processed."""
     stream: int = 0
     """Stream of the message that is processed now."""
+    more: bool = False
+    """That message has further submessages."""
+    retry_at: float = 0.0
+    """When a reliable stream that stopped is tried again, and how long that was put off."""
+    retry_s: float = 0.0
     readings: dict[int, Reading] = field(default_factory=dict)
     """What it reads, by object id."""
     waiting: deque[Reading] = field(default_factory=deque)
@@ -64,10 +69,13 @@ class Client:
         self.transport.send(message, self.address)
 
     def acknowledge(self) -> None:
-        """Send the acknowledgements that are due."""
+        """Send the acknowledgements that are due, of what is done; what is not is still to be acknowledged."""
+        undone = [ready[2] for ready in self.ready]
+        if self.more:
+            undone.append(self.stream)
         for stream in self.unacknowledged:
-            self.send(self.session.acknack(stream))
-        self.unacknowledged.clear()
+            self.send(self.session.acknack(stream, undone.count(stream)))
+        self.unacknowledged.intersection_update(undone)
 
 
 class ClientTable:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import time
 import traceback
 from collections.abc import Callable, Hashable
+from functools import partial
 from pathlib import Path
 
 from microros_gen.agent.clients import Client, ClientTable
@@ -20,8 +21,9 @@ from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.operations import Operations
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.representation import References
-from microros_gen.agent.ros.bridge import Bridge, BridgeError
+from microros_gen.agent.ros.bridge import Bridge, BridgeError, BusyError
 from microros_gen.agent.services import ENCAPSULATION
+from microros_gen.agent.session import Ready
 from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.wire.constants import (
     DATA_FORMAT_MASK,
@@ -32,13 +34,15 @@ from microros_gen.agent.wire.constants import (
 )
 from microros_gen.agent.wire.data_messages import DATA_PREFIX
 from microros_gen.agent.wire.errors import MalformedError
-from microros_gen.agent.wire.message import header_size, split
+from microros_gen.agent.wire.message import SUBMESSAGE_HEADER, header_size, split
 from microros_gen.agent.wire.submessages import decode
 
 WRITE_DATA = int(SubmessageId.WRITE_DATA)
 ACKNACK = int(SubmessageId.ACKNACK)
 ANSWERED = (SubmessageId.CREATE, SubmessageId.READ_DATA)
 """Whoever sends these waits for a STATUS when they are refused, also for what cannot be read."""
+RETRY_S, LONGEST_RETRY_S = 0.002, 0.064
+"""Seconds until a sample for which DDS had no room is tried again: at first, and at last."""
 TICK_S = 0.05
 """Seconds between two looks at time-outs while there are clients."""
 
@@ -61,6 +65,8 @@ class Agent:
         self._limits = limits
         self._clock = clock
         self._to_acknowledge: set[Client] = set()
+        self._stopped: set[Client] = set()
+        """Clients with a reliable stream that waits for room in DDS."""
         self._ticked = clock()
         self.clients = ClientTable()
         held = Held(references or References(), preconfigured or Preconfigured(), manifests or Manifests())
@@ -82,6 +88,9 @@ class Agent:
     def due(self) -> float | None:
         """Return the moment (of the clock) at which `tick` is due; None: not before a message or data come."""
         later = self._deliveries.due()
+        if self._stopped:
+            again = min(client.retry_at for client in self._stopped)
+            later = again if later is None else min(again, later)
         if not len(self.clients):
             return later
         tick = self._ticked + TICK_S
@@ -108,36 +117,45 @@ class Agent:
         self._to_acknowledge.clear()
 
     def tick(self) -> None:
-        """Send what is due and look for time-outs; to be called when `due` says, or some ten times a second."""
+        """Send what is due and look for time-outs; to be called when `due` says, or some ten times a second.
+
+        Never raises.
+        """
         now = self._clock()
-        try:
-            self._deliveries.run(now)
-        except Exception as error:
-            self._fault(error, b"")
+        self._guarded(partial(self._deliveries.run, now))
+        if self._stopped:
+            self._guarded(partial(self._try_again, now))
         if now >= self._ticked + TICK_S:
             self._ticked = now
-            self._look_after_clients(now)
+            for client in self.clients:
+                self._guarded(partial(self._look_after, client, now))
 
-    def _look_after_clients(self, now: float) -> None:
-        for client in self.clients:
-            silent = now - client.heard
-            if client.asleep:
-                if silent > self._limits.sleep_timeout_s:
-                    self._lobby.dismiss(client, "forgotten: it was not heard any more")
-                continue
-            for message in client.session.heartbeats(now):
-                client.send(message)
-            if silent > client.timeout_s:
-                self._lobby.put_to_sleep(client)
-            elif silent > client.timeout_s / 2 and now - client.probed > client.timeout_s / (2 * PROBES):
-                client.probed = now
-                client.send(client.session.probe())
+    def _look_after(self, client: Client, now: float) -> None:
+        silent = now - client.heard
+        if client.asleep:
+            if silent > self._limits.sleep_timeout_s:
+                self._lobby.dismiss(client, "forgotten: it was not heard any more")
+            return
+        for message in client.session.heartbeats(now):
+            client.send(message)
+        if silent > client.timeout_s:
+            self._lobby.put_to_sleep(client)
+        elif silent > client.timeout_s / 2 and now - client.probed > client.timeout_s / (2 * PROBES):
+            client.probed = now
+            client.send(client.session.probe())
 
     def close(self) -> None:
-        """Take all clients and their entities out of the ROS graph."""
+        """Take all clients and their entities out of the ROS graph. Never raises."""
         for client in self.clients:
-            self._lobby.dismiss(client, "dropped: the agent stops")
-        self._bridge.close()
+            self._guarded(partial(self._lobby.dismiss, client, "dropped: the agent stops"))
+        self._guarded(self._bridge.close)
+
+    def _guarded(self, do: Callable[[], None]) -> None:
+        """Do something for one client; a fault in it is not the others' concern."""
+        try:
+            do()
+        except Exception as error:
+            self._fault(error, b"")
 
     def _receive(self, data: bytes, address: Hashable, transport: Transport) -> None:
         start = header_size(data)
@@ -161,30 +179,41 @@ class Agent:
         if client.asleep:
             self._lobby.wake(client, now)
         stream = data[1]
-        ready = client.ready
         for message in client.session.incoming(stream, data[2] | data[3] << 8, data):
-            ready.append((message, start, stream, False))
+            client.ready.append((message, start, stream, False, 0))
         if stream >= STREAM_RELIABLE:
             client.unacknowledged.add(stream)
             self._to_acknowledge.add(client)
-        while ready:
-            try:
-                self._process(client, *ready.popleft())
-            except Exception as error:
-                self._refuse(error, data, address, transport)
+        self._process_ready(client)
 
-    def _process(self, client: Client, data: bytes, start: int, stream: int, whole: bool) -> None:
+    def _process_ready(self, client: Client) -> None:
+        ready = client.ready
+        while ready:
+            message = ready.popleft()
+            try:
+                self._process(client, *message)
+            except Exception as error:
+                client.more = False
+                self._refuse(error, message[0], client.address, client.transport)
+
+    def _process(self, client: Client, data: bytes, start: int, stream: int, whole: bool, done: int) -> None:
         client.stream = stream
         publish = client.objects.publish
         for identifier, flags, at, end in split(data, start, whole):
             if identifier == WRITE_DATA:
                 writer = publish.get(data[at + 2] << 8 | data[at + 3]) if end - at >= DATA_PREFIX else None
-                if writer is None or flags & DATA_FORMAT_MASK:
-                    self.samples += self._operations.write(client, data, at, end, flags)
-                    continue
                 try:
+                    if writer is None or flags & DATA_FORMAT_MASK:
+                        self.samples += self._operations.write(client, data, at, end, flags, done)
+                        done = 0
+                        continue
                     writer(ENCAPSULATION[flags & FLAG_LITTLE] + data[at + DATA_PREFIX : end])
                     self.samples += 1
+                except BusyError as error:
+                    self.samples += max(0, error.done - done)
+                    if self._stop(client, (data, at - SUBMESSAGE_HEADER, stream, whole, error.done), error):
+                        return
+                    self._operations.not_written(client, error)
                 except BridgeError as error:
                     self._operations.not_written(client, error)
             elif identifier == ACKNACK and end - at == 5 and flags & FLAG_LITTLE:
@@ -214,6 +243,7 @@ class Agent:
         if identifier == SubmessageId.HEARTBEAT:
             self._to_acknowledge.add(client)
         now = self._clock()
+        client.more = (end + 3 & ~3) + SUBMESSAGE_HEADER <= len(data)
         try:
             submessage = decode(identifier, flags, data, at, end)
         except MalformedError:
@@ -222,7 +252,45 @@ class Agent:
                 self._operations.refuse(client, *ids, now)
             raise
         self._operations.run(client, submessage, now)
+        client.more = False
         return True
+
+    def _stop(self, client: Client, unfinished: Ready, error: BusyError) -> bool:
+        """Keep what cannot be done now, and what follows on its stream, unacknowledged; False where it is lost."""
+        stream = unfinished[2]
+        followers = [ready[0] for ready in client.ready if ready[2] == stream and not ready[3]]
+        if stream < STREAM_RELIABLE or not client.session.stop(unfinished, followers):
+            return False
+        others = [ready for ready in client.ready if ready[2] != stream or ready[3]]
+        client.ready.clear()
+        client.ready.extend(others)
+        if client not in self._stopped:
+            self._stopped.add(client)
+            client.retry_s = RETRY_S
+            client.retry_at = self._clock() + RETRY_S
+            self._operations.waits(client, error)
+        return True
+
+    def _try_again(self, now: float) -> None:
+        """Go on with streams that stopped: soon after each sample that DDS took, else at growing intervals."""
+        for client in [client for client in self._stopped if client.retry_at <= now]:
+            known = self.clients.with_key(client.session.link.key) is client
+            if known and client.asleep:
+                client.retry_at = now + LONGEST_RETRY_S
+                continue
+            samples, began = self.samples, self._clock()
+            if known and client.session.stopped:
+                client.ready.extend(client.session.go_on())
+                client.unacknowledged.update(ready[2] for ready in client.ready)
+                self._to_acknowledge.add(client)
+                self._process_ready(client)
+            if not known or not client.session.stopped:
+                self._stopped.discard(client)
+                continue
+            took = self._clock() - began
+            client.retry_s = RETRY_S if self.samples > samples else min(2 * client.retry_s, LONGEST_RETRY_S)
+            client.retry_at = now + took + max(client.retry_s, 9 * took if self.samples == samples else 0)
+        self.flush()
 
     def _refuse(self, error: Exception, data: bytes, address: Hashable, transport: Transport) -> None:
         if isinstance(error, MalformedError):

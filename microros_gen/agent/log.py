@@ -25,6 +25,10 @@ class Level(IntEnum):
     TRACE = 4
 
 
+BURST, SUSTAINED = 1_000, 100
+"""Lines of one event that are written at once, and how many more each second; those of -v are not counted."""
+
+
 def printable(text: str) -> str:
     """Return `text` with everything that could steer a terminal replaced; it came from the network."""
     return "".join(c if c.isprintable() else "?" for c in text)
@@ -41,6 +45,8 @@ class EventLog:
         self._limit = Level.INFO + verbosity
         self._clock = clock
         self._seen: set[str] = set()
+        self._credit: dict[str, tuple[float, float]] = {}
+        self._withheld: Counter[str] = Counter()
         self.counters: Counter[str] = Counter()
 
     @property
@@ -53,9 +59,16 @@ class EventLog:
         return level <= self._limit
 
     def emit(self, level: Level, event: str, text: str, /, **fields: Json) -> None:
-        """Write one event: `text`, for people, is a format string over `fields`; JSON has both."""
-        if level > self._limit:
+        """Write one event: `text`, for people, is a format string over `fields`; JSON has both.
+
+        Nobody can fill a disk by it, or hold up the agent: see `BURST`. What was not written is told afterwards.
+        """
+        if level > self._limit or (level <= Level.INFO and not self._may_write(event)):
             return
+        if self._withheld[event]:
+            count = self._withheld.pop(event)
+            told = "{count} events '{of}' before this one were not written: too many at once"
+            self.emit(Level.WARNING, "withheld", told, of=event, count=count)
         shown = {key: printable(value) if isinstance(value, str) else value for key, value in fields.items()}
         message = text.format(**shown)
         if self._json:
@@ -64,6 +77,15 @@ class EventLog:
             self.line(json.dumps({**head, **fields, "message": message}))
         else:
             self.line(message if level is Level.INFO else f"{level.name.lower()}: {message}")
+
+    def _may_write(self, event: str) -> bool:
+        now = self._clock()
+        credit, since = self._credit.get(event, (float(BURST), now))
+        credit = min(BURST, credit + max(0.0, now - since) * SUSTAINED)
+        allowed = credit >= 1
+        self._credit[event] = credit - allowed, now
+        self._withheld[event] += not allowed
+        return allowed
 
     def count(self, kind: str, text: str, /, **fields: Value) -> None:
         """Count a fault of input; write it the first time that its `kind` occurs."""

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 
@@ -13,7 +13,7 @@ from microros_gen.agent.deliveries import Deliveries
 from microros_gen.agent.entities import Entity, Outcome
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.representation import Endpoint
-from microros_gen.agent.ros.bridge import BridgeError
+from microros_gen.agent.ros.bridge import BridgeError, BusyError
 from microros_gen.agent.services import ENCAPSULATION
 from microros_gen.agent.wire.cdr import Reader
 from microros_gen.agent.wire.constants import (
@@ -40,7 +40,7 @@ from microros_gen.agent.wire.entity_messages import (
     StatusReply,
 )
 from microros_gen.agent.wire.errors import MalformedError
-from microros_gen.agent.wire.samples import LIFE_CYCLE, read_samples
+from microros_gen.agent.wire.samples import LIFE_CYCLE, Sample, read_samples
 from microros_gen.agent.wire.session_messages import (
     AgentActivity,
     AgentConfig,
@@ -117,8 +117,11 @@ class Operations:
         """Answer a request that cannot be read: STATUS_ERR_INVALID_DATA (table 2)."""
         self._answer(client, request, object_id, Status.INVALID_DATA, now)
 
-    def write(self, client: Client, data: bytes, at: int, end: int, flags: int) -> int:
-        """Carry out a WRITE_DATA that is no plain sample of a data writer; return how much went to ROS 2."""
+    def write(self, client: Client, data: bytes, at: int, end: int, flags: int, done: int) -> int:
+        """Carry out a WRITE_DATA that is no plain sample of a data writer; return how much went to ROS 2.
+
+        `done` of its samples went there before. BusyError: further ones may go later.
+        """
         if end - at < DATA_PREFIX:
             raise MalformedError("truncated", f"WRITE_DATA of {end - at} bytes")
         form = flags & DATA_FORMAT_MASK
@@ -126,12 +129,14 @@ class Operations:
         try:
             if entity is not None and entity.writer is not None:
                 reader = Reader(data, at + DATA_PREFIX, end, bool(flags & FLAG_LITTLE))
-                return self._write_samples(client, entity, reader, form)
+                return self._write_samples(client, entity, read_samples(reader, form), reader.little, done)
             if entity is not None and entity.source is not None and entity.kind in CALLS:
                 if form:
                     raise MalformedError("data_format", f"format {form:#04x} for requests and replies")
                 payload = bytes(data[at + DATA_PREFIX : end])
                 return client.calls.write(entity, bytes(data[at : at + DATA_PREFIX]), payload, flags)
+        except BusyError:
+            raise
         except BridgeError as error:
             self.not_written(client, error)
             return 0
@@ -147,6 +152,11 @@ class Operations:
         """Count a sample that ROS 2 refused."""
         self._log.count("publish", "client {client}: {reason}", client=client.name, reason=str(error))
 
+    def waits(self, client: Client, error: BusyError) -> None:
+        """Count that a reliable stream of `client` stopped, since DDS has no room for its sample now."""
+        text = "client {client}: {reason}; the sample and what follows on its stream wait, unacknowledged"
+        self._log.count("publish_waits", text, client=client.name, reason=str(error))
+
     def acknowledged(self, client: Client, stream: int, first: int, missing: int, now: float) -> None:
         """Carry out an ACKNACK: send again what is missing, then go on with what waits."""
         for message in client.session.acknowledged(stream, first, missing, now):
@@ -154,9 +164,11 @@ class Operations:
         if client.waiting:
             self._deliveries.room(client, now)
 
-    def _write_samples(self, client: Client, writer: Entity, reader: Reader, form: int) -> int:
+    def _write_samples(
+        self, client: Client, writer: Entity, samples: Sequence[Sample], little: bool, done: int
+    ) -> int:
         written = 0
-        for sample in read_samples(reader, form):
+        for place, sample in enumerate(samples[done:], done):
             if sample.info.state & LIFE_CYCLE:
                 self._log.count(
                     "life_cycle",
@@ -166,7 +178,10 @@ class Operations:
                     label=writer.label,
                 )
                 continue
-            writer.publish(ENCAPSULATION[reader.little] + sample.body)
+            try:
+                writer.publish(ENCAPSULATION[little] + sample.body)
+            except BusyError as error:
+                raise BusyError(str(error), place) from error
             written += 1
         return written
 
@@ -211,7 +226,7 @@ class Operations:
         assert isinstance(submessage, Heartbeat)
         start = len(client.session.link.header(STREAM_NONE, 0))
         for message in client.session.announced(submessage):
-            client.ready.append((message, start, submessage.stream, False))
+            client.ready.append((message, start, submessage.stream, False, 0))
         client.unacknowledged.add(submessage.stream)
 
     def _reset(self, client: Client, submessage: Submessage, now: float) -> None:
@@ -223,13 +238,13 @@ class Operations:
         assert isinstance(submessage, Fragment)
         whole = client.session.fragment(client.stream, submessage)
         if whole is not None:
-            client.ready.appendleft((whole, 0, client.stream, True))
+            client.ready.appendleft((whole, 0, client.stream, True, 0))
 
     def _timestamp(self, client: Client, submessage: Submessage, now: float) -> None:
         assert isinstance(submessage, Timestamp)
         here = time.time_ns()
         received = divmod(here - round((now - client.heard) * 1e9), 1_000_000_000)
-        sent = divmod(here, 1_000_000_000)
+        sent = divmod(time.time_ns(), 1_000_000_000)
         client.send(client.session.unnumbered(TimestampReply(sent, received, submessage.transmit)))
 
     def _answer(self, client: Client, request: int, object_id: int, status: Status, now: float) -> None:

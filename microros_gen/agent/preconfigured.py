@@ -14,8 +14,8 @@ where whoever runs it knows that no other client comes, and only when
 - the message carries that client's key (session ids below 0x80), or exactly one client to adopt is not in session and
   its sender was listened to for some seconds (`Limits.adopt_after_s`), unanswered: a client with liveliness asks for
   the agent before that;
-- its first submessage is a WRITE_DATA to one of the client's data writers, or on a reliable stream the HEARTBEAT
-  that goes before: only that says where the stream goes on;
+- its first submessage is a WRITE_DATA to one of the client's data writers, requesters or repliers, or on a reliable
+  stream the HEARTBEAT that goes before: only that says where the stream goes on;
 - nobody is in session at its address.
 
 An adopted client that pings or creates something shows that it is another one: it is sent away, and heals.
@@ -33,12 +33,17 @@ from microros_gen.agent.representation import (
     Group,
     Participant,
     Qos,
+    Service,
     Topic,
 )
 from microros_gen.agent.ros.bridge import BridgeError
-from microros_gen.agent.ros.names import ros_node, ros_topic, ros_type
+from microros_gen.agent.ros.names import ros_node, ros_service, ros_topic, ros_type
+from microros_gen.agent.wire.constants import ObjectKind
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.model.preconfigured import PreconfiguredClient, PreconfiguredObject
+
+WRITTEN = (ObjectKind.DATAWRITER, ObjectKind.REQUESTER, ObjectKind.REPLIER)
+"""Kinds of objects that a client writes to."""
 
 
 @dataclass(frozen=True)
@@ -71,16 +76,14 @@ class Preconfigured:
     def to_adopt(self, key: bytes, writer: int | None, in_session: Iterable[bytes]) -> bytes | None:
         """Return the key of the client that a message without a session is from, or None.
 
-        `key` is what its header says (may be empty), `writer` the data writer that it writes to (None: a HEARTBEAT).
+        `key` is what its header says (may be empty), `writer` the object that it writes to (None: a HEARTBEAT).
         """
         missing = self._adopted.difference(in_session)
         candidates = missing & {key} if key else missing
         if len(candidates) != 1:
             return None
         (found,) = candidates
-        fits = writer is None or any(
-            isinstance(o.description, Endpoint) and o.id == writer for o in self._by_key[found]
-        )
+        fits = writer is None or any(o.id == writer and o.id & 0x0F in WRITTEN for o in self._by_key[found])
         return found if fits else None
 
 
@@ -95,19 +98,27 @@ def _description(item: PreconfiguredObject) -> Description:
         return Topic(item.name, item.type)
     if item.kind in ("publisher", "subscriber"):
         return Group()
+    if item.kind in ("requester", "replier"):
+        return _service(item)
     return Endpoint(
         None, item.topic, Qos(item.reliable, Durability(item.durability), item.keep_last, item.depth)
     )
 
 
+def _service(item: PreconfiguredObject) -> Service:
+    return Service(item.name, item.request_type, item.reply_type, item.request_topic, item.reply_topic)
+
+
 def _check_names(item: PreconfiguredObject, diagnostics: Diagnostics) -> None:
+    wanted = "rt/topic, package::msg::dds_::Type_"
     try:
         if item.kind == "participant":
             ros_node(item.name)
         elif item.kind == "topic":
             ros_topic(item.name)
             ros_type(item.type)
+        elif item.kind in ("requester", "replier"):
+            wanted = "rq/nameRequest, rr/nameReply, package::srv::dds_::Type_Request_, …_Response_"
+            ros_service(_service(item))
     except BridgeError as error:
-        diagnostics.error(
-            str(error), item.span, "Names are those of DDS: rt/topic, package::msg::dds_::Type_"
-        )
+        diagnostics.error(str(error), item.span, f"Names are those of DDS: {wanted}")

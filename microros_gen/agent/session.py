@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.streams_in import BestEffortIn, Reassembly, ReliableIn
 from microros_gen.agent.streams_out import BestEffortOut, Link, ReliableOut
@@ -21,6 +23,9 @@ from microros_gen.agent.wire.session_messages import GetInfo
 from microros_gen.agent.wire.submessages import Submessage, encode
 
 ACKNACK = int(SubmessageId.ACKNACK)
+Ready = tuple[bytes, int, int, bool, int]
+"""To be processed: message, offset of its first submessage, its stream, whether fragments made it, and how many samples
+of that submessage went to ROS 2 already."""
 
 
 class Session:
@@ -36,6 +41,7 @@ class Session:
         self._reliable_in: dict[int, ReliableIn] = {}
         self._reassembly: dict[int, Reassembly] = {}
         self._outputs: dict[int, BestEffortOut | ReliableOut] = {}
+        self._unfinished: dict[int, Ready] = {}
 
     def reset(self, link: Link | None = None) -> None:
         """Begin all streams again at 0: a RESET, or the client came again (then with its new `link`)."""
@@ -59,6 +65,36 @@ class Session:
         ready, lost = reliable.announce(heartbeat.first, heartbeat.last)
         if lost and heartbeat.stream in self._reassembly:
             self._reassembly[heartbeat.stream].drop()
+        if not reliable.stopped:
+            self._unfinished.pop(heartbeat.stream, None)  # given up by the client
+        return ready
+
+    @property
+    def stopped(self) -> bool:
+        """Whether a stream waits for `go_on`."""
+        return bool(self._unfinished)
+
+    def stop(self, unfinished: Ready, followers: Sequence[bytes]) -> bool:
+        """Acknowledge nothing from `unfinished` on, and keep it and those that follow until `go_on`.
+
+        False when its stream is not there any more or has stopped before.
+        """
+        stream = unfinished[2]
+        reliable = self._reliable_in.get(stream)
+        if reliable is None or reliable.stopped:
+            return False
+        reliable.stop(followers)
+        self._unfinished[stream] = unfinished
+        return True
+
+    def go_on(self) -> list[Ready]:
+        """Return what was stopped, to be processed now."""
+        start = len(self.link.header(STREAM_NONE, 0))
+        ready: list[Ready] = []
+        for stream, unfinished in self._unfinished.items():
+            followers = self._reliable_in[stream].go_on()
+            ready += [unfinished, *((message, start, stream, False, 0) for message in followers)]
+        self._unfinished = {}
         return ready
 
     def begin(self, stream: int, first: int) -> None:
@@ -74,10 +110,13 @@ class Session:
             reassembly = self._reassembly[stream] = Reassembly(self._limits.message_bytes)
         return reassembly.add(fragment.piece, fragment.last)
 
-    def acknack(self, stream: int) -> bytes:
-        """Return the message that tells the client what arrived on reliable stream `stream`."""
+    def acknack(self, stream: int, unfinished: int = 0) -> bytes:
+        """Return the message that tells the client what arrived on reliable stream `stream`.
+
+        The last `unfinished` messages that were handed on are not acknowledged yet.
+        """
         reliable = self._reliable_in.get(stream)
-        first, missing = reliable.missing() if reliable else (0, 0)
+        first, missing = reliable.missing(unfinished) if reliable else (0, 0)
         # One goes out for every reliable message: its bytes are put together here.
         told = (ACKNACK, FLAG_LITTLE, 5, 0, first & 0xFF, first >> 8, missing >> 8, missing & 0xFF, stream)
         return self.link.header(STREAM_NONE, 0) + bytes(told)

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from microros_gen.agent.wire.constants import RELIABLE_WINDOW
 from microros_gen.agent.wire.errors import MalformedError
 
@@ -35,6 +37,32 @@ class ReliableIn:
         self._held: dict[int, bytes] = {}
         self._held_bytes = 0
         self._hold_bytes = hold_bytes
+        self._stopped = False
+
+    @property
+    def stopped(self) -> bool:
+        """Whether it was told to `stop`, and not to go on yet."""
+        return self._stopped
+
+    def stop(self, followers: Sequence[bytes]) -> None:
+        """Acknowledge no further: the caller could not finish a message, and gives back the `followers` of it.
+
+        Nothing is handed on until `go_on`; meanwhile what comes is held as behind a gap.
+        """
+        self._stopped = True
+        given = (b"", *followers)  # the caller keeps the first
+        self.next = (self.next - len(given)) & 0xFFFF
+        self._announced = min(self._announced + len(given), RELIABLE_WINDOW)
+        for i, message in enumerate(given):
+            self._held[(self.next + i) & 0xFFFF] = message
+            self._held_bytes += len(message)
+
+    def go_on(self) -> tuple[bytes, ...]:
+        """Return what follows the message at which it was stopped: the caller takes that one up again."""
+        self._stopped = False
+        del self._held[self.next]
+        self._advance()
+        return self._ready()
 
     def push(self, sequence: int, data: bytes) -> tuple[bytes, ...]:
         """Take a message; return those that can be processed now, in order. Duplicates are dropped."""
@@ -66,15 +94,20 @@ class ReliableIn:
             self._announced = max(self._announced, min(known, RELIABLE_WINDOW))
         return ready, lost
 
-    def missing(self) -> tuple[int, int]:
-        """Return what an ACKNACK says: the next message wanted, and a bit for each that is known to lack."""
+    def missing(self, unfinished: int = 0) -> tuple[int, int]:
+        """Return what an ACKNACK says: the first message not acknowledged, and a bit for each that is known to lack.
+
+        The last `unfinished` messages that were handed on (0 to the window) are here, and not acknowledged.
+        """
         bitmap = 0
         for i in range(self._announced):
             if (self.next + i) & 0xFFFF not in self._held:
                 bitmap |= 1 << i
-        return self.next, bitmap
+        return (self.next - unfinished) & 0xFFFF, bitmap << unfinished & 0xFFFF
 
     def _ready(self) -> tuple[bytes, ...]:
+        if self._stopped:
+            return ()
         ready = []
         while (data := self._held.pop(self.next, None)) is not None:
             self._held_bytes -= len(data)
@@ -83,6 +116,7 @@ class ReliableIn:
         return tuple(ready)
 
     def _skip_to(self, first: int, skip: int) -> None:
+        self._stopped = False
         for sequence in [s for s in self._held if (s - self.next) & 0xFFFF < skip]:
             self._held_bytes -= len(self._held.pop(sequence))
         self.next = first

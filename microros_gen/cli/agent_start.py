@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 import time
 from collections.abc import Sequence
@@ -57,6 +58,8 @@ def serve(options: AgentOptions) -> None:
         transports = [TracedTransport(transport, log) for transport in transports]
     server = Server(agent, transports, log)
     announcements = EventLog(sys.stdout, as_json)
+    gc.collect()
+    gc.freeze()  # modules and libraries stay: to look through them now and then would stop the agent for 20 ms
     with stopped_by_signals(server):
         notify("READY=1")
         server.run(lambda transport: _announce(announcements, transport), time.monotonic)

@@ -13,7 +13,8 @@ class PreconfiguredObject:
     """One object; `id` is (index << 4) | kind as in DDS-XRCE, `parent` that of what contains it.
 
     A participant has `name` and `domain`, a topic `name` and `type` (names of DDS), a data writer or reader `topic` (an
-    object id) and its quality of service; depth 0 stands for the default of 1.
+    object id) and its quality of service; depth 0 stands for the default of 1. A requester or replier has the `name` of
+    its service and the DDS names of its types and topics; topics may be empty, then they follow from the name.
     """
 
     id: int
@@ -27,6 +28,10 @@ class PreconfiguredObject:
     durability: str = "volatile"
     keep_last: bool = True
     depth: int = 0
+    request_type: str = ""
+    reply_type: str = ""
+    request_topic: str = ""
+    reply_topic: str = ""
     span: Span | None = field(default=None, compare=False, repr=False)
 
 

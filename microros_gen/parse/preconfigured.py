@@ -8,7 +8,13 @@ The file is JSON, which YAML includes; every fault is told at its place in one r
       {"id": "0x0002", "kind": "topic", "parent": "0x0001", "name": "rt/imu", "type": "sensor_msgs::msg::dds_::Imu_"},
       {"id": "0x0003", "kind": "publisher", "parent": "0x0001"},
       {"id": "0x0005", "kind": "data_writer", "parent": "0x0003", "topic": "0x0002", "reliability": "reliable",
-       "durability": "volatile", "history": "keep_last", "depth": 10}]}]}
+       "durability": "volatile", "history": "keep_last", "depth": 10},
+      {"id": "0x0018", "kind": "replier", "parent": "0x0001", "name": "/arm",
+       "request_type": "std_srvs::srv::dds_::SetBool_Request_",
+       "reply_type": "std_srvs::srv::dds_::SetBool_Response_"}]}]}
+
+Subscribers and data readers are like publishers and data writers, requesters like repliers. The topics of these follow
+from the name (`rq/armRequest`, `rr/armReply`) unless `request_topic` and `reply_topic` name them.
 
 `key` "*" stands for every client without an entry of its own. `adopt: true` is for a client without liveliness, which
 never opens its session again: the agent takes its samples also after a restart (agent/adoption.py).
@@ -27,11 +33,22 @@ from microros_gen.parse.yaml_tree import MappingNode, ScalarNode, SequenceNode, 
 
 VERSION = 1
 KINDS: Mapping[str, int] = MappingProxyType(
-    {"participant": 1, "topic": 2, "publisher": 3, "subscriber": 4, "data_writer": 5, "data_reader": 6}
+    {
+        "participant": 1,
+        "topic": 2,
+        "publisher": 3,
+        "subscriber": 4,
+        "data_writer": 5,
+        "data_reader": 6,
+        "requester": 7,
+        "replier": 8,
+    }
 )
 """Kinds of objects and the low four bits of their ids."""
 
 _QOS = ("reliability", "durability", "history", "depth")
+_TYPES = ("request_type", "reply_type")
+_TOPICS = ("request_topic", "reply_topic")
 _KEYS: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = MappingProxyType(
     {
         "participant": (("id", "kind", "name"), ("domain",)),
@@ -40,6 +57,8 @@ _KEYS: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = MappingProxyType(
         "subscriber": (("id", "kind", "parent"), ()),
         "data_writer": (("id", "kind", "parent", "topic"), _QOS),
         "data_reader": (("id", "kind", "parent", "topic"), _QOS),
+        "requester": (("id", "kind", "parent", "name", *_TYPES), _TOPICS),
+        "replier": (("id", "kind", "parent", "name", *_TYPES), _TOPICS),
     }
 )
 """Keys that an object must have, and may have."""
@@ -50,6 +69,8 @@ _PARENT: Mapping[str, str] = MappingProxyType(
         "subscriber": "participant",
         "data_writer": "publisher",
         "data_reader": "subscriber",
+        "requester": "participant",
+        "replier": "participant",
     }
 )
 _DURABILITIES = ("volatile", "transient_local", "transient", "persistent")
@@ -167,6 +188,10 @@ class _Objects:
             self._choice(node, "durability", _DURABILITIES),
             self._choice(node, "history", ("keep_last", "keep_all")) == "keep_last",
             self._number(node, "depth", _DEPTHS, "from 0 to 65535"),
+            self._name(node, "request_type"),
+            self._name(node, "reply_type"),
+            self._name(node, "request_topic"),
+            self._name(node, "reply_topic"),
             node.span,
         )
         self.found.setdefault(identifier, found)

@@ -162,6 +162,7 @@ def plan_project(
         wait_sets_max=running.wait_sets_max,
         ros_clocks_max=running.ros_clocks_max,
         jump_callbacks_max=running.jump_callbacks_max,
+        has_time_sync=selection.has("time_sync"),
         reassembly_size=streams.reassembly_size,
         fragments=streams.fragments,
         reliable_input_slots=streams.reliable_input_slots,
@@ -201,7 +202,11 @@ def _written_by_publishers(
     if not selection.has("publish"):
         return ()
     if not application.nodes:
-        return tuple(Written(str(r), types[r].max_encoded_size, True, True) for r in roots)
+        spans = {named.name: named.span for named in application.interfaces}
+        return tuple(
+            Written(str(r), types[r].max_encoded_size, True, True, spans.get(str(r)) or spans.get(r.package))
+            for r in roots
+        )
     declared = enumerate(publisher_declarations(application))
     return tuple(_written(index, node, endpoint, types) for index, (_, node, endpoint) in declared)
 

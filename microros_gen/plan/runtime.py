@@ -226,6 +226,7 @@ class RuntimePlan:
     wait_sets_max: int = 0
     ros_clocks_max: int = 0
     jump_callbacks_max: int = 0
+    has_time_sync: bool = False
 
     @property
     def has_subscriptions(self) -> bool:
@@ -250,7 +251,7 @@ class RuntimePlan:
     @property
     def has_steady_time(self) -> bool:
         """Whether something asks the port for the time since its start."""
-        return self.has_clocks or self.has_executors
+        return self.has_clocks or self.has_executors or self.has_time_sync
 
     @property
     def has_rtos_timers(self) -> bool:

@@ -18,7 +18,7 @@ from microros_gen.agent.log import EventLog
 from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.representation import Qos, References, Service, Topic
-from microros_gen.agent.ros.bridge import BridgeError, HashOf, Source
+from microros_gen.agent.ros.bridge import BridgeError, BusyError, HashOf, Source
 from microros_gen.agent.ros.names import ros_node, ros_topic, ros_type
 from microros_gen.agent.transport.base import Receive
 from microros_gen.agent.wire.constants import Status
@@ -33,6 +33,10 @@ class FakeWriter:
     qos: Qos
 
     def publish(self, serialized: bytes) -> None:
+        if self.bridge.room is not None:
+            if not self.bridge.room:
+                raise BusyError(f"{self.label} is full")
+            self.bridge.room -= 1
         self.bridge.published.append((self.label, serialized))
 
     def destroy(self) -> None:
@@ -147,6 +151,8 @@ class FakeBridge:
     hashes: list[HashOf | None] = field(default_factory=list)
     closed: bool = False
     descriptor: int = -1
+    room: int | None = None
+    """How many samples its writers take before they are full; None: any number."""
 
     def create_node(self, name: str, domain: int, hash_of: HashOf | None = None) -> FakeNode:
         node, namespace = ros_node(name)

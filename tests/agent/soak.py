@@ -34,8 +34,11 @@ LATCHED = 1 | 2 | 8
 LITTLE = b"\0\1\0\0"
 IDENTITY = 24
 IDS = 4
-PATIENCE_S = 60.0
-"""Nothing in the soak takes this long; on a busy machine neither."""
+PATIENCE_S = 180.0
+"""Nothing in the soak takes this long; on a very busy machine neither."""
+TRIES = 36
+"""How often something is said again, each time after `AGAIN_S` seconds."""
+AGAIN_S = 5.0
 ENDS = ("leave", "again", "replaced", "vanish", "sleep", "move")
 Step = Generator["Callable[[], object] | float", None, None]
 """A course of action: gives what it waits for, or for how many seconds."""
@@ -69,9 +72,9 @@ class Place:
         self.life += 1
         world, client, chance = self.world, self.client, self.chance
         self._connect(client)
-        for _ in range(5):
+        for _ in range(TRIES):
             client.introduce()
-            yield within(5, lambda: client.connected)
+            yield within(AGAIN_S, lambda: client.connected)
             if client.connected:
                 break
         assert client.connected, "the agent does not answer"
@@ -80,7 +83,7 @@ class Place:
         if chance.random() < 0.5:
             yield from self._be_called(client)
         yield from self._account(client, written)
-        how = chance.choices(ENDS, (35, 15, 10, 10, 20, 10))[0]
+        how = chance.choices(ENDS, (40, 20, 10, 5, 15 if world.sleeping else 0, 10))[0]
         if how == "move" and self.session >= 0x80:
             how = "leave"
         world.ends[how] += 1
@@ -148,7 +151,7 @@ class Place:
     def _call(self, client: SoakClient, *words: str) -> Generator[Callable[[], object], None, list[int]]:
         """Ask the ledger; several times when it is not there yet (the agent drops a request after some seconds)."""
         body = names_body(list(words))[4:]
-        for _ in range(6):
+        for _ in range(TRIES // 2):
             number = client.ask(partial(_write, CALLER, body))
             yield within(10, partial(self.replies.__contains__, number))
             if number in self.replies:
@@ -167,7 +170,7 @@ class Place:
                 break
             assert time.monotonic() < until, f"the ledger has {good} of {written}"
             yield 0.3
-        self.world.count["samples accounted for"] += written
+        self.world.count["accounts that are right"] += 1
 
     def _be_called(self, client: SoakClient) -> Step:
         count = self.chance.randrange(1, 6)
@@ -201,9 +204,9 @@ class Place:
 
     def _leave(self, client: SoakClient) -> Step:
         yield lambda: client.acknowledged
-        for _ in range(5):
+        for _ in range(TRIES):
             number = client.leave()
-            yield within(5, partial(client.statuses.__contains__, number))
+            yield within(AGAIN_S, partial(client.statuses.__contains__, number))
             if number in client.statuses:
                 return
         raise AssertionError("DELETE of the client is not answered")
@@ -245,6 +248,7 @@ class World:
     domain: int
     seconds: float
     spread_s: float
+    sleeping: bool = True
     seed: int = 0
     count: Counter[str] = field(default_factory=Counter)
     ends: Counter[str] = field(default_factory=Counter)
@@ -275,11 +279,14 @@ class World:
     def run(self, places: list[Place]) -> None:
         """Let all of them live to their ends."""
         courses = {place: _Course(place.lives()) for place in places}
-        rss_at = 0.0
+        rss_at, before = 0.0, time.monotonic()
         while courses:
             for descriptor, _ in self._poll.poll(10):
                 self._read(descriptor)
             now = time.monotonic()
+            if now - before > self.agent.timeout_s / 3:
+                self._stalled(places)
+            before = now
             self._line.write()
             for place, course in list(courses.items()):
                 place.client.tick(now)
@@ -292,6 +299,12 @@ class World:
                 rss_at = now + 2
                 self.rss.append((now - self.began, self.agent.rss_kib))
         self._line.close()
+
+    def _stalled(self, places: list[Place]) -> None:
+        """This process did not run for long: its clients may have been taken for asleep, and were."""
+        self.count["stalls of this process"] += 1
+        for place in places:
+            place.gap_allowed = True
 
     def _read(self, descriptor: int) -> None:
         link = self._links[descriptor]

@@ -155,6 +155,48 @@ def test_everything_else_is_counted_and_not_answered(data: bytes, asker: socket.
     udp.close()
 
 
+def networked() -> str:
+    """Return an address of this machine by which it is in a network."""
+    for own in own_addresses():
+        if own.address.version == 4 and not own.address.is_loopback:
+            return str(own.address)
+    pytest.skip("this machine has no network")
+
+
+def test_on_loopback_a_client_that_asks_through_the_network_is_answered(asker: socket.socket) -> None:
+    """As the public client does: its question leaves by the default route, not by the loopback interface."""
+    bench = Bench()
+    udp = Udp(UDP4, "127.0.0.1", 0)
+    port = free_port()
+    asker.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton(networked()))
+    with Served(udp, Discovery([udp], bench.log, port), bench=bench):
+        asker.sendto(QUESTION, (GROUP, port))
+        got, _ = asker.recvfrom(1000)
+    assert got[-8:-2] == b"\x01\x7f\0\0\x01\0"
+    assert struct.unpack("<H", got[-2:]) == (udp.port,)
+
+
+def test_on_loopback_other_machines_are_not_heard(asker: socket.socket) -> None:
+    """Nor can they use up the answers of those that are on this machine. Here `asker` stands for another one."""
+    bench = Bench()
+    udp = Udp(UDP4, "127.0.0.1", 0)
+    network = networked()
+    interfaces = {str(own.address): own.interface for own in own_addresses()}
+    elsewhere = [OwnAddress(ipaddress.ip_address("192.0.2.5"), interfaces[network])]
+    discovery = Discovery([udp], bench.log, free_port(), lambda: elsewhere)
+    asker.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton(network))
+    for data in (*[QUESTION] * (ANSWERS_PER_SECOND + 1), b"\x80"):
+        asker.sendto(data, (GROUP, discovery._port))
+        wait_readable(discovery)
+        discovery.pump(lambda *_: None)
+    assert not bench.log.counters
+    asker.settimeout(0.05)
+    with pytest.raises(TimeoutError):
+        asker.recv(100)
+    discovery.close()
+    udp.close()
+
+
 def test_answers_are_bounded(asker: socket.socket) -> None:
     bench = Bench()
     udp = Udp(UDP4, "127.0.0.1", 0)

@@ -10,11 +10,12 @@ import pytest
 
 from agent.captured import CREATE_CLIENT, PING, STATUS_AGENT
 from agent.client import int32_body
-from agent.fakes import Bench
+from agent.fakes import Bench, FakeReplier, FakeRequester, FakeSource
 from agent.test_core import message
+from agent.test_core_reading import FOREVER
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.preconfigured import Preconfigured
-from microros_gen.agent.wire.data_messages import WriteData
+from microros_gen.agent.wire.data_messages import ReadData, WriteData
 from microros_gen.agent.wire.entity_messages import Delete, Heartbeat
 from microros_gen.agent.wire.message import Header, join
 from microros_gen.agent.wire.submessages import encode
@@ -22,6 +23,8 @@ from microros_gen.diagnostics import Diagnostics, Source, UserError
 from microros_gen.parse.preconfigured import parse_preconfigured
 
 KEY = "0xA1B2C3D4"
+SERVICE = "/arm [std_srvs/srv/SetBool]"
+IDENTITY = bytes.fromhex("010f78fdca7032130200030000000103 00000000 01000000")
 GRAPH = ["7:/imu", "/count [std_msgs/msg/Int32]"]
 
 
@@ -126,6 +129,70 @@ def test_they_may_be_deleted_and_are_back_with_the_next_session() -> None:
     assert bench.bridge.graph == GRAPH[:1]
     bench.say(CREATE_CLIENT)
     assert bench.bridge.graph == GRAPH
+
+
+def service(number: int, kind: str, **more: Any) -> dict[str, Any]:
+    return {
+        "id": f"0x00{number}",
+        "kind": kind,
+        "parent": "0x0001",
+        "name": "/arm",
+        "request_type": "std_srvs::srv::dds_::SetBool_Request_",
+        "reply_type": "std_srvs::srv::dds_::SetBool_Response_",
+        **more,
+    }
+
+
+def everything(**more: Any) -> dict[str, Any]:
+    """Return a client that writes, reads, serves and calls."""
+    made = content(**more)
+    made["clients"][0]["objects"] += [
+        {"id": "0x0014", "kind": "subscriber", "parent": "0x0001"},
+        {"id": "0x0016", "kind": "data_reader", "parent": "0x0014", "topic": "0x0002", "depth": 5},
+        service(18, "replier"),
+        service(17, "requester", request_topic="rq/goRequest", reply_topic="rr/goReply"),
+    ]
+    return made
+
+
+def sources(bench: Bench) -> tuple[FakeSource, FakeReplier, FakeRequester]:
+    reader, replier, requester = bench.bridge.sources
+    assert isinstance(replier, FakeReplier)
+    assert isinstance(requester, FakeRequester)
+    return reader, replier, requester
+
+
+def test_a_client_reads_serves_and_calls_without_creating() -> None:
+    bench = bench_with(everything())
+    bench.say(CREATE_CLIENT)
+    assert bench.bridge.graph == [*GRAPH, GRAPH[1], SERVICE, SERVICE]
+    told = bench.text.getvalue()
+    assert "subscription /count [std_msgs/msg/Int32] (reliable, volatile, keep_last 5)" in told
+    assert f"service {SERVICE}" in told
+    assert f"service client {SERVICE}" in told
+    reader, replier, requester = sources(bench)
+    for number, wanted in enumerate((0x16, 0x18, 0x17)):
+        assert bench.say(message(ReadData(9, wanted, 1, delivery=FOREVER), sequence=number)) == []
+    reader.put(b"\0\1\0\0" + int32_body(7))
+    assert [answer[-23:] for answer in bench.take()] == ["00 09 00 16 07 00 00 00"]
+    replier.put((IDENTITY, b"\0\1\0\0\1"))
+    assert [answer[-5:] for answer in bench.take()] == ["00 01"]
+    bench.say(message(WriteData(8, 0x18, IDENTITY + b"\1"), sequence=3))
+    assert replier.replies == [(IDENTITY, b"\0\1\0\0\1")]
+    bench.say(message(WriteData(8, 0x17, b"\1"), sequence=4))
+    assert requester.requests == [(1, b"\0\1\0\0\1")]
+    requester.put((1, b"\0\1\0\0\2"))
+    assert [answer[-26:] for answer in bench.take()] == ["00 09 00 17 00 08 00 17 02"]
+    assert not bench.log.counters
+
+
+@pytest.mark.parametrize(("object_id", "adopted"), [(5, True), (0x16, False), (0x17, True), (0x18, True)])
+def test_who_is_adopted_writes_to_what_takes_samples(object_id: int, adopted: bool) -> None:
+    bench = bench_with(everything(adopt=True))
+    for sequence in (1, 2):
+        bench.say(message(WriteData(1, object_id, bytes(28)), sequence=sequence))
+        bench.now += Limits().adopt_after_s
+    assert bool(bench.bridge.graph) is adopted
 
 
 def test_what_cannot_be_made_is_told() -> None:
@@ -312,3 +379,26 @@ def test_names_that_ros_does_not_have() -> None:
     made["clients"][0]["objects"][1]["name"] = "count"
     with pytest.raises(UserError, match=r"e0.json:\d+:\d+: error: topic 'count' is no ROS topic"):
         load(made)
+
+
+@pytest.mark.parametrize(
+    ("change", "wanted"),
+    [
+        ({"id": "0x0027"}, 'the last digit of a replier\'s id is 8. Perhaps "0x0028"'),
+        ({"parent": "0x0003"}, "no participant 0x0003 is among the objects before"),
+        ({"reply_type": 1}, "'reply_type' must be a text"),
+        ({"depth": 3}, "there is no key 'depth' here"),
+        ({"request_type": "std_srvs::srv::dds_::SetBool_"}, "is not"),
+        ({"reply_type": "std_srvs::srv::dds_::Empty_Response_"}, "Empty"),
+        ({"request_topic": "rt/arm"}, "request topic 'rt/arm' is not that of a ROS service"),
+        ({"reply_topic": "rr/legReply"}, "requests are for the service /arm, replies for /leg"),
+    ],
+)
+def test_faults_of_services(change: dict[str, Any], wanted: str) -> None:
+    made = content()
+    made["clients"][0]["objects"].append(service(28, "replier", **change))
+    with pytest.raises(UserError) as caught:
+        load(made)
+    (found,) = caught.value.diagnostics
+    assert wanted in found.headline()
+    assert found.span is not None

@@ -21,15 +21,17 @@ GROWTH_KIB = 16_384
 """What the process may grow after it is warm; each of many thousand lives would cost more if it left anything."""
 
 
-def soak(folder: Path, places: int, seconds: float, timeout_s: float) -> tuple[World, dict[str, object]]:
+def soak(
+    folder: Path, places: int, seconds: float, timeout_s: float, sleeping: bool
+) -> tuple[World, dict[str, object]]:
     """Let clients live; return what was seen, and the agent's last words.
 
-    `timeout_s` is longer than any stop of this process on a busy machine: who does not answer for that long has crashed.
+    `timeout_s` is longer than any stop of this process on a busy machine: who is silent for longer crashed.
     """
     domain = own_domain()
-    with agent_process(folder, domain, timeout_s, forget_s=5 * timeout_s) as agent:
+    with agent_process(folder, domain, timeout_s, forget_s=4 * timeout_s) as agent:
         peer = Peer(domain)
-        world = World(agent, domain, seconds, spread_s=min(seconds / 2, 10))
+        world = World(agent, domain, seconds, min(seconds / 2, 10), sleeping)
         try:
             world.run([Place(number, world) for number in range(places)])
             end = time.monotonic() + 60 + timeout_s
@@ -37,6 +39,10 @@ def soak(folder: Path, places: int, seconds: float, timeout_s: float) -> tuple[W
                 assert time.monotonic() < end, f"still in the graph: {nodes}"
                 time.sleep(0.2)
         finally:
+            print(
+                f"after {time.monotonic() - world.began:.0f} s: {dict(world.count)}, ends of lives {dict(world.ends)}"
+            )
+            print("RSS of the agent in KiB:", [kib for _, kib in world.rss[:: max(1, len(world.rss) // 20)]])
             peer.close()
         agent.process.terminate()
         assert agent.process.wait(timeout=60) == 0
@@ -56,19 +62,20 @@ def check(world: World, stopped: dict[str, object]) -> None:
     assert set(faults) <= TOLERATED, faults
     warnings = {key: n for key, n in world.count.items() if key.startswith("log ")}
     assert set(warnings) <= {"log bad_input"}, warnings
-    assert world.count["samples accounted for"] > 0
+    assert world.count["accounts that are right"] > 0
     assert world.count["samples down"] > 0
 
 
 def test_clients_come_and_go(tmp_path: Path) -> None:
-    world, stopped = soak(tmp_path, places=20, seconds=4, timeout_s=3)
+    """Sleep is left out here: test_ros_sleepers.py has it."""
+    world, stopped = soak(tmp_path, places=20, seconds=2, timeout_s=6, sleeping=False)
     check(world, stopped)
 
 
 @pytest.mark.long
 def test_a_hundred_clients_come_and_go_for_ten_minutes(tmp_path: Path) -> None:
     seconds = float(os.environ.get("SOAK_SECONDS", "600"))
-    world, stopped = soak(tmp_path, places=100, seconds=seconds, timeout_s=15)
+    world, stopped = soak(tmp_path, places=100, seconds=seconds, timeout_s=30, sleeping=True)
     warm = [kib for at, kib in world.rss if seconds / 4 < at < seconds / 2]
     late = [kib for at, kib in world.rss if 3 * seconds / 4 < at < seconds]
     print(dict(world.count), dict(world.ends))

@@ -480,8 +480,8 @@ _NODES = {
         lambda a: _node(a).timers[0].kind,
         "rtos",
         _in_node("timers: [{name: t, period: 1 s, kind: os}]"),
-        "3:45",
-        "'nodes[0].timers[0].kind' must be one of clock, rtos, hardware",
+        "3:43",
+        "'nodes[0].timers[0].kind' must be clock, rtos or hardware; it is the text 'os'",
     ),
     "nodes[].timers[].period": KeyCase(
         _in_node("timers: [{name: t, period: 50us}]"),

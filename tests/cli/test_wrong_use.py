@@ -110,6 +110,16 @@ def test_a_fault_in_the_application_file(run: Runner, folder: Path, case: str) -
     assert left_behind(folder) == []
 
 
+def test_an_interface_larger_than_a_message_is_shown_where_it_is_named(run: Runner, folder: Path) -> None:
+    """By its type or by its package."""
+    text = "version: 1\nprofiles: [pure_sender]\ninterfaces: [{}]\nlimits: {{'*': {{string: 9, sequence: 70000}}}}\n"
+    for named in ("std_msgs/msg/ByteMultiArray", "std_msgs"):
+        put(folder, text.format(named))
+        outcome = run("generate", "-o", "out")
+        assert outcome.status == 2
+        assert "microros.yaml:3:14: error: std_msgs/msg/ByteMultiArray takes up to" in outcome.err
+
+
 def test_several_faults_are_told_in_one_run(run: Runner, folder: Path) -> None:
     put(folder, APPLICATION.replace("limits:", "limit:").replace("version: 1", "versoin: 1"))
     outcome = run("generate", "-o", "out")

@@ -19,11 +19,13 @@ import click
 import pytest
 
 from microros_gen.agent.limits import Limits
+from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.ros import reports
 from microros_gen.agent.transport.tcp import TcpLimits
 from microros_gen.cli.agent import command
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.parse.agent_file import parse_agent_file
+from microros_gen.parse.preconfigured import KINDS, parse_preconfigured
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs/agent.md").read_text(encoding="utf-8")
@@ -160,10 +162,19 @@ def test_every_kind_of_fault_is_there() -> None:
 
 
 def test_the_fields_of_the_example_are_those_of_the_event() -> None:
-    (line,) = blocks("json")
+    _, line = blocks("json")
     event = json.loads(line)
     own = set(event) - {"time", "level", "event", "message"}
     assert own == set(re.findall(r"`(\w+)`", rows("event")[event["event"]][2]))
+
+
+def test_the_entities_file_has_every_kind_of_object() -> None:
+    text, _ = blocks("json")
+    diagnostics = Diagnostics()
+    (client,) = parse_preconfigured([Source("entities.json", text)], diagnostics)
+    diagnostics.check()
+    assert [item.kind for item in client.objects] == list(KINDS)
+    assert len(Preconfigured([client]).objects(client.key or b"")) == len(KINDS)
 
 
 def test_linked_files_exist() -> None:

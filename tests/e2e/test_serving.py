@@ -73,7 +73,11 @@ def test_rclpy_calls_a_service(
         await_line(process, "ready /arm/lengths")
         names = [["a" * (i + 1), "b"][: 1 + i % 2] for i in range(6)]
         observer.ask(do="call", service="/arm/lengths", type=TYPE, names=names)
-        assert await_replies(observer) == [[len(name) for name in asked] for asked in names]
+        try:
+            assert await_replies(observer) == [[len(name) for name in asked] for asked in names]
+        except AssertionError:
+            process.kill(); print("OUT", process.communicate())
+            raise
         observer.ask(do="call", service="/arm/lengths", type=TYPE, names=[["much too long"]])
         assert "limit" in await_line(process, "refused") or "fit" in "refused"
         observer.ask(do="call", service="/arm/lengths", type=TYPE, names=[["short"]])

@@ -28,7 +28,8 @@ def programs(tmp_path_factory: pytest.TempPathFactory) -> ProgramFactory:
         tree = render(tmp_path_factory.mktemp("client"), plan, names)
         ping = "client_ping.c" if liveliness == "ping" else "client_no_ping.c"
         read = ["types_read.c", "client_read.c"] if plan.receives else ["types.c", "client_no_read.c"]
-        return build(tree, ["port_fake.c", "client.c", ping, *read], "client")
+        epoch = "client_time.c" if plan.has_time_sync else "client_no_time.c"
+        return build(tree, ["port_fake.c", "client.c", ping, epoch, *read], "client")
 
     return compiled
 

@@ -92,6 +92,18 @@ READER = replace(
 )
 
 
+EXECUTOR = replace(
+    READER,
+    timers_max=3,
+    executors_max=2,
+    handles_max=5,
+    guard_conditions_max=2,
+    wait_sets_max=1,
+    ros_clocks_max=2,
+    jump_callbacks_max=2,
+)
+
+
 def components(plan: RuntimePlan, liveliness: str = "ping") -> tuple[str, ...]:
     """Return the components that the resolver selects for `plan`."""
     names = [*CORE, f"entities_{plan.entities}", f"transport_{plan.transport}"]
@@ -103,6 +115,10 @@ def components(plan: RuntimePlan, liveliness: str = "ping") -> tuple[str, ...]:
     names += ["stream_best_effort"] if plan.best_effort_size else []
     names += ["subscribe", "read", "cdr_decode", "stream_best_effort_input"] if plan.receives else []
     names += ["stream_reliable"] if plan.reliable_slots else []
+    names += ["time_sync"] if plan.has_time_sync else []
+    names += ["executor"] if plan.has_executors else []
+    names += ["timers"] if plan.has_timers else []
+    names += ["clock"] if plan.has_clocks else []
     names += {"ping": ["ping"], "acknack": ["liveliness_acknack"], "none": []}[liveliness]
     return tuple(sorted(names))
 

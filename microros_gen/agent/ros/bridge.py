@@ -19,6 +19,17 @@ class BridgeError(Exception):
         self.status = status
 
 
+class BusyError(BridgeError):
+    """DDS has no room for a sample now, as readers have not taken those before: later it may have.
+
+    `done`: how many samples of the same submessage it took before.
+    """
+
+    def __init__(self, reason: str, done: int = 0) -> None:
+        super().__init__(reason, Status.RESOURCES)
+        self.done = done
+
+
 HashOf = Callable[[str], "str | None"]
 """Gives the type hash (RIHS01_…, REP-2011) of a type, or None when it knows none. Types are named as in ROS:
 `pkg/msg/Type`; for services `pkg/srv/Type`, `pkg/srv/Type_Request` and `pkg/srv/Type_Response`; actions likewise."""
@@ -120,7 +131,10 @@ class Writer(Protocol):
         """Topic and type by their ROS names, for the log."""
 
     def publish(self, serialized: bytes) -> None:
-        """Publish a sample: encapsulation header, then CDR body. May raise BridgeError."""
+        """Publish a sample: encapsulation header, then CDR body.
+
+        BusyError, after a millisecond or so, when it may be taken later; BridgeError when it never will be.
+        """
 
     def destroy(self) -> None:
         """Leave the ROS graph; nothing else is called afterwards."""

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from ctypes import addressof, byref
 from typing import Any
 
-from microros_gen.agent.ros.bridge import BridgeError, GraphReport
+from microros_gen.agent.ros.bridge import BridgeError, BusyError, GraphReport
 from microros_gen.agent.ros.graph import Endpoint, Events
 from microros_gen.agent.ros.layout import SerializedMessage
 from microros_gen.agent.ros.libraries import (
@@ -62,15 +62,21 @@ class Entity:
 class RawWriter(Entity):
     """See Writer."""
 
-    def __init__(self, handle: Any, events: Events, endpoints: tuple[Endpoint, ...]) -> None:
+    def __init__(self, handle: Any, events: Events, endpoints: tuple[Endpoint, ...], keeps_all: bool) -> None:
+        """`keeps_all`: it waits for its readers (reliable, KEEP_ALL): then DDS may have no room for a sample."""
         super().__init__(handle, events, endpoints)
         self._publish = handle.publish_raw
+        self._keeps_all = keeps_all
 
     def publish(self, serialized: bytes) -> None:
         """See Writer."""
         try:
             self._publish(serialized)
         except FAILURES as error:
+            if self._keeps_all:
+                raise BusyError(
+                    f"{self.label}: a reader does not take what it was sent, and DDS is full"
+                ) from error
             raise BridgeError(f"publish on {self.label}: {first_line(error)}") from error
 
 

@@ -7,6 +7,7 @@ The calls keep Python's lock (PyDLL): the agent has one thread, and ROS 2's own 
 from __future__ import annotations
 
 import ctypes
+import functools
 from collections.abc import Callable
 from ctypes import POINTER, byref, c_bool, c_char_p, c_int, c_int64, c_size_t, c_void_p
 from typing import Any
@@ -40,6 +41,19 @@ new_bytes: Callable[[int, int], bytes] = ctypes.PYFUNCTYPE(ctypes.py_object, c_v
 """Return bytes made of a number of bytes at an address."""
 _SAMPLE = "rcl_interfaces", "ListParameters"
 """A service that every rclpy brings, with type supports of the kinds that are made here."""
+_PATIENCE_NS = 1_000_000
+"""How long DDS waits for room in a writer's history: the agent has one thread, and comes again."""
+_HEARTBEAT_NS = 100_000_000
+"""How long a writer waits before it asks its readers what they lack, while it does not know; Fast DDS's own is 3 s. Its
+shared memory drops what a reader's thread does not fetch in time (512 messages), as on a busy machine; until the reader
+is asked, the history fills and further samples wait."""
+_WRITER_DEFAULTS = f"""<?xml version="1.0" encoding="UTF-8"?>
+<dds xmlns="http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles"><profiles>
+<data_writer profile_name="microros_gen_agent" is_default_profile="true"><qos><reliability><kind>RELIABLE</kind>
+<max_blocking_time><sec>0</sec><nanosec>{_PATIENCE_NS}</nanosec></max_blocking_time>
+</reliability></qos><times><heartbeatPeriod><sec>0</sec><nanosec>{_HEARTBEAT_NS}</nanosec></heartbeatPeriod></times>
+</data_writer></profiles></dds>""".encode()
+_FACTORY = "_ZN8eprosima7fastdds3dds24DomainParticipantFactory"
 _CDR_ROOM = 4096
 """More bytes than a Cdr object has."""
 _LITTLE, _XCDR1 = 1, 2
@@ -104,6 +118,24 @@ class Libraries:
         text: bytes = self._utils.rcutils_get_error_string().text
         self._utils.rcutils_reset_error()
         return text.decode("utf-8", "replace").splitlines()[0] if text else "no reason given"
+
+    @staticmethod
+    @functools.cache  # Fast DDS complains of a profile that it has already
+    def hurry_writers() -> None:
+        """Let writers that are created from now on wait 1 ms for room, not 100, and ask readers after 100 ms, not 3 s.
+
+        ROS 2 sets reliability and leaves its max_blocking_time to the default profile of Fast DDS. A default profile in
+        the user's own XML file comes later and wins; so does the wait of 100 ms where the library is another one.
+        """
+        try:
+            fast_dds = ctypes.PyDLL("librmw_fastrtps_shared_cpp.so")  # and what it is linked with
+            factory = _function(fast_dds, f"{_FACTORY}12get_instanceEv", c_void_p)
+            load = _function(
+                fast_dds, f"{_FACTORY}24load_XML_profiles_stringEPKcm", c_int, c_void_p, c_char_p, c_size_t
+            )
+        except (OSError, AttributeError):
+            return
+        load(factory(), _WRITER_DEFAULTS, len(_WRITER_DEFAULTS))
 
     def cdr_buffer(self, cdr: int) -> FastBuffer:
         """Return the buffer of a Cdr object; after `check_layout`."""

@@ -54,7 +54,8 @@ class RawNode:
     def create_writer(self, topic: Topic, qos: Qos) -> Writer:
         """See Node."""
         handle, endpoints = self._create_topic("publisher", self._handles.Publisher, topic, qos)
-        return self._attach(handle, endpoints, lambda: RawWriter(handle, self._events, endpoints))
+        keeps_all = qos.reliable and not qos.keep_last
+        return self._attach(handle, endpoints, lambda: RawWriter(handle, self._events, endpoints, keeps_all))
 
     def create_reader(self, topic: Topic, qos: Qos) -> Reader:
         """See Node."""

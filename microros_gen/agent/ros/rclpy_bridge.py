@@ -51,7 +51,9 @@ def open_bridge(
     )  # to load rclpy with a wrong one may exit
     handles = _import_rclpy()
     _check_implementation(handles.rclpy_get_rmw_implementation_identifier())
-    return RclpyBridge(handles, Ros(raw_types(), report or _ignore), maximum_domains, domain, hash_of)
+    types = raw_types()
+    types.libraries.hurry_writers()
+    return RclpyBridge(handles, Ros(types, report or _ignore), maximum_domains, domain, hash_of)
 
 
 def _ignore(_report: GraphReport) -> None:

@@ -2,8 +2,9 @@
 """Multicast discovery (DDS-XRCE 1.0, 9.3): clients ask a group for agents, and are told where this one listens.
 
 It answers GET_INFO, and nothing else, with an INFO that names the transports of the agent: to each who asks those
-that it can reach. Where all of them are on the loopback address, only the loopback interface is listened to. It gives
-a stranger nothing beyond that, not more than `ANSWERS_PER_SECOND` times.
+that it can reach. Where all of them are on the loopback address, only clients on this machine are heard: their
+questions leave through the interface of the default route, and carry its address. It gives a stranger nothing beyond
+that, not more than `ANSWERS_PER_SECOND` times.
 """
 
 from __future__ import annotations
@@ -99,6 +100,8 @@ class Discovery:
                 return
             except OSError:
                 continue
+            if self._local and not self._is_near(parse_address(asker[0])):
+                continue
             try:
                 self._answer(data, asker)
             except (MalformedError, ValueError, OSError) as error:
@@ -118,7 +121,7 @@ class Discovery:
 
     def locators(self, asker: Address) -> tuple[Locator, ...]:
         """Return where the agent listens, as far as `asker` can get there: UDP before TCP, IPv4 before IPv6."""
-        near = asker.is_loopback or any(own.address == asker for own in self._own)
+        near = self._is_near(asker)
         found = dict.fromkeys(
             (address, transport.port)
             for transport in self._transports
@@ -127,6 +130,10 @@ class Discovery:
         )
         ordered = sorted(found, key=lambda place: place[0].version)
         return tuple(_locator(address, port) for address, port in ordered[:MOST_LOCATORS])
+
+    def _is_near(self, asker: Address) -> bool:
+        """Return whether an address is this machine's. (From outside the kernel takes nothing that claims to be.)"""
+        return asker.is_loopback or any(own.address == asker for own in self._own)
 
     def _reachable(self, host: Address, asker: Address) -> list[Address]:
         """Return the addresses that `host` stands for; first the one from which `asker` would be answered."""
@@ -159,11 +166,7 @@ class Discovery:
     def _refresh(self) -> None:
         """Join the group on interfaces that are new; forget those that are gone."""
         self._own = tuple(self._addresses())
-        wanted = {
-            o.interface
-            for o in self._own
-            if o.address.version == 4 and (o.address.is_loopback or not self._local)
-        }
+        wanted = {own.interface for own in self._own if own.address.version == 4}
         self._joined &= wanted
         for interface in wanted - self._joined:
             request = struct.pack("4s4si", socket.inet_aton(GROUP), bytes(4), interface)

@@ -14,7 +14,7 @@ from collections.abc import Callable, Hashable
 from microros_gen.agent.framing import LARGEST_PAYLOAD, FrameDecoder, encode_frame
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.transport.base import Receive
-from microros_gen.agent.transport.outbox import Outbox
+from microros_gen.agent.transport.outbox import Outbox, is_sample
 
 READ_BYTES = 16_384
 """Bytes that are read before the answers go out."""
@@ -39,7 +39,7 @@ class Line:
         self._retry_at = 0.0
         self._told = ""
         self._was_open = False
-        self._outbox = Outbox(QUEUE_BYTES)
+        self._outbox = Outbox(QUEUE_BYTES, self._too_slow)
         self._watches_room = False
         self._decoder = FrameDecoder(self._fault)
 
@@ -87,7 +87,7 @@ class Line:
             return
         frame = encode_frame(data, address[1])
         waited = bool(self._outbox)
-        if not self._outbox.put(frame):
+        if not self._outbox.put(frame, is_sample(data)):
             text = "serial {device} takes no more: messages to it are lost"
             self._log.count("line_full", text, device=self._name)
         elif not waited:
@@ -161,6 +161,10 @@ class Line:
         if self.writing is not self._watches_room:
             self._watches_room = self.writing
             self._epoll.modify(self._fd, select.EPOLLIN | (select.EPOLLOUT if self.writing else 0))
+
+    def _too_slow(self) -> None:
+        text = "serial {device} is slower than the samples for it: the oldest best-effort ones are dropped"
+        self._log.count("line_slow", text, device=self._name)
 
     def _fault(self, kind: str, found: str) -> None:
         self._log.count(kind, "serial {device}: ignored: {found}", device=self._name, found=found)

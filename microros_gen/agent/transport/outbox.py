@@ -1,33 +1,60 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What waits for a stream that takes less than it is given: whole frames, not more than a limit."""
+"""What waits for a stream that takes less than it is given: whole frames, not more than a limit.
+
+Of best-effort samples only the newest wait: what is sent is not long past then, and acknowledgements, answers and
+reliable samples find room. Of those the newest are not taken, as whoever wants them comes again.
+"""
 
 from __future__ import annotations
 
 import os
 from collections import deque
+from collections.abc import Callable
 from itertools import islice
 
+from microros_gen.agent.wire.constants import STREAM_NONE, STREAM_RELIABLE, SubmessageId
+
+SHARE = 8
+"""Best-effort samples take at most this part (1/8) of the room."""
+DATA = int(SubmessageId.DATA)
 _AT_ONCE = 64  # frames for one system call; POSIX lets a system stop at 16, Linux at 1,024
+
+
+def is_sample(message: bytes) -> bool:
+    """Return whether a message of the agent is a best-effort sample, which a newer one replaces."""
+    start = 4 if message[0] >= 0x80 else 8
+    return STREAM_NONE < message[1] < STREAM_RELIABLE and message[start : start + 1] == bytes((DATA,))
 
 
 class Outbox:
     """Frames in order; one that the limit has no room for is not taken, so the stream stays well-formed."""
 
-    def __init__(self, limit: int) -> None:
-        """Hold at most `limit` bytes."""
+    def __init__(self, limit: int, dropped: Callable[[], None]) -> None:
+        """Hold at most `limit` bytes; `dropped` is told of each sample that gives way to a newer one."""
         self._limit = limit
+        self._dropped = dropped
         self._frames: deque[bytes] = deque()
+        self._samples: deque[bool] = deque()
+        """Which of the frames are best-effort samples."""
         self._bytes = 0
+        self._sample_bytes = 0
 
     def __bool__(self) -> bool:
         return bool(self._frames)
 
-    def put(self, frame: bytes) -> bool:
-        """Add a frame, or the rest of one; False when there is no room for it."""
-        if self._bytes + len(frame) > self._limit:
+    def put(self, frame: bytes, sample: bool = False) -> bool:
+        """Add a frame, or the rest of one; False when there is no room for it. `sample`: see `is_sample`."""
+        size = len(frame)
+        while sample and self._sample_bytes and self._sample_bytes + size > self._limit // SHARE:
+            self._drop_oldest()
+        while self._sample_bytes and self._bytes + size > self._limit:
+            self._drop_oldest()
+        if self._bytes + size > self._limit:
             return False
         self._frames.append(frame)
-        self._bytes += len(frame)
+        self._samples.append(sample)
+        self._bytes += size
+        self._sample_bytes += size if sample else 0
         return True
 
     def write(self, descriptor: int) -> bool:
@@ -41,14 +68,27 @@ class Outbox:
             self._bytes -= done
             while done:
                 first = self._frames[0]
+                if self._samples[0]:  # on its way: it is not dropped any more
+                    self._samples[0] = False
+                    self._sample_bytes -= len(first)
                 if done < len(first):
                     self._frames[0] = first[done:]
                     break
                 done -= len(first)
                 self._frames.popleft()
+                self._samples.popleft()
         return self._bytes < before
 
     def clear(self) -> None:
         """Forget everything."""
         self._frames.clear()
-        self._bytes = 0
+        self._samples.clear()
+        self._bytes = self._sample_bytes = 0
+
+    def _drop_oldest(self) -> None:
+        place = self._samples.index(True)
+        size = len(self._frames[place])
+        del self._frames[place], self._samples[place]
+        self._bytes -= size
+        self._sample_bytes -= size
+        self._dropped()

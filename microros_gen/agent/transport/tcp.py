@@ -11,13 +11,14 @@ from __future__ import annotations
 import errno
 import select
 import socket
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
+from functools import partial
 
 from microros_gen.agent.framing import LARGEST_PAYLOAD, LengthDecoder, encode_length
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.transport.base import Receive
-from microros_gen.agent.transport.outbox import Outbox
+from microros_gen.agent.transport.outbox import Outbox, is_sample
 from microros_gen.agent.transport.sockets import Protocol, open_socket, place_name
 
 READ_BYTES = 16_384
@@ -51,12 +52,14 @@ class TcpLimits:
 class Connection:
     """One connection: the address of its client. It is equal to itself alone."""
 
-    def __init__(self, made: socket.socket, peer: str, limit: int, now: float) -> None:
+    def __init__(
+        self, made: socket.socket, peer: str, limit: int, now: float, too_slow: Callable[[str], None]
+    ) -> None:
         self.socket = made
         self.descriptor = made.fileno()
         self.peer = peer
         self.decoder = LengthDecoder()
-        self.outbox = Outbox(limit)
+        self.outbox = Outbox(limit, partial(too_slow, peer))
         self.spoke = False
         """A whole message came."""
         self.heard = now
@@ -142,6 +145,7 @@ class Tcp:
         if address.closed or len(data) > LARGEST_PAYLOAD:
             return
         frame = encode_length(data)
+        begun = False
         if not address.outbox:
             try:
                 done = address.socket.send(frame)
@@ -153,9 +157,10 @@ class Tcp:
             if done == len(frame):
                 return
             frame = frame[done:]
+            begun = done > 0
             address.stuck_since = self._now
             self._watch(address, writing=True)
-        if not address.outbox.put(frame):
+        if not address.outbox.put(frame, not begun and is_sample(data)):
             text = "{transport}: {peer} reads too slowly: messages to it are lost"
             self._log.count("tcp_output_full", text, transport=self.label, peer=address.peer)
 
@@ -233,12 +238,18 @@ class Tcp:
         made.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
         for name, value in _KEEPALIVE:
             made.setsockopt(socket.IPPROTO_TCP, getattr(socket, name), value)
-        connection = Connection(made, peer, self._limits.output_bytes, self._now)
+        connection = Connection(made, peer, self._limits.output_bytes, self._now, self._too_slow)
         self._connections[connection.descriptor] = connection
         self._epoll.register(made, select.EPOLLIN)
         self._log.emit(
             Level.DEBUG, "connection_opened", "{transport}: {peer} opened", transport=self.label, peer=peer
         )
+
+    def _too_slow(self, peer: str) -> None:
+        text = (
+            "{transport}: {peer} is slower than the samples for it: the oldest best-effort ones are dropped"
+        )
+        self._log.count("tcp_slow", text, transport=self.label, peer=peer)
 
     def _make_room(self) -> bool:
         """Return whether there is room for one more; the one that was silent for longest may have to go."""

@@ -234,6 +234,7 @@ static rcl_ret_t call_entity(char ** word)
 
 int client_ping(char ** word);                         /* client_ping.c, or client_no_ping.c */
 int client_read(char ** word, rcl_node_t * node_list); /* client_read.c, or client_no_read.c */
+int client_time(char ** word);                         /* client_time.c, or client_no_time.c */
 
 static rcl_ret_t call(const char * line)
 {
@@ -253,6 +254,9 @@ static rcl_ret_t call(const char * line)
   }
   if (strncmp(word[0], "read_", 5) == 0) {
     return client_read(word, nodes);
+  }
+  if (strncmp(word[0], "epoch_", 6) == 0) {
+    return client_time(word);
   }
   return strncmp(word[0], "ping", 4) == 0 ? client_ping(word) : call_entity(word);
 }

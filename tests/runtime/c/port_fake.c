@@ -20,6 +20,7 @@ static datagram_t queue[QUEUE];
 static size_t queue_first;
 static size_t queue_count;
 static uint32_t fake_now_ms = 0xffffff00u; /* soon begins again at 0: every test passes the wrap */
+static int64_t fake_steady_ms = 5000000123; /* a device that has been on for eight weeks */
 static bool send_fails;
 static bool open_fails;
 
@@ -37,12 +38,18 @@ static void take_datagram(const char * hex)
   ++queue_count;
 }
 
+static void fake_pass(uint32_t duration_ms)
+{
+  fake_now_ms += duration_ms;
+  fake_steady_ms += (int64_t)duration_ms;
+}
+
 bool fake_take_line(const char * line)
 {
   if (strncmp(line, "rx ", 3) == 0) {
     take_datagram(&line[3]);
   } else if (strncmp(line, "time ", 5) == 0) {
-    fake_now_ms += (uint32_t)strtoul(&line[5], NULL, 10);
+    fake_pass((uint32_t)strtoul(&line[5], NULL, 10));
   } else if (strncmp(line, "send_fails ", 11) == 0) {
     send_fails = line[11] == '1';
   } else if (strncmp(line, "open_fails ", 11) == 0) {
@@ -69,6 +76,11 @@ uint32_t port_time_ms(void)
   return fake_now_ms;
 }
 
+int64_t port_time_steady_ns(void)
+{
+  return fake_steady_ms * 1000000;
+}
+
 int64_t port_time_epoch_ns(void)
 {
   return 0;
@@ -79,7 +91,7 @@ void port_sleep_ms(uint32_t duration_ms)
 {
   const char * line;
 
-  fake_now_ms += duration_ms;
+  fake_pass(duration_ms);
   printf("sleep %u\n", (unsigned)duration_ms);
   (void)fflush(stdout);
   for (line = fake_read_line(); strcmp(line, "go") != 0; line = fake_read_line()) {

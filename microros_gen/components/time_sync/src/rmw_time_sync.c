@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "rmw_microros/time_sync.h"
+
+#include "microros/error.h"
+#include "microros/port.h"
+#include "microros/rmw_client.h"
+#include "microros/rmw_epoch.h"
+#include "microros/xrce_client.h"
+#include "microros/xrce_time_sync.h"
+
+#include <stddef.h>
+
+/* After so much silence the question or its answer is taken for lost. */
+enum { REPEAT_MS = 100 };
+
+static bool sync_wait(xrce_client_t * client, uint32_t timeout_ms)
+{
+  const uint32_t start = port_time_ms();
+  uint32_t asked = start;
+
+  (void)xrce_time_sync_ask(client); /* what was not sent is repeated like what was lost */
+  for (;;) {
+    uint32_t now;
+
+    xrce_session_pump(client);
+    if (!client->time_sync.outstanding) {
+      return true;
+    }
+    now = port_time_ms();
+    if (client->session.state != XRCE_READY || now - start >= timeout_ms) {
+      return false;
+    }
+    if (now - asked >= REPEAT_MS) {
+      asked = now;
+      (void)xrce_time_sync_ask(client);
+    }
+    port_sleep_ms(1);
+  }
+}
+
+rmw_ret_t rmw_uros_sync_session(const int timeout_ms)
+{
+  const uint32_t timeout = timeout_ms > 0 ? (uint32_t)timeout_ms : 0u;
+  xrce_client_t * client = rmw_client_connected();
+
+  if (client == NULL) {
+    return microros_error_refuse(RMW_RET_ERROR, "session");
+  }
+  if (!sync_wait(client, timeout)) {
+    client->time_sync.outstanding = false;
+    microros_error_set(
+      microros_error_agent_silent, xrce_transport_name(&client->session.transport), NULL,
+      xrce_transport_port(&client->session.transport), timeout);
+    return RMW_RET_ERROR;
+  }
+  return RMW_RET_OK;
+}
+
+bool rmw_epoch_now(int64_t * epoch_ns)
+{
+  const xrce_client_t * client = rmw_client_instance();
+
+  if (client->session.state == XRCE_CLOSED || !client->time_sync.synchronized) {
+    return false;
+  }
+  *epoch_ns = port_time_steady_ns() + client->time_sync.offset_ns;
+  return true;
+}
+
+bool rmw_uros_epoch_synchronized(void)
+{
+  int64_t ignored;
+
+  return rmw_epoch_now(&ignored);
+}
+
+int64_t rmw_uros_epoch_nanos(void)
+{
+  const xrce_client_t * client = rmw_client_instance();
+
+  return client->session.state == XRCE_CLOSED ? 0 : port_time_steady_ns() + client->time_sync.offset_ns;
+}
+
+int64_t rmw_uros_epoch_millis(void)
+{
+  return rmw_uros_epoch_nanos() / 1000000;
+}

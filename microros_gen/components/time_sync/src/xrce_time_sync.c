@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/xrce_time_sync.h"
+
+#include "microros/port.h"
+#include "microros/xrce_client.h"
+#include "microros/xrce_wire.h"
+
+/* A moment is seconds (signed) and nanoseconds; a reply has three of them. */
+enum { MOMENT_SIZE = 8, TIMESTAMP_SIZE = 8 + MOMENT_SIZE, REPLY_SIZE = 3 * MOMENT_SIZE };
+enum { TRANSMIT = 0, RECEIVE = MOMENT_SIZE, ORIGINATE = 2 * MOMENT_SIZE };
+
+static const int64_t ns_per_s = 1000000000;
+
+static void time_put_le32(uint8_t * at, uint32_t value)
+{
+  xrce_put_le16(at, (uint16_t)(value & 0xffffu));
+  xrce_put_le16(&at[2], (uint16_t)(value >> 16));
+}
+
+static uint32_t time_get_u32(const uint8_t * at, uint8_t flags)
+{
+  const uint32_t first = xrce_get_u16(at, flags);
+  const uint32_t second = xrce_get_u16(&at[2], flags);
+
+  return (flags & XRCE_FLAG_LITTLE_ENDIAN) != 0u ? first | (second << 16) : second | (first << 16);
+}
+
+/* False: these nanoseconds are more than a second. */
+static bool time_get_moment(const uint8_t * at, uint8_t flags, int64_t * moment_ns)
+{
+  const uint32_t seconds = time_get_u32(at, flags);
+  const uint32_t nanoseconds = time_get_u32(&at[4], flags);
+  const int64_t before_1970 = seconds > (uint32_t)INT32_MAX ? (int64_t)UINT32_MAX + 1 : 0;
+
+  *moment_ns = ((int64_t)seconds - before_1970) * ns_per_s + (int64_t)nanoseconds;
+  return nanoseconds < (uint32_t)ns_per_s;
+}
+
+bool xrce_time_sync_ask(xrce_client_t * client)
+{
+  uint8_t message[TIMESTAMP_SIZE];
+  xrce_time_sync_t * sync = &client->time_sync;
+
+  sync->asked_ns = port_time_steady_ns();
+  sync->outstanding = true;
+  xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_NONE, 0);
+  xrce_put_submessage(&message[4], XRCE_TIMESTAMP, XRCE_FLAG_LITTLE_ENDIAN, MOMENT_SIZE);
+  time_put_le32(&message[8], (uint32_t)(sync->asked_ns / ns_per_s));
+  time_put_le32(&message[12], (uint32_t)(sync->asked_ns % ns_per_s));
+  return xrce_session_send(&client->session, message, sizeof(message));
+}
+
+void xrce_time_sync_on_reply(xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags)
+{
+  const int64_t now_ns = port_time_steady_ns();
+  xrce_time_sync_t * sync = &client->time_sync;
+  int64_t transmitted_ns;
+  int64_t received_ns;
+  int64_t originated_ns;
+
+  if (
+    size < REPLY_SIZE || !time_get_moment(&payload[TRANSMIT], flags, &transmitted_ns) ||
+    !time_get_moment(&payload[RECEIVE], flags, &received_ns) ||
+    !time_get_moment(&payload[ORIGINATE], flags, &originated_ns)) {
+    ++client->session.statistics.malformed;
+    return;
+  }
+  if (!sync->outstanding || originated_ns != sync->asked_ns) {
+    return; /* late, or twice */
+  }
+  /* Each moment is within 2^31 seconds, so the sum of two differences stays below 2^63 nanoseconds. */
+  sync->offset_ns = ((received_ns - originated_ns) + (transmitted_ns - now_ns)) / 2;
+  sync->outstanding = false;
+  sync->synchronized = true;
+}

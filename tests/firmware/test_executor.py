@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""An application of rclc with a timer and an executor on a board: it publishes in time, and rests between."""
+
+from __future__ import annotations
+
+import re
+import time
+
+import pytest
+from runtime.fake_agent import FakeAgent
+
+from firmware.board import Builds, board, check, need
+from firmware.line import scripted_agent
+
+APPLICATION = """\
+version: 1
+profiles: [pure_sender]
+components: [+timers]
+errors: code
+nodes:
+  - name: ticker
+    publishers: [{topic: count, type: std_msgs/msg/Int32}]
+    timers: [{name: tick, period: 100 ms%s}]
+"""
+NAME = "qemu-mps2-an386"
+SAMPLES = 12
+
+
+@pytest.mark.parametrize("kind", ["", ", kind: rtos"], ids=["clock", "rtos"])
+def test_a_timer_publishes_under_the_executor(builds: Builds, kind: str) -> None:
+    built = builds.build(NAME, APPLICATION % kind)
+    image = builds.application(built, "ticker.c")
+    with board(built, image) as running, scripted_agent(running.device, FakeAgent()) as agent:
+        running.go_on()
+        running.wait_for(agent.values)
+        start = time.monotonic()
+        running.wait_for(lambda: len(agent.values()) > SAMPLES)
+        took = time.monotonic() - start
+    assert agent.values()[:SAMPLES] == list(range(SAMPLES))
+    assert took > 0.1 * SAMPLES * 0.8
+
+
+def test_its_size(builds: Builds) -> None:
+    """Publisher, timer and executor, `errors: code`; the goal with a subscription is 15,000 and 3,000."""
+    need(NAME)
+    built = builds.build(NAME, APPLICATION % "")
+    image = builds.application(built, "ticker.c")
+    found = re.findall(r"^\.(text|data|bss|noinit)\s+(\d+)", check([built.tool("size"), "-A", str(image)]), re.M)
+    sizes = {name: int(size) for name, size in found}
+    assert sizes["text"] + sizes["data"] <= 12200
+    assert sizes["data"] + sizes["bss"] + sizes["noinit"] <= 1300

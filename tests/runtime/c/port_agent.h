@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A port whose time the unit makes, with an agent behind its UDP group that grants everything at once. */
+#ifndef PORT_AGENT_H
+#define PORT_AGENT_H
+
+#include "microros/port.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Steady time; waiting and sleeping move it on. Begins shortly before the milliseconds wrap. */
+extern int64_t agent_now_ns;
+
+/* Time of the day; 0: not known. */
+extern int64_t agent_epoch_ns;
+
+/* How often port_wait was called since the unit set this to 0. */
+extern uint32_t agent_waits;
+
+/* Called once when this time is reached by waiting; then the unit may set the next one. */
+extern int64_t agent_event_ns;
+extern void (*agent_event)(void);
+
+/* The function that the timer of this number ticks with; NULL: it rests. */
+extern port_timer_tick_t agent_ticks[4];
+extern int64_t agent_periods[4];
+
+/* A sample arrives for the reader of this index among the endpoints. */
+void agent_offer(uint16_t index, const uint8_t * body, uint8_t size);
+void agent_offer_number(uint16_t index, int32_t value);
+
+/* Samples written since the last call, and the last one as a number. */
+uint32_t agent_written(int32_t * last);
+
+#endif /* PORT_AGENT_H */

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Clocks, timers and the executor, as C units over a port whose time is made and an agent that grants everything."""
+
+from __future__ import annotations
+
+import subprocess
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from microros_gen.plan.runtime import RuntimePlan, TimerPlan
+from runtime.harness import EXECUTOR, SANITIZE, build, compilers, components, render
+
+MS = 1_000_000
+TICKS = replace(
+    EXECUTOR,
+    timers=(
+        TimerPlan(0, 0, "system", 10 * MS, "rtos"),
+        TimerPlan(1, 0, "hardware", 20 * MS, "hardware"),
+        TimerPlan(2, 0, "plain", 30 * MS),
+    ),
+)
+UNITS = {
+    "unit_clock.c": EXECUTOR,
+    "unit_timer.c": EXECUTOR,
+    "unit_executor.c": EXECUTOR,
+    "unit_ticks.c": TICKS,
+}
+
+
+@pytest.mark.parametrize("unit", UNITS)
+@pytest.mark.parametrize(
+    ("compiler", "flags"),
+    [("gcc", SANITIZE), ("gcc", ("-m32", "-Os")), ("clang", SANITIZE)],
+    ids=["gcc-sanitized", "gcc-m32", "clang-sanitized"],
+)
+def test_unit(unit: str, compiler: str, flags: tuple[str, ...], tmp_path: Path) -> None:
+    if compiler not in compilers():
+        pytest.skip(f"no {compiler}")
+    _run(unit, UNITS[unit], compiler, flags, tmp_path)
+
+
+def _run(unit: str, plan: RuntimePlan, compiler: str, flags: tuple[str, ...], tmp_path: Path) -> None:
+    names = [name for name in components(plan) if name != "port_posix"]
+    tree = render(tmp_path, plan, names)
+    program = build(tree, ["port_agent.c", "types_read.c", unit], "unit", compiler, flags)
+    done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 0, done.stderr

@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The agent's time on the device: TIMESTAMP, and whatever answer there may be."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from itertools import count
+
+import pytest
+
+from runtime.conftest import Bench
+from runtime.driver import Client
+from runtime.fake_agent import FakeAgent
+from runtime.harness import POOL
+
+PLAN = replace(POOL, has_time_sync=True)
+TIMESTAMP = bytes.fromhex("81000000 0e010800")
+START_MS = 5_000_000_124
+"""The steady time of the fake port when it has a session: connecting took a millisecond."""
+EPOCH_NS = 1_790_000_000_123_456_789
+MOST_S = 2**31 - 1
+
+
+@dataclass
+class TimedAgent(FakeAgent):
+    """Answers TIMESTAMP with what `reply` makes of the originate time."""
+
+    reply: Callable[[bytes], list[bytes]] = lambda originate: []
+    asked: list[int] = field(default_factory=list)
+
+    def receive(self, datagram: bytes) -> list[bytes]:
+        if datagram[:8] != TIMESTAMP:
+            return super().receive(datagram)
+        assert len(datagram) == 16
+        seconds, nanoseconds = struct.unpack_from("<iI", datagram, 8)
+        self.asked.append(seconds * 10**9 + nanoseconds)
+        return self.reply(datagram[8:])
+
+
+def moment(nanoseconds: int, order: str = "<") -> bytes:
+    return struct.pack(f"{order}iI", nanoseconds // 10**9, nanoseconds % 10**9)
+
+
+def answer(transmit: bytes, receive: bytes, originate: bytes, flags: int = 1) -> bytes:
+    payload = transmit + receive + originate
+    return bytes([0x81, 0, 0, 0, 0x0F, flags, len(payload), 0]) + payload
+
+
+def start(bench: Bench, reply: Callable[[bytes], list[bytes]]) -> tuple[Client, TimedAgent]:
+    agent = TimedAgent(reply=reply)
+    client = bench.start(PLAN, agent=agent)
+    client.ok("init")
+    return client, agent
+
+
+def epoch(client: Client) -> tuple[bool, int, int]:
+    """Return whether the time is the agent's, and the time in milliseconds and nanoseconds."""
+    result = client.call("epoch_now")
+    (line,) = (x for x in result.lines if x.startswith("epoch"))
+    _, milliseconds, nanoseconds = line.split()
+    return bool(result.code), int(milliseconds), int(nanoseconds)
+
+
+def test_before_a_context_there_is_no_time(bench: Bench) -> None:
+    client = bench.start(PLAN)
+    assert epoch(client) == (False, 0, 0)
+    result = client.call("epoch_sync 1000")
+    assert (result.code, result.error) == (1, "session: NULL or not initialized")
+
+
+def test_before_it_was_asked_time_is_that_since_the_start(bench: Bench) -> None:
+    client, agent = start(bench, lambda _: [])
+    assert epoch(client) == (False, START_MS, START_MS * 10**6)
+    assert agent.asked == []
+
+
+@pytest.mark.parametrize("agent_ns", [EPOCH_NS, 1, MOST_S * 10**9 + 999_999_997, -5 * 10**9])
+def test_the_offset_follows_from_four_moments(bench: Bench, agent_ns: int) -> None:
+    """The question takes no time, the agent 2 ns, the answer 1 ms: half of it is the error that nobody can know."""
+    client, agent = start(bench, lambda o: [answer(moment(agent_ns + 2), moment(agent_ns), o)])
+    client.ok("epoch_sync 1000")
+    assert len(agent.asked) == 1
+    assert agent.asked[0] == START_MS * 10**6
+    originated, ended = agent.asked[0], agent.asked[0] + 10**6
+    twice_the_offset = (agent_ns - originated) + (agent_ns + 2 - ended)
+    synchronized, milliseconds, nanoseconds = epoch(client)
+    assert synchronized
+    assert abs(2 * (nanoseconds - ended) - twice_the_offset) <= 1
+    assert abs(milliseconds * 10**6 - nanoseconds) < 10**6
+
+
+def test_time_goes_on_after_it(bench: Bench) -> None:
+    client, _ = start(bench, lambda o: [answer(moment(EPOCH_NS), moment(EPOCH_NS), o)])
+    client.ok("epoch_sync 1000")
+    before = epoch(client)[2]
+    client.wait(0x7FFF_FFFF)
+    client.wait(0x7FFF_FFFF)
+    client.wait(10)
+    assert epoch(client)[2] - before == (2 * 0x7FFF_FFFF + 10) * 10**6, (
+        "longer than the port counts milliseconds"
+    )
+
+
+def test_a_big_endian_answer(bench: Bench) -> None:
+    def reply(originate: bytes) -> list[bytes]:
+        seconds, nanoseconds = struct.unpack("<iI", originate)
+        asked = seconds * 10**9 + nanoseconds
+        return [answer(moment(EPOCH_NS, ">"), moment(EPOCH_NS, ">"), moment(asked, ">"), flags=0)]
+
+    client, _ = start(bench, reply)
+    client.ok("epoch_sync 1000")
+    assert abs(epoch(client)[2] - EPOCH_NS) < 10**6
+
+
+def test_what_is_lost_is_asked_again(bench: Bench) -> None:
+    replies: Iterator[int] = count()
+    client, agent = start(
+        bench, lambda o: [answer(moment(EPOCH_NS), moment(EPOCH_NS), o)] if next(replies) == 3 else []
+    )
+    result = client.ok("epoch_sync 1000")
+    assert 300 <= result.slept <= 305
+    assert len(agent.asked) == 4
+    assert len(set(agent.asked)) == 4, "each question has its own time"
+
+
+@pytest.mark.parametrize(("timeout", "questions"), [(0, 1), (-1, 1), (50, 1), (250, 3)])
+def test_no_answer_ends_in_time(bench: Bench, timeout: int, questions: int) -> None:
+    client, agent = start(bench, lambda _: [])
+    result = client.call(f"epoch_sync {timeout}")
+    assert result.code == 1
+    assert result.error == f"no agent answers at 127.0.0.1:8888 within {max(timeout, 0)} ms"
+    assert result.slept == max(timeout, 0)
+    assert len(agent.asked) == questions
+    assert not epoch(client)[0]
+
+
+def test_an_answer_to_another_question_does_not_count(bench: Bench) -> None:
+    client, _ = start(bench, lambda o: [answer(moment(EPOCH_NS), moment(EPOCH_NS), moment(7))])
+    assert client.call("epoch_sync 50").code == 1
+    assert not epoch(client)[0]
+    assert client.statistics()["malformed"] == 0, "it is late, not wrong"
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda o: answer(moment(EPOCH_NS), moment(EPOCH_NS), o[:-1]),
+        lambda o: answer(moment(EPOCH_NS), moment(EPOCH_NS), b""),
+        lambda o: answer(b"", b"", b""),
+        lambda o: answer(struct.pack("<iI", 1, 10**9), moment(EPOCH_NS), o),
+        lambda o: answer(moment(EPOCH_NS), struct.pack("<iI", 1, 2**32 - 1), o),
+    ],
+)
+def test_a_malformed_answer_is_counted(bench: Bench, spoil: Callable[[bytes], bytes]) -> None:
+    replies = count()
+
+    def reply(originate: bytes) -> list[bytes]:
+        good = answer(moment(EPOCH_NS), moment(EPOCH_NS), originate)
+        return [spoil(originate) if next(replies) == 0 else good]
+
+    client, agent = start(bench, reply)
+    client.ok("epoch_sync 1000")
+    assert len(agent.asked) == 2
+    assert client.statistics()["malformed"] == 1
+    assert abs(epoch(client)[2] - EPOCH_NS) < 2 * 10**6
+
+
+def test_an_unasked_answer_changes_nothing(bench: Bench) -> None:
+    client, agent = start(bench, lambda o: [answer(moment(EPOCH_NS), moment(EPOCH_NS), o)] * 2)
+    client.ok("epoch_sync 1000")
+    before = epoch(client)
+    client.queued.append(answer(moment(5), moment(5), moment(agent.asked[0])))
+    client.spin()
+    assert epoch(client) == before
+
+
+def test_time_outlives_a_lost_session(bench: Bench) -> None:
+    client, agent = start(bench, lambda o: [answer(moment(EPOCH_NS), moment(EPOCH_NS), o)])
+    client.ok("epoch_sync 1000")
+    before = epoch(client)
+    agent.restart()
+    client.spin(8, POOL.liveliness_period_ms)
+    assert client.statistics()["reconnects"] == 1
+    assert epoch(client)[0]
+    assert epoch(client)[2] - before[2] == 8 * POOL.liveliness_period_ms * 10**6
