@@ -85,7 +85,13 @@ def _receiving_rows(planned: Planned) -> list[tuple[str, str, str]]:
         rows.append(("subscriptions", str(runtime.subscriptions_max), source))
     for name, places in (("services", runtime.services_max), ("clients", runtime.clients_max)):
         if places:
-            rows.append((name, str(places), "declared in nodes:" if runtime.declared else "pools: or one for each service"))
+            rows.append(
+                (
+                    name,
+                    str(places),
+                    "declared in nodes:" if runtime.declared else "pools: or one for each service",
+                )
+            )
     if runtime.queues:
         slots = f"{runtime.queue_slots} slots, {runtime.queues_size} bytes"
         rows.append(("queues", slots, "queue: or depth, times the largest sample"))
@@ -102,7 +108,9 @@ def _running_rows(planned: Planned) -> list[tuple[str, str, str]]:
         rows.append(("timers", str(runtime.timers_max), source))
     if runtime.has_executors:
         rows.append(("executors", str(runtime.executors_max), source))
-        rows.append(("handles", f"{runtime.handles_max} each", "one for each entity that an executor can run"))
+        rows.append(
+            ("handles", f"{runtime.handles_max} each", "one for each entity that an executor can run")
+        )
         rows.append(("guard conditions", str(runtime.guard_conditions_max), "pools.guard_conditions"))
     return rows
 

@@ -89,7 +89,11 @@ def _binary(names: CreateNames) -> tuple[int, ...]:
 
 
 def _binary_service(names: CreateNames) -> int:
-    strings = (0, names.service), (0, names.service_type + len("Request_")), (0, names.service_type + len("Response_"))
+    strings = (
+        (0, names.service),
+        (0, names.service_type + len("Request_")),
+        (0, names.service_type + len("Response_")),
+    )
     topics = (1, len("rq") + names.service + len("Request")), (1, len("rr") + names.service + len("Reply"))
     end = 0
     for flag, length in (*strings, *topics):
@@ -110,7 +114,12 @@ def _xml(names: CreateNames) -> tuple[int, ...]:
 def _reference(names: CreateNames) -> tuple[int, ...]:
     topic = names.topic - len("rt/")
     of_service = names.service - len("/") + len("__rp") + _NUL if names.service else 0
-    return names.participant_reference + _NUL, topic + len("__t") + _NUL, topic + len("__dw") + _NUL, of_service
+    return (
+        names.participant_reference + _NUL,
+        topic + len("__t") + _NUL,
+        topic + len("__dw") + _NUL,
+        of_service,
+    )
 
 
 _DESCRIPTIONS = {"binary": _binary, "xml": _xml, "reference": _reference}

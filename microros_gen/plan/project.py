@@ -100,7 +100,6 @@ def plan_project(
     by_name = {plan.name: plan for plan in types}
     nodes, publishers = _declared(application, by_name)
     receiving = plan_receiving(application, selection, by_name, roots, diagnostics)
-    running = plan_running(application, selection, receiving.subscriptions_max, diagnostics)
     serving = plan_serving(application, selection, by_name, services, diagnostics)
     queues = (*receiving.queues, *serving.queues)
     endpoints = (*publishers, *receiving.subscriptions)

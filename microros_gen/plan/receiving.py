@@ -89,9 +89,7 @@ def _with_storage(plan: SubscriptionPlan, types: Mapping[TypeName, TypePlan]) ->
     )
 
 
-def buffers_of(
-    message: Message, messages: Mapping[TypeName, Message], prefix: str = ""
-) -> Iterator[str]:
+def buffers_of(message: Message, messages: Mapping[TypeName, Message], prefix: str = "") -> Iterator[str]:
     """Yield the strings and sequences that are there in a message without elements: `header.frame_id`."""
     for field in message.fields:
         element = element_of(field.type)

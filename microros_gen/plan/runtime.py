@@ -164,8 +164,8 @@ class RuntimePlan:
     `reliable_input_slots`: messages of the agent's reliable stream that the client holds at a time, the one that is
     being handled among them; 0: there is no such stream.
     `subscriptions_max`: places, at least one where subscriptions are selected; `services_max`, `clients_max`: places, 0
-    where `nodes:` declares none; `queues` has one entry for each of the three, in this order. `reassembly_size`: the largest DATA that comes in fragments, with its
-    header; 0: none does.
+    where `nodes:` declares none; `queues` has one entry for each of the three, in this order. `reassembly_size`: the
+    largest DATA that comes in fragments, with its header; 0: none does.
     `timers_max`, `executors_max` with `handles_max` each, `guard_conditions_max`, `wait_sets_max`, `ros_clocks_max`,
     `jump_callbacks_max`: places of each; 0 timers, executors or clocks: the component is not selected.
     `error_text_size` 0: codes only. `best_effort_size` 0 or `reliable_slots` 0: there is no such stream.
@@ -296,7 +296,9 @@ class RuntimePlan:
         subscriptions = [EndpointRow(s.topic, s.dds_type, s.node) for s in self.subscriptions]
         rows = publishers + [EndpointRow()] * (self.publisher_places - len(publishers))
         subscriptions += [EndpointRow()] * (self.subscriptions_max - len(subscriptions))
-        services = [EndpointRow(s.name, s.dds_type, s.node, s.limited) for s in (*self.services, *self.clients)]
+        services = [
+            EndpointRow(s.name, s.dds_type, s.node, s.limited) for s in (*self.services, *self.clients)
+        ]
         return (*rows, *subscriptions, *services)
 
     @property

@@ -12,9 +12,7 @@ from microros_gen.plan.capacity import Entity, Root
 from microros_gen.plan.declared import declarations, full_name, node_name, service_parts, type_name
 
 
-def service_roots(
-    application: Application, messages: Mapping[TypeName, Message], room: int
-) -> list[Root]:
+def service_roots(application: Application, messages: Mapping[TypeName, Message], room: int) -> list[Root]:
     """Return request and response of every declared service and client, with the limits that are theirs.
 
     `room` as of Root. A limit of an entity names a member of its request or of its response; one that is in neither is

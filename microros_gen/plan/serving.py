@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Services and clients: their places, their queues, and what they send and receive.
 
-Sources: OMG DDS-XRCE 1.0, 7.7.14 (a request comes behind its SampleIdentity); a reply comes behind request and object id
-of its request, as the public agent sends it.
+Sources: OMG DDS-XRCE 1.0, 7.7.14 (a request comes behind its SampleIdentity); a reply comes behind request and object
+id of its request, as the public agent sends it.
 """
 
 from __future__ import annotations
@@ -66,7 +66,9 @@ def plan_serving(
             slots = endpoint.queue or LARGEST_DEFAULT_QUEUE
             what = ("request", "reply") if kind == "service" else ("reply", "request")
             queues.append(QueuePlan(slots, slot_of(arriving) + _HEAD[kind]))
-            received.append(Received(label.format(what[0]), slot_of(arriving) + _HEAD[kind], True, False, span))
+            received.append(
+                Received(label.format(what[0]), slot_of(arriving) + _HEAD[kind], True, False, span)
+            )
             written.append(Written(label.format(what[1]), leaving + _WRITTEN_HEAD[kind], True, False, span))
     services, clients = (tuple(plans[kind]) for kind in KINDS)
     return Serving(
@@ -121,8 +123,13 @@ def _pooled(
     replies = [(root, types[derived_name(root, "Response")].max_encoded_size) for root in roots]
     of_service = QueuePlan(slots, slot_of(max((size for _, size in requests), default=0)) + IDENTITY_SIZE)
     of_client = QueuePlan(slots, slot_of(max((size for _, size in replies), default=0)) + RELATED_SIZE)
-    received = [Received(f"the request of {root}", slot_of(size) + IDENTITY_SIZE, True, False) for root, size in requests]
-    received += [Received(f"the reply of {root}", slot_of(size) + RELATED_SIZE, True, False) for root, size in replies]
+    received = [
+        Received(f"the request of {root}", slot_of(size) + IDENTITY_SIZE, True, False)
+        for root, size in requests
+    ]
+    received += [
+        Received(f"the reply of {root}", slot_of(size) + RELATED_SIZE, True, False) for root, size in replies
+    ]
     written = [Written(f"the request of {root}", size, True, False) for root, size in requests]
     written += [Written(f"the reply of {root}", size + IDENTITY_SIZE, True, False) for root, size in replies]
     return Serving(

@@ -73,7 +73,9 @@ class _Renderer:
             header = {**_file(plans, paths.type_support, encoded, "header_includes"), "service": service}
             source = {**_file(plans, paths.type_support, encoded), "service": service}
             if service:
-                header["includes"] = _with(header["includes"], "rosidl_runtime_c/service_type_support_struct.h")
+                header["includes"] = _with(
+                    header["includes"], "rosidl_runtime_c/service_type_support_struct.h"
+                )
                 source["includes"] = _with(source["includes"], "microros/service_type.h")
             self._print(paths.type_support, "type_support.h", header)
             self._print(paths.type_support_source, "type_support.c", source)

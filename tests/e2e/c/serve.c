@@ -38,7 +38,8 @@ static void answer(const void * request_msg, void * response_msg)
 /* Arguments: how many requests to answer. */
 int main(int argc, char ** argv)
 {
-  static rcl_interfaces__srv__GetParameterTypes_Request request;   /* without buffers: bound to the storage of */
+  static rcl_interfaces__srv__GetParameterTypes_Request
+    request; /* without buffers: bound to the storage of */
   static rcl_interfaces__srv__GetParameterTypes_Response response; /* the service's declaration */
   rcl_allocator_t allocator = rcl_get_default_allocator();
 

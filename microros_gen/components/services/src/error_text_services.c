@@ -11,7 +11,8 @@ const char microros_error_client_undeclared[] =
 const char microros_error_client_open[] = "client of %s is open already";
 const char microros_error_clients_full[] = "all %n clients are open: set pools: {clients: %m}%y";
 const char microros_error_service_qos[] = "service %s: XRCE carries no such QoS: %d";
-const char microros_error_service_small[] = "%t takes %n bytes and its stream holds %m: declare its service%y";
+const char microros_error_service_small[] =
+  "%t takes %n bytes and its stream holds %m: declare its service%y";
 const char microros_error_service_full[] =
   "service %s: stream full, %n unacknowledged: raise pools: {history: %m}%y";
 const char microros_error_service_session[] = "service %s: no session with the agent";

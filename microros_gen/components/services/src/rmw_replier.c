@@ -34,9 +34,9 @@ rmw_ret_t rmw_replier_open(
   static rmw_service_t services[MICROROS_SERVICES_MAX]; /* handed out by place */
   const microros_service_type_t * type = type_support->data;
   const xrce_service_t opened = {type, type->response};
-  const rmw_section_t section = {
-    XRCE_REPLIERS_AT - MICROROS_NODES_MAX, MICROROS_SERVICES_MAX, microros_error_service_undeclared,
-    microros_error_service_open,           microros_error_services_full, type->dds_type_name};
+  const rmw_section_t section = {XRCE_REPLIERS_AT - MICROROS_NODES_MAX, MICROROS_SERVICES_MAX,
+                                 microros_error_service_undeclared,     microros_error_service_open,
+                                 microros_error_services_full,          type->dds_type_name};
   xrce_endpoint_t wanted = {node->context->impl, type->request, NULL, 0, 0, rmw_node_index(node), 0};
   const rmw_ret_t result = rmw_service_open(&wanted, &opened, &section, node, name, qos);
 
@@ -63,7 +63,7 @@ bool rmw_replier_is_open(const rmw_service_t * service)
 
 bool rmw_replier_is_ready(const rmw_service_t * service)
 {
-  return xrce_read_is_ready(service->data);
+  return xrce_read_is_ready(service->data) && xrce_write_reserve(service->data) != NULL;
 }
 
 void rmw_replier_pump(const rmw_service_t * service)
@@ -90,8 +90,7 @@ rmw_ret_t rmw_replier_take(
   }
   if (sample.size < XRCE_IDENTITY_SIZE) {
     xrce_read_pop(endpoint, true);
-    microros_error_set(
-      microros_error_service_short, endpoint->name, NULL, sample.size, XRCE_IDENTITY_SIZE);
+    microros_error_set(microros_error_service_short, endpoint->name, NULL, sample.size, XRCE_IDENTITY_SIZE);
     return RMW_RET_ERROR;
   }
   sequence = (uint64_t)replier_get_u32(&sample.data[HIGH_AT], sample.big_endian) << 32;

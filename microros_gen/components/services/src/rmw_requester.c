@@ -17,8 +17,12 @@ rmw_ret_t rmw_requester_open(
   const microros_service_type_t * type = type_support->data;
   const xrce_service_t opened = {type, type->request};
   const rmw_section_t section = {
-    XRCE_REQUESTERS_AT - MICROROS_NODES_MAX, MICROROS_CLIENTS_MAX, microros_error_client_undeclared,
-    microros_error_client_open,              microros_error_clients_full, type->dds_type_name};
+    XRCE_REQUESTERS_AT - MICROROS_NODES_MAX,
+    MICROROS_CLIENTS_MAX,
+    microros_error_client_undeclared,
+    microros_error_client_open,
+    microros_error_clients_full,
+    type->dds_type_name};
   xrce_endpoint_t wanted = {node->context->impl, type->response, NULL, 0, 0, rmw_node_index(node), 0};
   const rmw_ret_t result = rmw_service_open(&wanted, &opened, &section, node, name, qos);
 

@@ -44,7 +44,9 @@ rmw_ret_t rmw_service_open(
   place = xrce_service_of(wanted);
   place->type = service->type;
   place->sent = rmw_service_sent(wanted->index, service->sent);
-  return service_fits(place->sent, MICROROS_NODES_MAX + wanted->index < XRCE_REQUESTERS_AT) ? rmw_receiver_start(wanted) : RMW_RET_ERROR;
+  return service_fits(place->sent, MICROROS_NODES_MAX + wanted->index < XRCE_REQUESTERS_AT)
+           ? rmw_receiver_start(wanted)
+           : RMW_RET_ERROR;
 }
 
 rmw_ret_t rmw_service_report(
@@ -83,8 +85,8 @@ void rmw_service_describe(const xrce_sample_t * sample, rmw_service_info_t * inf
 rmw_ret_t rmw_service_decode(
   const xrce_endpoint_t * endpoint, const xrce_sample_t * sample, uint16_t head, void * message)
 {
-  const rmw_ret_t result =
-    rmw_decode(endpoint->type, &sample->data[head], (uint32_t)sample->size - head, sample->big_endian, message);
+  const rmw_ret_t result = rmw_decode(
+    endpoint->type, &sample->data[head], (uint32_t)sample->size - head, sample->big_endian, message);
 
   xrce_read_pop(endpoint, result != RMW_RET_OK);
   return result;

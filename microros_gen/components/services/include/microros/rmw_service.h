@@ -36,7 +36,8 @@ bool rmw_requester_is_open(const rmw_client_t * client);
 
 /* --- of an open one, without receiving: who waits for several has received before --- */
 
-/* Whether the take below has a message, or an error to tell. */
+/* Whether the take below has a message, or an error to tell; of a service also, whether the reply would find room now. So
+ * a request waits until it can be answered. */
 bool rmw_replier_is_ready(const rmw_service_t * service);
 bool rmw_requester_is_ready(const rmw_client_t * client);
 
@@ -61,7 +62,8 @@ rmw_ret_t rmw_replier_respond(
   const rmw_service_t * service, const rmw_request_id_t * request, const void * ros_response);
 
 /* The same for a request; gives its sequence number: 1, 2, 3, … */
-rmw_ret_t rmw_requester_send(const rmw_client_t * client, const void * ros_request, int64_t * sequence_number);
+rmw_ret_t rmw_requester_send(
+  const rmw_client_t * client, const void * ros_request, int64_t * sequence_number);
 
 /* --- storage: a message of which no string and no sequence has a buffer gets that of its declaration --- */
 
