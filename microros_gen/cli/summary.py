@@ -59,7 +59,7 @@ def _agent(planned: Planned) -> str:
     return (
         "custom transport of the application"
         if transport == "custom"
-        else (f"{transport} {runtime.agent_host}:{runtime.agent_port}")
+        else f"{transport} {runtime.agent_place}"
     )
 
 

@@ -66,7 +66,7 @@ def _transport(project: Project) -> dict[str, Any]:
     common = {"type": kind, "mtu": runtime.mtu}
     if kind == "serial":
         return {**common, "device": runtime.serial_device, "baud": runtime.serial_baud}
-    return common if kind == "custom" else {**common, "agent": f"{runtime.agent_host}:{runtime.agent_port}"}
+    return common if kind == "custom" else {**common, "agent": runtime.agent_place}
 
 
 def _selection(project: Project) -> dict[str, Any]:

@@ -156,17 +156,18 @@ def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
 
 
 def _agent(node: YamlNode | None, diagnostics: Diagnostics) -> tuple[str, int] | None:
-    """Return host and port; a host name, an IPv6 address and a missing or wrong port are errors."""
+    """Return host and port; a host name and a missing or wrong port are errors."""
     text = text_of(node)
     return None if text is None else parse_agent_address(text, span_of(node), diagnostics)
 
 
 def parse_agent_address(text: str, span: Span | None, diagnostics: Diagnostics) -> tuple[str, int] | None:
-    """Return host and port of `192.168.1.10:8888`; None and an error in `diagnostics` where it is not one."""
-    host, separator, port = text.rpartition(":")
-    if text.count(":") > 1:
-        diagnostics.error(f"the agent '{text}' has an IPv6 address", span, "Write its IPv4 address and port")
+    """Return host and port of `192.168.1.10:8888` or `[fd00::1]:8888`; None and an error where it is neither."""
+    if text.count(":") > 1 and not re.fullmatch(r"\[.*\]:[^:\]]*", text):
+        message = f"the agent '{text}' has an IPv6 address that is not in brackets, or lacks its port"
+        diagnostics.error(message, span, 'Write it as "[::1]:8888"')
         return None
+    host, separator, port = text.rpartition(":")
     if not separator:
         diagnostics.error(f"the agent '{text}' lacks its port", span, f'Write "{text}:8888"')
         return None
@@ -175,10 +176,12 @@ def parse_agent_address(text: str, span: Span | None, diagnostics: Diagnostics) 
         message = f"the agent's port must be a whole number between 1 and 65535; it is '{port}'"
         diagnostics.error(message, span, "The public agent's examples use 8888")
         return None
-    return (host, int(port)) if valid else None
+    return (host.strip("[]"), int(port)) if valid else None
 
 
 def _check_host(host: str, span: Span | None, diagnostics: Diagnostics) -> bool:
+    if host.startswith("["):
+        return _check_ipv6(host.strip("[]"), span, diagnostics)
     try:
         ipaddress.IPv4Address(host)
     except ValueError as fault:
@@ -191,6 +194,19 @@ def _check_host(host: str, span: Span | None, diagnostics: Diagnostics) -> bool:
             diagnostics.error(f"the agent's address '{host}' is a host name", span, hint)
         return False
     return True
+
+
+def _check_ipv6(host: str, span: Span | None, diagnostics: Diagnostics) -> bool:
+    try:
+        zone = ipaddress.IPv6Address(host).scope_id
+    except ValueError as fault:
+        hint = f"Write up to eight groups of hexadecimal digits ({str(fault).split(' in ')[0]})"
+        diagnostics.error(f"the agent's address '{host}' is no IPv6 address", span, hint)
+        return False
+    if zone is not None:
+        message = f"the agent's address '{host}' names the interface '{zone}' of one machine"
+        diagnostics.error(message, span, "Write an address that the device can use without it")
+    return zone is None
 
 
 def _session_key(node: YamlNode | None) -> int | str | None:

@@ -249,6 +249,17 @@ class RuntimePlan:
         return self.ros_clocks_max > 0
 
     @property
+    def has_sockets(self) -> bool:
+        """Whether the transport goes over a socket of the port."""
+        return self.transport in ("udp", "tcp")
+
+    @property
+    def agent_place(self) -> str:
+        """Where the agent is: `192.168.1.10:8888`, `[::1]:8888`."""
+        host = f"[{self.agent_host}]" if ":" in self.agent_host else self.agent_host
+        return f"{host}:{self.agent_port}"
+
+    @property
     def has_steady_time(self) -> bool:
         """Whether something asks the port for the time since its start."""
         return self.has_clocks or self.has_executors or self.has_time_sync

@@ -220,9 +220,21 @@ ERRORS: dict[str, tuple[str, str]] = {
         'transport: {agent: "10.0.0.01:8888"}\n',
         "f:1:20: error: the agent's address ",
     ),
-    "IPv6": (
-        'transport: {agent: "[::1]:8888"}\n',
-        "f:1:20: error: the agent '[::1]:8888' has an IPv6 address. Write its IPv4 address and port",
+    "IPv6 without brackets": (
+        'transport: {agent: "::1:8888"}\n',
+        "f:1:20: error: the agent '::1:8888' has an IPv6 address that is not in brackets, or lacks its port. Write it",
+    ),
+    "IPv6 without a port": (
+        'transport: {agent: "[fd00::1]"}\n',
+        "f:1:20: error: the agent '[fd00::1]' has an IPv6 address that is not in brackets, or lacks its port",
+    ),
+    "IPv6 that is none": (
+        'transport: {agent: "[fd00::12345]:8888"}\n',
+        "f:1:20: error: the agent's address 'fd00::12345' is no IPv6 address",
+    ),
+    "IPv6 with a zone": (
+        'transport: {agent: "[fe80::1%eth0]:8888"}\n',
+        "f:1:20: error: the agent's address 'fe80::1%eth0' names the interface 'eth0' of one machine",
     ),
     "agent of a serial line": (
         'transport: {type: serial, agent: "10.0.0.1:8888"}\n',

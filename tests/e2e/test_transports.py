@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import shutil
+import socket
 from pathlib import Path
 
 import pytest
@@ -54,6 +55,35 @@ def test_functions_of_an_application(
             running.communicate(timeout=15)
             assert running.returncode == 0
     run_to(LAST, [sample["data"] for sample in samples[f"/custom_{way}"]])
+
+
+def _free_port() -> int:
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
+        probe.bind(("127.0.0.1", 0))
+        port: int = probe.getsockname()[1]
+    return port
+
+
+def test_tcp_and_an_agent_that_starts_anew(images: Images, observer: Observer, domain: int) -> None:
+    """The connection breaks with the agent; the example goes on over another one by itself."""
+    port = _free_port()
+    text = APPLICATION.format(transport=f'tcp, agent: "127.0.0.1:{port}"', key=14, topic="tcp")
+    flags = (*QUICK, f"-DEXAMPLE_SAMPLES={4 * LAST}", "-DEXAMPLE_PERIOD_MS=15")
+    image = images.build(0, text, "gcc", flags)
+    where = ("tcp4", "--port", str(port))
+    observer.subscribe("/tcp", "std_msgs/msg/Int32")
+    with (
+        running_agent(domain, "--domain", str(domain), transport=where) as agent,
+        started(image.program) as running,
+    ):
+        until(observer, ["/tcp"], LAST)
+        agent.stop()
+        with running_agent(domain, "--domain", str(domain), transport=where):
+            samples = until(observer, ["/tcp"], 4 * LAST - 1)
+            running.communicate(timeout=15)
+    values = [sample["data"] for sample in samples["/tcp"]]
+    assert values == sorted(values)
+    shutil.rmtree(image.out.parent)  # its port is this test's
 
 
 def test_a_serial_line(images: Images, observer: Observer, domain: int, tmp_path: Path) -> None:

@@ -45,7 +45,9 @@ def test_its_size(builds: Builds) -> None:
     need(NAME)
     built = builds.build(NAME, APPLICATION % "")
     image = builds.application(built, "ticker.c")
-    found = re.findall(r"^\.(text|data|bss|noinit)\s+(\d+)", check([built.tool("size"), "-A", str(image)]), re.M)
+    found = re.findall(
+        r"^\.(text|data|bss|noinit)\s+(\d+)", check([built.tool("size"), "-A", str(image)]), re.M
+    )
     sizes = {name: int(size) for name, size in found}
     assert sizes["text"] + sizes["data"] <= 12200
     assert sizes["data"] + sizes["bss"] + sizes["noinit"] <= 1300

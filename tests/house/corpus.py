@@ -66,6 +66,15 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "reader_reference": _READER + _HEARD + "entities: reference\n",
         "reader_preconfigured": _READER + _HEARD + "entities: preconfigured\nliveliness: none\n",
         "reader_and_sender": _BOTH + "    subscriptions:\n" + _HEARD + "components: [+subscribe]\n",
+        "timers": _BOTH + "    timers: [{name: tick, period: 1 s}]\ncomponents: [+timers]\n",
+        "timers_ticked": _BOTH
+        + "    timers: [{name: a, period: 1 s, kind: rtos}, {name: b, period: 2 s, kind: hardware}]\n"
+        + "components: [+timers, +subscribe]\nerrors: code\npools: {guard_conditions: 1}\n",
+        "executor_custom": _INT32 + "components: [+executor]\ntransport: {type: custom}\n",
+        "executor_board": _BOTH
+        + "    timers: [{name: a, period: 1 s, kind: rtos}]\n"
+        + "target: {name: qemu-mps2-an386}\ncomponents: [+timers]\n",
+        "executor_other_line": _BOTH + "target: {name: cortex-m4}\ncomponents: [+timers]\n",
         "xml": _BOTH + "entities: xml\nliveliness: none\n",
         "xml_pool": _INT32 + "entities: xml\n",
         "reference": _BOTH + "entities: reference\n",

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from microros_gen.plan.runtime import RuntimePlan, TimerPlan
-from runtime.harness import EXECUTOR, SANITIZE, build, compilers, components, render
+from runtime.harness import EXECUTOR, SANITIZE, Tree, build, compilers, components, render
 
 MS = 1_000_000
 TICKS = replace(
@@ -45,5 +45,14 @@ def _run(unit: str, plan: RuntimePlan, compiler: str, flags: tuple[str, ...], tm
     names = [name for name in components(plan) if name != "port_posix"]
     tree = render(tmp_path, plan, names)
     program = build(tree, ["port_agent.c", "types_read.c", unit], "unit", compiler, flags)
+    done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def test_waiting_of_the_posix_port(tmp_path: Path) -> None:
+    tree = render(tmp_path, TICKS, components(TICKS))
+    wanted = ("port_posix_wait.c", "port_posix_steady.c", "port_posix_timer.c")
+    alone = Tree(tree.folder, tuple(s for s in tree.sources if s.name in wanted))
+    program = build(alone, ["unit_wait.c"], "unit")
     done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 0, done.stderr

@@ -22,11 +22,11 @@ AGENT_TIME = 20.0
 class UdpAgent(threading.Thread):
     """Answers on a socket of its own until it is stopped."""
 
-    def __init__(self) -> None:
+    def __init__(self, host: str = "127.0.0.1") -> None:
         super().__init__(daemon=True)
         self.agent = FakeAgent()
-        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self.socket.bind(("127.0.0.1", 0))
+        self.socket = socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.bind((host, 0))
         self.socket.settimeout(AGENT_TIME)
         self.port: int = self.socket.getsockname()[1]
         self.before: Callable[[int], None] = lambda count: None

@@ -4,7 +4,7 @@
  * function is a symbol of its own, so that what nobody calls is not linked. The library calls these from the
  * task that calls it, and keeps no pointer that it hands over.
  *
- * Groups: time and sleep, waiting, timers, unique id, UDP, serial line. A further group (mutex, tasks, memory sections,
+ * Groups: time and sleep, waiting, timers, unique id, UDP, TCP, serial line. A further group (mutex, tasks, memory sections,
  * other transports) is added here with the component that needs it.
  */
 #ifndef MICROROS_PORT_H
@@ -72,8 +72,8 @@ typedef struct port_udp_t {
   intptr_t handle;
 } port_udp_t;
 
-/* Opens a socket that talks to one peer and hears no other. `host` is an IPv4 address in digits, copied before
- * the call returns. False: no network, or no such address. Does not block. */
+/* Opens a socket that talks to one peer and hears no other. `host` is an address in digits, IPv4 or, where
+ * the system has it, IPv6, copied before the call returns. False: no network, or no such address. Does not block. */
 bool port_udp_open(port_udp_t * udp, const char * host, uint16_t port);
 
 void port_udp_close(port_udp_t * udp);
@@ -84,6 +84,26 @@ bool port_udp_send(port_udp_t * udp, const uint8_t * data, size_t size);
 /* Takes one datagram without blocking. Returns its length, 0 when there is none, -1 when it did not fit
  * `capacity`. */
 int32_t port_udp_receive(port_udp_t * udp, uint8_t * buffer, size_t capacity);
+
+/* --- TCP --- */
+
+/* One connection; `handle` is the port's own, of which the library only keeps a copy. */
+typedef struct port_tcp_t {
+  intptr_t handle;
+} port_tcp_t;
+
+/* Begins to connect, without blocking; `host` as for UDP. False: no network, or no such address. */
+bool port_tcp_open(port_tcp_t * tcp, const char * host, uint16_t port);
+
+void port_tcp_close(port_tcp_t * tcp);
+
+/* Hands over what the connection has room for, without blocking. Returns how many bytes that is, 0 while it is being made,
+ * -1 when there is no connection any more, or there never was. */
+int32_t port_tcp_send(port_tcp_t * tcp, const uint8_t * data, size_t size);
+
+/* Takes what has arrived, without blocking. Returns how many bytes that is, at most `capacity`, 0 when there is nothing, -1
+ * as above. */
+int32_t port_tcp_receive(port_tcp_t * tcp, uint8_t * buffer, size_t capacity);
 
 /* --- serial line --- */
 

@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Before each message goes its length, two bytes, little endian (OMG DDS-XRCE 1.0, 11.3). */
+#include "microros/xrce_transport.h"
+
+#include "microros/xrce_wire.h"
+
+#include <string.h>
+
+static void transport_give_up(xrce_transport_t * transport)
+{
+  port_tcp_close(&transport->tcp);
+  transport->gone = true;
+}
+
+bool xrce_transport_open(xrce_transport_t * transport)
+{
+  transport->unsent = 0;
+  transport->length_arrived = 0;
+  transport->arrived = 0;
+  transport->gone = false;
+  return port_tcp_open(&transport->tcp, transport->host, transport->port);
+}
+
+void xrce_transport_close(xrce_transport_t * transport)
+{
+  if (!transport->gone) {
+    port_tcp_close(&transport->tcp);
+  }
+}
+
+/* Hands over what waits. */
+static void transport_flush(xrce_transport_t * transport)
+{
+  while (!transport->gone && transport->unsent != 0u) {
+    const int32_t taken =
+      port_tcp_send(&transport->tcp, &transport->output[transport->sent], transport->unsent);
+
+    if (taken < 0) {
+      transport_give_up(transport);
+    }
+    if (taken <= 0) {
+      return;
+    }
+    transport->sent = (uint16_t)(transport->sent + (uint32_t)taken);
+    transport->unsent = (uint16_t)(transport->unsent - (uint32_t)taken);
+  }
+}
+
+bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, size_t size)
+{
+  if (size > MICROROS_MTU) {
+    return false;
+  }
+  transport_flush(transport);
+  if (transport->gone || transport->unsent != 0u) {
+    return false;
+  }
+  xrce_put_le16(transport->output, (uint16_t)size);
+  (void)memcpy(&transport->output[XRCE_TCP_PREFIX], message, size);
+  transport->sent = 0;
+  transport->unsent = (uint16_t)(XRCE_TCP_PREFIX + size);
+  transport_flush(transport);
+  return !transport->gone;
+}
+
+/* Takes at most `capacity` bytes; 0 where nothing has arrived or the connection is gone. */
+static uint16_t transport_read(xrce_transport_t * transport, uint8_t * buffer, size_t capacity)
+{
+  const int32_t size = port_tcp_receive(&transport->tcp, buffer, capacity);
+
+  if (size < 0) {
+    transport_give_up(transport);
+  }
+  return size > 0 ? (uint16_t)size : 0u;
+}
+
+/* Returns whether the length of the message is here. */
+static bool transport_read_length(xrce_transport_t * transport)
+{
+  while (transport->length_arrived != XRCE_TCP_PREFIX) {
+    const uint16_t size = transport_read(
+      transport, &transport->length[transport->length_arrived],
+      (size_t)XRCE_TCP_PREFIX - transport->length_arrived);
+
+    if (size == 0u) {
+      return false;
+    }
+    transport->length_arrived = (uint8_t)(transport->length_arrived + size);
+    transport->size = xrce_get_le16(transport->length);
+    transport->arrived = 0;
+  }
+  return true;
+}
+
+int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity)
+{
+  bool fits;
+
+  transport_flush(transport);
+  if (transport->gone || !transport_read_length(transport)) {
+    return 0;
+  }
+  fits = transport->size <= capacity && transport->size != 0u;
+  while (transport->arrived != transport->size) {
+    const size_t left = (size_t)transport->size - transport->arrived;
+    const uint16_t size = fits ? transport_read(transport, &buffer[transport->arrived], left)
+                               : transport_read(transport, buffer, left < capacity ? left : capacity);
+
+    if (size == 0u) {
+      return 0;
+    }
+    transport->arrived = (uint16_t)(transport->arrived + size);
+  }
+  transport->length_arrived = 0;
+  return fits ? (int32_t)transport->size : -1;
+}

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: Apache-2.0
+"""TCP over real connections: a length before each message, whatever the segments, and a connection that breaks."""
+
+from __future__ import annotations
+
+import socket
+import struct
+import subprocess
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from microros_gen.plan.runtime import RuntimePlan
+from runtime.fake_agent import FakeAgent
+from runtime.harness import POOL, build, components, render
+from runtime.test_udp import UdpAgent
+
+PLAN = replace(
+    POOL, transport="tcp", connect_timeout_ms=3000, create_timeout_ms=3000, liveliness_period_ms=50
+)
+Sender = Callable[[socket.socket, list[bytes]], None]
+
+
+def framed(message: bytes) -> bytes:
+    return struct.pack("<H", len(message)) + message
+
+
+def together(peer: socket.socket, answers: list[bytes]) -> None:
+    """Send all answers in one segment."""
+    peer.sendall(b"".join(map(framed, answers)))
+
+
+def byte_by_byte(peer: socket.socket, answers: list[bytes]) -> None:
+    """Send each byte in a segment of its own."""
+    for byte in b"".join(map(framed, answers)):
+        peer.sendall(bytes([byte]))
+        time.sleep(0.0002)
+
+
+def with_rubbish(peer: socket.socket, answers: list[bytes]) -> None:
+    """Send, before each answer, a message without bytes and one that is larger than the client's input."""
+    for answer in answers:
+        peer.sendall(framed(b"") + framed(b"\x81" + bytes(4999)) + framed(answer))
+
+
+class TcpAgent(threading.Thread):
+    """Listens at `host`, one connection at a time; `before` sees the number of each message and may close it."""
+
+    def __init__(
+        self, send: Sender = together, read: int = 4096, host: str = "127.0.0.1", pause_s: float = 0.0
+    ) -> None:
+        super().__init__(daemon=True)
+        self.agent = FakeAgent()
+        self.before: Callable[[int], bool] = lambda count: True
+        self.connections = 0
+        self._send, self._read, self._pause_s = send, read, pause_s
+        family = socket.AF_INET6 if ":" in host else socket.AF_INET
+        self._listener = socket.socket(family, socket.SOCK_STREAM)
+        self._listener.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 2048)
+        self._listener.bind((host, 0))
+        self._listener.listen()
+        self.port: int = self._listener.getsockname()[1]
+        self._count = 0
+
+    def run(self) -> None:
+        while True:
+            try:
+                peer, _ = self._listener.accept()
+            except OSError:
+                return
+            self.connections += 1
+            with peer:
+                peer.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+                self._serve(peer)
+
+    def _serve(self, peer: socket.socket) -> None:
+        stream = b""
+        while True:
+            try:
+                piece = peer.recv(self._read)
+                time.sleep(self._pause_s)
+            except OSError:
+                return
+            if not piece:
+                return
+            stream += piece
+            while len(stream) >= 2 and len(stream) >= 2 + struct.unpack_from("<H", stream)[0]:
+                size = struct.unpack_from("<H", stream)[0]
+                message, stream = stream[2 : 2 + size], stream[2 + size :]
+                self._count += 1
+                if not self.before(self._count):
+                    self.agent.restart()
+                    return
+                try:
+                    self._send(peer, self.agent.receive(message))
+                except OSError:
+                    return
+
+    def stop(self) -> None:
+        self._listener.shutdown(socket.SHUT_RDWR)
+        self._listener.close()
+
+
+@contextmanager
+def serving(agent: TcpAgent) -> Iterator[TcpAgent]:
+    agent.start()
+    try:
+        yield agent
+    finally:
+        agent.stop()
+
+
+def run(plan: RuntimePlan, folder: Path) -> subprocess.CompletedProcess[str]:
+    """Run c/udp.c, which publishes 0 to 99 over whatever transport there is, with sanitizers."""
+    program = build(render(folder, plan, components(plan)), ["types.c", "udp.c"], "udp")
+    return subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+
+
+@pytest.mark.parametrize(
+    ("send", "read"), [(together, 4096), (byte_by_byte, 4096), (together, 1), (with_rubbish, 4096)]
+)
+def test_whatever_the_segments(send: Sender, read: int, tmp_path: Path) -> None:
+    with serving(TcpAgent(send, read)) as agent:
+        done = run(replace(PLAN, agent_port=agent.port), tmp_path)
+    assert (done.returncode, done.stderr) == (0, ""), done.stdout
+    assert agent.agent.values() == list(range(100))
+    assert agent.connections == 1
+    assert not agent.agent.connected, "it took its leave"
+
+
+@pytest.mark.parametrize("liveliness", ["ping", "none"])
+@pytest.mark.parametrize("close_at", [(12,), (12, 30, 31, 80), (1, 2)])
+def test_a_closed_connection_is_opened_again(
+    close_at: tuple[int, ...], liveliness: str, tmp_path: Path
+) -> None:
+    """The agent closes it and forgets; without liveliness, too, the client finds back."""
+    plan = replace(PLAN, on_full="block", on_full_block_ms=50)
+    with serving(TcpAgent()) as agent:
+        agent.before = lambda count: count not in close_at
+        plan = replace(plan, agent_port=agent.port)
+        tree = render(tmp_path, plan, components(plan, liveliness))
+        program = build(tree, ["types.c", "udp.c"], "udp")
+        done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stderr) == (0, ""), done.stdout
+    assert agent.connections == 1 + len(close_at)
+    values = agent.agent.values()
+    assert sorted(set(values)) == list(range(100))
+    assert values[-1] == 99
+
+
+def test_a_slow_peer_blocks_nobody(tmp_path: Path) -> None:
+    """It reads a few bytes at a time, with pauses; nothing is lost and nothing is cut."""
+    with serving(TcpAgent(read=16, pause_s=0.002)) as agent:
+        done = run(replace(PLAN, agent_port=agent.port, on_full="block", on_full_block_ms=200), tmp_path)
+    assert (done.returncode, done.stderr) == (0, ""), done.stdout
+    assert agent.agent.values() == list(range(100))
+    assert agent.agent.spoiled == 0
+
+
+@pytest.mark.parametrize("transport", ["tcp", "udp"])
+def test_ipv6(transport: str, tmp_path: Path) -> None:
+    if transport == "tcp":
+        with serving(TcpAgent(host="::1")) as agent:
+            done = run(replace(PLAN, agent_host="::1", agent_port=agent.port), tmp_path)
+    else:
+        udp = UdpAgent("::1")
+        udp.start()
+        done = run(replace(PLAN, transport="udp", agent_host="::1", agent_port=udp.port), tmp_path)
+        udp.socket.close()
+    assert (done.returncode, done.stderr) == (0, ""), done.stdout
+    assert (agent if transport == "tcp" else udp).agent.values() == list(range(100))
+
+
+@pytest.mark.parametrize(("host", "place"), [("127.0.0.1", "127.0.0.1"), ("::1", "[::1]")])
+def test_nobody_listens(host: str, place: str, tmp_path: Path) -> None:
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    with socket.socket(family, socket.SOCK_STREAM) as taken:
+        taken.bind((host, 0))
+        port = taken.getsockname()[1]
+        done = run(replace(PLAN, agent_host=host, agent_port=port, connect_timeout_ms=200), tmp_path)
+    assert done.returncode == 2
+    assert done.stdout in (
+        f"no transport to {place}:{port}\n",
+        f"no agent answers at {place}:{port} within 200 ms\n",
+    )
+
+
+@pytest.mark.parametrize("host", ["localhost", "1.2.3", "::g", ""])
+def test_what_is_no_address_in_digits(host: str, tmp_path: Path) -> None:
+    done = run(replace(PLAN, agent_host=host, connect_timeout_ms=50), tmp_path)
+    assert done.returncode == 2
+    assert done.stdout.startswith("no transport to ")
