@@ -26,6 +26,7 @@ from microros_gen.plan.types_steps import (
     Texts,
     Zeros,
 )
+from microros_gen.render.types_largest import LargestSizes
 from microros_gen.render.types_step_views import StepView, StepViews, cdr_size, position
 
 
@@ -61,11 +62,15 @@ class AtView:
 
 @dataclass(frozen=True)
 class LimitSetView:
-    """The type under the limits of some entities: a constant microros_message_type_t that begins with `name`."""
+    """The type under the limits of some entities: a constant microros_message_type_t that begins with `name`.
+
+    `largest`: the conditions that show its largest size.
+    """
 
     name: str
     max_encoded_size: int
     entities: str
+    largest: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -84,6 +89,7 @@ class TypeSupportView:
     header_includes: tuple[str, ...]
     includes: tuple[str, ...]
     size_assertion: str
+    largest: tuple[str, ...]
     at: AtView | None
     table: tuple[str, ...]
     tables: tuple[TableView, ...]
@@ -97,13 +103,14 @@ class EncoderViews:
 
     def __init__(self, plans: Mapping[TypeName, TypePlan]) -> None:
         self._plans = plans
+        self._largest = LargestSizes(plans)
 
     def view(self, plan: TypePlan) -> TypeSupportView:
         """Return the view of a type that has an encoder (`plan.wire` is not None)."""
         wire = plan.wire
         if wire is None:
             raise ValueError(f"{plan.name} has no encoder")
-        builder = _Builder(self._plans, plan)
+        builder = _Builder(self._plans, plan, self._largest)
         at = builder.at_view() if wire.at_steps is not None else None
         functions = builder.functions()
         handle = f"rosidl_typesupport_c__get_message_type_support_handle__{plan.c_name}"
@@ -120,20 +127,22 @@ class EncoderViews:
             header_includes=builder.header_includes(),
             includes=builder.includes(),
             size_assertion=builder.size_assertion(),
+            largest=builder.largest(plan.c_name, plan.limits) if plan.root else (),
             at=at,
             table=tuple(_table_declaration(member) for member in wire.limit_members),
             tables=tuple(builder.tables),
             functions=functions,
             decode=f"{plan.c_name}__decode" if plan.received else "NULL",
-            limit_sets=tuple(_limit_set(own) for own in plan.limit_sets if own.sends),
+            limit_sets=tuple(builder.limit_set(own) for own in plan.limit_sets if own.sends),
         )
 
 
 class _Builder:
     """Builds the functions of one type."""
 
-    def __init__(self, plans: Mapping[TypeName, TypePlan], plan: TypePlan) -> None:
+    def __init__(self, plans: Mapping[TypeName, TypePlan], plan: TypePlan, largest: LargestSizes) -> None:
         self.tables: list[TableView] = []
+        self._largest = largest
         self._plans = plans
         self._plan = plan
         self._name = plan.c_name
@@ -164,6 +173,8 @@ class _Builder:
     def includes(self) -> tuple[str, ...]:
         """Return what the source includes, besides its own header."""
         found = {"microros/cdr.h"}
+        if self._plan.root or self._plan.limit_sets:
+            found.add("microros/cdr_sizes.h")
         for name in self._plan.wire.calls if self._plan.wire else ():
             found.add(include_path(type_files(name).type_support))
         if self._plan.received:
@@ -173,6 +184,17 @@ class _Builder:
     def size_assertion(self) -> str:
         """Return the condition that shows that the plan's size of the struct is the compiler's."""
         return f"sizeof({self._name}) == {cdr_size(self._plan.struct_sizes)}"
+
+    def largest(self, name: str, limits: TypeLimits | None) -> tuple[str, ...]:
+        """Return the conditions that show the size that begins with `name`."""
+        size = f"(uint32_t){name}__MAX_ENCODED_SIZE"
+        return self._largest.conditions(self._plan.name, limits, size)
+
+    def limit_set(self, own: LimitSet) -> LimitSetView:
+        """Return the view of the type under the limits of some entities."""
+        return LimitSetView(
+            own.name, own.max_encoded_size, _entities(own), self.largest(own.name, own.limits)
+        )
 
     def functions(self) -> tuple[FunctionView, ...]:
         """Return the functions of the source, callees first."""
@@ -277,10 +299,6 @@ def _encode_head(name: str) -> str:
 
 def _size_head(name: str) -> str:
     return f"static uint32_t {name}__encoded_size(\n  const void * untyped, cdr_fault_t * fault)"
-
-
-def _limit_set(own: LimitSet) -> LimitSetView:
-    return LimitSetView(own.name, own.max_encoded_size, _entities(own))
 
 
 def _entities(own: LimitSet) -> str:

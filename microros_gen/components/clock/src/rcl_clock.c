@@ -10,7 +10,8 @@ rcl_ret_t rcl_clock_refuse(rcl_ret_t result, const char * reason)
 }
 
 rcl_ret_t rcl_clock_begin(
-  rcl_clock_t * clock, rcl_clock_type_t type, rcl_clock_get_now_t get_now, rcl_allocator_t * allocator)
+  rcl_clock_t * clock, rcl_clock_type_t type, rcl_clock_get_now_t get_now,
+  const rcl_allocator_t * allocator)
 {
   if (clock == NULL || allocator == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "clock or allocator");
@@ -54,7 +55,7 @@ rcl_ret_t rcl_clock_get_now(rcl_clock_t * clock, rcl_time_point_value_t * time_p
 
 bool rcl_clock_time_started(rcl_clock_t * clock)
 {
-  rcl_time_point_value_t now;
+  rcl_time_point_value_t now = 0;
 
   return rcl_clock_get_now(clock, &now) == RCL_RET_OK && now > 0;
 }

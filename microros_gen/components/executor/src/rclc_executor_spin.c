@@ -128,13 +128,12 @@ static void executor_rest(int64_t duration_ns)
 
 rcl_ret_t rclc_executor_spin(rclc_executor_t * executor)
 {
-  rcl_ret_t result;
-
   if (executor == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "executor");
   }
   for (;;) {
-    result = rclc_executor_spin_some(executor, executor->timeout_ns);
+    const rcl_ret_t result = rclc_executor_spin_some(executor, executor->timeout_ns);
+
     if (!executor_goes_on(executor, result)) {
       return result;
     }

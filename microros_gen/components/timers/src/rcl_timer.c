@@ -109,7 +109,7 @@ rcl_ret_t rcl_timer_fini(rcl_timer_t * timer)
 rcl_ret_t rcl_timer_reset(rcl_timer_t * timer)
 {
   rcl_ret_t result = rcl_timer_check(timer);
-  rcl_time_point_value_t now;
+  rcl_time_point_value_t now = 0;
   rcl_timer_impl_t * impl;
 
   if (result == RCL_RET_OK) {
