@@ -19,10 +19,15 @@ xrce_write_t xrce_service_write(
   const uint16_t place = (uint16_t)(MICROROS_NODES_MAX + endpoint->index);
   const uint8_t kind = place < XRCE_REQUESTERS_AT ? (uint8_t)XRCE_KIND_REPLIER : (uint8_t)XRCE_KIND_REQUESTER;
   size_t end = XRCE_SUBMESSAGE_HEADER + XRCE_OBJECT_PREFIX;
+  xrce_write_t outcome = XRCE_WRITTEN;
   uint8_t * room;
   size_t size;
-  const xrce_write_t outcome = xrce_write_begin(endpoint, &room);
 
+  xrce_session_pump(endpoint->client);
+  room = xrce_write_reserve(endpoint);
+  if (room == NULL) {
+    outcome = xrce_write_on_full(endpoint, &room);
+  }
   if (outcome != XRCE_WRITTEN) {
     return outcome;
   }

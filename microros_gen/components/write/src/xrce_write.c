@@ -15,13 +15,18 @@ static bool write_is_reliable(const xrce_endpoint_t * writer)
   return (writer->qos & XRCE_QOS_RELIABLE) != 0u;
 }
 
+/* Returns how many objects a writer, replier or requester has when it is complete. */
+static uint8_t write_complete(const xrce_endpoint_t * writer)
+{
+  return xrce_place_is_service((uint16_t)(MICROROS_NODES_MAX + writer->index))
+           ? (uint8_t)XRCE_SERVICE_COMPLETE
+           : (uint8_t)XRCE_ENDPOINT_COMPLETE;
+}
+
 static bool write_has_session(const xrce_endpoint_t * writer)
 {
-  const uint16_t place = (uint16_t)(MICROROS_NODES_MAX + writer->index);
-  const uint8_t complete =
-    xrce_place_is_service(place) ? (uint8_t)XRCE_SERVICE_COMPLETE : (uint8_t)XRCE_ENDPOINT_COMPLETE;
-
-  return writer->client->session.state == XRCE_READY && writer->client->states[place].level == complete;
+  return writer->client->session.state == XRCE_READY &&
+         writer->client->states[MICROROS_NODES_MAX + writer->index].level == write_complete(writer);
 }
 
 uint8_t * xrce_write_reserve(const xrce_endpoint_t * writer)
@@ -34,7 +39,8 @@ xrce_write_t xrce_write_obstacle(const xrce_endpoint_t * writer)
   return write_has_session(writer) ? XRCE_WRITE_FULL : XRCE_WRITE_NO_SESSION;
 }
 
-xrce_write_t xrce_write_begin(xrce_endpoint_t * writer, uint8_t ** room)
+/* Pumps, and returns XRCE_WRITTEN with the room for a submessage, or why there is none. */
+static xrce_write_t write_begin(xrce_endpoint_t * writer, uint8_t ** room)
 {
   xrce_session_pump(writer->client);
   *room = xrce_write_reserve(writer);
@@ -59,7 +65,7 @@ xrce_write_t xrce_write_message(xrce_endpoint_t * writer, const void * message, 
 {
   uint8_t * room;
   size_t size;
-  const xrce_write_t outcome = xrce_write_begin(writer, &room);
+  const xrce_write_t outcome = write_begin(writer, &room);
 
   if (outcome != XRCE_WRITTEN) {
     return outcome;
@@ -71,7 +77,7 @@ xrce_write_t xrce_write_message(xrce_endpoint_t * writer, const void * message, 
 xrce_write_t xrce_write_body(xrce_endpoint_t * writer, const uint8_t * body, size_t size)
 {
   uint8_t * room;
-  const xrce_write_t outcome = xrce_write_begin(writer, &room);
+  const xrce_write_t outcome = write_begin(writer, &room);
 
   if (outcome != XRCE_WRITTEN) {
     return outcome;

@@ -27,10 +27,6 @@ xrce_write_t xrce_write_message(xrce_endpoint_t * writer, const void * message, 
 /* The same with a body that is encoded already; `size` is not above xrce_route_capacity. */
 xrce_write_t xrce_write_body(xrce_endpoint_t * writer, const uint8_t * body, size_t size);
 
-/* Pumps, and returns XRCE_WRITTEN with the room for a submessage, or why there is none. For endpoints of services, which
- * fill it in themselves. */
-xrce_write_t xrce_write_begin(xrce_endpoint_t * writer, uint8_t ** room);
-
 /* Returns room for the writer's next submessage, or NULL: no session, or no room. */
 uint8_t * xrce_write_reserve(const xrce_endpoint_t * writer);
 
