@@ -38,7 +38,8 @@ int main(void)
 
   CHECK(rclc_support_init(&support, 0, NULL, &allocator));
   CHECK(rclc_node_init_default(&node, "ticker", "", &support));
-  CHECK(rclc_publisher_init_default(&publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32), "count"));
+  CHECK(rclc_publisher_init_default(
+    &publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32), "count"));
   CHECK(rclc_timer_init_default2(&timer, &support, RCL_MS_TO_NS(TICKER_PERIOD_MS), timer_callback, true));
   executor = rclc_executor_get_zero_initialized_executor();
   CHECK(rclc_executor_init(&executor, &support.context, 1, &allocator));

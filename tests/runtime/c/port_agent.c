@@ -5,7 +5,15 @@
 #include <string.h>
 
 enum { QUEUE = 64, DATAGRAM = 64, HEADER = 4, MS = 1000000, ENDPOINTS = 32 };
-enum { CREATE_CLIENT = 0, CREATE = 1, GET_INFO = 2, DELETE = 3, WRITE_DATA = 7, READ_DATA = 8, RELIABLE = 0x80 };
+enum {
+  CREATE_CLIENT = 0,
+  CREATE = 1,
+  GET_INFO = 2,
+  DELETE = 3,
+  WRITE_DATA = 7,
+  READ_DATA = 8,
+  RELIABLE = 0x80
+};
 
 typedef struct datagram_t {
   size_t size;

@@ -117,7 +117,8 @@ static void test_jumps(rcl_clock_t * clock)
   CHECK(rcl_set_ros_time_override(clock, 9) == RCL_RET_OK && all.delta == -2000 && large.after == 1);
   CHECK(rcl_clock_remove_jump_callback(clock, on_jump, &all) == RCL_RET_OK);
   CHECK(rcl_clock_remove_jump_callback(clock, on_jump, &all) == RCL_RET_ERROR);
-  CHECK(rcl_disable_ros_time_override(clock) == RCL_RET_OK && all.after == 4 && clock->num_jump_callbacks == 1u);
+  CHECK(
+    rcl_disable_ros_time_override(clock) == RCL_RET_OK && all.after == 4 && clock->num_jump_callbacks == 1u);
 }
 
 static void test_difference(void)

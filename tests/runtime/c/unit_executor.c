@@ -86,7 +86,8 @@ static void begin(void)
 static void add_both(rclc_executor_handle_invocation_t invocation)
 {
   CHECK(
-    rclc_executor_add_subscription(&executor, &subscriptions[0], &numbers[0], on_first, invocation) == RCL_RET_OK);
+    rclc_executor_add_subscription(&executor, &subscriptions[0], &numbers[0], on_first, invocation) ==
+    RCL_RET_OK);
   CHECK(
     rclc_executor_add_subscription_with_context(
       &executor, &subscriptions[1], &numbers[1], on_second, &context_value, invocation) == RCL_RET_OK);
@@ -119,7 +120,9 @@ static void test_arguments(void)
   CHECK(rclc_executor_init(&fresh, NULL, 1, &allocator) == RCL_RET_INVALID_ARGUMENT);
   CHECK(rclc_executor_init(&fresh, &support.context, 0, &allocator) == RCL_RET_INVALID_ARGUMENT);
   CHECK(rclc_executor_init(&fresh, &support.context, 1, NULL) == RCL_RET_INVALID_ARGUMENT);
-  CHECK(rclc_executor_set_timeout(&fresh, 1) == RCL_RET_ERROR && rclc_executor_spin_some(&fresh, 0) == RCL_RET_ERROR);
+  CHECK(
+    rclc_executor_set_timeout(&fresh, 1) == RCL_RET_ERROR &&
+    rclc_executor_spin_some(&fresh, 0) == RCL_RET_ERROR);
   CHECK(rclc_executor_add_guard_condition(&fresh, &guard, on_guard) == RCL_RET_ERROR);
   CHECK(rclc_executor_fini(&fresh) == RCL_RET_OK && rclc_executor_prepare(NULL) == RCL_RET_INVALID_ARGUMENT);
   CHECK(rclc_executor_spin(NULL) == RCL_RET_INVALID_ARGUMENT);
@@ -166,7 +169,8 @@ static void test_waits_for_a_timer(void)
   CHECK(rcl_timer_cancel(&timer) == RCL_RET_OK);
   CHECK(spin(700 * ms) == RCL_RET_OK && noted("") && agent_now_ns == start + 1000 * ms);
   CHECK(rclc_executor_remove_timer(&executor, &timer) == RCL_RET_OK);
-  CHECK(spin(50 * ms) == RCL_RET_OK && agent_now_ns == start + 1050 * ms); /* nothing to run: it rests as well */
+  CHECK(
+    spin(50 * ms) == RCL_RET_OK && agent_now_ns == start + 1050 * ms); /* nothing to run: it rests as well */
   CHECK(rcl_timer_fini(&timer) == RCL_RET_OK);
   end();
 }
@@ -221,7 +225,9 @@ static void test_triggers(void)
   agent_offer_number(FIRST_READER, 1);
   CHECK(spin(1000 * ms) == RCL_RET_OK && noted(""));
   agent_waits = 0;
-  CHECK(spin(1000 * ms) == RCL_RET_OK && noted("") && agent_waits < 40u); /* what is ready alone does not keep it busy */
+  CHECK(
+    spin(1000 * ms) == RCL_RET_OK && noted("") &&
+    agent_waits < 40u); /* what is ready alone does not keep it busy */
   agent_offer_number(FIRST_READER + 1, 2);
   CHECK(spin(1000 * ms) == RCL_RET_OK && noted("ab"));
   CHECK(rclc_executor_set_trigger(&executor, rclc_executor_trigger_one, &subscriptions[1]) == RCL_RET_OK);
@@ -251,8 +257,7 @@ static void test_semantics(void)
   begin();
   CHECK(rclc_executor_add_timer(&executor, &timer) == RCL_RET_OK);
   add_both(ON_NEW_DATA);
-  CHECK(
-    rclc_executor_set_semantics(&executor, RCLC_SEMANTICS_LOGICAL_EXECUTION_TIME) == RCL_RET_OK);
+  CHECK(rclc_executor_set_semantics(&executor, RCLC_SEMANTICS_LOGICAL_EXECUTION_TIME) == RCL_RET_OK);
   agent_offer_number(FIRST_READER, 10);
   agent_now_ns += 10 * ms;
   CHECK(spin(0) == RCL_RET_OK && noted("ta") && heard == 10);
@@ -363,7 +368,8 @@ static void test_wait_set(void)
   const int64_t start = agent_now_ns;
   size_t index = 9;
 
-  CHECK(rcl_wait(&set, 0) == RCL_RET_WAIT_SET_INVALID && rcl_wait_set_clear(&set) == RCL_RET_WAIT_SET_INVALID);
+  CHECK(
+    rcl_wait(&set, 0) == RCL_RET_WAIT_SET_INVALID && rcl_wait_set_clear(&set) == RCL_RET_WAIT_SET_INVALID);
   CHECK(rcl_wait_set_init(&set, 3, 0, 0, 0, 0, 0, &support.context, allocator) == RCL_RET_BAD_ALLOC);
   CHECK(rcl_wait_set_init(&set, 0, 0, 0, 0, 0, 1, &support.context, allocator) == RCL_RET_BAD_ALLOC);
   CHECK(rcl_wait_set_init(&set, 0, 0, 0, 0, 0, 0, &support.context, allocator) == RCL_RET_OK);
@@ -416,7 +422,8 @@ int main(void)
   CHECK(rclc_subscription_init_best_effort(&subscriptions[1], &node, type, "second") == RCL_RET_OK);
   guard = rcl_get_zero_initialized_guard_condition();
   CHECK(
-    rcl_guard_condition_init(&guard, &support.context, rcl_guard_condition_get_default_options()) == RCL_RET_OK);
+    rcl_guard_condition_init(&guard, &support.context, rcl_guard_condition_get_default_options()) ==
+    RCL_RET_OK);
   for (int i = 0; i < 4; ++i) {
     (void)rmw_uros_spin_once(rcl_context_get_rmw_context(&support.context)); /* until READ_DATA is out */
   }

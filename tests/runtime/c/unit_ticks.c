@@ -68,7 +68,9 @@ static void test_stops_and_starts(void)
   agent_ticks[0](0);
   CHECK(rcl_timer_cancel(&timers[0]) == RCL_RET_OK && agent_ticks[0] == NULL);
   CHECK(rcl_timer_reset(&timers[0]) == RCL_RET_OK && agent_ticks[0] != NULL);
-  CHECK(rcl_timer_is_ready(&timers[0], &is_ready) == RCL_RET_OK && !is_ready); /* a tick of before does not count */
+  CHECK(
+    rcl_timer_is_ready(&timers[0], &is_ready) == RCL_RET_OK &&
+    !is_ready); /* a tick of before does not count */
   CHECK(rcl_timer_exchange_period(&timers[0], 5 * ms, &old) == RCL_RET_OK && agent_periods[0] == 10 * ms);
   CHECK(rcl_timer_call(&timers[0]) == RCL_RET_OK && agent_periods[0] == 5 * ms);
   CHECK(rcl_timer_fini(&timers[0]) == RCL_RET_OK && agent_ticks[0] == NULL);

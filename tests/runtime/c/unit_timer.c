@@ -61,13 +61,19 @@ static void test_arguments(void)
   int64_t number;
   bool flag;
 
-  CHECK(rcl_timer_init2(NULL, &support.clock, &support.context, 1, NULL, allocator, true) == RCL_RET_INVALID_ARGUMENT);
-  CHECK(rcl_timer_init2(&timer, NULL, &support.context, 1, NULL, allocator, true) == RCL_RET_INVALID_ARGUMENT);
-  CHECK(rcl_timer_init2(&timer, &support.clock, &support.context, -1, NULL, allocator, true) == RCL_RET_INVALID_ARGUMENT);
+  CHECK(
+    rcl_timer_init2(NULL, &support.clock, &support.context, 1, NULL, allocator, true) ==
+    RCL_RET_INVALID_ARGUMENT);
+  CHECK(
+    rcl_timer_init2(&timer, NULL, &support.context, 1, NULL, allocator, true) == RCL_RET_INVALID_ARGUMENT);
+  CHECK(
+    rcl_timer_init2(&timer, &support.clock, &support.context, -1, NULL, allocator, true) ==
+    RCL_RET_INVALID_ARGUMENT);
   CHECK(rcl_timer_init2(&timer, &support.clock, &closed, 1, NULL, allocator, true) == RCL_RET_NOT_INIT);
   CHECK(rclc_timer_init_default2(&timer, NULL, 1, NULL, true) == RCL_RET_INVALID_ARGUMENT);
   CHECK(rcl_timer_call(NULL) == RCL_RET_INVALID_ARGUMENT && rcl_timer_call(&timer) == RCL_RET_TIMER_INVALID);
-  CHECK(rcl_timer_cancel(&timer) == RCL_RET_TIMER_INVALID && rcl_timer_reset(&timer) == RCL_RET_TIMER_INVALID);
+  CHECK(
+    rcl_timer_cancel(&timer) == RCL_RET_TIMER_INVALID && rcl_timer_reset(&timer) == RCL_RET_TIMER_INVALID);
   CHECK(rcl_timer_is_ready(&timer, &flag) == RCL_RET_TIMER_INVALID);
   CHECK(rcl_timer_get_period(&timer, &number) == RCL_RET_TIMER_INVALID);
   CHECK(rcl_timer_get_callback(&timer) == NULL && rcl_timer_get_allocator(&timer) == NULL);
@@ -87,7 +93,10 @@ static void test_pool(void)
     timers[i] = timer_on(&support.clock, 5);
   }
   CHECK(rcl_timer_init(&other, &support.clock, &support.context, 1, NULL, allocator) == RCL_RET_BAD_ALLOC);
-  CHECK(strcmp(rcl_get_error_string().str, "3 timers are all there are: set pools: {timers: 4} in microros.yaml") == 0);
+  CHECK(
+    strcmp(
+      rcl_get_error_string().str, "3 timers are all there are: set pools: {timers: 4} in microros.yaml") ==
+    0);
   CHECK(rcl_timer_fini(&timers[1]) == RCL_RET_OK);
   other = timer_on(&support.clock, 5);
   CHECK(rcl_timer_fini(&other) == RCL_RET_OK && rcl_timer_fini(&timers[0]) == RCL_RET_OK);
@@ -183,12 +192,17 @@ static void test_ros_time(void)
   CHECK(rcl_set_ros_time_override(&clock, 27 * ms) == RCL_RET_OK && until(&timer) == 10 * ms);
   CHECK(rcl_set_ros_time_override(&clock, 200 * ms) == RCL_RET_OK && ready(&timer));
   CHECK(rcl_timer_call(&timer) == RCL_RET_OK && until(&timer) == 37 * ms); /* due at 37, 87, 137, 187, 237 */
-  CHECK(rcl_set_ros_time_override(&clock, 100 * ms) == RCL_RET_OK && until(&timer) == 50 * ms); /* before the call */
+  CHECK(
+    rcl_set_ros_time_override(&clock, 100 * ms) == RCL_RET_OK &&
+    until(&timer) == 50 * ms); /* before the call */
   CHECK(rcl_set_ros_time_override(&clock, 120 * ms) == RCL_RET_OK && until(&timer) == 30 * ms);
-  CHECK(rcl_set_ros_time_override(&clock, 110 * ms) == RCL_RET_OK && until(&timer) == 40 * ms); /* back a little */
+  CHECK(
+    rcl_set_ros_time_override(&clock, 110 * ms) == RCL_RET_OK &&
+    until(&timer) == 40 * ms); /* back a little */
   CHECK(rcl_disable_ros_time_override(&clock) == RCL_RET_OK && until(&timer) == 40 * ms);
   CHECK(rcl_set_ros_time_override(&clock, 0) == RCL_RET_OK);
-  CHECK(rcl_enable_ros_time_override(&clock) == RCL_RET_OK); /* without a time there is nothing to carry over */
+  CHECK(
+    rcl_enable_ros_time_override(&clock) == RCL_RET_OK); /* without a time there is nothing to carry over */
   CHECK(rcl_timer_fini(&timer) == RCL_RET_OK && rcl_clock_fini(&clock) == RCL_RET_OK);
 }
 

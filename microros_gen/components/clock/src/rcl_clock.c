@@ -10,8 +10,7 @@ rcl_ret_t rcl_clock_refuse(rcl_ret_t result, const char * reason)
 }
 
 rcl_ret_t rcl_clock_begin(
-  rcl_clock_t * clock, rcl_clock_type_t type, rcl_clock_get_now_t get_now,
-  const rcl_allocator_t * allocator)
+  rcl_clock_t * clock, rcl_clock_type_t type, rcl_clock_get_now_t get_now, const rcl_allocator_t * allocator)
 {
   if (clock == NULL || allocator == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "clock or allocator");

@@ -14,7 +14,8 @@ typedef struct jump_entry_t {
 static jump_entry_t jump_entries[MICROROS_JUMP_CALLBACKS_MAX];
 
 /* Returns the entry of this clock with this callback; with clock NULL any free one. */
-static jump_entry_t * jump_find(const rcl_clock_t * clock, rcl_jump_callback_t callback, const void * user_data)
+static jump_entry_t * jump_find(
+  const rcl_clock_t * clock, rcl_jump_callback_t callback, const void * user_data)
 {
   for (size_t i = 0; i < MICROROS_JUMP_CALLBACKS_MAX; ++i) {
     jump_entry_t * entry = &jump_entries[i];

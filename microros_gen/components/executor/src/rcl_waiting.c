@@ -4,17 +4,17 @@
 #include "microros/port.h"
 #include "microros/rmw_client_wait.h"
 
-static const int64_t ns_per_ms = 1000000;
+static const int64_t waiting_ns_per_ms = 1000000;
 
 /* Rounded up; UINT32_MAX for what is longer, and for what is negative. */
 static uint32_t waiting_ms(int64_t duration_ns)
 {
-  const int64_t longest_ns = (int64_t)(UINT32_MAX - 1u) * ns_per_ms;
+  const int64_t longest_ns = (int64_t)(UINT32_MAX - 1u) * waiting_ns_per_ms;
 
   if (duration_ns < 0 || duration_ns > longest_ns) {
     return UINT32_MAX;
   }
-  return (uint32_t)((duration_ns + ns_per_ms - 1) / ns_per_ms);
+  return (uint32_t)((duration_ns + waiting_ns_per_ms - 1) / waiting_ns_per_ms);
 }
 
 rcl_waiting_t rcl_waiting_begin(int64_t timeout_ns)

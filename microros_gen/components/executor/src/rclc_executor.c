@@ -160,7 +160,8 @@ rcl_ret_t rclc_executor_remove_handle(rclc_executor_t * executor, const void * e
   }
   i = executor_search(executor, entity);
   if (i == executor->index) {
-    return microros_error_named(RCL_RET_ERROR, microros_error_executor, "it does not run what is to be removed");
+    return microros_error_named(
+      RCL_RET_ERROR, microros_error_executor, "it does not run what is to be removed");
   }
   --executor->index;
   for (; i < executor->index; ++i) {

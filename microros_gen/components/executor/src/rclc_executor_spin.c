@@ -101,8 +101,9 @@ rcl_ret_t rclc_executor_spin_some(rclc_executor_t * executor, const uint64_t tim
   }
   result = executor_wait(executor, timeout_ns > (uint64_t)INT64_MAX ? -1 : (int64_t)timeout_ns);
   if (
-    result == RCL_RET_OK && executor->trigger_function(
-                              executor->handles, (unsigned int)executor->max_handles, executor->trigger_object)) {
+    result == RCL_RET_OK &&
+    executor->trigger_function(
+      executor->handles, (unsigned int)executor->max_handles, executor->trigger_object)) {
     result = executor_process(executor);
   }
   return result;

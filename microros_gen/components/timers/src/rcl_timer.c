@@ -26,7 +26,8 @@ rcl_ret_t rcl_timer_check(const rcl_timer_t * timer)
 }
 
 static rcl_ret_t timer_begin(
-  rcl_timer_impl_t * timer, rcl_clock_t * clock, int64_t period, rcl_timer_callback_t callback, bool autostart)
+  rcl_timer_impl_t * timer, rcl_clock_t * clock, int64_t period, rcl_timer_callback_t callback,
+  bool autostart)
 {
   rcl_time_point_value_t now;
   const rcl_ret_t result = rcl_clock_get_now(clock, &now);

@@ -87,8 +87,8 @@ static bool look_is_set_by_hand(rcl_clock_t * clock)
 {
   bool overridden = false;
 
-  return clock->type == RCL_ROS_TIME &&
-         rcl_is_enabled_ros_time_override(clock, &overridden) == RCL_RET_OK && overridden;
+  return clock->type == RCL_ROS_TIME && rcl_is_enabled_ros_time_override(clock, &overridden) == RCL_RET_OK &&
+         overridden;
 }
 
 rcl_ret_t rcl_timer_look(const rcl_timer_t * timer, bool * is_ready, int64_t * look_again_ns)

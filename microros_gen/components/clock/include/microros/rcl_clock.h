@@ -15,8 +15,7 @@ typedef rcl_ret_t (*rcl_clock_get_now_t)(void * data, rcl_time_point_value_t * n
 
 /* Makes an empty clock of this type; RCL_RET_INVALID_ARGUMENT, with a text, where clock or allocator is NULL. */
 rcl_ret_t rcl_clock_begin(
-  rcl_clock_t * clock, rcl_clock_type_t type, rcl_clock_get_now_t get_now,
-  const rcl_allocator_t * allocator);
+  rcl_clock_t * clock, rcl_clock_type_t type, rcl_clock_get_now_t get_now, const rcl_allocator_t * allocator);
 
 /* Ends a clock of this type and frees its jump callbacks; RCL_RET_ERROR for a clock of another one. */
 rcl_ret_t rcl_clock_end(rcl_clock_t * clock, rcl_clock_type_t type);

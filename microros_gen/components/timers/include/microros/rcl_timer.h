@@ -18,7 +18,7 @@ struct rcl_timer_impl_s {
   int64_t period;
   int64_t last_call_time;
   int64_t next_call_time;
-  int64_t remaining; /* until the next call, while the clock changes from one time to another */
+  int64_t remaining;   /* until the next call, while the clock changes from one time to another */
   rcl_clock_t * clock; /* NULL: the place is free */
   rcl_timer_callback_t callback;
   rcl_event_callback_t on_reset;
