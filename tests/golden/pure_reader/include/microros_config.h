@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "63f20578f8291caf"
-#define rcl_init rcl_init__plan_63f20578f8291caf
-#define rclc_support_init rclc_support_init__plan_63f20578f8291caf
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_63f20578f8291caf
+#define MICROROS_PLAN_ID "c17cb66dcb5a7593"
+#define rcl_init rcl_init__plan_c17cb66dcb5a7593
+#define rclc_support_init rclc_support_init__plan_c17cb66dcb5a7593
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_c17cb66dcb5a7593
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u
@@ -47,6 +47,10 @@
 #define MICROROS_SUBSCRIPTIONS_MAX 1u
 #define MICROROS_SERVICES_MAX 0u
 #define MICROROS_CLIENTS_MAX 0u
+#define MICROROS_EXECUTORS_MAX 1u
+#define MICROROS_HANDLES_MAX 2u /* of each executor */
+#define MICROROS_GUARD_CONDITIONS_MAX 1u
+#define MICROROS_WAIT_SETS_MAX 1u
 #define MICROROS_NAME_SIZE 64u
 #define MICROROS_TYPE_NAME_SIZE 28u
 

@@ -44,7 +44,9 @@ enum {
   XRCE_DATA = 0x09,
   XRCE_ACKNACK = 0x0a,
   XRCE_HEARTBEAT = 0x0b,
-  XRCE_FRAGMENT = 0x0d
+  XRCE_FRAGMENT = 0x0d,
+  XRCE_TIMESTAMP = 0x0e,
+  XRCE_TIMESTAMP_REPLY = 0x0f
 };
 
 /* Payloads of these two. */

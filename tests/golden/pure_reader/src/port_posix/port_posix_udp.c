@@ -1,41 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #define _POSIX_C_SOURCE 200809L
 #include "microros/port.h"
+#include "microros/port_posix_socket.h"
 
-#include <arpa/inet.h>
 #include <errno.h>
-#include <fcntl.h>
-#include <netinet/in.h>
 #include <string.h>
 #include <sys/socket.h>
 #include <sys/types.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
-static bool udp_connect(int handle, const struct sockaddr_in * address)
-{
-  const int flags = fcntl(handle, F_GETFL);
-
-  return flags >= 0 && fcntl(handle, F_SETFL, flags | O_NONBLOCK) >= 0 &&
-         connect(handle, (const struct sockaddr *)address, sizeof(*address)) == 0;
-}
-
 bool port_udp_open(port_udp_t * udp, const char * host, uint16_t port)
 {
-  struct sockaddr_in address;
-  int handle;
+  const int handle = port_posix_socket_connect(host, port, SOCK_DGRAM);
 
-  (void)memset(&address, 0, sizeof(address));
-  address.sin_family = AF_INET;
-  address.sin_port = htons(port);
-  if (inet_pton(AF_INET, host, &address.sin_addr) != 1) {
-    return false;
-  }
-  handle = socket(AF_INET, SOCK_DGRAM, 0);
-  if (handle >= 0 && !udp_connect(handle, &address)) {
-    (void)close(handle);
-    handle = -1;
-  }
   udp->handle = handle;
   return handle >= 0;
 }

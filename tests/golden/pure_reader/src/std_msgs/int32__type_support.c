@@ -2,6 +2,7 @@
 #include "std_msgs/msg/detail/int32__type_support.h"
 
 #include "microros/cdr.h"
+#include "microros/cdr_sizes.h"
 #include "std_msgs/msg/detail/int32__decode.h"
 
 #include <stddef.h>
@@ -10,6 +11,10 @@
 CDR_STATIC_ASSERT(
   std_msgs__msg__Int32__assert_size,
   sizeof(std_msgs__msg__Int32) == 4U);
+
+CDR_STATIC_ASSERT(
+  std_msgs__msg__Int32__assert_max_encoded_size,
+  ((uint32_t)std_msgs__msg__Int32__MAX_ENCODED_SIZE == 4U));
 
 static uint32_t std_msgs__msg__Int32__encode(
   const void * untyped, uint8_t * body, cdr_fault_t * fault)

@@ -21,6 +21,7 @@ extern "C" {
 /* Copies an address and a decimal port (1 to 65535). RMW_RET_INVALID_ARGUMENT: NULL, too long, no number. */
 rmw_ret_t rmw_uros_options_set_udp_address(
   const char * ip, const char * port, rmw_init_options_t * rmw_options);
+#define rmw_uros_options_set_tcp_address rmw_uros_options_set_tcp_address__needs__transport_type_tcp
 #define rmw_uros_options_set_serial_device rmw_uros_options_set_serial_device__needs__transport_type_serial
 
 /* Two clients with one key take each other's session. 0 is refused: agents do so too. */

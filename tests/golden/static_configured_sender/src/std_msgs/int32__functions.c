@@ -155,22 +155,27 @@ bool std_msgs__msg__Int32__Sequence__are_equal(const std_msgs__msg__Int32__Seque
   return true;
 }
 
-/** Let `array` have at least `capacity` initialised messages; what it holds stays. */
+/**
+ * Let `array` have `capacity` initialised messages, more than it has; what it holds stays, also on failure. Its old
+ * memory is copied and given back, never reallocated: the arena does not know how large the application's own is.
+ */
 static bool std_msgs__msg__Int32__grow(std_msgs__msg__Int32__Sequence * array, size_t capacity)
 {
   const rcutils_allocator_t allocator = rcutils_get_default_allocator();
-  if (capacity > (SIZE_MAX / sizeof(std_msgs__msg__Int32))) {
-    return false;
-  }
-  std_msgs__msg__Int32 * const data = (std_msgs__msg__Int32 *)allocator.reallocate(
-    array->data, capacity * sizeof(std_msgs__msg__Int32), allocator.state);
+  std_msgs__msg__Int32 * const data = (std_msgs__msg__Int32 *)allocator.zero_allocate(
+    capacity, sizeof(std_msgs__msg__Int32), allocator.state);
   if (data == NULL) {
     return false;
   }
-  array->data = data;
   if (!std_msgs__msg__Int32__init_range(data, array->capacity, capacity)) {
+    allocator.deallocate(data, allocator.state);
     return false;
   }
+  if (array->data != NULL) {
+    (void)memcpy(data, array->data, array->capacity * sizeof(std_msgs__msg__Int32));
+    allocator.deallocate(array->data, allocator.state);
+  }
+  array->data = data;
   array->capacity = capacity;
   return true;
 }

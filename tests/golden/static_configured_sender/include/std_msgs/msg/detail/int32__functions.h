@@ -37,7 +37,10 @@ void std_msgs__msg__Int32__destroy(std_msgs__msg__Int32 * msg);
 /** Return whether all members are equal. False when one is NULL. */
 bool std_msgs__msg__Int32__are_equal(const std_msgs__msg__Int32 * lhs, const std_msgs__msg__Int32 * rhs);
 
-/** Copy `input` with everything it holds to the initialised `output`. False without memory or when one is NULL. */
+/**
+ * Copy `input` with everything it holds to the initialised `output`; a member with room enough keeps its memory,
+ * others get new. False without memory or when one is NULL: `output` then holds a part, and is valid.
+ */
 bool std_msgs__msg__Int32__copy(const std_msgs__msg__Int32 * input, std_msgs__msg__Int32 * output);
 
 /** Set `array` to `size` initialised messages. False without memory or when `array` is NULL; nothing is held then. */
@@ -55,7 +58,7 @@ void std_msgs__msg__Int32__Sequence__destroy(std_msgs__msg__Int32__Sequence * ar
 /** Return whether both have the same size and equal messages. False when one is NULL. */
 bool std_msgs__msg__Int32__Sequence__are_equal(const std_msgs__msg__Int32__Sequence * lhs, const std_msgs__msg__Int32__Sequence * rhs);
 
-/** Copy `input` to the initialised `output`, which grows when needed. False without memory or when one is NULL. */
+/** Copy `input` to the initialised `output`, which grows when needed. False, `output` too, as for __copy. */
 bool std_msgs__msg__Int32__Sequence__copy(const std_msgs__msg__Int32__Sequence * input, std_msgs__msg__Int32__Sequence * output);
 
 #ifdef __cplusplus
