@@ -16,7 +16,7 @@ from microros_gen.model.derived import declaring_name, derived_name
 from microros_gen.model.selection import Selection
 from microros_gen.model.target import Target
 from microros_gen.model.types import TypeName
-from microros_gen.parse.application import parse_agent_address, parse_application
+from microros_gen.parse.application import parse_agent_address, parse_application, parse_discover
 from microros_gen.plan.agent_files import check_entities
 from microros_gen.plan.capacity import Capacities, Defaults, Entity, Root, plan_capacities
 from microros_gen.plan.declared import declarations, full_name, node_name, service_parts, type_name
@@ -226,8 +226,13 @@ def _with_agent(transport: Transport, agent: Named, diagnostics: Diagnostics) ->
         hint = "Give the path of a device, as in /dev/ttyUSB0" if chosen == "serial" else "Leave it out"
         diagnostics.error(f"transport: {chosen} has no {what}", agent.span, hint)
         return transport
+    discover = parse_discover(agent.name, agent.span, diagnostics)
+    if discover is not None:
+        return replace(transport, discover=discover, agent_span=agent.span)
     address = parse_agent_address(agent.name, agent.span, diagnostics)
-    return replace(transport, host=address[0], port=address[1]) if address else transport
+    if address is None:
+        return transport
+    return replace(transport, host=address[0], port=address[1], discover=None, agent_span=agent.span)
 
 
 def _named(values: Iterable[str], option: str) -> tuple[Named, ...]:

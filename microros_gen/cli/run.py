@@ -21,6 +21,7 @@ import click
 from microros_gen.cli.emulator import Emulator, Machine
 from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.output.tree import MANIFEST
+from microros_gen.plan.runtime import DISCOVERY_GROUP
 
 AGENT_READY = "agent ready"
 
@@ -207,7 +208,10 @@ def _agent_of_host(image: _Image) -> list[str]:
     """Return the agent's options for an image that runs on this machine."""
     kind = image.transport["type"]
     if kind in ("udp", "tcp"):
-        return [f"{kind}4", "--port", image.transport["agent"].rsplit(":", 1)[1]]
+        host, _, port = image.transport["agent"].rpartition(":")
+        if host == DISCOVERY_GROUP:
+            return [f"{kind}4", "--discovery-port", port]
+        return [f"{kind}{6 if host.startswith('[') else 4}", "--port", port]
     device = image.transport.get("device", "")
     if kind == "serial" and not device.startswith("/dev/"):
         return ["pty", "--link", device]

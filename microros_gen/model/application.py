@@ -26,12 +26,18 @@ class ComponentChange:
     span: Span | None = None
 
 
+DISCOVERY_PORT = 7400
+"""Where agents are asked for by multicast, unless the application says another port."""
+
+
 @dataclass(frozen=True)
 class Transport:
     """How the firmware reaches its agent. `mtu`: largest datagram or frame payload, bytes; None: planned.
 
     `type_span` None and `type` udp: the application does not say, so a profile's or the target's choice holds.
     `device` and `baud` are the serial line's; `framing` None: a custom transport chooses at run time.
+    `discover`: the agent is to be found by multicast to this port; None: `host` and `port` say where it is, or, where
+    `agent_span` is None too, the selection decides.
     """
 
     type: str = "udp"
@@ -45,6 +51,7 @@ class Transport:
     device: str = "/dev/ttyUSB0"
     baud: int = 115_200
     framing: bool | None = None
+    discover: int | None = None
 
 
 @dataclass(frozen=True)

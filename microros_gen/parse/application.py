@@ -9,6 +9,7 @@ from types import MappingProxyType
 
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
 from microros_gen.model.application import (
+    DISCOVERY_PORT,
     Application,
     Memory,
     Named,
@@ -128,7 +129,9 @@ def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
         return Transport()
     kind, agent, mtu = child(node, "type"), child(node, "agent"), child(node, "mtu")
     type_name = text_of(kind) or Transport().type
-    host, port = _agent(agent, diagnostics) or (Transport().host, Transport().port)
+    discover = parse_discover(text_of(agent) or "", span_of(agent), diagnostics)
+    address = None if discover is not None else _agent(agent, diagnostics)
+    host, port = address or (Transport().host, Transport().port)
     if agent is not None and type_name in _WITHOUT_ADDRESS:
         message = f"transport: {type_name} has no agent address"
         diagnostics.error(message, agent.span, "Remove `agent`, or take type: udp or tcp")
@@ -152,7 +155,20 @@ def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
         device=text_of(child(node, "device")) or Transport().device,
         baud=int_of(child(node, "baud")) or Transport().baud,
         framing=bool_of(child(node, "framing")),
+        discover=discover,
     )
+
+
+def parse_discover(text: str, span: Span | None, diagnostics: Diagnostics) -> int | None:
+    """Return the port of `discover` or `discover:7401`, which agents are searched for with; None: it is an address."""
+    word, separator, port = text.partition(":")
+    if word != "discover":
+        return None
+    if separator and not (port.isascii() and port.isdigit() and 1 <= int(port) <= 65535):
+        message = f"the port of the search must be a whole number between 1 and 65535; it is '{port}'"
+        diagnostics.error(message, span, "Write `agent: discover`: agents listen at 7400")
+        return DISCOVERY_PORT
+    return int(port) if separator else DISCOVERY_PORT
 
 
 def _agent(node: YamlNode | None, diagnostics: Diagnostics) -> tuple[str, int] | None:

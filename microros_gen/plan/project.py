@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.model.application import Application, EndpointDecl, NodeDecl
+from microros_gen.model.application import DISCOVERY_PORT, Application, EndpointDecl, NodeDecl, Transport
 from microros_gen.model.names import expand_topic_name
 from microros_gen.model.selection import Selection
 from microros_gen.model.target import Target
@@ -20,7 +20,7 @@ from microros_gen.plan.declared import pool, publisher_declarations, type_name
 from microros_gen.plan.names import dds_topic, dds_type, participant_name
 from microros_gen.plan.receiving import plan_receiving
 from microros_gen.plan.running import plan_running
-from microros_gen.plan.runtime import NodePlan, PublisherPlan, RuntimePlan, SubscriptionPlan
+from microros_gen.plan.runtime import DISCOVERY_GROUP, NodePlan, PublisherPlan, RuntimePlan, SubscriptionPlan
 from microros_gen.plan.serving import Serving, plan_serving
 from microros_gen.plan.streams import StreamPlan, Written, plan_streams
 from microros_gen.plan.types import TypePlan
@@ -115,11 +115,12 @@ def plan_project(
     )
     receivers = receiving.subscriptions_max + serving.services_max + serving.clients_max
     running = plan_running(application, selection, receivers, diagnostics)
+    agent = _agent(application.transport, selection)
     runtime = RuntimePlan(
         plan_id="",
         error_text_size=ERROR_TEXT_SIZE if application.error_text else 0,
-        agent_host=application.transport.host,
-        agent_port=application.transport.port,
+        agent_host=agent[0],
+        agent_port=agent[1],
         mtu=streams.mtu,
         input_size=streams.input_size,
         client_key=_client_key(application, name),
@@ -161,7 +162,10 @@ def plan_project(
         wait_sets_max=running.wait_sets_max,
         ros_clocks_max=running.ros_clocks_max,
         jump_callbacks_max=running.jump_callbacks_max,
+        has_discovery=selection.has("discovery"),
+        discovery_port=application.transport.discover or DISCOVERY_PORT,
         has_time_sync=selection.has("time_sync"),
+        fixed_messages=all(plan.fixed_size for plan in types if plan.wire is not None),
         reassembly_size=streams.reassembly_size,
         fragments=streams.fragments,
         reliable_input_slots=streams.reliable_input_slots,
@@ -295,6 +299,15 @@ def _check_budget(
             application.memory.ram_span,
             "Lower pools.history or the limits of the largest message, or raise the budget",
         )
+
+
+def _agent(transport: Transport, selection: Selection) -> tuple[str, int]:
+    """Return host and port of the agent; the group where agents are asked for when none is named."""
+    if transport.discover is not None:
+        return DISCOVERY_GROUP, transport.discover
+    if selection.has("discovery") and transport.agent_span is None:
+        return DISCOVERY_GROUP, DISCOVERY_PORT
+    return transport.host, transport.port
 
 
 def _plan_id(runtime: RuntimePlan, selection: Selection, types: tuple[TypePlan, ...]) -> str:

@@ -5,9 +5,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from microros_gen.model.application import DISCOVERY_PORT
 from microros_gen.model.types import TypeName
 from microros_gen.plan.names import dds_type
 from microros_gen.plan.types_names import include_path, type_files
+
+DISCOVERY_GROUP = "239.255.0.2"
+"""Where clients ask for agents and agents listen (OMG DDS-XRCE 1.0, 9.3)."""
 
 
 @dataclass(frozen=True)
@@ -168,6 +172,7 @@ class RuntimePlan:
     largest DATA that comes in fragments, with its header; 0: none does.
     `timers_max`, `executors_max` with `handles_max` each, `guard_conditions_max`, `wait_sets_max`, `ros_clocks_max`,
     `jump_callbacks_max`: places of each; 0 timers, executors or clocks: the component is not selected.
+    `fixed_messages`: no message that is sent has a string or sequence.
     `error_text_size` 0: codes only. `best_effort_size` 0 or `reliable_slots` 0: there is no such stream.
     """
 
@@ -227,6 +232,9 @@ class RuntimePlan:
     ros_clocks_max: int = 0
     jump_callbacks_max: int = 0
     has_time_sync: bool = False
+    has_discovery: bool = False
+    discovery_port: int = DISCOVERY_PORT
+    fixed_messages: bool = False
 
     @property
     def has_subscriptions(self) -> bool:
@@ -252,6 +260,11 @@ class RuntimePlan:
     def has_sockets(self) -> bool:
         """Whether the transport goes over a socket of the port."""
         return self.transport in ("udp", "tcp")
+
+    @property
+    def discovers(self) -> bool:
+        """Whether a session searches for its agent by itself."""
+        return self.agent_host == DISCOVERY_GROUP
 
     @property
     def agent_place(self) -> str:
@@ -375,6 +388,11 @@ class RuntimePlan:
     def error_mode(self) -> str:
         """`text` or `code`: which file speaks for errors."""
         return "text" if self.error_text_size else "code"
+
+    @property
+    def refusal_mode(self) -> str:
+        """`told` or `never`: whether an encoder can refuse a message."""
+        return "never" if self.fixed_messages else "told"
 
     @property
     def limited_headers(self) -> tuple[str, ...]:

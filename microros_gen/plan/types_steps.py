@@ -20,10 +20,14 @@ class Place:
 
 @dataclass(frozen=True)
 class Limit:
-    """A limit: a number, or (None) the member `table` of the table of limits that the function is given."""
+    """A limit: a number, or (None) the member `table` of the table of limits that the function is given.
+
+    `bound`: that of the interface file, which the limit does not exceed; None: there is none.
+    """
 
     value: int | None
     table: str
+    bound: int | None = None
 
 
 @dataclass(frozen=True)

@@ -172,10 +172,13 @@ class _Emitter:
             path = f"{member}.{field.name}" if member else field.name
             here = None if table is None else f"{table}{field.name}"
             at = c_offset + offsets[field.name]
-            sequence = Limit(entry.sequence if entry else None, here or "")
+            bound = field.type.bound if isinstance(field.type, SequenceType) else None
+            sequence = Limit(entry.sequence if entry else None, here or "", bound)
+            element = element_of(field.type)
             text = Limit(
                 entry.string if entry else None,
                 f"{here}__string" if here and isinstance(field.type, SequenceType) else (here or ""),
+                element.bound if isinstance(element, StringType) else None,
             )
             self._field(field, path, here, (sequence, text), entry.nested if entry else None, at)
 

@@ -129,13 +129,10 @@ def _messages(_owner: str, step: Messages) -> StepView:
     count = f"{member}.size" if sequence else f"{step.count}U"
     name = c_name(step.type)
     start = (_call("get_size", f"&{member}", _bound(step.bound), step.member),) if sequence else ()
-    loop = (
-        f"for (size_t i = 0U; i < {count}; ++i) {{",
-        f"  {name}__decode(in, &{data}[i]);",
-        "}",
-    )
     if step.row is None:
-        return StepView((*start, *loop))
+        call = _nested(f"{name}__decode(in, &{data}[i]);", step.member, "i")
+        loop = (f"for (size_t i = 0U; i < {count}; ++i) {{", *(f"  {line}" for line in call), "}")
+        return StepView((*(start or _UNLESS_FAILED), *loop))
     width, numbers = step.row
     total = f"{(step.count or 0) * numbers}U"
     if sequence:
@@ -145,7 +142,18 @@ def _messages(_owner: str, step: Messages) -> StepView:
 
 
 def _part(_owner: str, step: Part) -> StepView:
-    return StepView((f"{c_name(step.type)}__decode(in, &message->{step.member});",))
+    call = f"{c_name(step.type)}__decode(in, &message->{step.member});"
+    return StepView((*_UNLESS_FAILED, *_nested(call, step.member, "CDR_NO_INDEX")))
+
+
+_UNLESS_FAILED = ("if (in->failed) {", "  return;", "}")
+"""A member before a nested message may have been refused; it is not one of that message. A sequence has no elements
+then."""
+
+
+def _nested(call: str, member: str, index: str) -> tuple[str, ...]:
+    """Return a call of another decoder; what it refuses is within this message's member."""
+    return call, "if (in->failed) {", f'  cdr_in_within(in, "{member}", {index});', "  return;", "}"
 
 
 _VIEWS: Mapping[type, Callable[[str, Any], StepView]] = {

@@ -99,7 +99,6 @@ class StepViews:
         """View of an array or a sequence of strings."""
         member = f"message->{step.member}"
         wide = "w" if step.wide else ""
-        limit = _limit(step.limit)
         return {
             "kind": "texts",
             "check": _check(step.member, step.sequence) if step.sequence else "",
@@ -108,7 +107,7 @@ class StepViews:
             "count": f"{step.count}U" if step.count is not None else f"{member}.size",
             "data": member if step.count is not None else f"{member}.data",
             "type": f"rosidl_runtime_c__{'U16String' if step.wide else 'String'}",
-            "text_check": f'text->data, text->size, {limit}, "{step.member}[]"',
+            "text_check": _fits("text->", f"{step.member}[]", step.limit),
             "put": f"cdr_put_{wide}string",
             "text_end": f"cdr_{wide}string_end",
         }
@@ -120,6 +119,7 @@ class StepViews:
         count = f"{step.count}U" if step.count is not None else f"{member}.size"
         return {
             "kind": "messages",
+            "member": step.member,
             "check": _check(step.member, step.sequence) if step.sequence else "",
             "at": position(step.place),
             "start": _start(step),
@@ -164,6 +164,7 @@ class StepViews:
         at = position(step.place)
         return {
             "kind": "part",
+            "member": step.member,
             "encode": f"{name}__encode_at(\n    &message->{step.member}, body, {at}{passed})",
             "end": f"{name}__end_at(\n    &message->{step.member}, {at}{passed})",
         }
@@ -223,7 +224,15 @@ def _limit(limit: Limit) -> str:
 
 
 def _check(member: str, limit: Limit) -> str:
-    return f'message->{member}.data, message->{member}.size, {_limit(limit)}, "{member}"'
+    return _fits(f"message->{member}.", member, limit)
+
+
+def _fits(place: str, member: str, limit: Limit) -> str:
+    """Return the call that compares what is at `place` with its limit."""
+    function, numbers = "cdr_fits", _limit(limit)
+    if limit.bound is not None:
+        function, numbers = "cdr_fits_bound", f"{numbers}, {limit.bound}U"
+    return f'{function}({place}data, {place}size, {numbers}, "{member}", fault)'
 
 
 def cdr_size(sizes: tuple[int, ...]) -> str:

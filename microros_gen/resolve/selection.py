@@ -58,6 +58,8 @@ def resolve_selection(
         picker.pick(
             "framing", "transport: {type: custom} without `framing: false`", application.transport.span
         )
+    if application.transport.discover is not None:
+        picker.pick("discovery", "transport: {agent: discover}", application.transport.agent_span)
     picker.close()
     _check(picker, application, profiles, axes, middleware)
     return _selection(picker, profiles, axes, middleware)

@@ -220,6 +220,10 @@ ERRORS: dict[str, tuple[str, str]] = {
         'transport: {agent: "10.0.0.01:8888"}\n',
         "f:1:20: error: the agent's address ",
     ),
+    "discovery at a port that is none": (
+        'transport: {agent: "discover:x"}\n',
+        "f:1:20: error: the port of the search must be a whole number between 1 and 65535; it is 'x'",
+    ),
     "IPv6 without brackets": (
         'transport: {agent: "::1:8888"}\n',
         "f:1:20: error: the agent '::1:8888' has an IPv6 address that is not in brackets, or lacks its port. Write it",

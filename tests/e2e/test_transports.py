@@ -86,6 +86,29 @@ def test_tcp_and_an_agent_that_starts_anew(images: Images, observer: Observer, d
     shutil.rmtree(image.out.parent)  # its port is this test's
 
 
+def test_an_agent_that_is_searched_for(images: Images, observer: Observer, domain: int) -> None:
+    """The image knows a port of the multicast group alone; the agent, and one after it, listen wherever they like."""
+    port = _free_port()
+    text = APPLICATION.replace("pure_sender", "ad_hoc_discoverable_sender").format(
+        transport=f'udp, agent: "discover:{port}"', key=15, topic="found"
+    )
+    image = images.build(0, text, "gcc", (*QUICK, f"-DEXAMPLE_SAMPLES={4 * LAST}", "-DEXAMPLE_PERIOD_MS=15"))
+    options = ("--domain", str(domain), "--discovery-port", str(port))
+    observer.subscribe("/found", "std_msgs/msg/Int32")
+    with (
+        running_agent(domain, *options) as agent,
+        started(image.out / "bin" / "ad_hoc_discoverable_sender") as running,
+    ):
+        until(observer, ["/found"], LAST)
+        agent.stop()
+        with running_agent(domain, *options):
+            samples = until(observer, ["/found"], 4 * LAST - 1)
+            running.communicate(timeout=15)
+    values = [sample["data"] for sample in samples["/found"]]
+    assert values == sorted(values)
+    shutil.rmtree(image.out.parent)  # its port is this test's
+
+
 def test_a_serial_line(images: Images, observer: Observer, domain: int, tmp_path: Path) -> None:
     """The profile's example over a pseudo-terminal whose name the application file has."""
     line = tmp_path / "line"

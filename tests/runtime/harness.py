@@ -131,6 +131,7 @@ def components(plan: RuntimePlan, liveliness: str = "ping") -> tuple[str, ...]:
     names += ["subscribe", "stream_best_effort_input"] if plan.has_subscriptions else []
     names += ["services"] if plan.serves else []
     names += ["stream_reliable"] if plan.reliable_slots else []
+    names += ["discovery"] if plan.has_discovery else []
     names += ["time_sync"] if plan.has_time_sync else []
     names += ["executor"] if plan.has_executors else []
     names += ["timers"] if plan.has_timers else []

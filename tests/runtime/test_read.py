@@ -327,7 +327,10 @@ def test_what_does_not_decode_is_an_error_of_the_take(bench: Bench) -> None:
     reader.send(reader.agent.offer(FIRST, struct.pack("<I", 100) + b"a\0"))
     reader.send(reader.agent.offer(FIRST, struct.pack("<I", 2) + b"y\0"))
     result = reader.client.call("read_text 0 4")
-    assert result.error == "std_msgs/msg/String.data: 8, limit 3: raise limits in microros.yaml"
+    assert (
+        result.error
+        == "std_msgs/msg/String.data: 8, capacity for 3: raise limits in microros.yaml, or that of your buffer"
+    )
     result = reader.client.call("read_text 0 4")
     assert (result.code, result.error.split(":")[0]) == (1, "std_msgs/msg/String.data")
     assert reader.client.ok("read_text 0 4").lines == ("text y",)

@@ -22,10 +22,21 @@ SAMPLES = ("empty", "full", "full", *("random",) * 8)
 class Fault(ctypes.Structure):
     _fields_ = (
         ("field", ctypes.c_char_p),
+        ("within", ctypes.c_char_p),
         ("found", ctypes.c_uint32),
         ("fits", ctypes.c_uint32),
+        ("index", ctypes.c_uint32),
         ("kind", ctypes.c_int),
+        ("depth", ctypes.c_uint8),
     )
+
+    @property
+    def path(self) -> str:
+        """Which member was refused, as the text of the error names it."""
+        if self.within is None:
+            return str(self.field.decode())
+        index = "" if self.index == 2**32 - 1 else f"[{self.index}]"
+        return f"{self.within.decode()}{index}{'...' if self.depth > 1 else '.'}{self.field.decode()}"
 
 
 class MessageType(ctypes.Structure):
@@ -74,14 +85,14 @@ class Encoder:
         assert body.raw[size:] == b"\xa5" * 16, "wrote behind the body"
         return body.raw[:size]
 
-    def refusal(self, value: ctypes.Structure) -> tuple[str, int, int]:
-        """Return the fault of a message that both functions must refuse."""
+    def refusal(self, value: ctypes.Structure) -> tuple[str, int, int, int]:
+        """Return the fault of a message that both functions must refuse: path, found, fits, kind."""
         fault, other = Fault(), Fault()
         body = ctypes.create_string_buffer(self.type.max_encoded_size)
         assert self.type.encode(ctypes.addressof(value), ctypes.addressof(body), fault) == 0
         assert self.type.encoded_size(ctypes.addressof(value), other) == 0
-        told = (fault.field.decode(), fault.found, fault.fits)
-        assert told == (other.field.decode(), other.found, other.fits)
+        told = (fault.path, fault.found, fault.fits, fault.kind)
+        assert told == (other.path, other.found, other.fits, other.kind)
         return told
 
 
@@ -122,10 +133,19 @@ def test_ros_reads_what_is_encoded(limits_case: Generated, library: ctypes.CDLL)
         assert read == message, plan.name
 
 
+LIMIT, END, VALUE, BOUND, CAPACITY, DATA = range(6)
+
+
+def names_member(told: str, path: str) -> bool:
+    """Whether `told` is a member's `path` in the first element of each sequence, the middle of long ones aside."""
+    start, dots, end = told.replace("[0]", "[]").partition("...")
+    return path.startswith(f"{start}.") and path.endswith(f".{end}") if dots else path == start
+
+
 def test_every_limit_is_checked(limits_case: Generated, library: ctypes.CDLL) -> None:
-    """One more than a limit, and NULL data with a size, are refused: each member of each type."""
+    """One more than a limit, and NULL data with a size, are refused: each member of each type, by its path."""
     structs = CStructs(limits_case.messages)
-    checked = 0
+    checked = nested = 0
     for seed, plan in enumerate(limits_case.plans):
         encoder = Encoder(library, plan.c_name)
         tree = Randomizer(limits_case.messages, seed).tree(plan.name, plan.limits, "full")
@@ -137,15 +157,20 @@ def test_every_limit_is_checked(limits_case: Generated, library: ctypes.CDLL) ->
             seen.add(path)
             full, data = member.size, member.data
             member.size = full + 1
-            field, found, fits = encoder.refusal(value)
-            assert f".{path}".endswith(f".{field}"), (plan.name, path, field)
+            told, found, fits, kind = encoder.refusal(value)
+            assert names_member(told, path), (plan.name, path, told)
             assert (found, fits) == (full + 1, full), (plan.name, path)
+            assert kind in (LIMIT, BOUND), (plan.name, path)
             member.size, member.data = max(full, 1), None
-            assert encoder.refusal(value)[0] == field
+            again, found, _, kind = encoder.refusal(value)
+            assert (again, found) == (told, max(full, 1))
+            assert kind == DATA or not full, (plan.name, path)
             member.size, member.data = full, data
             encoder.encode(value)
             checked += 2
+            nested += "]." in told
     assert checked > 1000
+    assert nested > 100
 
 
 def test_null_data_without_elements_is_empty(limits_case: Generated, library: ctypes.CDLL) -> None:
@@ -162,7 +187,7 @@ def test_huge_sizes_are_shown_saturated(limits_case: Generated, library: ctypes.
     value = structs.fill(plan.name, {"data": "x"})
     value_limit = plan.limits.fields[0].string
     value.data.size = 2**40
-    assert Encoder(library, plan.c_name).refusal(value) == ("data", 2**32 - 1, value_limit)
+    assert Encoder(library, plan.c_name).refusal(value)[:3] == ("data", 2**32 - 1, value_limit)
 
 
 def test_a_bool_is_written_as_0_or_1(limits_case: Generated, library: ctypes.CDLL) -> None:

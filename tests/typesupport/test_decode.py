@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 import ts_cdr
-from test_bytes import with_python
+from test_bytes import names_member, with_python
 from ts_build import Generated
-from ts_decoder import END, LIMIT, VALUE, Decoder, Refused
+from ts_decoder import BOUND, CAPACITY, END, VALUE, Decoder, Refused
 from ts_values import Randomizer, from_ros, ros_class, to_ros
 
 from microros_gen.model.types import NamedType, TypeName, element_of
@@ -97,10 +97,11 @@ def compare(generated: Generated, decoder: Decoder, body: bytes) -> str:
     for big in (True, False):
         ours, expected = decoder.decode(body, swap=big), strictly(generated, name, body, big)
         if isinstance(ours, Refused):
-            assert ours.field
+            assert ours.path
             assert ours.found > ours.fits, (name, ours)
-            assert ours.kind == LIMIT or expected == "refused", (name, body.hex(), ours)
-            outcome = "above a capacity" if ours.kind == LIMIT else "refused"
+            full = ours.kind in (BOUND, CAPACITY)
+            assert full or expected == "refused", (name, body.hex(), ours)
+            outcome = "above a capacity" if full else "refused"
         else:
             assert not isinstance(expected, str), (name, body.hex(), ours)
             same = ts_cdr.encode(generated.messages, name, ours, False)
@@ -191,8 +192,11 @@ def test_what_does_not_fit_is_refused_with_its_field(limits_case: Generated, lib
             member.capacity = capacity - 1
             refused = decoder.into(decoder.message, body)
             assert refused, (plan.name, path)
-            assert path.endswith(refused.field), (plan.name, path, refused)
-            assert (refused.found, refused.fits, refused.kind) == (size, size - 1, LIMIT), (path, is_string)
+            assert names_member(refused.path, path), (plan.name, path, refused)
+            assert (refused.found, refused.fits, refused.kind) == (size, size - 1, CAPACITY), (
+                path,
+                is_string,
+            )
             member.capacity, member.size = capacity, size
             assert decoder.into(decoder.message, body) is None, (plan.name, path)
             checked += 1
@@ -253,7 +257,7 @@ def test_bounds_of_the_interface_hold_for_larger_capacities(
     room = (ctypes.c_bool * 8)()
     message.bool_values.data, message.bool_values.capacity = ctypes.addressof(room), 8
     refused = decoder.into(message, b"\4\0\0\0\1\1\1\1" + bytes(2000))
-    assert refused == Refused("bool_values", 4, 3, LIMIT)
+    assert refused == Refused("bool_values", 4, 3, BOUND)
 
 
 def test_a_message_without_storage_takes_what_is_empty(
@@ -264,10 +268,10 @@ def test_a_message_without_storage_takes_what_is_empty(
     empty = decoder.structs.structure(decoder.plan.name)()
     assert decoder.into(empty, bytes(8) + b"\1\0\0\0" + bytes(20)) is None
     assert decoder.into(empty, bytes(8) + b"\2\0\0\0a\0" + bytes(22)) == Refused(
-        "header.frame_id", 1, 0, LIMIT
+        "header.frame_id", 1, 0, CAPACITY
     )
     assert decoder.into(empty, bytes(8) + b"\1\0\0\0" + bytes(4) + b"\1\0\0\0" + bytes(96)) == Refused(
-        "name", 1, 0, LIMIT
+        "name", 1, 0, CAPACITY
     )
 
 

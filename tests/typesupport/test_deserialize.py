@@ -105,7 +105,7 @@ base joint -2 1
 cut: 1 sensor_msgs/msg/JointState.name[]: the message ends: 4 bytes needed, 2 left
 no header: 1 sensor_msgs/msg/JointState.encapsulation: the message ends: 4 bytes needed, 3 left
 PL_CDR: 1 sensor_msgs/msg/JointState: representation 3 is not plain CDR (0 or 1)
-full: 1 sensor_msgs/msg/JointState.position: 2, limit 1: raise limits
+full: 1 sensor_msgs/msg/JointState.position: 2, capacity for 1: raise limits, or that of your buffer
 NULL: 11 serialized_message, type_support or ros_message: NULL or not initialized
 other order: 1 sensor_msgs/msg/JointState.header.frame_id: the message ends: 83886080 bytes needed, 52 left
 only sent: 3 sensor_msgs/msg/JointState has no decoder: no profile that receives it

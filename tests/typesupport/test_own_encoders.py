@@ -93,8 +93,8 @@ static void fill_markers(visualization_msgs__msg__MarkerArray * m)
 /* The size under the own limits, or what is refused; its bytes are those of the type's encoder. */
 static void show(const microros_message_type_t * own, const microros_message_type_t * type, const void * message)
 {
-  cdr_fault_t fault = {"", 0, 0, CDR_FAULT_VALUE};
-  cdr_fault_t again = {"", 0, 0, CDR_FAULT_VALUE};
+  cdr_fault_t fault = {.field = "", .kind = CDR_FAULT_VALUE};
+  cdr_fault_t again = {.field = "", .kind = CDR_FAULT_VALUE};
   uint32_t size;
   const uint32_t measured = own->encoded_size(message, &again);
 

@@ -23,7 +23,7 @@ DECODE = ctypes.CFUNCTYPE(
     ctypes.c_void_p,
     ctypes.POINTER(Fault),
 )
-LIMIT, END, VALUE = range(3)
+LIMIT, END, VALUE, BOUND, CAPACITY, DATA = range(6)
 MARK = b"\x5a" * 16
 
 
@@ -31,7 +31,7 @@ MARK = b"\x5a" * 16
 class Refused:
     """Why a body was refused."""
 
-    field: str
+    path: str
     found: int
     fits: int
     kind: int
@@ -66,11 +66,11 @@ class Decoder:
 
     def at(self, message: Any, body: bytes | int, size: int, swap: bool = False) -> Refused | None:
         """The same for a body that may be given by its address."""
-        fault = Fault(b"?", 0, 0, -1)
+        fault = Fault(field=b"?", kind=-1)
         done = self._decode(self.type, body, size, swap, ctypes.addressof(message), fault)
         assert self._storage.raw[self._size :] == MARK, "wrote behind the storage"
         assert done == (fault.kind == -1)
-        return None if done else Refused(fault.field.decode(), fault.found, fault.fits, fault.kind)
+        return None if done else Refused(fault.path, fault.found, fault.fits, fault.kind)
 
     def decode(self, body: bytes, swap: bool = False) -> dict[str, Any] | Refused:
         """Return the contents, or why the body was refused."""

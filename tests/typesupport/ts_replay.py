@@ -57,7 +57,7 @@ static int replay(const test_type_t * t, const uint8_t * body, uint32_t size, bo
   const uint16_t one = 1;
   const bool swap = big == (*(const uint8_t *)&one == 1);
   const microros_message_type_t * const type = t->handle()->data;
-  cdr_fault_t fault = {"", 0, 0, CDR_FAULT_LIMIT};
+  cdr_fault_t fault = {.field = ""};
   void * const message = test_block(t->message_size);
   void * const storage = test_block(t->storage_size);
   t->bind(message, storage);
@@ -109,7 +109,7 @@ int LLVMFuzzerTestOneInput(const uint8_t * data, size_t size) {
   const test_type_t * const t =
     &test_types[((data[1] & 0x7Fu) << 8u | data[0]) % (sizeof(test_types) / sizeof(*test_types))];
   const microros_message_type_t * const type = t->handle()->data;
-  cdr_fault_t fault = {NULL, 0, 0, CDR_FAULT_LIMIT};
+  cdr_fault_t fault = {.field = NULL};
   void * const message = test_block(t->message_size);
   void * const storage = test_block(t->storage_size);
   const uint32_t length = (uint32_t)size - 2u;

@@ -43,7 +43,7 @@ static void fill_wstring(rosidl_runtime_c__U16String * text) {
 }
 static void check(const char * name, const rosidl_message_type_support_t * handle, const void * message) {
   const microros_message_type_t * const type = (const microros_message_type_t *)handle->data;
-  cdr_fault_t fault = {"", 0, 0, CDR_FAULT_LIMIT};
+  cdr_fault_t fault = {.field = ""};
   const uint32_t size = type->encoded_size(message, &fault);
   uint8_t * const body = (uint8_t *)malloc(size ? size : 1u);
   const uint32_t written = size ? type->encode(message, body, &fault) : 0u;

@@ -697,7 +697,7 @@ static void run_limit(void)
 {
   const support_t support = TYPE(std_msgs, String);
   const microros_message_type_t * const type = support->data;
-  cdr_fault_t fault = {"", 0, 0, CDR_FAULT_LIMIT};
+  cdr_fault_t fault = {.field = ""};
   conf_t conf = micro_ros_utilities_memory_conf_default;
   conf.max_string_capacity = 100;
   if (!micro_ros_utilities_create_message_memory(support, &a_string, conf)) {

@@ -19,7 +19,7 @@ typedef struct datagram_t {
 static datagram_t queue[QUEUE];
 static size_t queue_first;
 static size_t queue_count;
-static uint32_t fake_now_ms = 0xffffff00u; /* soon begins again at 0: every test passes the wrap */
+static uint32_t fake_now_ms = 0xffffff00u;  /* soon begins again at 0: every test passes the wrap */
 static int64_t fake_steady_ms = 5000000123; /* a device that has been on for eight weeks */
 static bool send_fails;
 static bool open_fails;

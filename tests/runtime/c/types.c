@@ -52,6 +52,8 @@ static uint32_t string_size(const void * message, cdr_fault_t * fault)
 
   if (string->data.size > STRING_LIMIT) {
     fault->field = "data";
+    fault->within = NULL;
+    fault->kind = CDR_FAULT_LIMIT;
     fault->found = (uint32_t)string->data.size;
     fault->fits = STRING_LIMIT;
     return 0;

@@ -20,6 +20,7 @@ static void fail(cdr_in_t * in, cdr_fault_kind_t kind, uint32_t found, uint32_t 
 {
   in->failed = true;
   in->fault->field = "data";
+  in->fault->within = NULL;
   in->fault->kind = kind;
   in->fault->found = found;
   in->fault->fits = fits;
@@ -51,7 +52,7 @@ static void string_decode(cdr_in_t * in, void * message)
   if (in->size < 5u || length == 0u || length > in->size - 4u) {
     fail(in, CDR_FAULT_END, length, in->size);
   } else if (length > string->data.capacity) {
-    fail(in, CDR_FAULT_LIMIT, length - 1u, (uint32_t)string->data.capacity - 1u);
+    fail(in, CDR_FAULT_CAPACITY, length - 1u, (uint32_t)string->data.capacity - 1u);
   } else {
     memcpy(string->data.data, &in->body[4], length);
     string->data.size = length - 1u;

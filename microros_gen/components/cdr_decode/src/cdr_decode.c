@@ -28,11 +28,24 @@ void cdr_in_refuse(cdr_in_t * in, cdr_fault_kind_t kind, const char * field, uin
   if (!in->failed) {
     in->failed = true;
     in->fault->field = field;
+    in->fault->within = NULL;
     in->fault->found = (found > UINT32_MAX) ? UINT32_MAX : (uint32_t)found;
     in->fault->fits = fits;
+    in->fault->index = CDR_NO_INDEX;
     in->fault->kind = kind;
+    in->fault->depth = 0U;
   }
   in->position = in->size;
+}
+
+void cdr_in_refuse_above(cdr_in_t * in, const char * field, uint32_t found, uint32_t limit, uint32_t bound)
+{
+  cdr_in_refuse(in, (limit < bound) ? CDR_FAULT_CAPACITY : CDR_FAULT_BOUND, field, found, limit);
+}
+
+void cdr_in_within(const cdr_in_t * in, const char * member, size_t index)
+{
+  (void)cdr_refuse_within(in->fault, member, index);
 }
 
 /**
@@ -144,7 +157,7 @@ static void * get_size(
   (void)memcpy(&known, sequence, sizeof(known));
   const uint32_t limit = cdr_in_limit((known.data == NULL) ? 0U : known.capacity, bound);
   if (length > limit) {
-    cdr_in_refuse(in, CDR_FAULT_LIMIT, field, length, limit);
+    cdr_in_refuse_above(in, field, length, limit, bound);
     length = 0U;
   }
   known.size = length;

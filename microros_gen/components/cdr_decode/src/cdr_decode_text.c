@@ -31,14 +31,14 @@ void cdr_get_string(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bou
     in->position += length;
   }
   if (size > limit) {
-    cdr_in_refuse(in, CDR_FAULT_LIMIT, field, size, limit);
+    cdr_in_refuse_above(in, field, (uint32_t)size, limit, bound);
     size = 0U;
   }
   if (size > 0U) {
     (void)memcpy(text->data, from, size);
   }
-  if (capacity > 0U) {
-    text->data[size] = '\0';
+  if ((capacity > 1U) || ((capacity == 1U) && (text->data[0] != '\0'))) {
+    text->data[size] = '\0'; /* not to the NUL that all empty strings share (rosidl_runtime_c__String__init) */
   }
   text->size = size;
 }

@@ -11,7 +11,7 @@ void cdr_get_wstring(cdr_in_t * in, rosidl_runtime_c__U16String * text, uint32_t
   uint32_t size = cdr_in_length(in, UNIT_SIZE, field);
 
   if (size > limit) {
-    cdr_in_refuse(in, CDR_FAULT_LIMIT, field, size, limit);
+    cdr_in_refuse_above(in, field, size, limit, bound);
     size = 0U;
   }
   for (uint32_t i = 0U; i < size; ++i) {
@@ -23,7 +23,7 @@ void cdr_get_wstring(cdr_in_t * in, rosidl_runtime_c__U16String * text, uint32_t
     }
     text->data[i] = (uint_least16_t)unit;
   }
-  if (capacity > 0U) {
+  if ((capacity > 1U) || ((capacity == 1U) && (text->data[0] != 0U))) {
     text->data[size] = 0U;
   }
   text->size = size;

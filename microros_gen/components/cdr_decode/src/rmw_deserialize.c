@@ -28,7 +28,15 @@ rmw_ret_t rmw_deserialize(
   bytes = serialized_message->buffer;
   size = (bytes == NULL) ? 0u : serialized_message->buffer_length;
   if (size < (size_t)ENCAPSULATION_SIZE) {
-    const cdr_fault_t short_of = {"encapsulation", ENCAPSULATION_SIZE, (uint32_t)size, CDR_FAULT_END};
+    const cdr_fault_t short_of = {
+      .field = "encapsulation",
+      .within = NULL,
+      .found = ENCAPSULATION_SIZE,
+      .fits = (uint32_t)size,
+      .index = CDR_NO_INDEX,
+      .kind = CDR_FAULT_END,
+      .depth = 0};
+
     return rmw_decode_refuse(type, &short_of);
   }
   representation = ((uint32_t)bytes[0] << 8) | bytes[1];

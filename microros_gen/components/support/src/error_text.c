@@ -32,6 +32,9 @@ const char microros_error_qos[] = "publisher %s: XRCE carries no such QoS: %d";
 const char microros_error_entity_silent[] = "%d %s: no answer of the agent within %m ms";
 const char microros_error_entity_refused[] = "%d %s: the agent refuses it: %a (entities%y)";
 const char microros_error_field[] = "%t.%d: %n, limit %m: raise limits%y";
+const char microros_error_field_bound[] = "%t.%d: %n, and its interface file allows %m";
+const char microros_error_field_capacity[] = "%t.%d: %n, capacity for %m: raise limits%y, or that of your buffer";
+const char microros_error_field_data[] = "%t.%d has a size, %n, and no data: NULL";
 const char microros_error_stream_full[] =
   "publisher %s: stream full, %n unacknowledged: raise pools: {history: %m}%y";
 const char microros_error_no_session[] = "publisher %s: no session with the agent";

@@ -73,13 +73,29 @@ struct cdr_alignment_probe {
 #define CDR_IS_PACKED(type, bytes) (CDR_HOST_IS_LITTLE_ENDIAN && (sizeof(type) == (bytes)))
 
 /** Fill `fault`; `found` above UINT32_MAX is shown as UINT32_MAX. Returns false. */
-static inline bool cdr_refuse(cdr_fault_t * fault, const char * field, size_t found, uint32_t fits)
+static inline bool cdr_refuse(
+  cdr_fault_t * fault, cdr_fault_kind_t kind, const char * field, size_t found, uint32_t fits)
 {
   fault->field = field;
+  fault->within = NULL;
   fault->found = (found > UINT32_MAX) ? UINT32_MAX : (uint32_t)found;
   fault->fits = fits;
-  fault->kind = CDR_FAULT_LIMIT;
+  fault->index = CDR_NO_INDEX;
+  fault->kind = kind;
+  fault->depth = 0U;
   return false;
+}
+
+/**
+ * Say that the message which was refused is `member` of the one around it, or its element `index` (CDR_NO_INDEX: no
+ * element). `member` must be a static string. Returns 0: what an encoder returns then.
+ */
+static inline uint32_t cdr_refuse_within(cdr_fault_t * fault, const char * member, size_t index)
+{
+  fault->within = member;
+  fault->index = (index > CDR_NO_INDEX) ? CDR_NO_INDEX : (uint32_t)index;
+  ++fault->depth;
+  return 0U;
 }
 
 /**
@@ -92,7 +108,18 @@ static inline bool cdr_fits(
   if ((size <= limit) && ((data != NULL) || (size == 0U))) {
     return true;
   }
-  return cdr_refuse(fault, field, size, limit);
+  return cdr_refuse(fault, (size <= limit) ? CDR_FAULT_DATA : CDR_FAULT_LIMIT, field, size, limit);
+}
+
+/** The same for what has a `bound` in the interface file, which a limit does not exceed. */
+static inline bool cdr_fits_bound(
+  const void * data, size_t size, uint32_t limit, uint32_t bound, const char * field, cdr_fault_t * fault)
+{
+  const bool fits = cdr_fits(data, size, limit, field, fault);
+  if ((!fits) && (size > limit) && (limit >= bound)) {
+    fault->kind = CDR_FAULT_BOUND;
+  }
+  return fits;
 }
 
 /** Return `position` rounded up to a multiple of `alignment` (a power of two). */

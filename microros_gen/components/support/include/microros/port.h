@@ -4,7 +4,7 @@
  * function is a symbol of its own, so that what nobody calls is not linked. The library calls these from the
  * task that calls it, and keeps no pointer that it hands over.
  *
- * Groups: time and sleep, waiting, timers, unique id, UDP, TCP, serial line. A further group (mutex, tasks, memory sections,
+ * Groups: time and sleep, waiting, timers, unique id, UDP, TCP, multicast, serial line. A further group (mutex, tasks, memory sections,
  * other transports) is added here with the component that needs it.
  */
 #ifndef MICROROS_PORT_H
@@ -104,6 +104,29 @@ int32_t port_tcp_send(port_tcp_t * tcp, const uint8_t * data, size_t size);
 /* Takes what has arrived, without blocking. Returns how many bytes that is, at most `capacity`, 0 when there is nothing, -1
  * as above. */
 int32_t port_tcp_receive(port_tcp_t * tcp, uint8_t * buffer, size_t capacity);
+
+/* --- multicast; for the search for agents --- */
+
+enum { PORT_MULTICAST_ADDRESS = 4 }; /* bytes of an IPv4 address, as on the wire */
+
+/* A socket that sends to groups and takes what comes back; `handle` as above. */
+typedef struct port_multicast_t {
+  intptr_t handle;
+} port_multicast_t;
+
+/* False: no network. */
+bool port_multicast_open(port_multicast_t * multicast);
+
+void port_multicast_close(port_multicast_t * multicast);
+
+/* Sends one datagram to a group, an IPv4 address in digits, without blocking. False: not sent. */
+bool port_multicast_send(
+  port_multicast_t * multicast, const char * group, uint16_t port, const uint8_t * data, size_t size);
+
+/* Takes one datagram without blocking, cut to `capacity`, and who sent it (PORT_MULTICAST_ADDRESS bytes). Returns its
+ * length, 0 when there is none. */
+size_t port_multicast_receive(
+  port_multicast_t * multicast, uint8_t * buffer, size_t capacity, uint8_t * sender);
 
 /* --- serial line --- */
 

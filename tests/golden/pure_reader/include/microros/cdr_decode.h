@@ -91,7 +91,7 @@ void cdr_get_sequence_bool(cdr_in_t * in, void * sequence, uint32_t bound, const
 /**
  * Read a string into `text`, whose `capacity` counts the terminator. As for ROS 2, the string ends at its first
  * NUL, or where its length says when there is none; a length of 0 is the empty string. A string without capacity
- * takes the empty string only.
+ * takes the empty string only; one with a capacity of 1 is written to where it does not hold the NUL yet.
  */
 void cdr_get_string(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bound, const char * field);
 
@@ -108,10 +108,19 @@ void cdr_get_wstrings(
   cdr_in_t * in, rosidl_runtime_c__U16String * texts, size_t count, uint32_t bound, const char * field);
 
 /**
+ * For a decoder whose nested message has just failed: the one that was refused is `member` of this message, or its
+ * element `index` (CDR_NO_INDEX: no element).
+ */
+void cdr_in_within(const cdr_in_t * in, const char * member, size_t index);
+
+/**
  * For cdr_decode*.c. cdr_in_refuse fills the fault, if there is none yet, and moves to the end. cdr_in_length returns
  * a length in elements of at least `width` bytes; 0, with the fault filled, where the body ends before them.
  */
 void cdr_in_refuse(cdr_in_t * in, cdr_fault_kind_t kind, const char * field, uint64_t found, uint32_t fits);
+
+/** Refuse what is above `limit`, the smaller one of a capacity and a `bound`. */
+void cdr_in_refuse_above(cdr_in_t * in, const char * field, uint32_t found, uint32_t limit, uint32_t bound);
 uint32_t cdr_in_length(cdr_in_t * in, uint32_t width, const char * field);
 
 /** The smaller one of a bound and a capacity. */

@@ -2,7 +2,7 @@
 #include "microros/rmw_decode.h"
 
 #include "microros/cdr_decode.h"
-#include "microros/error.h"
+#include "microros/rmw_fault.h"
 
 #include <stddef.h>
 
@@ -15,23 +15,24 @@ static bool is_little_endian_here(void)
 
 rmw_ret_t rmw_decode_refuse(const microros_message_type_t * type, const cdr_fault_t * fault)
 {
-  microros_error_t error = microros_error_field;
+  microros_error_t error = microros_error_field_capacity;
 
   if (fault->kind == CDR_FAULT_END) {
     error = microros_error_body_end;
   } else if (fault->kind == CDR_FAULT_VALUE) {
     error = microros_error_value;
+  } else if (fault->kind == CDR_FAULT_BOUND) {
+    error = microros_error_field_bound;
   } else {
-    /* above a limit */
+    /* above a capacity */
   }
-  microros_error_set(error, type->dds_type_name, fault->field, fault->found, fault->fits);
-  return RMW_RET_ERROR;
+  return rmw_fault_report(error, type, fault);
 }
 
 rmw_ret_t rmw_decode(
   const microros_message_type_t * type, const uint8_t * body, uint32_t size, bool big_endian, void * message)
 {
-  cdr_fault_t fault = {"", 0, 0, CDR_FAULT_LIMIT};
+  cdr_fault_t fault; /* filled where the body is refused */
 
   if (type->decode == NULL) {
     return microros_error_named(RMW_RET_UNSUPPORTED, microros_error_not_received, type->dds_type_name);

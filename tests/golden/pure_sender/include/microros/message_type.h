@@ -8,17 +8,30 @@
 struct cdr_in_t;
 
 typedef enum cdr_fault_kind_t {
-  CDR_FAULT_LIMIT, /* more bytes of a string, or elements of a sequence, than fit */
-  CDR_FAULT_END,   /* the body ends before the member does: `found` bytes needed, `fits` left */
-  CDR_FAULT_VALUE  /* a value that the type does not have: `found`, and `fits` is the largest */
+  CDR_FAULT_LIMIT,    /* more than the limit of the application file: bytes of a string, elements of a sequence */
+  CDR_FAULT_END,      /* the body ends before the member does: `found` bytes needed, `fits` left */
+  CDR_FAULT_VALUE,    /* a value that the type does not have: `found`, and `fits` is the largest */
+  CDR_FAULT_BOUND,    /* more than the bound of the interface file */
+  CDR_FAULT_CAPACITY, /* more than the capacity of the message that is read into */
+  CDR_FAULT_DATA      /* a size, `found`, and NULL for data */
 } cdr_fault_kind_t;
 
-/* Why a message was refused. */
+/* No index: the nested message is no element. */
+#define CDR_NO_INDEX UINT32_MAX
+
+/*
+ * Why a message was refused. Where the member is not one of the message itself but of a nested one (`depth` above 0),
+ * `within` is the message's own member that holds it, with the `index` of the element. Names between the two, from
+ * `depth` 2 on, are not kept.
+ */
 typedef struct cdr_fault_t {
-  const char * field; /* name of the member, static */
-  uint32_t found;     /* what it has: bytes of a string, elements of a sequence */
-  uint32_t fits;      /* what its limit is, in the same unit */
+  const char * field;  /* name of the member, static */
+  const char * within; /* name of the outermost member around it, static; NULL: it is the message's own */
+  uint32_t found;      /* what it has: bytes of a string, elements of a sequence */
+  uint32_t fits;       /* what its limit is, in the same unit */
+  uint32_t index;      /* of the element of `within`, or CDR_NO_INDEX */
   cdr_fault_kind_t kind;
+  uint8_t depth; /* how many messages are around the one with the member */
 } cdr_fault_t;
 
 /*

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
+#include "microros/rmw_encode.h"
 #include "microros/rmw_publisher.h"
 #include "microros/xrce_routes.h"
 #include "microros/xrce_wire.h"
@@ -11,6 +12,7 @@
 /* Bytes 00 01 00 00: XCDR1, little endian, no options (OMG DDS-XTypes 1.3, 7.6.3.1.2). */
 enum { ENCAPSULATION_SIZE = 4, CDR_LITTLE_ENDIAN = 1 };
 
+/* `fault` is that of a message that was refused; what was encoded before is not. */
 static rmw_ret_t publish_report(
   const xrce_endpoint_t * writer, xrce_write_t outcome, const cdr_fault_t * fault)
 {
@@ -21,9 +23,7 @@ static rmw_ret_t publish_report(
     case XRCE_WRITE_DROPPED:
       return RMW_RET_OK;
     case XRCE_WRITE_REFUSED:
-      microros_error_set(
-        microros_error_field, writer->type->dds_type_name, fault->field, fault->found, fault->fits);
-      break;
+      return rmw_encode_refuse(writer->type, fault);
     case XRCE_WRITE_FULL:
       waiting = xrce_route_unacknowledged(writer->client);
       microros_error_set(microros_error_stream_full, writer->name, NULL, waiting, waiting + 1u);
@@ -41,7 +41,7 @@ static rmw_ret_t publish_report(
 
 rmw_ret_t rmw_publisher_write(const rmw_publisher_t * publisher, const void * ros_message)
 {
-  cdr_fault_t fault = {"", 0, 0, CDR_FAULT_LIMIT};
+  cdr_fault_t fault; /* filled where a message is refused */
   xrce_endpoint_t * writer = publisher->data;
   const xrce_write_t outcome = xrce_write_message(writer, ros_message, &fault);
 
@@ -62,7 +62,6 @@ rmw_ret_t rmw_publish_serialized_message(
   const rmw_publisher_t * publisher, const rmw_serialized_message_t * serialized_message,
   rmw_publisher_allocation_t * allocation)
 {
-  const cdr_fault_t fault = {"", 0, 0, CDR_FAULT_LIMIT};
   const uint8_t * bytes;
   xrce_endpoint_t * writer;
   size_t capacity;
@@ -81,5 +80,5 @@ rmw_ret_t rmw_publish_serialized_message(
     return RMW_RET_ERROR;
   }
   return publish_report(
-    writer, xrce_write_body(writer, &bytes[ENCAPSULATION_SIZE], size - ENCAPSULATION_SIZE), &fault);
+    writer, xrce_write_body(writer, &bytes[ENCAPSULATION_SIZE], size - ENCAPSULATION_SIZE), NULL);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
 #include "microros/message_type.h"
+#include "microros/rmw_encode.h"
 #include "rmw/rmw.h"
 
 #include <stddef.h>
@@ -9,17 +10,11 @@
 /* XCDR1, little endian, no options (OMG DDS-XTypes 1.3, 7.6.3.1.2). */
 static const uint8_t encapsulation[] = {0, 1, 0, 0};
 
-static rmw_ret_t serialize_refuse(const microros_message_type_t * type, const cdr_fault_t * fault)
-{
-  microros_error_set(microros_error_field, type->dds_type_name, fault->field, fault->found, fault->fits);
-  return RMW_RET_ERROR;
-}
-
 rmw_ret_t rmw_serialize(
   const void * ros_message, const rosidl_message_type_support_t * type_support,
   rmw_serialized_message_t * serialized_message)
 {
-  cdr_fault_t fault = {"", 0, 0, CDR_FAULT_LIMIT};
+  cdr_fault_t fault; /* filled where the message is refused */
   const microros_message_type_t * type;
   size_t size;
 
@@ -29,7 +24,7 @@ rmw_ret_t rmw_serialize(
   type = type_support->data;
   size = type->encoded_size(ros_message, &fault);
   if (size == 0u) {
-    return serialize_refuse(type, &fault);
+    return rmw_encode_refuse(type, &fault);
   }
   size += sizeof(encapsulation);
   if (
@@ -39,7 +34,7 @@ rmw_ret_t rmw_serialize(
   }
   (void)memcpy(serialized_message->buffer, encapsulation, sizeof(encapsulation));
   if (type->encode(ros_message, &serialized_message->buffer[sizeof(encapsulation)], &fault) == 0u) {
-    return serialize_refuse(type, &fault);
+    return rmw_encode_refuse(type, &fault);
   }
   serialized_message->buffer_length = size;
   return RMW_RET_OK;
@@ -48,7 +43,7 @@ rmw_ret_t rmw_serialize(
 rmw_ret_t rmw_uros_get_serialized_message_size(
   const void * ros_message, const rosidl_message_type_support_t * type_support, size_t * size)
 {
-  cdr_fault_t fault = {"", 0, 0, CDR_FAULT_LIMIT};
+  cdr_fault_t fault; /* filled where the message is refused */
   const microros_message_type_t * type;
   uint32_t body;
 
@@ -58,7 +53,7 @@ rmw_ret_t rmw_uros_get_serialized_message_size(
   type = type_support->data;
   body = type->encoded_size(ros_message, &fault);
   if (body == 0u) {
-    return serialize_refuse(type, &fault);
+    return rmw_encode_refuse(type, &fault);
   }
   *size = sizeof(encapsulation) + body;
   return RMW_RET_OK;

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The search for an agent, for the middleware layer; internal. */
+#ifndef MICROROS_RMW_DISCOVERY_H
+#define MICROROS_RMW_DISCOVERY_H
+
+#include <stdint.h>
+
+#include "microros/rmw_transport_params.h"
+#include "rmw/ret_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Writes the place of the first agent that answers to `params`. RMW_RET_TIMEOUT, with a text: none did within
+ * `timeout_ms`, and `params` names none. */
+rmw_ret_t rmw_discovery_find(rmw_uxrce_transport_params_t * params, uint32_t timeout_ms);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RMW_DISCOVERY_H */

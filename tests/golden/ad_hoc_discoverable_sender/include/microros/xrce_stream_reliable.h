@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The reliable output stream: whole messages, encoded in place and kept until the agent acknowledges them, so that
+ * sending again is only sending. Sequence numbers are modulo 2^16 and given when a message is sent first. While there
+ * is no session the stream keeps what it holds; in the next session its messages are numbered anew and sent again.
+ */
+#ifndef MICROROS_XRCE_STREAM_RELIABLE_H
+#define MICROROS_XRCE_STREAM_RELIABLE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "microros/xrce_session.h"
+#include "microros_config.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* All zero is an empty stream. */
+typedef struct xrce_stream_reliable_t {
+  uint32_t heartbeat_ms;  /* when the next HEARTBEAT is due, while something is unacknowledged */
+  uint32_t held_until_ms; /* until then, ... */
+  bool held;              /* ... or until the agent has the writers, nothing is numbered and sent */
+  uint8_t count;          /* unacknowledged messages */
+  uint8_t head;   /* slot of the oldest message */
+  uint16_t first; /* its sequence number; while held: the next one's */
+  uint16_t size[MICROROS_RELIABLE_SLOTS]; /* of the message without what stands before its submessages */
+  uint8_t message[MICROROS_RELIABLE_SLOTS][MICROROS_RELIABLE_SLOT_SIZE];
+} xrce_stream_reliable_t;
+
+/* Whether no sequence number waits for its acknowledgement. */
+static inline bool xrce_stream_reliable_is_idle(const xrce_stream_reliable_t * stream)
+{
+  return stream->count == 0u;
+}
+
+/* Returns room for MICROROS_RELIABLE_SLOT_SIZE - MICROROS_RELIABLE_FRONT bytes of submessages; NULL: every slot is
+ * taken. */
+uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream);
+
+/* Takes `size` bytes of submessages; sends them where there is a session that is not held. */
+void xrce_stream_reliable_commit(
+  xrce_stream_reliable_t * stream, xrce_session_t * session, size_t size, uint32_t now);
+
+/* Forgets the oldest message and tells the agent at the next step; false: there is none. */
+bool xrce_stream_reliable_drop_oldest(
+  xrce_stream_reliable_t * stream, const xrce_session_t * session, uint32_t now);
+
+/* A session is new: holds what is kept, to be numbered from 0, or from what `creation: reliable` has left. */
+void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now);
+
+/* Lets go of what is held once the entities are settled, and sends a HEARTBEAT when one is due. */
+void xrce_stream_reliable_step(
+  xrce_stream_reliable_t * stream, xrce_session_t * session, bool settled, uint32_t now);
+
+/* Frees what the agent acknowledges, sends again what it misses. False: the payload is malformed. */
+bool xrce_stream_reliable_on_acknack(
+  xrce_stream_reliable_t * stream, xrce_session_t * session, const uint8_t * payload, size_t size,
+  uint8_t flags, uint32_t now);
+
+/* For this component alone: tells the agent which numbers can be had, `count` (not 0) from `first` on. */
+void xrce_stream_reliable_heartbeat(xrce_session_t * session, uint16_t first, uint16_t count);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_XRCE_STREAM_RELIABLE_H */

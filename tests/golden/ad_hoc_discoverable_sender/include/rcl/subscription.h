@@ -1,0 +1,1 @@
+#error "The component 'subscribe' is not selected: add `components: [+subscribe]` to microros.yaml and generate again"

@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/error.h"
+#include "microros/rmw_encode.h"
+#include "microros/rmw_publisher.h"
+#include "microros/xrce_routes.h"
+#include "microros/xrce_wire.h"
+#include "microros/xrce_write.h"
+#include "rmw/rmw.h"
+
+#include <stddef.h>
+
+/* Bytes 00 01 00 00: XCDR1, little endian, no options (OMG DDS-XTypes 1.3, 7.6.3.1.2). */
+enum { ENCAPSULATION_SIZE = 4, CDR_LITTLE_ENDIAN = 1 };
+
+/* `fault` is that of a message that was refused; what was encoded before is not. */
+static rmw_ret_t publish_report(
+  const xrce_endpoint_t * writer, xrce_write_t outcome, const cdr_fault_t * fault)
+{
+  uint32_t waiting;
+
+  switch (outcome) {
+    case XRCE_WRITTEN:
+    case XRCE_WRITE_DROPPED:
+      return RMW_RET_OK;
+    case XRCE_WRITE_REFUSED:
+      return rmw_encode_refuse(writer->type, fault);
+    case XRCE_WRITE_FULL:
+      waiting = xrce_route_unacknowledged(writer->client);
+      microros_error_set(microros_error_stream_full, writer->name, NULL, waiting, waiting + 1u);
+      break;
+    case XRCE_WRITE_NO_SESSION:
+      microros_error_set(microros_error_no_session, writer->name, NULL, 0, 0);
+      break;
+    case XRCE_WRITE_NOT_SENT:
+    default:
+      microros_error_set(microros_error_not_sent, writer->name, NULL, 0, 0);
+      break;
+  }
+  return RMW_RET_ERROR;
+}
+
+rmw_ret_t rmw_publisher_write(const rmw_publisher_t * publisher, const void * ros_message)
+{
+  cdr_fault_t fault; /* filled where a message is refused */
+  xrce_endpoint_t * writer = publisher->data;
+  const xrce_write_t outcome = xrce_write_message(writer, ros_message, &fault);
+
+  return outcome == XRCE_WRITTEN ? RMW_RET_OK : publish_report(writer, outcome, &fault);
+}
+
+rmw_ret_t rmw_publish(
+  const rmw_publisher_t * publisher, const void * ros_message, rmw_publisher_allocation_t * allocation)
+{
+  (void)allocation;
+  if (ros_message == NULL || !rmw_publisher_is_open(publisher)) {
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "publisher or message");
+  }
+  return rmw_publisher_write(publisher, ros_message);
+}
+
+rmw_ret_t rmw_publish_serialized_message(
+  const rmw_publisher_t * publisher, const rmw_serialized_message_t * serialized_message,
+  rmw_publisher_allocation_t * allocation)
+{
+  const uint8_t * bytes;
+  xrce_endpoint_t * writer;
+  size_t capacity;
+  size_t size;
+
+  (void)allocation;
+  if (serialized_message == NULL || serialized_message->buffer == NULL || !rmw_publisher_is_open(publisher)) {
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "publisher or serialized_message");
+  }
+  writer = publisher->data;
+  bytes = serialized_message->buffer;
+  size = serialized_message->buffer_length;
+  capacity = ENCAPSULATION_SIZE + xrce_route_capacity((writer->qos & XRCE_QOS_RELIABLE) != 0u);
+  if (size <= ENCAPSULATION_SIZE || size > capacity || bytes[0] != 0u || bytes[1] != CDR_LITTLE_ENDIAN) {
+    microros_error_set(microros_error_serialized, NULL, NULL, (uint32_t)size, (uint32_t)capacity);
+    return RMW_RET_ERROR;
+  }
+  return publish_report(
+    writer, xrce_write_body(writer, &bytes[ENCAPSULATION_SIZE], size - ENCAPSULATION_SIZE), NULL);
+}

@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Every message fits one datagram: a ring of messages, each with one sequence number. */
+#include "microros/xrce_stream_reliable.h"
+
+#include "microros/xrce_wire.h"
+
+/* Returns the slot of the i-th kept message. */
+static uint8_t stream_slot(const xrce_stream_reliable_t * stream, uint8_t i)
+{
+  const uint8_t slot = (uint8_t)(stream->head + i);
+
+  return slot < MICROROS_RELIABLE_SLOTS ? slot : (uint8_t)(slot - MICROROS_RELIABLE_SLOTS);
+}
+
+uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream)
+{
+  if (stream->count == MICROROS_RELIABLE_SLOTS) {
+    return NULL;
+  }
+  return &stream->message[stream_slot(stream, stream->count)][MICROROS_RELIABLE_FRONT];
+}
+
+/* A message that the transport does not take is one that was lost on the way: the agent asks for it. */
+static void stream_send(xrce_stream_reliable_t * stream, xrce_session_t * session, uint8_t i)
+{
+  const uint8_t slot = stream_slot(stream, i);
+  uint8_t * message = stream->message[slot];
+
+  xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_RELIABLE, (uint16_t)(stream->first + i));
+  (void)xrce_session_send(session, message, XRCE_MESSAGE_HEADER + (size_t)stream->size[slot]);
+}
+
+void xrce_stream_reliable_commit(
+  xrce_stream_reliable_t * stream, xrce_session_t * session, size_t size, uint32_t now)
+{
+  const uint8_t i = stream->count;
+
+  stream->size[stream_slot(stream, i)] = (uint16_t)size;
+  if (i == 0u) {
+    stream->heartbeat_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
+  }
+  stream->count = (uint8_t)(i + 1u);
+  if (session->state == XRCE_READY && !stream->held) {
+    stream_send(stream, session, i);
+  }
+}
+
+static void stream_free(xrce_stream_reliable_t * stream, uint8_t count)
+{
+  stream->head = stream_slot(stream, count);
+  stream->first = (uint16_t)(stream->first + count);
+  stream->count = (uint8_t)(stream->count - count);
+}
+
+bool xrce_stream_reliable_drop_oldest(
+  xrce_stream_reliable_t * stream, const xrce_session_t * session, uint32_t now)
+{
+  const uint16_t first = stream->first;
+
+  (void)session;
+  if (stream->count == 0u) {
+    return false;
+  }
+  stream_free(stream, 1);
+  if (stream->held) {
+    stream->first = first; /* what is held has no number yet */
+  }
+  stream->heartbeat_ms = now;
+  return true;
+}
+
+void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now)
+{
+  stream->first = 0;
+  stream->held = true;
+  stream->held_until_ms = now + MICROROS_CREATE_TIMEOUT_MS;
+}
+
+static void stream_release(xrce_stream_reliable_t * stream, xrce_session_t * session, uint32_t now)
+{
+  stream->held = false;
+  stream->heartbeat_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
+  for (uint8_t i = 0; i < stream->count; ++i) {
+    stream_send(stream, session, i);
+    ++session->statistics.resent;
+  }
+}
+
+void xrce_stream_reliable_step(
+  xrce_stream_reliable_t * stream, xrce_session_t * session, bool settled, uint32_t now)
+{
+  if (session->state != XRCE_READY) {
+    return;
+  }
+  if (stream->held && (settled || xrce_is_due(now, stream->held_until_ms))) {
+    stream_release(stream, session, now);
+  }
+  if (stream->count != 0u && !stream->held && xrce_is_due(now, stream->heartbeat_ms)) {
+    xrce_stream_reliable_heartbeat(session, stream->first, stream->count);
+    stream->heartbeat_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
+  }
+}
+
+bool xrce_stream_reliable_on_acknack(
+  xrce_stream_reliable_t * stream, xrce_session_t * session, const uint8_t * payload, size_t size,
+  uint8_t flags, uint32_t now)
+{
+  uint16_t expected;
+  uint32_t missing;
+  uint16_t place;
+
+  if (size < XRCE_ACKNACK_SIZE) {
+    return false;
+  }
+  if (payload[4] != XRCE_STREAM_RELIABLE || session->state != XRCE_READY || stream->held) {
+    return true;
+  }
+  expected = xrce_get_u16(&payload[0], flags);
+  missing = xrce_get_be16(&payload[2]);
+  place = (uint16_t)(expected - stream->first);
+  if (place <= stream->count) {
+    stream_free(stream, (uint8_t)place);
+    place = 0;
+  } else if (missing != 0u) {
+    stream->heartbeat_ms = now; /* it waits for what was dropped: tell it not to */
+  }
+  for (; missing != 0u; missing >>= 1) {
+    if ((missing & 1u) != 0u && place < stream->count) {
+      stream_send(stream, session, (uint8_t)place);
+      ++session->statistics.resent;
+    }
+    ++place;
+  }
+  return true;
+}

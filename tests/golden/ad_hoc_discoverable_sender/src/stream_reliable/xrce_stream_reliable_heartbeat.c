@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/xrce_stream_reliable.h"
+#include "microros/xrce_wire.h"
+
+enum { HEARTBEAT_SIZE = 13 };
+
+void xrce_stream_reliable_heartbeat(xrce_session_t * session, uint16_t first, uint16_t count)
+{
+  uint8_t message[HEARTBEAT_SIZE];
+
+  xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_NONE, 0);
+  xrce_put_submessage(&message[4], XRCE_HEARTBEAT, XRCE_FLAG_LITTLE_ENDIAN, HEARTBEAT_SIZE - 8);
+  xrce_put_le16(&message[8], first);
+  xrce_put_le16(&message[10], (uint16_t)(first + count - 1u));
+  message[12] = XRCE_STREAM_RELIABLE;
+  (void)xrce_session_send(session, message, sizeof(message)); /* the next one follows */
+}

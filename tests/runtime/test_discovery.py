@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Search for an agent by multicast over real sockets: what is found, tried, given up, and found again after a loss."""
+
+from __future__ import annotations
+
+import random
+import socket
+import struct
+import subprocess
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from microros_gen.plan.runtime import DISCOVERY_GROUP
+from runtime.harness import POOL, build, components, render
+from runtime.test_tcp import TcpAgent, serving
+from runtime.test_udp import UdpAgent
+
+PLAN = replace(
+    POOL,
+    agent_host=DISCOVERY_GROUP,
+    has_discovery=True,
+    connect_timeout_ms=3000,
+    create_timeout_ms=3000,
+    liveliness_period_ms=50,
+)
+QUESTION = bytes.fromhex("80000000 02010800 0009fffd 03000000")
+Answers = Callable[[], list[bytes]]
+
+
+def locator(host: str, port: int) -> bytes:
+    return b"\x01" + socket.inet_aton(host) + b"\0" + struct.pack("<H", port)
+
+
+def info(*locators: bytes) -> bytes:
+    """Return the INFO that the public agent was seen to send; each locator has eight bytes, so all are aligned."""
+    payload = bytes.fromhex("0009fffd 0000 010d 58524345 0100010f 00 010d 00 0100 0000")
+    payload += struct.pack("<I", len(locators)) + b"".join(locators)
+    return b"\x80\0\0\0\x06\x01" + struct.pack("<H", len(payload)) + payload
+
+
+class Group(threading.Thread):
+    """Answers in the group, at a port of its own, over the loopback interface alone."""
+
+    def __init__(self, answers: Answers) -> None:
+        super().__init__(daemon=True)
+        self.asked: list[bytes] = []
+        self._answers = answers
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.bind((DISCOVERY_GROUP, 0))
+        member = socket.inet_aton(DISCOVERY_GROUP) + socket.inet_aton("127.0.0.1")
+        self.socket.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, member)
+        self.socket.settimeout(20.0)
+        self.port: int = self.socket.getsockname()[1]
+
+    def run(self) -> None:
+        while True:
+            try:
+                question, asker = self.socket.recvfrom(2048)
+            except OSError:
+                return
+            if not question:
+                return
+            self.asked.append(question)
+            for answer in self._answers():
+                self.socket.sendto(answer, asker)
+
+
+@contextmanager
+def answering(answers: Answers) -> Iterator[Group]:
+    group = Group(answers)
+    group.start()
+    try:
+        yield group
+    finally:
+        group.socket.close()
+
+
+def run(group: Group, folder: Path, **changes: object) -> subprocess.CompletedProcess[str]:
+    plan = replace(PLAN, agent_port=group.port, discovery_port=group.port, **changes)  # type: ignore[arg-type]
+    program = build(render(folder, plan, components(plan)), ["types.c", "udp.c"], "udp")
+    return subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+
+
+def udp_agent() -> UdpAgent:
+    agent = UdpAgent()
+    agent.start()
+    return agent
+
+
+def silent_port() -> int:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
+        taken.bind(("127.0.0.1", 0))
+        port: int = taken.getsockname()[1]
+    return port
+
+
+def test_an_agent_is_found_and_served(tmp_path: Path) -> None:
+    agent = udp_agent()
+    with answering(lambda: [info(locator("127.0.0.1", agent.port))]) as group:
+        done = run(group, tmp_path)
+    agent.socket.close()
+    assert (done.returncode, done.stderr) == (0, ""), done.stdout
+    assert agent.agent.values() == list(range(100))
+    assert set(group.asked) == {QUESTION}
+    assert len(group.asked) <= 2, "nobody is asked while there is a session"
+
+
+def test_tcp(tmp_path: Path) -> None:
+    with serving(TcpAgent()) as agent, answering(lambda: [info(locator("127.0.0.1", agent.port))]) as group:
+        done = run(group, tmp_path, transport="tcp")
+    assert (done.returncode, done.stderr) == (0, ""), done.stdout
+    assert agent.agent.values() == list(range(100))
+
+
+def test_a_place_where_nobody_answers_is_given_up(tmp_path: Path) -> None:
+    agent = udp_agent()
+    places = [locator("127.0.0.1", silent_port()), locator("127.0.0.1", agent.port)]
+    with answering(lambda: [info(*places)]) as group:
+        done = run(group, tmp_path)
+    agent.socket.close()
+    assert (done.returncode, done.stderr) == (0, ""), done.stdout
+    assert agent.agent.values() == list(range(100))
+
+
+def test_another_agent_is_found_after_a_loss(tmp_path: Path) -> None:
+    agents = [udp_agent(), udp_agent()]
+    living = [agents[0]]
+
+    def stop_the_first(count: int) -> None:
+        if count == 30:
+            living[0] = agents[1]
+            agents[0].agent.silent = True
+
+    agents[0].before = stop_the_first
+    with answering(lambda: [info(locator("127.0.0.1", living[0].port))]) as group:
+        done = run(group, tmp_path, on_full="block", on_full_block_ms=500)
+    for agent in agents:
+        agent.socket.close()
+    assert (done.returncode, done.stderr) == (0, ""), done.stdout
+    assert agents[1].agent.values()[-1] == 99
+    assert sorted({*agents[0].agent.values(), *agents[1].agent.values()}) == list(range(100))
+
+
+@pytest.mark.parametrize("kind", ["cut", "noise", "none"])
+def test_answers_that_are_none(kind: str, tmp_path: Path) -> None:
+    """Bytes of every kind, before the right answer comes; under sanitizers."""
+    agent = udp_agent()
+    dice = random.Random(7)
+    good = info(locator("127.0.0.1", agent.port))
+    rounds = [0]
+
+    def answers() -> list[bytes]:
+        rounds[0] += 1
+        if kind == "cut":
+            spoiled = [good[: dice.randrange(1, len(good) - 7)] for _ in range(6)]
+        elif kind == "noise":
+            spoiled = [good[:14] + dice.randbytes(dice.randrange(1, 100)) for _ in range(6)]
+            # A place in the noise costs a try; the port 0 is none.
+            spoiled = [answer[:15] + b"\0" + answer[16:] for answer in spoiled if len(answer) > 16]
+        else:
+            spoiled = [info(), info(locator("127.0.0.1", 0)), b"\x06"]
+        return [*spoiled[:6], good] if rounds[0] > 1 else spoiled
+
+    with answering(answers) as group:
+        done = run(group, tmp_path, connect_timeout_ms=9000)
+    agent.socket.close()
+    assert (done.returncode, done.stderr) == (0, ""), done.stdout
+    assert agent.agent.values() == list(range(100))
+
+
+def test_no_agent(tmp_path: Path) -> None:
+    with answering(list) as group:
+        done = run(group, tmp_path, connect_timeout_ms=400)
+    assert done.returncode == 2
+    assert done.stdout == f"no transport to {DISCOVERY_GROUP}:{group.port}\n"
+    assert len(set(group.asked)) == 1
+    assert 2 <= len(group.asked) <= 8, "at 0, 40, 120 and 280 ms, over one or two interfaces"
