@@ -32,7 +32,7 @@ _NUL = 1
 class CreateNames:
     """Longest names that a CREATE carries, in characters: on the wire, and of references.
 
-    `service` with its slash, `service_type` that of the service itself (`std_srvs::srv::dds_::SetBool_`); 0: no services.
+    `service` with its slash, `service_type` that of the service itself (`std_srvs::srv::dds_::SetBool_`); 0: none.
     """
 
     participant: int

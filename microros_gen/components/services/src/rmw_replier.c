@@ -107,7 +107,7 @@ rmw_ret_t rmw_replier_respond(
   const rmw_service_t * service, const rmw_request_id_t * request, const void * ros_response)
 {
   const uint64_t sequence = (uint64_t)request->sequence_number;
-  cdr_fault_t fault = {"", 0, 0, CDR_FAULT_LIMIT};
+  cdr_fault_t fault; /* filled where the message is refused */
   xrce_endpoint_t * endpoint = service->data;
   uint8_t identity[XRCE_IDENTITY_SIZE];
   xrce_write_t outcome;

@@ -114,7 +114,7 @@ rmw_ret_t rmw_requester_take(
 
 rmw_ret_t rmw_requester_send(const rmw_client_t * client, const void * ros_request, int64_t * sequence_number)
 {
-  cdr_fault_t fault = {"", 0, 0, CDR_FAULT_LIMIT};
+  cdr_fault_t fault; /* filled where the message is refused */
   xrce_endpoint_t * endpoint = client->data;
   const uint16_t request = xrce_session_next_request(&endpoint->client->session);
   const xrce_write_t outcome = xrce_service_write(endpoint, request, NULL, ros_request, &fault);

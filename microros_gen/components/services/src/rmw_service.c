@@ -4,6 +4,7 @@
 #include "microros/error.h"
 #include "microros/port.h"
 #include "microros/rmw_decode.h"
+#include "microros/rmw_encode.h"
 #include "microros/rmw_qos.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_routes.h"
@@ -59,10 +60,7 @@ rmw_ret_t rmw_service_report(
     case XRCE_WRITE_DROPPED:
       return RMW_RET_OK;
     case XRCE_WRITE_REFUSED:
-      microros_error_set(
-        microros_error_field, xrce_service_of(endpoint)->sent->dds_type_name, fault->field, fault->found,
-        fault->fits);
-      break;
+      return rmw_encode_refuse(xrce_service_of(endpoint)->sent, fault);
     case XRCE_WRITE_FULL:
       waiting = xrce_route_unacknowledged(endpoint->client);
       microros_error_set(microros_error_service_full, endpoint->name, NULL, waiting, waiting + 1u);
