@@ -234,6 +234,7 @@ static rcl_ret_t call_entity(char ** word)
 
 int client_ping(char ** word);                         /* client_ping.c, or client_no_ping.c */
 int client_read(char ** word, rcl_node_t * node_list); /* client_read.c, or client_no_read.c */
+int client_serve(char ** word, rcl_node_t * node_list);
 int client_time(char ** word);                         /* client_time.c, or client_no_time.c */
 
 static rcl_ret_t call(const char * line)
@@ -251,6 +252,9 @@ static rcl_ret_t call(const char * line)
   for (size_t i = 0; i < WORDS && at != NULL; ++i) {
     word[i] = at;
     at = strtok(NULL, " ");
+  }
+  if (strncmp(word[0], "serve_", 6) == 0) {
+    return client_serve(word, nodes);
   }
   if (strncmp(word[0], "read_", 5) == 0) {
     return client_read(word, nodes);
