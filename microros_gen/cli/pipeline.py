@@ -303,7 +303,9 @@ def _capacities(resolved: Resolved, interfaces: InterfaceSet, diagnostics: Diagn
     declared += service_roots(application, interfaces.messages, room)
     known = {root.type for root in declared}
     # A declared service exchanges a request and a response; its event, which ROS 2 derives, needs no limits.
-    known |= {derived_name(declaring_name(root.type), "Event") for root in declared if root.type.kind == "srv"}
+    known |= {
+        derived_name(declaring_name(root.type), "Event") for root in declared if root.type.kind == "srv"
+    }
     roots = declared + [
         _root(name, application, room) for name in interfaces.message_roots if name not in known
     ]
