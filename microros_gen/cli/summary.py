@@ -9,7 +9,8 @@ from pathlib import Path
 from microros_gen.build.compile import BuildReport
 from microros_gen.build.measure import Usage
 from microros_gen.cli.pipeline import Planned
-from microros_gen.plan.runtime import PublisherPlan, ServicePlan, SubscriptionPlan
+from microros_gen.plan.runtime import PublisherPlan, SubscriptionPlan
+from microros_gen.plan.services import ServicePlan
 
 
 def plan_summary(planned: Planned) -> str:

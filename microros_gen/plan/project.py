@@ -102,8 +102,8 @@ def plan_project(
     receiving = plan_receiving(application, selection, by_name, roots, diagnostics)
     serving = plan_serving(application, selection, by_name, services, diagnostics)
     queues = (*receiving.queues, *serving.queues)
-    endpoints = (*publishers, *receiving.subscriptions)
-    create = _create_size(application, selection, nodes, endpoints, roots, serving, services)
+    endpoints: list[PublisherPlan | SubscriptionPlan] = [*publishers, *receiving.subscriptions]
+    create = _create_size(application, selection, nodes, tuple(endpoints), roots, serving, services)
     streams = plan_streams(
         application,
         selection.transport,

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from microros_gen.model.application import DISCOVERY_PORT
 from microros_gen.model.types import TypeName
 from microros_gen.plan.names import dds_type
+from microros_gen.plan.services import ServicePlan
 from microros_gen.plan.types_names import include_path, type_files
 
 DISCOVERY_GROUP = "239.255.0.2"
@@ -75,39 +76,6 @@ class SubscriptionPlan:
     @property
     def dds_type(self) -> str:
         """The type's name on the wire: `std_msgs::msg::dds_::Int32_`."""
-        return dds_type(self.type)
-
-
-@dataclass(frozen=True)
-class StoredMessage:
-    """A message that gets storage from its declaration, as of SubscriptionPlan. `part` is request or response."""
-
-    part: str
-    storage: str
-    header: str
-    c_type: str
-    buffers: tuple[str, ...]
-
-
-@dataclass(frozen=True)
-class ServicePlan:
-    """A declared service or client, by `kind`; `index` counts those of its kind alone.
-
-    `name` is the expanded ROS name (`/arm/set_bool`), `type` the service's. `limited` begins the C names of the type of
-    what it sends, where that has limits of its own. `stored`: what it receives, and what a service answers.
-    """
-
-    kind: str
-    index: int
-    node: int
-    name: str
-    type: TypeName
-    limited: str = field(default="", repr=False)
-    stored: tuple[StoredMessage, ...] = ()
-
-    @property
-    def dds_type(self) -> str:
-        """The type's name on the wire, in front of that of its messages: `std_srvs::srv::dds_::SetBool_`."""
         return dds_type(self.type)
 
 
@@ -397,7 +365,7 @@ class RuntimePlan:
     @property
     def limited_headers(self) -> tuple[str, ...]:
         """Headers that declare the types of what sends with limits of their own; none: no publisher has such."""
-        senders = (*self.publishers, *self.services, *self.clients)
+        senders: list[PublisherPlan | ServicePlan] = [*self.publishers, *self.services, *self.clients]
         headers = {type_files(s.type).type_support for s in senders if s.limited}
         return tuple(sorted(map(include_path, headers)))
 

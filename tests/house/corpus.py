@@ -74,8 +74,8 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "services": _SERVED + _ASKED,
         "services_xml": _SERVED + "entities: xml\n",
         "services_reference": _SERVED.replace("services: [{", "clients: [{") + "entities: reference\n",
-        "services_pool": "version: 1\nprofiles: [pure_reader]\ncomponents: [-subscribe, +services, +executor]\n"
-        + "interfaces: [std_srvs/srv/SetBool]\nlimits: {'*': {string: 9, sequence: 2}}\n",
+        "services_pool": "version: 1\nprofiles: [pure_reader]\ncomponents: [+services, +executor]\n"
+        + "interfaces: [std_srvs/srv/SetBool, std_msgs/msg/String]\nlimits: {'*': {string: 9, sequence: 2}}\n",
         "timers": _BOTH + "    timers: [{name: tick, period: 1 s}]\ncomponents: [+timers]\n",
         "timers_ticked": _BOTH
         + "    timers: [{name: a, period: 1 s, kind: rtos}, {name: b, period: 2 s, kind: hardware}]\n"

@@ -92,7 +92,8 @@ rcl_ret_t rclc_executor_add_service(
   static const rclc_handle_kind_t kind = {service_look, service_take, service_call};
   rclc_executor_handle_t * handle;
 
-  if (executor == NULL || service == NULL || request_msg == NULL || response_msg == NULL || callback == NULL) {
+  if (
+    executor == NULL || service == NULL || request_msg == NULL || response_msg == NULL || callback == NULL) {
     return service_refuse_argument();
   }
   handle = service_add(executor, service, request_msg, response_msg, RCLC_SERVICE, &kind);
@@ -110,7 +111,8 @@ rcl_ret_t rclc_executor_add_service_with_request_id(
   static const rclc_handle_kind_t kind = {service_look, service_take, service_call_with_request_id};
   rclc_executor_handle_t * handle;
 
-  if (executor == NULL || service == NULL || request_msg == NULL || response_msg == NULL || callback == NULL) {
+  if (
+    executor == NULL || service == NULL || request_msg == NULL || response_msg == NULL || callback == NULL) {
     return service_refuse_argument();
   }
   handle = service_add(executor, service, request_msg, response_msg, RCLC_SERVICE_WITH_REQUEST_ID, &kind);
@@ -128,7 +130,8 @@ rcl_ret_t rclc_executor_add_service_with_context(
   static const rclc_handle_kind_t kind = {service_look, service_take, service_call_with_context};
   rclc_executor_handle_t * handle;
 
-  if (executor == NULL || service == NULL || request_msg == NULL || response_msg == NULL || callback == NULL) {
+  if (
+    executor == NULL || service == NULL || request_msg == NULL || response_msg == NULL || callback == NULL) {
     return service_refuse_argument();
   }
   handle = service_add(executor, service, request_msg, response_msg, RCLC_SERVICE_WITH_CONTEXT, &kind);

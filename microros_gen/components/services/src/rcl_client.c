@@ -94,9 +94,12 @@ rcl_ret_t rcl_take_response(
   const rcl_client_t * client, rmw_request_id_t * request_header, void * ros_response)
 {
   rmw_service_info_t info;
-  const rcl_ret_t result =
-    rcl_take_response_with_info(client, request_header != NULL ? &info : NULL, ros_response);
+  rcl_ret_t result;
 
+  if (request_header == NULL) {
+    return rcl_take_response_with_info(client, NULL, ros_response);
+  }
+  result = rcl_take_response_with_info(client, &info, ros_response);
   if (result == RCL_RET_OK) {
     *request_header = info.request_id;
   }

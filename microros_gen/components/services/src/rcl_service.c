@@ -94,9 +94,12 @@ rcl_ret_t rcl_take_request(
   const rcl_service_t * service, rmw_request_id_t * request_header, void * ros_request)
 {
   rmw_service_info_t info;
-  const rcl_ret_t result =
-    rcl_take_request_with_info(service, request_header != NULL ? &info : NULL, ros_request);
+  rcl_ret_t result;
 
+  if (request_header == NULL) {
+    return rcl_take_request_with_info(service, NULL, ros_request);
+  }
+  result = rcl_take_request_with_info(service, &info, ros_request);
   if (result == RCL_RET_OK) {
     *request_header = info.request_id;
   }

@@ -21,6 +21,14 @@ static uint32_t replier_get_u32(const uint8_t * at, bool big_endian)
   return big_endian ? first << 16 | second : second << 16 | first;
 }
 
+static int64_t replier_sequence(const xrce_sample_t * sample)
+{
+  const uint32_t high = replier_get_u32(&sample->data[HIGH_AT], sample->big_endian);
+  const uint32_t low = replier_get_u32(&sample->data[LOW_AT], sample->big_endian);
+
+  return (int64_t)((uint64_t)high << 32 | low);
+}
+
 static void replier_put_u32(uint8_t * at, uint32_t value)
 {
   xrce_put_le16(&at[0], (uint16_t)(value & UINT16_MAX));
@@ -79,7 +87,6 @@ rmw_ret_t rmw_replier_take(
   const xrce_endpoint_t * endpoint = service->data;
   xrce_sample_t sample;
   rmw_ret_t result;
-  uint64_t sequence;
 
   *taken = false;
   if (rmw_receiver_report(endpoint)) {
@@ -93,11 +100,9 @@ rmw_ret_t rmw_replier_take(
     microros_error_set(microros_error_service_short, endpoint->name, NULL, sample.size, XRCE_IDENTITY_SIZE);
     return RMW_RET_ERROR;
   }
-  sequence = (uint64_t)replier_get_u32(&sample.data[HIGH_AT], sample.big_endian) << 32;
-  sequence |= replier_get_u32(&sample.data[LOW_AT], sample.big_endian);
   rmw_service_describe(&sample, info);
   (void)memcpy(info->request_id.writer_guid, sample.data, RMW_GID_STORAGE_SIZE);
-  info->request_id.sequence_number = (int64_t)sequence;
+  info->request_id.sequence_number = replier_sequence(&sample);
   result = rmw_service_decode(endpoint, &sample, XRCE_IDENTITY_SIZE, ros_request);
   *taken = result == RMW_RET_OK;
   return result;

@@ -65,6 +65,8 @@ rmw_ret_t rmw_service_report(
       waiting = xrce_route_unacknowledged(endpoint->client);
       microros_error_set(microros_error_service_full, endpoint->name, NULL, waiting, waiting + 1u);
       break;
+    case XRCE_WRITE_NO_SESSION:
+    case XRCE_WRITE_NOT_SENT:
     default:
       microros_error_set(microros_error_service_session, endpoint->name, NULL, 0, 0);
       break;
