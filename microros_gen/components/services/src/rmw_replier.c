@@ -23,10 +23,10 @@ static uint32_t replier_get_u32(const uint8_t * at, bool big_endian)
 
 static int64_t replier_sequence(const xrce_sample_t * sample)
 {
-  const uint32_t high = replier_get_u32(&sample->data[HIGH_AT], sample->big_endian);
-  const uint32_t low = replier_get_u32(&sample->data[LOW_AT], sample->big_endian);
+  const uint64_t high = replier_get_u32(&sample->data[HIGH_AT], sample->big_endian);
+  const uint64_t low = replier_get_u32(&sample->data[LOW_AT], sample->big_endian);
 
-  return (int64_t)((uint64_t)high << 32 | low);
+  return (int64_t)(high << 32 | low);
 }
 
 static void replier_put_u32(uint8_t * at, uint32_t value)
