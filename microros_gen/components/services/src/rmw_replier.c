@@ -25,8 +25,9 @@ static int64_t replier_sequence(const xrce_sample_t * sample)
 {
   const uint64_t high = replier_get_u32(&sample->data[HIGH_AT], sample->big_endian);
   const uint64_t low = replier_get_u32(&sample->data[LOW_AT], sample->big_endian);
+  const uint64_t sequence = high << 32 | low;
 
-  return (int64_t)(high << 32 | low);
+  return (int64_t)sequence;
 }
 
 static void replier_put_u32(uint8_t * at, uint32_t value)
