@@ -201,6 +201,8 @@ class RuntimePlan:
     jump_callbacks_max: int = 0
     has_time_sync: bool = False
     has_discovery: bool = False
+    has_session_state: bool = False
+    has_sleep: bool = False
     discovery_port: int = DISCOVERY_PORT
     fixed_messages: bool = False
 

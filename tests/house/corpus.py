@@ -62,6 +62,10 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "declared": _BOTH
         + "liveliness: acknack\non_full: drop_oldest\nerrors: code\nmemory: {arena: 1024}\nsession: {key: device}\n",
         "best_effort": _NODES + _BEST + "liveliness: none\n",
+        "session_states": _INT32 + "components: [+session_state, +sleep_cycles]\n",
+        "sleep_reader": _READER + _HEARD + _SERIAL + "components: [+sleep_cycles]\n",
+        "sleep_custom": _INT32
+        + "components: [+sleep_cycles, +time_sync]\nliveliness: acknack\ntransport: {type: custom}\n",
         "reliable_creation": _BOTH + "creation: reliable\npools: {input_history: 2}\n",
         "ordered_input": _BOTH + "creation: reliable\n",
         "large": _NODES + _LARGE,
