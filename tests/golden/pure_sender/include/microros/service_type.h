@@ -6,7 +6,8 @@
 #include "microros/message_type.h"
 
 typedef struct microros_service_type_t {
-  const char * dds_type_name; /* "std_srvs::srv::dds_::SetBool_"; with Request_ or Response_ behind, of its messages */
+  const char *
+    dds_type_name; /* "std_srvs::srv::dds_::SetBool_"; with Request_ or Response_ behind, of its messages */
   const microros_message_type_t * request;
   const microros_message_type_t * response;
 } microros_service_type_t;
