@@ -299,8 +299,12 @@ def _check_budget(
             f" (reliable {streams.reliable_slots} x {streams.reliable_slot_size}, best effort"
             f" {streams.best_effort_size}, input {streams.input_size}{f', queues {queues}' if queues else ''})",
             application.memory.ram_span,
-            "Lower pools.history or the limits of the largest message, or raise the budget",
+            f"Lower {_what_is_kept(streams)}the limits of the largest message, or raise the budget",
         )
+
+
+def _what_is_kept(streams: StreamPlan) -> str:
+    return "pools.history or " if streams.reliable_slots > 1 else ""
 
 
 def _agent(transport: Transport, selection: Selection) -> tuple[str, int]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from microros_gen.model.application import DISCOVERY_PORT
+from microros_gen.model.application import DISCOVERY_PORT, MOST_HISTORY
 from microros_gen.model.types import TypeName
 from microros_gen.plan.names import dds_type
 from microros_gen.plan.services import ServicePlan
@@ -348,6 +348,11 @@ class RuntimePlan:
     def reliable_begun(self) -> int:
         """How many messages may be on their way at a time. With drop_oldest one is left that can be dropped."""
         return self.reliable_slots - (1 if self.on_full == "drop_oldest" and self.reliable_slots > 1 else 0)
+
+    @property
+    def history_can_grow(self) -> bool:
+        """Whether `pools: {history: …}` may be larger than it is."""
+        return 0 < self.reliable_slots < MOST_HISTORY
 
     @property
     def reliable_input_mode(self) -> str:

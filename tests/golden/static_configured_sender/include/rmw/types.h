@@ -14,6 +14,10 @@
 #include "rmw/time.h"
 #include "rmw/visibility_control.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define RMW_GID_STORAGE_SIZE 16u
 
 typedef struct rmw_node_s {
@@ -173,5 +177,11 @@ typedef struct rmw_message_info_s {
   rmw_gid_t publisher_gid;
   bool from_intra_process;
 } rmw_message_info_t;
+
+rmw_message_info_t rmw_get_zero_initialized_message_info(void);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif /* MICROROS_RMW_TYPES_H */

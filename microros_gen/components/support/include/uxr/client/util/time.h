@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Time, for the functions of a custom transport. */
+/* Time, under the names of the public XRCE client. */
 #ifndef MICROROS_UXR_CLIENT_UTIL_TIME_H
 #define MICROROS_UXR_CLIENT_UTIL_TIME_H
 
