@@ -185,10 +185,11 @@ def width_flags(unit: Unit) -> tuple[str, ...]:
     return ("-m32",) if unit.source.startswith(bare) else ()
 
 
-def units(trees: Sequence[Tree]) -> list[Unit]:
+def units(trees: Sequence[Tree], is_header_a_difference: bool = True) -> list[Unit]:
     """Return every file of every tree; a file with the text of one in an earlier tree has the key of that one.
 
-    What is rendered from a template counts as another file where the headers that it includes differ.
+    What is rendered from a template counts as another file where the headers that it includes differ, and so does
+    every file where errors are codes; with `is_header_a_difference` false, where its own text differs.
     """
     rendered = {path.name.removesuffix(".j2") for path in components_folder().rglob("*.c.j2")}
 
@@ -207,6 +208,8 @@ def units(trees: Sequence[Tree]) -> list[Unit]:
         for source in tree.sources:
             same = (source, names, (tree.out / source).read_text(encoding="utf-8"))
             identity = (*same, tree.name) if Path(source).name in rendered else same
+            if not is_header_a_difference:
+                identity = (source, same[-1])
             first.setdefault(identity, (tree, source))
             found.append((tree, source, identity))
     with ThreadPoolExecutor(WORKERS) as pool:
