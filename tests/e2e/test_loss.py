@@ -88,7 +88,9 @@ def over_a_line(
     program = image.application(C_FILES / "echo.c", folder / "echo", "-std=c99", "-Wall", "-Werror")
     with (
         LineRelay(device, 115_200, 0.01, count) as line,
-        running_agent(domain, "--domain", str(domain), transport=("serial", "--device", line.agent, "--baud", "115200")),
+        running_agent(
+            domain, "--domain", str(domain), transport=("serial", "--device", line.agent, "--baud", "115200")
+        ),
     ):
         counted = echo(observer, program, count, timeout_s)
         print(f"bytes changed in {line.changed} pieces, missing in {line.missing}")
