@@ -38,6 +38,11 @@ _SAID = (
     "      - {topic: said, type: std_msgs/msg/String, limits: {string: 3000}, queue: 2}\n"
     "      - {topic: word, type: std_msgs/msg/String, limits: {string: 8}}\n"
 )
+_SERVED = (
+    "version: 1\nprofiles: [pure_reader]\ncomponents: [-subscribe, +services, +executor]\nnodes:\n  - name: probe\n"
+    "    services: [{name: set, type: std_srvs/srv/SetBool, limits: {message: 20}}]\n"
+)
+_ASKED = "    clients: [{name: ask, type: std_srvs/srv/SetBool, queue: 2, limits: {message: 9}}]\n"
 _SERIAL = "transport: {type: serial, device: /dev/ttyACM0, baud: 115200}\n"
 
 APPLICATIONS: Mapping[str, str] = MappingProxyType(
@@ -76,6 +81,11 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "reader_reference": _READER + _HEARD + "entities: reference\n",
         "reader_preconfigured": _READER + _HEARD + "entities: preconfigured\nliveliness: none\n",
         "reader_and_sender": _BOTH + "    subscriptions:\n" + _HEARD + "components: [+subscribe]\n",
+        "services": _SERVED + _ASKED,
+        "services_xml": _SERVED + "entities: xml\n",
+        "services_reference": _SERVED.replace("services: [{", "clients: [{") + "entities: reference\n",
+        "services_pool": "version: 1\nprofiles: [pure_reader]\ncomponents: [+services, +executor]\n"
+        + "interfaces: [std_srvs/srv/SetBool, std_msgs/msg/String]\nlimits: {'*': {string: 9, sequence: 2}}\n",
         "timers": _BOTH + "    timers: [{name: tick, period: 1 s}]\ncomponents: [+timers]\n",
         "timers_ticked": _BOTH
         + "    timers: [{name: a, period: 1 s, kind: rtos}, {name: b, period: 2 s, kind: hardware}]\n"
