@@ -37,7 +37,7 @@ static void replier_put_u32(uint8_t * at, uint32_t value)
   xrce_put_le16(&at[2], (uint16_t)(value >> 16));
 }
 
-static rmw_ret_t rmw_replier_opereplier_open(
+static rmw_ret_t replier_open(
   const rmw_node_t * node, const rosidl_service_type_support_t * type_support, const char * name,
   const rmw_qos_profile_t * qos, rmw_service_t ** service)
 {
@@ -65,7 +65,7 @@ rmw_ret_t rmw_replier_open(
   const rmw_node_t * node, const rosidl_service_type_support_t * type_support, const char * name,
   const rmw_qos_profile_t * qos, rmw_service_t ** service)
 {
-  rmw_ret_t rmw_replier_ope result;
+  rmw_ret_t result;
 
   microros_lock();
   result = replier_open(node, type_support, name, qos, service);
@@ -83,14 +83,14 @@ bool rmw_replier_is_open(const rmw_service_t * service)
   return service != NULL && service->data != NULL && rmw_receiver_is_open(service->data);
 }
 
-static bool rmw_replier_is_readreplier_is_ready(const rmw_service_t * service)
+static bool replier_is_ready(const rmw_service_t * service)
 {
   return xrce_read_is_ready(service->data) && xrce_write_reserve(service->data) != NULL;
 }
 
 bool rmw_replier_is_ready(const rmw_service_t * service)
 {
-  bool rmw_replier_is_read result;
+  bool result;
 
   microros_lock();
   result = replier_is_ready(service);
@@ -107,7 +107,7 @@ void rmw_replier_pump(const rmw_service_t * service)
   microros_unlock();
 }
 
-static rmw_ret_t rmw_replier_takreplier_take(
+static rmw_ret_t replier_take(
   const rmw_service_t * service, rmw_service_info_t * info, void * ros_request, bool * taken)
 {
   const xrce_endpoint_t * endpoint = service->data;
@@ -137,7 +137,7 @@ static rmw_ret_t rmw_replier_takreplier_take(
 rmw_ret_t rmw_replier_take(
   const rmw_service_t * service, rmw_service_info_t * info, void * ros_request, bool * taken)
 {
-  rmw_ret_t rmw_replier_tak result;
+  rmw_ret_t result;
 
   microros_lock();
   result = replier_take(service, info, ros_request, taken);
@@ -145,7 +145,7 @@ rmw_ret_t rmw_replier_take(
   return result;
 }
 
-static rmw_ret_t rmw_replier_responreplier_respond(
+static rmw_ret_t replier_respond(
   const rmw_service_t * service, const rmw_request_id_t * request, const void * ros_response)
 {
   const uint64_t sequence = (uint64_t)request->sequence_number;
@@ -164,7 +164,7 @@ static rmw_ret_t rmw_replier_responreplier_respond(
 rmw_ret_t rmw_replier_respond(
   const rmw_service_t * service, const rmw_request_id_t * request, const void * ros_response)
 {
-  rmw_ret_t rmw_replier_respon result;
+  rmw_ret_t result;
 
   microros_lock();
   result = replier_respond(service, request, ros_response);
