@@ -38,6 +38,11 @@ _SAID = (
     "      - {topic: said, type: std_msgs/msg/String, limits: {string: 3000}, queue: 2}\n"
     "      - {topic: word, type: std_msgs/msg/String, limits: {string: 8}}\n"
 )
+_SERVED = (
+    "version: 1\nprofiles: [pure_reader]\ncomponents: [-subscribe, +services, +executor]\nnodes:\n  - name: probe\n"
+    "    services: [{name: set, type: std_srvs/srv/SetBool, limits: {message: 20}}]\n"
+)
+_ASKED = "    clients: [{name: ask, type: std_srvs/srv/SetBool, queue: 2, limits: {message: 9}}]\n"
 _SERIAL = "transport: {type: serial, device: /dev/ttyACM0, baud: 115200}\n"
 
 APPLICATIONS: Mapping[str, str] = MappingProxyType(
@@ -57,6 +62,10 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "declared": _BOTH
         + "liveliness: acknack\non_full: drop_oldest\nerrors: code\nmemory: {arena: 1024}\nsession: {key: device}\n",
         "best_effort": _NODES + _BEST + "liveliness: none\n",
+        "session_states": _INT32 + "components: [+session_state, +sleep_cycles]\n",
+        "sleep_reader": _READER + _HEARD + _SERIAL + "components: [+sleep_cycles]\n",
+        "sleep_custom": _INT32
+        + "components: [+sleep_cycles, +time_sync]\nliveliness: acknack\ntransport: {type: custom}\n",
         "reliable_creation": _BOTH + "creation: reliable\npools: {input_history: 2}\n",
         "ordered_input": _BOTH + "creation: reliable\n",
         "large": _NODES + _LARGE,
@@ -66,6 +75,11 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "reader_reference": _READER + _HEARD + "entities: reference\n",
         "reader_preconfigured": _READER + _HEARD + "entities: preconfigured\nliveliness: none\n",
         "reader_and_sender": _BOTH + "    subscriptions:\n" + _HEARD + "components: [+subscribe]\n",
+        "services": _SERVED + _ASKED,
+        "services_xml": _SERVED + "entities: xml\n",
+        "services_reference": _SERVED.replace("services: [{", "clients: [{") + "entities: reference\n",
+        "services_pool": "version: 1\nprofiles: [pure_reader]\ncomponents: [+services, +executor]\n"
+        + "interfaces: [std_srvs/srv/SetBool, std_msgs/msg/String]\nlimits: {'*': {string: 9, sequence: 2}}\n",
         "timers": _BOTH + "    timers: [{name: tick, period: 1 s}]\ncomponents: [+timers]\n",
         "timers_ticked": _BOTH
         + "    timers: [{name: a, period: 1 s, kind: rtos}, {name: b, period: 2 s, kind: hardware}]\n"
@@ -181,10 +195,11 @@ def width_flags(unit: Unit) -> tuple[str, ...]:
     return ("-m32",) if unit.source.startswith(bare) else ()
 
 
-def units(trees: Sequence[Tree]) -> list[Unit]:
+def units(trees: Sequence[Tree], is_header_a_difference: bool = True) -> list[Unit]:
     """Return every file of every tree; a file with the text of one in an earlier tree has the key of that one.
 
-    What is rendered from a template counts as another file where the headers that it includes differ.
+    What is rendered from a template counts as another file where the headers that it includes differ, and so does
+    every file where errors are codes; with `is_header_a_difference` false, where its own text differs.
     """
     rendered = {path.name.removesuffix(".j2") for path in components_folder().rglob("*.c.j2")}
 
@@ -203,6 +218,8 @@ def units(trees: Sequence[Tree]) -> list[Unit]:
         for source in tree.sources:
             same = (source, names, (tree.out / source).read_text(encoding="utf-8"))
             identity = (*same, tree.name) if Path(source).name in rendered else same
+            if not is_header_a_difference:
+                identity = (source, same[-1])
             first.setdefault(identity, (tree, source))
             found.append((tree, source, identity))
     with ThreadPoolExecutor(WORKERS) as pool:

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* An ordinary application of rclc: a timer publishes on `count`, and the executor spins for ever. */
+/* An ordinary application of rclc: a timer publishes on `count`, and the executor spins for ever. With TICKER_LISTENS it
+ * goes on from the number that came last on `numbers`. */
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>
 #include <rclc/executor.h>
@@ -18,6 +19,15 @@
 static rcl_publisher_t publisher;
 static std_msgs__msg__Int32 message;
 volatile uint32_t ticker_calls;
+#ifdef TICKER_LISTENS
+static rcl_subscription_t subscription;
+static std_msgs__msg__Int32 received;
+
+static void subscription_callback(const void * number)
+{
+  message.data = ((const std_msgs__msg__Int32 *)number)->data;
+}
+#endif
 
 static void timer_callback(rcl_timer_t * timer, int64_t last_call_time)
 {
@@ -41,10 +51,21 @@ int main(void)
   CHECK(rclc_publisher_init_default(
     &publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32), "count"));
   CHECK(rclc_timer_init_default2(&timer, &support, RCL_MS_TO_NS(TICKER_PERIOD_MS), timer_callback, true));
+#ifdef TICKER_LISTENS
+  CHECK(rclc_subscription_init_default(
+    &subscription, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32), "numbers"));
+#endif
   executor = rclc_executor_get_zero_initialized_executor();
-  CHECK(rclc_executor_init(&executor, &support.context, 1, &allocator));
+  CHECK(rclc_executor_init(&executor, &support.context, 2, &allocator));
   CHECK(rclc_executor_add_timer(&executor, &timer));
+#ifdef TICKER_LISTENS
+  CHECK(rclc_executor_add_subscription(
+    &executor, &subscription, &received, subscription_callback, ON_NEW_DATA));
+#endif
   CHECK(rclc_executor_spin(&executor));
+#ifdef TICKER_LISTENS
+  CHECK(rcl_subscription_fini(&subscription, &node));
+#endif
   CHECK(rcl_publisher_fini(&publisher, &node));
   CHECK(rcl_node_fini(&node));
   return 0;

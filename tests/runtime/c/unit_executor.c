@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The executor over timers, subscriptions and guard conditions: 2 executors of 5 handles. */
+#include "microros/rcl_waiting.h"
 #include "port_agent.h"
 #include "types.h"
 #include "unit.h"
@@ -173,6 +174,27 @@ static void test_waits_for_a_timer(void)
     spin(50 * ms) == RCL_RET_OK && agent_now_ns == start + 1050 * ms); /* nothing to run: it rests as well */
   CHECK(rcl_timer_fini(&timer) == RCL_RET_OK);
   end();
+}
+
+/* Nanoseconds to milliseconds, rounded up, without a division of 64 bits: against one. */
+static void test_times_are_rounded_up(void)
+{
+  const int64_t longest = (int64_t)(UINT32_MAX - 1u) * ms;
+
+  for (int64_t near = 1; near <= longest; near = near * 3 + 1) {
+    for (int64_t around = -2; around <= 2; ++around) {
+      const int64_t whole = near / ms * ms + around; /* about a whole number */
+      const int64_t odd = near + around;
+
+      CHECK(whole < 0 || rcl_waiting_begin(whole).timeout_ms == (uint32_t)((whole + ms - 1) / ms));
+      CHECK(odd < 0 || rcl_waiting_begin(odd).timeout_ms == (uint32_t)((odd + ms - 1) / ms));
+    }
+  }
+  CHECK(rcl_waiting_begin(0).timeout_ms == 0u && rcl_waiting_begin(-1).timeout_ms == UINT32_MAX);
+  CHECK(rcl_waiting_begin(longest - ms).timeout_ms == UINT32_MAX - 2u);
+  CHECK(rcl_waiting_begin(longest).timeout_ms == UINT32_MAX - 1u);
+  CHECK(rcl_waiting_begin(longest + 1).timeout_ms == UINT32_MAX);
+  CHECK(rcl_waiting_begin(INT64_MAX).timeout_ms == UINT32_MAX);
 }
 
 static void test_an_ended_entity_is_told(void)
@@ -430,6 +452,7 @@ int main(void)
   test_arguments();
   test_handles_are_counted();
   test_waits_for_a_timer();
+  test_times_are_rounded_up();
   test_an_ended_entity_is_told();
   test_order_is_that_of_adding();
   test_always();

@@ -8,7 +8,7 @@
 bool rmw_receiver_take(
   xrce_endpoint_t * wanted, const rmw_section_t * section, const rmw_name_t * name, const char * given)
 {
-  const char * type = wanted->type->dds_type_name;
+  const char * type = section->dds_type_name;
   const uint16_t end = (uint16_t)(section->first + section->count);
   microros_error_t error = section->undeclared;
 
@@ -20,7 +20,7 @@ bool rmw_receiver_take(
       !microros_text_equals(declared->dds_type, type)) {
       continue;
     }
-    if (!wanted->client->states[MICROROS_NODES_MAX + i].wanted) {
+    if (xrce_place_is_free(&wanted->client->states[MICROROS_NODES_MAX + i])) {
       wanted->name = declared->name;
       wanted->index = i;
       return true;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
 #include "microros/port.h"
+#include "microros/rcl_guard_condition.h"
 #include "microros/rcl_timer.h"
 
 #include <string.h>
@@ -101,10 +102,22 @@ rcl_ret_t rcl_timer_fini(rcl_timer_t * timer)
 {
   if (timer != NULL && timer->impl != NULL) {
     rcl_timer_source_stop(timer->impl);
+    if (timer->impl->guard != NULL) {
+      timer->impl->guard->taken = false;
+    }
     timer->impl->clock = NULL;
     timer->impl = NULL;
   }
   return RCL_RET_OK;
+}
+
+void rcl_timer_wake(rcl_timer_impl_t * timer)
+{
+  timer->woken = true;
+  if (timer->guard != NULL) {
+    timer->guard->came = timer->guard->came + 1u;
+  }
+  port_wake();
 }
 
 rcl_ret_t rcl_timer_reset(rcl_timer_t * timer)
@@ -126,7 +139,7 @@ rcl_ret_t rcl_timer_reset(rcl_timer_t * timer)
   if (impl->canceled) {
     return microros_error_named(RCL_RET_ERROR, microros_error_timer, "the system starts none");
   }
-  port_wake(); /* who waits has to look when this one is due */
+  rcl_timer_wake(impl); /* who waits has to look when this one is due */
   if (impl->on_reset != NULL) {
     impl->on_reset(impl->on_reset_data, 1);
   } else {

@@ -1,6 +1,26 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
+#include "microros/rcl_clock.h"
 #include "microros/rcl_timer.h"
+
+/*
+ * Returns what is left of `time` after whole periods; `period` is not 0. Takes away twofold periods, the largest first: as
+ * many steps as the number of periods has binary digits, and no division of 64 bits in the image.
+ */
+static uint64_t call_rest(uint64_t time, uint64_t period)
+{
+  uint64_t step = period;
+
+  while (step <= time >> 1) {
+    step <<= 1;
+  }
+  for (; step >= period; step >>= 1) {
+    if (time >= step) {
+      time -= step;
+    }
+  }
+  return time;
+}
 
 /* Returns when the next call is due after one that was due at `due`: periods that have gone by are left out. */
 static int64_t call_next(int64_t due, int64_t period, int64_t now)
@@ -10,7 +30,7 @@ static int64_t call_next(int64_t due, int64_t period, int64_t now)
   if (next > now) {
     return next;
   }
-  return period == 0 ? now : next + (1 + (now - next) / period) * period;
+  return period == 0 ? now : now - (int64_t)call_rest((uint64_t)(now - next), (uint64_t)period) + period;
 }
 
 static rcl_ret_t call_now(rcl_timer_t * timer, rcl_timer_call_info_t * call_info)
@@ -83,12 +103,11 @@ rcl_ret_t rcl_timer_get_time_until_next_call(const rcl_timer_t * timer, int64_t 
 }
 
 /* Whether only somebody who sets it changes what the clock says. */
-static bool look_is_set_by_hand(rcl_clock_t * clock)
+static bool look_is_set_by_hand(const rcl_clock_t * clock)
 {
-  bool overridden = false;
+  const rcl_ros_time_t * time = clock->data;
 
-  return clock->type == RCL_ROS_TIME && rcl_is_enabled_ros_time_override(clock, &overridden) == RCL_RET_OK &&
-         overridden;
+  return clock->type == RCL_ROS_TIME && time->active;
 }
 
 rcl_ret_t rcl_timer_look(const rcl_timer_t * timer, bool * is_ready, int64_t * look_again_ns)

@@ -3,27 +3,36 @@
 #include "microros/port.h"
 #include "microros/rcl_timer.h"
 
+/* What was left until the next call, while the clock changes from one time to another. */
+static int64_t jump_credit[MICROROS_TIMERS_MAX];
+
 static bool jump_changes_time(const rcl_time_jump_t * jump)
 {
   return jump->clock_change == RCL_ROS_TIME_ACTIVATED || jump->clock_change == RCL_ROS_TIME_DEACTIVATED;
 }
 
-/* The period goes on in the new time where it was in the old one; a time of 0 is not set, and tells nothing. */
+/*
+ * As Jazzy's rcl: in the new time, as much of the period is over as was left of it in the old one. A time of 0 is not set,
+ * and tells nothing.
+ */
 static void jump_carry_over(rcl_timer_impl_t * timer, int64_t now, bool before_jump)
 {
+  int64_t * credit = &jump_credit[timer - rcl_timers];
+
   if (before_jump) {
-    timer->remaining = now != 0 ? timer->next_call_time - now : 0;
-  } else if (now != 0 && timer->remaining != 0) {
-    timer->next_call_time = now + timer->remaining;
-    timer->last_call_time = timer->next_call_time - timer->period;
-    timer->remaining = 0;
+    *credit = now != 0 ? timer->next_call_time - now : 0;
+  } else if (now != 0 && *credit != 0) {
+    timer->last_call_time = now - *credit;
+    timer->next_call_time = timer->last_call_time + timer->period;
   }
 }
 
-/* Back to before the last call: the period begins again. */
+/* A timer that is due wakes who waits; back to before the last call, its period begins again. */
 static void jump_settle(rcl_timer_impl_t * timer, int64_t now)
 {
-  if (timer->next_call_time > now && now < timer->last_call_time) {
+  if (timer->next_call_time <= now) {
+    rcl_timer_wake(timer);
+  } else if (now < timer->last_call_time) {
     timer->next_call_time = now + timer->period;
     timer->last_call_time = now;
   }

@@ -13,6 +13,13 @@ extern "C" {
 
 typedef rcl_ret_t (*rcl_clock_get_now_t)(void * data, rcl_time_point_value_t * now);
 
+/* What `data` of a ROS clock is. */
+typedef struct rcl_ros_time_t {
+  rcl_time_point_value_t now; /* 0: not set */
+  bool taken;
+  bool active; /* `now` counts, and not the system's time */
+} rcl_ros_time_t;
+
 /* Makes an empty clock of this type; RCL_RET_INVALID_ARGUMENT, with a text, where clock or allocator is NULL. */
 rcl_ret_t rcl_clock_begin(
   rcl_clock_t * clock, rcl_clock_type_t type, rcl_clock_get_now_t get_now, const rcl_allocator_t * allocator);

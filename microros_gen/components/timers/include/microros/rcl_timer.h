@@ -18,19 +18,23 @@ struct rcl_timer_impl_s {
   int64_t period;
   int64_t last_call_time;
   int64_t next_call_time;
-  int64_t remaining;   /* until the next call, while the clock changes from one time to another */
   rcl_clock_t * clock; /* NULL: the place is free */
   rcl_timer_callback_t callback;
   rcl_event_callback_t on_reset;
   const void * on_reset_data;
-  size_t resets; /* that nobody was told of */
+  struct rcl_guard_condition_impl_s * guard; /* NULL: nobody has asked for it */
+  size_t resets;                             /* that nobody was told of */
   bool canceled;
+  bool woken; /* as rcl_timer_wake says, since the timer began */
 };
 
 extern rcl_timer_impl_t rcl_timers[MICROROS_TIMERS_MAX];
 
 /* Returns RCL_RET_OK, RCL_RET_INVALID_ARGUMENT or RCL_RET_TIMER_INVALID, with a text. */
 rcl_ret_t rcl_timer_check(const rcl_timer_t * timer);
+
+/* Wakes who waits for the timer or for its guard condition. */
+void rcl_timer_wake(rcl_timer_impl_t * timer);
 
 /* The clock of timers jumps; called before and after it does. */
 void rcl_timer_on_jump(const rcl_clock_t * clock, const rcl_time_jump_t * jump, bool before_jump);

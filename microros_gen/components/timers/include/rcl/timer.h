@@ -16,6 +16,7 @@
 #include "rcl/allocator.h"
 #include "rcl/context.h"
 #include "rcl/event_callback.h"
+#include "rcl/guard_condition.h"
 #include "rcl/macros.h"
 #include "rcl/time.h"
 #include "rcl/types.h"
@@ -68,7 +69,7 @@ rcl_ret_t rcl_timer_call(rcl_timer_t * timer);
 /* The same, and tells when the call was due and when it came. */
 rcl_ret_t rcl_timer_call_with_info(rcl_timer_t * timer, rcl_timer_call_info_t * call_info);
 
-rcl_ret_t rcl_timer_clock(rcl_timer_t * timer, rcl_clock_t ** clock);
+rcl_ret_t rcl_timer_clock(const rcl_timer_t * timer, rcl_clock_t ** clock);
 
 /* A canceled timer is not ready. */
 rcl_ret_t rcl_timer_is_ready(const rcl_timer_t * timer, bool * is_ready);
@@ -98,6 +99,10 @@ rcl_ret_t rcl_timer_reset(rcl_timer_t * timer);
 
 /* Returns the default allocator, which no timer calls; NULL for an invalid timer. */
 const rcl_allocator_t * rcl_timer_get_allocator(const rcl_timer_t * timer);
+
+/* Returns the timer's guard condition, which belongs to the timer and ends with it: rcl_timer_reset triggers it, and a jump
+ * of ROS time that makes the timer ready. NULL for an invalid timer. */
+rcl_guard_condition_t * rcl_timer_get_guard_condition(const rcl_timer_t * timer);
 
 /* Calls `on_reset_callback` at each rcl_timer_reset, and now for those that were before; NULL ends that. */
 rcl_ret_t rcl_timer_set_on_reset_callback(

@@ -10,20 +10,24 @@ static uint16_t receiver_place(const xrce_endpoint_t * endpoint)
   return (uint16_t)(MICROROS_NODES_MAX + endpoint->index);
 }
 
+rmw_ret_t rmw_receiver_start(const xrce_endpoint_t * wanted)
+{
+  xrce_endpoint_t * place = &wanted->client->endpoints[wanted->index];
+
+  *place = *wanted;
+  xrce_read_open(place);
+  return rmw_place_open(place->client, receiver_place(place), place->name);
+}
+
 rmw_ret_t rmw_receiver_open(
   xrce_endpoint_t * wanted, const rmw_section_t * section, const rmw_name_t * name, const char * given,
   xrce_endpoint_t ** endpoint)
 {
-  xrce_endpoint_t * place;
-
   if (!rmw_receiver_take(wanted, section, name, given)) {
     return RMW_RET_ERROR;
   }
-  place = &wanted->client->endpoints[wanted->index];
-  *place = *wanted;
-  xrce_read_open(place);
-  *endpoint = place;
-  return rmw_place_open(place->client, receiver_place(place), place->name);
+  *endpoint = &wanted->client->endpoints[wanted->index];
+  return rmw_receiver_start(wanted);
 }
 
 void rmw_receiver_close(const xrce_endpoint_t * endpoint)

@@ -36,8 +36,6 @@ const char microros_error_field_bound[] = "%t.%d: %n, and its interface file all
 const char microros_error_field_capacity[] =
   "%t.%d: %n, capacity for %m: raise limits%y, or that of your buffer";
 const char microros_error_field_data[] = "%t.%d has a size, %n, and no data: NULL";
-const char microros_error_stream_full[] =
-  "publisher %s: stream full, %n unacknowledged: raise pools: {history: %m}%y";
 const char microros_error_no_session[] = "publisher %s: no session with the agent";
 const char microros_error_not_sent[] = "publisher %s: the transport takes nothing";
 const char microros_error_arena[] = "no memory for %n bytes: raise memory: {arena: %m}%y";

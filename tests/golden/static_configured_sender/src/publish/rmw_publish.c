@@ -16,8 +16,6 @@ enum { ENCAPSULATION_SIZE = 4, CDR_LITTLE_ENDIAN = 1 };
 static rmw_ret_t publish_report(
   const xrce_endpoint_t * writer, xrce_write_t outcome, const cdr_fault_t * fault)
 {
-  uint32_t waiting;
-
   switch (outcome) {
     case XRCE_WRITTEN:
     case XRCE_WRITE_DROPPED:
@@ -25,8 +23,8 @@ static rmw_ret_t publish_report(
     case XRCE_WRITE_REFUSED:
       return rmw_encode_refuse(writer->type, fault);
     case XRCE_WRITE_FULL:
-      waiting = xrce_route_unacknowledged(writer->client);
-      microros_error_set(microros_error_stream_full, writer->name, NULL, waiting, waiting + 1u);
+      microros_error_set(
+        microros_error_stream_full, writer->name, NULL, xrce_route_unacknowledged(writer->client), 0);
       break;
     case XRCE_WRITE_NO_SESSION:
       microros_error_set(microros_error_no_session, writer->name, NULL, 0, 0);

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The guard condition of a timer, for who waits for it and not for the timer; linked where somebody asks for it. */
+#include "microros/rcl_guard_condition.h"
+#include "microros/rcl_timer.h"
+
+rcl_guard_condition_t * rcl_timer_get_guard_condition(const rcl_timer_t * timer)
+{
+  static rcl_guard_condition_impl_t states[MICROROS_TIMERS_MAX];
+  static rcl_guard_condition_t guards[MICROROS_TIMERS_MAX];
+  rcl_timer_impl_t * impl = timer != NULL ? timer->impl : NULL;
+  size_t index;
+
+  if (impl == NULL || impl->clock == NULL) {
+    return NULL;
+  }
+  index = (size_t)(impl - rcl_timers);
+  if (impl->guard == NULL) {
+    impl->guard = &states[index];
+    impl->guard->taken = true;
+    impl->guard->seen =
+      impl->guard->came - (impl->woken ? 1u : 0u); /* it was triggered before anybody asked */
+    guards[index].impl = impl->guard;
+  }
+  return &guards[index];
+}
