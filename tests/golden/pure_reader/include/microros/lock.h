@@ -20,9 +20,7 @@ static inline void microros_unlock(void)
 /* Waits a millisecond, in which other tasks may have the lock. */
 static inline void microros_pause(void)
 {
-  microros_unlock();
   port_sleep_ms(1);
-  microros_lock();
 }
 
 #ifdef __cplusplus
