@@ -72,14 +72,19 @@ def serve(options: AgentOptions) -> None:
 def open_transports(
     choices: Sequence[TransportChoice], discovery: int | None, log: EventLog, pool: InputPool
 ) -> list[Transport]:
-    """Return open transports, and discovery of them at port `discovery`; UserError names the first that fails.
+    """Return open transports, and discovery of them at port `discovery`; UserError names all that fail.
 
     What they hold of messages that are not complete counts in `pool`.
     """
     opened: list[Transport] = []
-    try:
-        for choice in dict.fromkeys(choices):
+    diagnostics = Diagnostics()
+    for choice in dict.fromkeys(choices):
+        try:
             opened.append(_open(choice, log, pool))
+        except UserError as error:
+            diagnostics.extend(replace(d, span=d.span or choice.span) for d in error.diagnostics)
+    try:
+        diagnostics.check()
         if discovery is not None:
             opened.append(_discovery(opened, log, discovery))
     except UserError:
@@ -150,14 +155,17 @@ def _files(options: AgentOptions) -> _Files:
     """Return what the files say; UserError with the faults of all of them."""
     diagnostics = Diagnostics()
     references, preconfigured = References(), Preconfigured()
-    profiles = read_sources(options.references, diagnostics)
-    entities = read_sources(options.entities, diagnostics)
+    places = options.places
+    profiles = read_sources(options.references, diagnostics, places)
+    entities = read_sources(options.entities, diagnostics, places)
     clients = read_manifests(options.manifests, diagnostics)
     of_files: HashOf = _nobody
     try:
         of_files = type_hashes(options.interface_paths)
     except UserError as error:
-        diagnostics.extend(error.diagnostics)
+        missing = next((path for path in options.interface_paths if not path.exists()), Path())
+        span = places.get(missing)
+        diagnostics.extend(replace(d, span=d.span or span) for d in error.diagnostics)
     try:
         references = read_references(profiles)
     except UserError as error:

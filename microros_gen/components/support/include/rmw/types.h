@@ -81,6 +81,18 @@ typedef struct rmw_subscription_allocation_s {
   void * data;
 } rmw_subscription_allocation_t;
 
+typedef struct rmw_service_s {
+  const char * implementation_identifier;
+  void * data;
+  const char * service_name;
+} rmw_service_t;
+
+typedef struct rmw_client_s {
+  const char * implementation_identifier;
+  void * data;
+  const char * service_name;
+} rmw_client_t;
+
 typedef struct rmw_request_id_s {
   uint8_t writer_guid[RMW_GID_STORAGE_SIZE];
   int64_t sequence_number;

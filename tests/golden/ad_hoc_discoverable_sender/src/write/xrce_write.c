@@ -15,10 +15,18 @@ static bool write_is_reliable(const xrce_endpoint_t * writer)
   return (writer->qos & XRCE_QOS_RELIABLE) != 0u;
 }
 
+/* Returns how many objects a writer, replier or requester has when it is complete. */
+static uint8_t write_complete(const xrce_endpoint_t * writer)
+{
+  return xrce_place_is_service((uint16_t)(MICROROS_NODES_MAX + writer->index))
+           ? (uint8_t)XRCE_SERVICE_COMPLETE
+           : (uint8_t)XRCE_ENDPOINT_COMPLETE;
+}
+
 static bool write_has_session(const xrce_endpoint_t * writer)
 {
   return writer->client->session.state == XRCE_READY &&
-         writer->client->states[MICROROS_NODES_MAX + writer->index].level == XRCE_ENDPOINT_COMPLETE;
+         writer->client->states[MICROROS_NODES_MAX + writer->index].level == write_complete(writer);
 }
 
 uint8_t * xrce_write_reserve(const xrce_endpoint_t * writer)
