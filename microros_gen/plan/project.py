@@ -165,6 +165,7 @@ def plan_project(
         has_discovery=selection.has("discovery"),
         has_session_state=selection.has("session_state"),
         has_sleep=selection.has("sleep_cycles"),
+        multithread=selection.has("multithread"),
         discovery_port=application.transport.discover or DISCOVERY_PORT,
         has_time_sync=selection.has("time_sync"),
         fixed_messages=all(plan.fixed_size for plan in types if plan.wire is not None),

@@ -203,6 +203,7 @@ class RuntimePlan:
     has_discovery: bool = False
     has_session_state: bool = False
     has_sleep: bool = False
+    multithread: bool = False
     discovery_port: int = DISCOVERY_PORT
     fixed_messages: bool = False
 

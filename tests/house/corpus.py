@@ -63,6 +63,12 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "liveliness: acknack\non_full: drop_oldest\nerrors: code\nmemory: {arena: 1024}\nsession: {key: device}\n",
         "best_effort": _NODES + _BEST + "liveliness: none\n",
         "session_states": _INT32 + "components: [+session_state, +sleep_cycles]\n",
+        "threads": _BOTH
+        + "    subscriptions:\n"
+        + _HEARD
+        + "components: [+subscribe, +multithread, +time_sync]\nmemory: {arena: 512}\n",
+        "threads_custom": _INT32
+        + "components: [+executor, +multithread]\nerrors: code\ntransport: {type: custom}\n",
         "sleep_reader": _READER + _HEARD + _SERIAL + "components: [+sleep_cycles]\n",
         "sleep_custom": _INT32
         + "components: [+sleep_cycles, +time_sync]\nliveliness: acknack\ntransport: {type: custom}\n",

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "a63a48d88ef2f252"
-#define rcl_init rcl_init__plan_a63a48d88ef2f252
-#define rclc_support_init rclc_support_init__plan_a63a48d88ef2f252
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_a63a48d88ef2f252
+#define MICROROS_PLAN_ID "bfb24dd24e3e0b12"
+#define rcl_init rcl_init__plan_bfb24dd24e3e0b12
+#define rclc_support_init rclc_support_init__plan_bfb24dd24e3e0b12
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_bfb24dd24e3e0b12
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

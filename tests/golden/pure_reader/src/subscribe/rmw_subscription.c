@@ -2,6 +2,7 @@
 #include "microros/rmw_subscription.h"
 
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_node.h"
 #include "microros/rmw_qos.h"
@@ -62,12 +63,19 @@ bool rmw_subscription_is_open(const rmw_subscription_t * subscription)
 
 bool rmw_subscription_is_ready(const rmw_subscription_t * subscription)
 {
-  return xrce_read_is_ready(subscription->data);
+  bool ready;
+
+  microros_lock();
+  ready = xrce_read_is_ready(subscription->data);
+  microros_unlock();
+  return ready;
 }
 
 void rmw_subscription_pump(const rmw_subscription_t * subscription)
 {
   const xrce_endpoint_t * endpoint = subscription->data;
 
+  microros_lock();
   xrce_session_pump(endpoint->client);
+  microros_unlock();
 }
