@@ -26,7 +26,6 @@ STRICT = (
     *("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion"),
     *("-Wshadow", "-Wmissing-prototypes", "-Werror"),
 )
-)
 
 
 def commands(name: str) -> list[list[str]]:
