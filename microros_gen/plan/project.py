@@ -96,7 +96,7 @@ def plan_project(
 
     `roots` are the messages and `services` the services that an application without `nodes:` can have.
     """
-    name = "+".join(selection.profiles)
+    name = selection.name
     by_name = {plan.name: plan for plan in types}
     nodes, publishers = _declared(application, by_name)
     receiving = plan_receiving(application, selection, by_name, roots, diagnostics)
