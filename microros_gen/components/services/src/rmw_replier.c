@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Service servers. What identifies a request stays with the application until it answers; nothing is kept here. */
+#include "microros/lock.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_node.h"
 #include "microros/rmw_service.h"
@@ -36,7 +37,7 @@ static void replier_put_u32(uint8_t * at, uint32_t value)
   xrce_put_le16(&at[2], (uint16_t)(value >> 16));
 }
 
-rmw_ret_t rmw_replier_open(
+static rmw_ret_t replier_open(
   const rmw_node_t * node, const rosidl_service_type_support_t * type_support, const char * name,
   const rmw_qos_profile_t * qos, rmw_service_t ** service)
 {
@@ -46,7 +47,8 @@ rmw_ret_t rmw_replier_open(
   const rmw_section_t section = {XRCE_REPLIERS_AT - MICROROS_NODES_MAX, MICROROS_SERVICES_MAX,
                                  microros_error_service_undeclared,     microros_error_service_open,
                                  microros_error_services_full,          type->dds_type_name};
-  xrce_endpoint_t wanted = {node->context->impl, type->request, NULL, 0, 0, rmw_node_index(node), 0};
+  xrce_endpoint_t wanted = {
+    .client = node->context->impl, .type = type->request, .participant = rmw_node_index(node)};
   const rmw_ret_t result = rmw_service_open(&wanted, &opened, &section, node, name, qos);
 
   if (result == RMW_RET_OK) {
@@ -60,6 +62,18 @@ rmw_ret_t rmw_replier_open(
   return result;
 }
 
+rmw_ret_t rmw_replier_open(
+  const rmw_node_t * node, const rosidl_service_type_support_t * type_support, const char * name,
+  const rmw_qos_profile_t * qos, rmw_service_t ** service)
+{
+  rmw_ret_t result;
+
+  microros_lock();
+  result = replier_open(node, type_support, name, qos, service);
+  microros_unlock();
+  return result;
+}
+
 void rmw_replier_close(rmw_service_t * service)
 {
   rmw_receiver_close(service->data);
@@ -70,19 +84,31 @@ bool rmw_replier_is_open(const rmw_service_t * service)
   return service != NULL && service->data != NULL && rmw_receiver_is_open(service->data);
 }
 
-bool rmw_replier_is_ready(const rmw_service_t * service)
+static bool replier_is_ready(const rmw_service_t * service)
 {
   return xrce_read_is_ready(service->data) && xrce_write_reserve(service->data) != NULL;
+}
+
+bool rmw_replier_is_ready(const rmw_service_t * service)
+{
+  bool result;
+
+  microros_lock();
+  result = replier_is_ready(service);
+  microros_unlock();
+  return result;
 }
 
 void rmw_replier_pump(const rmw_service_t * service)
 {
   const xrce_endpoint_t * endpoint = service->data;
 
+  microros_lock();
   xrce_session_pump(endpoint->client);
+  microros_unlock();
 }
 
-rmw_ret_t rmw_replier_take(
+static rmw_ret_t replier_take(
   const rmw_service_t * service, rmw_service_info_t * info, void * ros_request, bool * taken)
 {
   const xrce_endpoint_t * endpoint = service->data;
@@ -109,7 +135,18 @@ rmw_ret_t rmw_replier_take(
   return result;
 }
 
-rmw_ret_t rmw_replier_respond(
+rmw_ret_t rmw_replier_take(
+  const rmw_service_t * service, rmw_service_info_t * info, void * ros_request, bool * taken)
+{
+  rmw_ret_t result;
+
+  microros_lock();
+  result = replier_take(service, info, ros_request, taken);
+  microros_unlock();
+  return result;
+}
+
+static rmw_ret_t replier_respond(
   const rmw_service_t * service, const rmw_request_id_t * request, const void * ros_response)
 {
   const uint64_t sequence = (uint64_t)request->sequence_number;
@@ -123,4 +160,15 @@ rmw_ret_t rmw_replier_respond(
   replier_put_u32(&identity[LOW_AT], (uint32_t)(sequence & UINT32_MAX));
   outcome = xrce_service_write(endpoint, XRCE_REQUEST_NONE, identity, ros_response, &fault);
   return rmw_service_report(endpoint, outcome, &fault);
+}
+
+rmw_ret_t rmw_replier_respond(
+  const rmw_service_t * service, const rmw_request_id_t * request, const void * ros_response)
+{
+  rmw_ret_t result;
+
+  microros_lock();
+  result = replier_respond(service, request, ros_response);
+  microros_unlock();
+  return result;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/rmw_service.h"
 #include "rmw_microros/service.h"
 
@@ -13,8 +14,10 @@ rmw_ret_t rmw_uros_get_service_statistics(
   if (!rmw_replier_is_open(service) || statistics == NULL) {
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "service or statistics");
   }
+  microros_lock();
   counted = xrce_read_counters(service->data);
   statistics->dropped = counted.dropped;
   statistics->refused = counted.refused;
+  microros_unlock();
   return RMW_RET_OK;
 }

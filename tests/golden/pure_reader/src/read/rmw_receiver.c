@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rmw_receiver.h"
 
+#include "microros/lock.h"
 #include "microros/rmw_node.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_read.h"
@@ -23,16 +24,22 @@ rmw_ret_t rmw_receiver_open(
   xrce_endpoint_t * wanted, const rmw_section_t * section, const rmw_name_t * name, const char * given,
   xrce_endpoint_t ** endpoint)
 {
-  if (!rmw_receiver_take(wanted, section, name, given)) {
-    return RMW_RET_ERROR;
+  rmw_ret_t result = RMW_RET_ERROR;
+
+  microros_lock();
+  if (rmw_receiver_take(wanted, section, name, given)) {
+    *endpoint = &wanted->client->endpoints[wanted->index];
+    result = rmw_receiver_start(wanted);
   }
-  *endpoint = &wanted->client->endpoints[wanted->index];
-  return rmw_receiver_start(wanted);
+  microros_unlock();
+  return result;
 }
 
 void rmw_receiver_close(const xrce_endpoint_t * endpoint)
 {
+  microros_lock();
   rmw_place_close(endpoint->client, receiver_place(endpoint));
+  microros_unlock();
 }
 
 bool rmw_receiver_is_open(const xrce_endpoint_t * endpoint)
