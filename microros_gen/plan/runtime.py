@@ -141,6 +141,7 @@ class RuntimePlan:
     `timers_max`, `executors_max` with `handles_max` each, `guard_conditions_max`, `wait_sets_max`, `ros_clocks_max`,
     `jump_callbacks_max`: places of each; 0 timers, executors or clocks: the component is not selected.
     `fixed_messages`: no message that is sent has a string or sequence.
+    `hard_liveliness_ms`: after so long without a message of the client its agent gives it up; 0: as the agent likes.
     `error_text_size` 0: codes only. `best_effort_size` 0 or `reliable_slots` 0: there is no such stream.
     """
 
@@ -204,6 +205,7 @@ class RuntimePlan:
     has_session_state: bool = False
     has_sleep: bool = False
     multithread: bool = False
+    hard_liveliness_ms: int = 0
     discovery_port: int = DISCOVERY_PORT
     fixed_messages: bool = False
 

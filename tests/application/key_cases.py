@@ -255,6 +255,14 @@ _TOP = {
         "1:10",
         "'session' must be a mapping of keys and values; it is 3",
     ),
+    "session.hard_liveliness": KeyCase(
+        "session: {hard_liveliness: 10 s}",
+        lambda a: a.hard_liveliness_ms,
+        10_000,
+        "session: {hard_liveliness: 20 ms}",
+        "1:28",
+        "'session.hard_liveliness' must be between 100 ms and 999 s; it is 20 ms",
+    ),
     "session.key": KeyCase(
         "session: {key: 0xAABBCCDD}",
         lambda a: a.session_key,
