@@ -27,9 +27,21 @@ def topic(name: str) -> str:
 
 # The topic stands in column 26 of line 3.
 ERRORS: dict[str, tuple[str, str]] = {
+    "hard liveliness of a moment": (
+        "session: {hard_liveliness: 20 ms}\n",
+        "f:1:28: error: 'session.hard_liveliness' must be between 100 ms and 999 s; it is 20 ms",
+    ),
+    "hard liveliness of an hour": (
+        "session: {hard_liveliness: 3600 s}\n",
+        "f:1:28: error: 'session.hard_liveliness' must be between 100 ms and 999 s; it is 3600 s",
+    ),
     "unknown key": (
         "profles: [a]\n",
         "f:1:1: error: the file has no key 'profles'. Did you mean 'profiles'?",
+    ),
+    "a deadline below a millisecond": (
+        f"{NODE}    publishers: [{{topic: a, type: std_msgs/msg/Bool, qos: {{deadline: 1500 us}}}}]\n",
+        "f:3:70: error: XRCE carries a deadline in whole milliseconds, up to 4294966 s; it is 1500 us. Round it up",
     ),
     "unknown key, nothing near": (
         "xyzzy: 1\n",
