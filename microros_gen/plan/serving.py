@@ -134,7 +134,7 @@ def _plan(
                     tuple(buffers_of(type_.message, messages)),
                 )
             )
-    return ServicePlan(kind, index, node, name, service, limited, tuple(stored))
+    return ServicePlan(kind, index, node, name, service, limited, tuple(stored), endpoint.given)
 
 
 def _pooled(

@@ -83,6 +83,12 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "reader_reference": _READER + _HEARD + "entities: reference\n",
         "reader_preconfigured": _READER + _HEARD + "entities: preconfigured\nliveliness: none\n",
         "reader_and_sender": _BOTH + "    subscriptions:\n" + _HEARD + "components: [+subscribe]\n",
+        "remapped": _BOTH.replace("best_effort}", "best_effort, lifespan: 1 s}").replace(
+            "name: probe", "name: probe\n    remap: {fast: quick, __ns: /left}"
+        )
+        + "    subscriptions:\n"
+        + _HEARD
+        + "components: [+subscribe]\n",
         "services": _SERVED + _ASKED,
         "services_xml": _SERVED + "entities: xml\n",
         "services_reference": _SERVED.replace("services: [{", "clients: [{") + "entities: reference\n",
