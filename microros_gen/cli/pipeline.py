@@ -23,6 +23,7 @@ from microros_gen.plan.declared import declarations, full_name, node_name, type_
 from microros_gen.plan.project import Project, plan_project
 from microros_gen.plan.streams import DEFAULT_MTU, WRITE_DATA_OVERHEAD
 from microros_gen.plan.types import plan_types
+from microros_gen.resolve.clock import CLOCK_ROS, with_clock
 from microros_gen.resolve.interfaces import InterfaceSet, resolve_interfaces, split_type_name
 from microros_gen.resolve.profiles import resolve_profiles
 from microros_gen.resolve.selection import check_ready, resolve_selection
@@ -119,6 +120,12 @@ def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
     )
     diagnostics.check()
     own = tuple(p for p in profiles.profiles.values() if not p.builtin)
+    application = request.application
+    if selection.serves_only("subscribe", CLOCK_ROS) and not selection.has("publish"):
+        application = replace(
+            application, interfaces=tuple(i for i in application.interfaces if i != Named(DEFAULT_INTERFACE))
+        )
+    request = replace(request, application=with_clock(application, selection))
     return Resolved(request, own, catalogue, selection)
 
 
@@ -140,7 +147,7 @@ def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Dia
         selection,
         resolved.request.target,
         types,
-        _published(interfaces),
+        _published(interfaces, application),
         diagnostics,
     )
     diagnostics.check()
@@ -246,8 +253,8 @@ def _named(values: Iterable[str], option: str) -> tuple[Named, ...]:
 def _requested(application: Application) -> tuple[Named, ...]:
     declared = tuple(
         Named(_of_kind(endpoint), endpoint.type_span or endpoint.span)
-        for node in application.nodes
-        for endpoint in node.endpoints
+        for endpoints in (*(node.endpoints for node in application.nodes), application.implied)
+        for endpoint in endpoints
     )
     return declared + application.interfaces
 
@@ -261,7 +268,7 @@ def _interfaces(resolved: Resolved, finder: InterfaceFinder, diagnostics: Diagno
     requested = _requested(application)
     interfaces = resolve_interfaces(requested, finder, diagnostics)
     diagnostics.check()
-    if application.nodes or _published(interfaces) or not resolved.selection.has("publish"):
+    if application.nodes or _published(interfaces, application) or not resolved.selection.has("publish"):
         return interfaces
     diagnostics.warning(
         f"there is no message to publish among the interfaces, so {DEFAULT_INTERFACE} is added",
@@ -279,9 +286,15 @@ def _of_kind(endpoint: EndpointDecl) -> str:
     return endpoint.type if name is None else str(name)
 
 
-def _published(interfaces: InterfaceSet) -> tuple[TypeName, ...]:
-    """Return the requested types that publishers can have: messages, not what services and actions exchange."""
-    return tuple(name for name in interfaces.roots if name.kind == "msg")
+def _published(interfaces: InterfaceSet, application: Application) -> tuple[TypeName, ...]:
+    """Return the requested types that publishers can have: messages, not what services and actions exchange.
+
+    What the library alone asked for is not among them.
+    """
+    asked = {named.name for named in application.interfaces}
+    own = {type_name(e.type) for e in application.implied if e.type not in asked}
+    own = {name for name in own if name.package not in asked}
+    return tuple(name for name in interfaces.roots if name.kind == "msg" and name not in own)
 
 
 def _capacities(resolved: Resolved, interfaces: InterfaceSet, diagnostics: Diagnostics) -> Capacities:
@@ -312,9 +325,11 @@ def _received(application: Application, selection: Selection, capacities: Capaci
     if decoding is None:
         return ()
     by_entities = all(reason.startswith("needed by ") for reason in decoding.reasons)
-    if not by_entities or not application.nodes or selection.has("services"):
+    of_the_clock = selection.serves_only("subscribe", CLOCK_ROS)
+    if not by_entities or not (application.nodes or of_the_clock) or selection.has("services"):
         return tuple(capacities.limits)
     subscribed = {type_name(e.type) for _, _, e in declarations(application, "subscription")}
+    subscribed |= {type_name(e.type) for e in application.implied}
     return tuple(name for name in capacities.limits if name in subscribed)
 
 

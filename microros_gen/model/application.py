@@ -92,6 +92,7 @@ class EndpointDecl:
 
     `topic` holds the service's name for the latter two. {node} and {ns} in it are replaced. `queue`: how many samples
     wait on the device at most until they are taken; None: follows from the depth. Publishers have none.
+    `of_the_library`: nobody declared it, and the library itself opens it.
     """
 
     kind: str
@@ -103,6 +104,7 @@ class EndpointDecl:
     type_span: Span | None = None
     topic_span: Span | None = None
     queue: int | None = None
+    of_the_library: bool = False
 
 
 @dataclass(frozen=True)
@@ -209,7 +211,8 @@ class Application:
 
     `pools` count entities where no nodes are given. `creation` (best_effort, reliable) is the stream of CREATE; None:
     best effort. `logging` (console, callback, rosout) and `clock`
-    (steady, ros) are axes like `entities` and `liveliness`. `spans` holds the places of top-level keys and of
+    (steady, ros) are axes like `entities` and `liveliness`. `implied` are the endpoints of the library itself where
+    there are no nodes (with nodes they stand among their endpoints). `spans` holds the places of top-level keys and of
     the keys of `pools` (as `pools.history`), for later steps.
     """
 
@@ -233,4 +236,5 @@ class Application:
     logging: Named | None = None
     clock: Named | None = None
     tasks: tuple[TaskDecl, ...] = ()
+    implied: tuple[EndpointDecl, ...] = ()
     spans: Mapping[str, Span] = field(default_factory=dict)

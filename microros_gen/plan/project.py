@@ -24,6 +24,7 @@ from microros_gen.plan.runtime import DISCOVERY_GROUP, NodePlan, PublisherPlan, 
 from microros_gen.plan.streams import Received, StreamPlan, Written, plan_streams
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_own_limits import LimitSet
+from microros_gen.resolve.clock import CLOCK_ROS
 
 SESSION_ID = 0x81
 DEFAULT_NAME_SIZE = 64
@@ -95,8 +96,11 @@ def plan_project(
     by_name = {plan.name: plan for plan in types}
     nodes, publishers = _declared(application, by_name)
     receiving = plan_receiving(application, selection, by_name, roots, diagnostics)
-    running = plan_running(application, selection, receiving.subscriptions_max, diagnostics)
-    create = _create_size(application, selection, nodes, (*publishers, *receiving.subscriptions), roots)
+    running = plan_running(
+        application, selection, receiving.subscriptions_max - int(selection.has(CLOCK_ROS)), diagnostics
+    )
+    names = (*roots, *(type_name(e.type) for e in application.implied))
+    create = _create_size(application, selection, nodes, (*publishers, *receiving.subscriptions), names)
     streams = _streams(application, selection, by_name, roots, create, receiving.received, diagnostics)
     agent = _agent(application.transport, selection)
     runtime = RuntimePlan(
@@ -128,7 +132,7 @@ def plan_project(
         else "",
         serial_baud=application.transport.baud,
         framing=_FRAMING[application.transport.framing],
-        type_name_size=0 if nodes else _longest_type(roots) + 1,
+        type_name_size=0 if nodes else _longest_type(names) + 1,
         creation_size=streams.creation_size,
         subscriptions=receiving.subscriptions,
         subscriptions_max=receiving.subscriptions_max,
@@ -144,6 +148,7 @@ def plan_project(
         has_discovery=selection.has("discovery"),
         discovery_port=application.transport.discover or DISCOVERY_PORT,
         has_time_sync=selection.has("time_sync"),
+        has_ros_time=selection.has(CLOCK_ROS),
         fixed_messages=all(plan.fixed_size for plan in types if plan.wire is not None),
         reassembly_size=streams.reassembly_size,
         fragments=streams.fragments,

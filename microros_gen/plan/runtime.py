@@ -138,6 +138,7 @@ class RuntimePlan:
     header; 0: none does.
     `timers_max`, `executors_max` with `handles_max` each, `guard_conditions_max`, `wait_sets_max`, `ros_clocks_max`,
     `jump_callbacks_max`: places of each; 0 timers, executors or clocks: the component is not selected.
+    `has_ros_time`: the first subscription is that of /clock, which the library opens itself.
     `fixed_messages`: no message that is sent has a string or sequence.
     `error_text_size` 0: codes only. `best_effort_size` 0 or `reliable_slots` 0: there is no such stream.
     """
@@ -196,6 +197,7 @@ class RuntimePlan:
     ros_clocks_max: int = 0
     jump_callbacks_max: int = 0
     has_time_sync: bool = False
+    has_ros_time: bool = False
     has_discovery: bool = False
     discovery_port: int = DISCOVERY_PORT
     fixed_messages: bool = False
@@ -204,6 +206,11 @@ class RuntimePlan:
     def has_subscriptions(self) -> bool:
         """Whether `subscribe` is selected."""
         return self.subscriptions_max > 0
+
+    @property
+    def application_subscriptions(self) -> int:
+        """Places of subscriptions that the application opens: the last ones."""
+        return self.subscriptions_max - (1 if self.has_ros_time else 0)
 
     @property
     def has_timers(self) -> bool:

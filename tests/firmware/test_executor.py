@@ -42,7 +42,9 @@ def test_a_timer_publishes_under_the_executor(builds: Builds, kind: str) -> None
 
 
 @pytest.mark.parametrize(
-    ("listens", "text", "ram"), [(False, 11300, 1300), (True, 15000, 1700)], ids=["talks", "talks-and-listens"]
+    ("listens", "text", "ram"),
+    [(False, 11300, 1300), (True, 15000, 1700)],
+    ids=["talks", "talks-and-listens"],
 )
 def test_its_size(builds: Builds, listens: bool, text: int, ram: int) -> None:
     """Publisher, timer, executor, and a subscription (the goal of image 2: 15,000 and 3,000); `errors: code`."""
