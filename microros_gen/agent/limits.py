@@ -22,6 +22,8 @@ class Limits:
     """What waits for a reliable stream to the client, beyond the window of 16 messages."""
     requests: int = 1_024
     """Requests without a reply of each requester and replier; the oldest is forgotten for one more."""
+    request_wait_s: float = 5.0
+    """Seconds that a request waits for its service to be there; then it is dropped, counted and told."""
     messages_per_second: int = 50_000
     """Messages that are taken from one client in a second; further ones are dropped and counted."""
     strangers_per_second: int = 2_000

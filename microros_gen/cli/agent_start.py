@@ -48,12 +48,14 @@ def serve(options: AgentOptions) -> None:
         log.emit(Level.WARNING, "type_hash_differs", text, type=name)
     transports = open_transports(options.transports, options.discovery, log)
     try:
-        bridge = open_bridge(options.limits.domains, options.domain, files.hashes, graph_reporter(log))
+        limits = options.limits
+        report, wait_s = graph_reporter(log), limits.request_wait_s
+        bridge = open_bridge(limits.domains, options.domain, files.hashes, report, wait_s)
     except UserError:
         _close(transports)
         raise
     manifests = Manifests(files.clients.by_client)
-    agent = Agent(bridge, log, options.limits, files.references, files.preconfigured, manifests=manifests)
+    agent = Agent(bridge, log, limits, files.references, files.preconfigured, manifests=manifests)
     if options.verbose:
         transports = [TracedTransport(transport, log) for transport in transports]
     server = Server(agent, transports, log)

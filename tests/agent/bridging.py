@@ -62,13 +62,15 @@ class Bridged:
 
 
 @contextmanager
-def opened(domain: int, hash_of: HashOf | None = None, maximum_domains: int = 4) -> Iterator[Bridged]:
+def opened(
+    domain: int, hash_of: HashOf | None = None, maximum_domains: int = 4, request_wait_s: float = 5.0
+) -> Iterator[Bridged]:
     """Open a bridge that keeps to this machine."""
     reports: list[GraphReport] = []
     with pytest.MonkeyPatch.context() as patch:
         for name, value in environment(domain).items():
             patch.setenv(name, value)
-        bridge = open_bridge(maximum_domains, None, hash_of, reports.append)
+        bridge = open_bridge(maximum_domains, None, hash_of, reports.append, request_wait_s)
         try:
             yield Bridged(bridge, domain, reports)
         finally:

@@ -191,6 +191,12 @@ class _Peer:
         self._services.append((service_class, handle, hold, []))
         return True
 
+    def stop_serving(self) -> bool:
+        for _, handle, _, _ in self._services:
+            handle.destroy_when_not_in_use()
+        self._services.clear()
+        return True
+
     def _answer(self, service_class: Any, handle: Any, hold: int, held: list[Any]) -> None:
         while (taken := handle.service_take_request(service_class.Request))[0] is not None:
             held.append(taken)
@@ -234,8 +240,13 @@ class _Peer:
         ]
 
     def node(self, node: str, namespace: str) -> list[Any]:
-        services = self._node.get_service_names_and_types_by_node(node, namespace)
-        return [services, self._node.get_client_names_and_types_by_node(node, namespace)]
+        from rclpy.node import NodeNameNonExistentError
+
+        try:
+            services = self._node.get_service_names_and_types_by_node(node, namespace)
+            return [services, self._node.get_client_names_and_types_by_node(node, namespace)]
+        except NodeNameNonExistentError:  # it has left since somebody saw it
+            return [[], []]
 
 
 def _load(type_name: str) -> Any:

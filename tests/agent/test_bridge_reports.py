@@ -20,7 +20,9 @@ from microros_gen.agent.ros.bridge import (
     HashUnknown,
     Incompatible,
     Matched,
+    NoClient,
     NoServer,
+    ServerFound,
     TypeMismatch,
 )
 from microros_gen.agent.ros.reports import graph_reporter
@@ -126,7 +128,9 @@ def test_a_type_without_definition_is_told_once() -> None:
         (HashMismatch("/n", "/t [a/msg/B]", "RIHS01_0", "/o", "RIHS01_1"), "warning", "type_hash_mismatch"),
         (TypeMismatch("/n", "/t [a/msg/B]", "/o", "a/msg/C"), "warning", "type_mismatch"),
         (HashUnknown("a/msg/B"), "warning", "type_hash_unknown"),
-        (NoServer("/n", "/s [a/srv/B]"), "warning", "no_server"),
+        (NoServer("/n", "/s [a/srv/B]", "gone", 1), "warning", "no_server"),
+        (ServerFound("/n", "/s [a/srv/B]", 1), "info", "server_found"),
+        (NoClient("/n", "/s [a/srv/B]", 1), "info", "no_client"),
     ],
 )
 def test_reports_in_the_log(told: Any, level: str, event: str) -> None:
@@ -136,4 +140,4 @@ def test_reports_in_the_log(told: Any, level: str, event: str) -> None:
     assert (line["level"], line["event"], line["message"]) == (level, event, str(told))
     out = io.StringIO()
     graph_reporter(EventLog(out))(told)
-    assert out.getvalue() == ("" if level == "debug" else f"{level}: {told}\n")
+    assert out.getvalue() == {"debug": "", "info": f"{told}\n"}.get(level, f"{level}: {told}\n")

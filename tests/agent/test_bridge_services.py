@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import io
 import time
 
 import pytest
@@ -17,9 +18,11 @@ from agent.bridging import (
     types_body,
 )
 from agent.observer import Observer
+from microros_gen.agent.log import EventLog
 from microros_gen.agent.ros import services
-from microros_gen.agent.ros.bridge import BridgeError, NoServer
-from microros_gen.agent.ros.services import HELD_BYTES, HELD_REQUESTS
+from microros_gen.agent.ros.bridge import BridgeError, NoClient, NoServer, ServerFound
+from microros_gen.agent.ros.reports import graph_reporter
+from microros_gen.agent.ros.services import HELD_BYTES, HELD_CALLS
 
 pytestmark = pytest.mark.ros
 
@@ -86,37 +89,76 @@ def test_a_big_endian_request_is_understood(bridged: Bridged, bridge_observer: O
 
 
 def test_requests_wait_for_a_service_that_comes_later(bridged: Bridged, bridge_observer: Observer) -> None:
+    """Of too many the last are lost, by name; nobody's reply is given to another."""
     node = bridged.bridge.create_node("early", bridged.domain)
     requester = node.create_requester(get_types("later"))
-    with pytest.raises(BridgeError, match="nobody serves it"):
-        requester.request(names_body(["n" * HELD_BYTES]))
-    numbers = [requester.request(names_body(["n" * i])) for i in range(HELD_REQUESTS)]
-    with pytest.raises(BridgeError, match="nobody serves it"):
-        requester.request(names_body([]))
+    requester.request(names_body(["n" * HELD_BYTES]))
+    numbers = [requester.request(names_body(["n" * i])) for i in range(HELD_CALLS)]
+    requester.request(names_body([]))
+    crowded = "nobody serves it, and too many wait already"
+    label = f"/later [{GET_TYPES}]"
+    assert lost(bridged, "/early") == [NoServer("/early", label, crowded, count) for count in (1, 2)]
     bridge_observer.ask(do="serve", service="/later", type=GET_TYPES, hold=1)
-    replies = bridged.take(requester, HELD_REQUESTS)
+    replies = bridged.take(requester, HELD_CALLS)
     assert {number: read_types(reply) for number, reply in replies} == {n: [i] for i, n in enumerate(numbers)}
+    assert ServerFound("/early", label, 2) in bridged.reports
     node.destroy()
 
 
-def test_requests_that_nobody_serves_are_dropped_and_numbers_stay_true(
-    bridged: Bridged, bridge_observer: Observer, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def lost(bridged: Bridged, node: str) -> list[NoServer]:
+    return [told for told in bridged.reports if isinstance(told, NoServer) and told.node == node]
+
+
+def test_a_service_that_goes_and_comes_again(bridged: Bridged, bridge_observer: Observer) -> None:
+    """What is asked meanwhile waits, or is lost by name: ROS 2 would take it, and tell nobody."""
     node = bridged.bridge.create_node("patient", bridged.domain)
     requester = node.create_requester(get_types("absent"))
-    monkeypatch.setattr(services, "WAIT_FOR_SERVER_S", 0.05)
-    first = requester.request(names_body(["lost"]))
-    bridged.wait(lambda: NoServer("/patient", f"/absent [{GET_TYPES}]") in bridged.reports)
-    monkeypatch.setattr(services, "WAIT_FOR_SERVER_S", 10.0)
+    requester._wait_s = 0.05  # type: ignore[attr-defined]
+    requester.request(names_body(["lost"]))
+    bridged.wait(lambda: lost(bridged, "/patient"))
+    requester._wait_s = 30.0  # type: ignore[attr-defined]
     second = requester.request(names_body(["four"]))
-    assert second != first
     bridge_observer.ask(do="serve", service="/absent", type=GET_TYPES, hold=1)
     [(number, reply)] = bridged.take(requester, 1)
     assert (number, read_types(reply)) == (second, [4])
+    bridge_observer.ask(do="stop_serving")
+    bridged.wait(lambda: not requester.find_server())
+    requester._wait_s = 0.05  # type: ignore[attr-defined]
+    requester.request(names_body(["lost"]))
+    bridged.wait(lambda: len(lost(bridged, "/patient")) == 2)
+    requester._wait_s = 30.0  # type: ignore[attr-defined]
     third = requester.request(names_body(["fives"]))
+    bridge_observer.ask(do="serve", service="/absent", type=GET_TYPES, hold=1)
     [(number, reply)] = bridged.take(requester, 1)
     assert (number, read_types(reply)) == (third, [5])
+    bridge_observer.ask(do="stop_serving")
+    bridged.wait(lambda: not requester.find_server())
+    requester.request(names_body(["its client leaves"]))
     node.destroy()
+    label = f"/absent [{GET_TYPES}]"
+    reasons = ["nobody served it for 0.05 s"] * 2 + ["nobody served it, and then its client left"]
+    assert lost(bridged, "/patient") == [NoServer("/patient", label, reason, 1) for reason in reasons]
+    assert bridged.reports.count(ServerFound("/patient", label, 1)) == 2
+
+
+def test_what_is_lost_is_told_once_and_counted() -> None:
+    text = io.StringIO()
+    log = EventLog(text)
+    report = graph_reporter(log)
+    for lost in (1, 2, 3):
+        report(NoServer("/n", "/s [T]", "nobody served it for 5 s", lost))
+        report(NoClient("/n", "/r [T]", lost))
+    report(ServerFound("/n", "/s [T]", 3))
+    report(NoServer("/n", "/s [T]", "nobody served it for 5 s", 1))
+    assert text.getvalue().splitlines() == [
+        "warning: client /s [T] of /n: a request was dropped: nobody served it for 5 s"
+        " (further ones are only counted, until somebody does)",
+        "service /r [T] of /n: a reply was dropped: the client that asked is gone (further ones are only counted)",
+        "client /s [T] of /n: it is served now; 3 requests were dropped before",
+        "warning: client /s [T] of /n: a request was dropped: nobody served it for 5 s"
+        " (further ones are only counted, until somebody does)",
+    ]
+    assert log.counters == {"no_server": 4, "no_client": 3}
 
 
 def test_services_of_the_graph(bridged: Bridged, bridge_observer: Observer) -> None:
@@ -136,8 +178,8 @@ def test_services_of_the_graph(bridged: Bridged, bridge_observer: Observer) -> N
     bridge_observer.see(lambda g: "/robot/services" not in g["nodes"])
 
 
-def test_a_client_that_vanished_is_waited_for_once(bridged: Bridged) -> None:
-    """ROS 2 waits 100 ms for a client that it does not know; many replies to one that is gone must not add up."""
+def test_a_client_that_vanished_holds_nobody_up(bridged: Bridged, monkeypatch: pytest.MonkeyPatch) -> None:
+    """ROS 2 waits 100 ms for a client that it does not know: it is not asked to before the graph has the client."""
     node = bridged.bridge.create_node("forsaken", bridged.domain)
     asker = bridged.bridge.create_node("leaving", bridged.domain)
     replier = node.create_replier(get_types("forsaken"))
@@ -149,18 +191,23 @@ def test_a_client_that_vanished_is_waited_for_once(bridged: Bridged) -> None:
     bridged.wait_for(0.2)
     identities = [identity for identity, _ in iter(replier.take, None)]
     assert len(identities) == 5
+    monkeypatch.setattr(services, "WAIT_FOR_CLIENT_S", 0.3)
     start = time.monotonic()
     for identity in identities:
-        with pytest.raises(BridgeError, match="not there to receive it"):
-            replier.reply(identity, types_body([1]))
-    assert time.monotonic() - start < 0.35
+        replier.reply(identity, types_body([1]))
+    assert time.monotonic() - start < 0.09
+    gone = [NoClient("/forsaken", f"/forsaken [{GET_TYPES}]", lost) for lost in range(1, 6)]
+    bridged.wait(lambda: [told for told in bridged.reports if isinstance(told, NoClient)] == gone)
     # Who was only not discovered in time is answered as soon as the graph has it.
     asker = bridged.bridge.create_node("staying", bridged.domain)
     requester = asker.create_requester(get_types("forsaken"))
     number = requester.request(names_body(["abc"]))
     [(identity, _)] = bridged.take(replier, 1)
-    replier._vanished[identity[:16]] = None  # type: ignore[attr-defined]
+    monkeypatch.setattr(services, "WAIT_FOR_CLIENT_S", 30)
+    monkeypatch.setattr(replier, "_clients", set)
     replier.reply(identity, types_body([3]))
+    assert not bridged.named()
+    monkeypatch.undo()
     assert [(n, read_types(reply)) for n, reply in bridged.take(requester, 1)] == [(number, [3])]
     asker.destroy()
     node.destroy()
@@ -174,9 +221,8 @@ def test_what_cannot_be_answered_or_asked_is_said(bridged: Bridged) -> None:
     for send in (requester.request, lambda message: replier.reply(bytes(24), message)):
         with pytest.raises(BridgeError, match="no encapsulation"):
             send(b"\0\1")
-    replier.destroy()
-    requester.destroy()
-    replier.destroy()
+    for dropped in (replier, requester, replier):
+        dropped.destroy()
     for send in (requester.request, lambda message: replier.reply(bytes(24), message)):
         with pytest.raises(BridgeError, match="is gone"):
             send(types_body([]))

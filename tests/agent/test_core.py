@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import time
 
 import pytest
 
@@ -402,6 +403,16 @@ def test_timestamp() -> None:
     )
     assert received <= sent < received + 10**9
     assert int.from_bytes(raw[8:12], "little") > 1_600_000_000
+
+
+@pytest.mark.parametrize("year_2038", [0x7FFF_FFFF, 0x8000_0000, 0xFFFF_FFFF, 0x1_0000_0000])
+def test_timestamps_after_2038_go_on_modulo_2_32(monkeypatch: pytest.MonkeyPatch, year_2038: int) -> None:
+    bench = connected()
+    monkeypatch.setattr(time, "time_ns", lambda: year_2038 * 10**9 + 5)
+    (answer,) = bench.say("81 00 00 00 0e 01 08 00 ff ff ff ff 05 06 07 08")
+    moment = (year_2038 & 0xFFFF_FFFF).to_bytes(4, "little") + bytes((5, 0, 0, 0))
+    assert bytes.fromhex(answer)[8:] == moment * 2 + bytes.fromhex("ff ff ff ff 05 06 07 08")
+    assert not bench.log.counters
 
 
 # The agent's own reliable stream

@@ -40,7 +40,7 @@ class TimedAgent(FakeAgent):
 
 
 def moment(nanoseconds: int, order: str = "<") -> bytes:
-    return struct.pack(f"{order}iI", nanoseconds // 10**9, nanoseconds % 10**9)
+    return struct.pack(f"{order}II", nanoseconds // 10**9, nanoseconds % 10**9)
 
 
 def answer(transmit: bytes, receive: bytes, originate: bytes, flags: int = 1) -> bytes:
@@ -76,7 +76,7 @@ def test_before_it_was_asked_time_is_that_since_the_start(bench: Bench) -> None:
     assert agent.asked == []
 
 
-@pytest.mark.parametrize("agent_ns", [EPOCH_NS, 1, MOST_S * 10**9 + 999_999_997, -5 * 10**9])
+@pytest.mark.parametrize("agent_ns", [EPOCH_NS, 1, MOST_S * 10**9 + 999_999_997, 2 * MOST_S * 10**9])
 def test_the_offset_follows_from_four_moments(bench: Bench, agent_ns: int) -> None:
     """The question takes no time, the agent 2 ns, the answer 1 ms: half of it is the error that nobody can know."""
     client, agent = start(bench, lambda o: [answer(moment(agent_ns + 2), moment(agent_ns), o)])

@@ -110,16 +110,50 @@ class HashUnknown:
 
 @dataclass(frozen=True)
 class NoServer:
-    """A request was dropped: its service was not there for some seconds."""
+    """A request was dropped; `lost`: how many were since the service was last there."""
 
     node: str
     endpoint: str
+    reason: str
+    lost: int
 
     def __str__(self) -> str:
-        return f"client {self.endpoint} of {self.node}: a request was dropped, nobody serves it"
+        return (
+            f"client {self.endpoint} of {self.node}: a request was dropped: {self.reason}"
+            " (further ones are only counted, until somebody does)"
+        )
 
 
-GraphReport = NoServer | Matched | Incompatible | HashMismatch | TypeMismatch | HashUnknown
+@dataclass(frozen=True)
+class ServerFound:
+    """A service is there for which requests had come too early; `lost` of them were dropped."""
+
+    node: str
+    endpoint: str
+    lost: int
+
+    def __str__(self) -> str:
+        return f"client {self.endpoint} of {self.node}: it is served now; {self.lost} requests were dropped before"
+
+
+@dataclass(frozen=True)
+class NoClient:
+    """A reply was dropped, as whoever asked is not there to receive it; the service has lost `lost`."""
+
+    node: str
+    endpoint: str
+    lost: int
+
+    def __str__(self) -> str:
+        return (
+            f"service {self.endpoint} of {self.node}: a reply was dropped: the client that asked is gone"
+            " (further ones are only counted)"
+        )
+
+
+GraphReport = (
+    NoServer | ServerFound | NoClient | Matched | Incompatible | HashMismatch | TypeMismatch | HashUnknown
+)
 """What a bridge tells about the ROS graph, from within `ready` and when an entity is made; its text is for people."""
 
 
@@ -169,7 +203,10 @@ class Replier(Source, Protocol):
         """Return the next request: SampleIdentity as on the XRCE wire (24 bytes), and encapsulation with CDR body."""
 
     def reply(self, identity: bytes, serialized: bytes) -> None:
-        """Answer the request that had `identity`: encapsulation header, then CDR body. May raise BridgeError."""
+        """Answer the request that had `identity`: encapsulation header, then CDR body. May raise BridgeError.
+
+        Never waits for who asked; a reply to one that is gone is dropped with a `NoClient`.
+        """
 
 
 class Requester(Source, Protocol):
@@ -178,7 +215,8 @@ class Requester(Source, Protocol):
     def request(self, serialized: bytes) -> int:
         """Send a request (encapsulation header, then CDR body); return the number that its reply will have.
 
-        A request before the service was first there waits for it some seconds: XRCE clients cannot see whether it is.
+        A request whose service is not there waits for it some seconds (XRCE clients cannot see whether it is), and is
+        then dropped with a `NoServer`: whoever calls does not learn of it.
         """
 
     def take(self) -> tuple[int, bytes] | None:

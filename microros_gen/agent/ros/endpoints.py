@@ -25,8 +25,9 @@ from microros_gen.agent.ros.wakeups import Notify, Wakeups
 class Ros:
     """What all entities of a bridge share: the libraries, the wake-ups, and one buffer that samples are taken into."""
 
-    def __init__(self, types: RawTypes, report: Callable[[GraphReport], None]) -> None:
+    def __init__(self, types: RawTypes, report: Callable[[GraphReport], None], request_wait_s: float) -> None:
         self.report = report
+        self.request_wait_s = request_wait_s
         self.libraries = types.libraries
         self.types = types
         self.wakeups: Wakeups[Any] = Wakeups()

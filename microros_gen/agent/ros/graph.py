@@ -207,11 +207,11 @@ class Events(Watcher):
         """Compare the type of `endpoint` with that of others in a moment."""
         self._comparison.soon(self._node, endpoint)
 
-    def has_reader(self, endpoint: Endpoint, gid: bytes) -> bool:
-        """Return whether the graph has a reader of the topic of `endpoint` with this GUID (16 bytes)."""
+    def readers(self, endpoint: Endpoint, size: int) -> set[bytes]:
+        """Return the first `size` bytes of the GUIDs of all readers that the graph has of the topic of `endpoint`."""
         get = self._handles.rclpy_get_subscriptions_info_by_topic
         found = get(self._node, endpoint.topic, endpoint.mangled)
-        return any(bytes(reader["endpoint_gid"][: len(gid)]) == gid for reader in found)
+        return {bytes(reader["endpoint_gid"][:size]) for reader in found}
 
     def release(self, endpoints: Iterable[Endpoint]) -> None:
         """Forget endpoints before they are destroyed."""

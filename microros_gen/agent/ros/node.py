@@ -20,7 +20,8 @@ from microros_gen.agent.ros.endpoints import RawReader, RawWriter, Ros
 from microros_gen.agent.ros.graph import Comparison, Endpoint, Events, TopicTypes
 from microros_gen.agent.ros.libraries import FAILURES, first_line
 from microros_gen.agent.ros.names import ros_service, ros_topic, ros_type
-from microros_gen.agent.ros.services import RawReplier, RawRequester, Servers
+from microros_gen.agent.ros.requesters import RawRequester
+from microros_gen.agent.ros.services import Patience, RawReplier
 from microros_gen.agent.wire.constants import Status
 
 Entity = TypeVar("Entity", RawWriter, RawReader, RawReplier, RawRequester)
@@ -38,7 +39,7 @@ class RawNode:
         ros: Ros,
         hash_of: HashOf,
         comparison: Comparison,
-        servers: Servers,
+        patience: Patience,
         topics: TopicTypes,
         leave: Callable[[], None],
     ) -> None:
@@ -48,7 +49,7 @@ class RawNode:
         self._hash_of = hash_of
         self._leave = leave
         self._events = Events(handles, handle, ros.wakeups, ros.libraries, comparison, topics, ros.report)
-        self._servers = servers
+        self._patience = patience
         self.label: str = handle.get_fully_qualified_name()
 
     def create_writer(self, topic: Topic, qos: Qos) -> Writer:
@@ -65,13 +66,17 @@ class RawNode:
     def create_replier(self, service: Service) -> Replier:
         """See Node."""
         handle, endpoints = self._create_service("service", self._handles.Service, service)
-        return self._attach(handle, endpoints, lambda: RawReplier(handle, self._ros, self._events, endpoints))
+        return self._attach(
+            handle, endpoints, lambda: RawReplier(handle, self._ros, self._patience, self._events, endpoints)
+        )
 
     def create_requester(self, service: Service) -> Requester:
         """See Node."""
         handle, endpoints = self._create_service("client", self._handles.Client, service)
         return self._attach(
-            handle, endpoints, lambda: RawRequester(handle, self._ros, self._servers, self._events, endpoints)
+            handle,
+            endpoints,
+            lambda: RawRequester(handle, self._ros, self._patience, self._events, endpoints),
         )
 
     def destroy(self) -> None:

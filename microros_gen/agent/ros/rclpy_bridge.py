@@ -20,7 +20,7 @@ from microros_gen.agent.ros.libraries import FAILURES, first_line
 from microros_gen.agent.ros.names import ros_node
 from microros_gen.agent.ros.node import RawNode
 from microros_gen.agent.ros.raw_types import MAXIMUM_HANDLES, raw_types
-from microros_gen.agent.ros.services import Servers
+from microros_gen.agent.ros.services import Patience
 from microros_gen.agent.ros.wakeups import Watcher
 from microros_gen.agent.wire.constants import Status
 from microros_gen.diagnostics import Diagnostic, UserError
@@ -40,11 +40,13 @@ def open_bridge(
     domain: int | None = None,
     hash_of: HashOf | None = None,
     report: Callable[[GraphReport], None] | None = None,
+    request_wait_s: float = 5.0,
 ) -> Bridge:
     """Return the bridge; UserError when rclpy is missing, does not load, or is not the one that is needed.
 
     `domain` (0 to 232) puts every client into that ROS domain, whichever it asks for. `hash_of` knows type hashes;
-    without one for a type, its endpoints announce none. `report` is told what happens in the ROS graph.
+    without one for a type, its endpoints announce none. `report` is told what happens in the ROS graph. A request waits
+    `request_wait_s` for its service.
     """
     _check_implementation(
         os.environ.get("RMW_IMPLEMENTATION") or RMW
@@ -53,7 +55,9 @@ def open_bridge(
     _check_implementation(handles.rclpy_get_rmw_implementation_identifier())
     types = raw_types()
     types.libraries.hurry_writers()
-    return RclpyBridge(handles, Ros(types, report or _ignore), maximum_domains, domain, hash_of)
+    return RclpyBridge(
+        handles, Ros(types, report or _ignore, request_wait_s), maximum_domains, domain, hash_of
+    )
 
 
 def _ignore(_report: GraphReport) -> None:
@@ -98,7 +102,7 @@ class RclpyBridge:
         self._domain = domain
         self._hash_of = hash_of
         self._comparison = Comparison(handles, ros.wakeups, ros.report)
-        self._servers = Servers(ros.wakeups)
+        self._patience = Patience(ros.wakeups)
         self._maximum_domains = maximum_domains
         self._contexts: dict[int, _Context] = {}
         self._without_hash: set[str] = set()
@@ -124,7 +128,7 @@ class RclpyBridge:
             self._ros,
             known_hash,
             self._comparison,
-            self._servers,
+            self._patience,
             context.topics,
             context.leave,
         )

@@ -13,7 +13,9 @@ from microros_gen.agent.ros.bridge import (
     HashUnknown,
     Incompatible,
     Matched,
+    NoClient,
     NoServer,
+    ServerFound,
     TypeMismatch,
 )
 
@@ -23,15 +25,24 @@ _EVENTS = {
     HashMismatch: (Level.WARNING, "type_hash_mismatch"),
     TypeMismatch: (Level.WARNING, "type_mismatch"),
     NoServer: (Level.WARNING, "no_server"),
+    ServerFound: (Level.INFO, "server_found"),
+    NoClient: (Level.INFO, "no_client"),
     HashUnknown: (Level.WARNING, "type_hash_unknown"),
 }
 
 
 def graph_reporter(log: EventLog) -> Callable[[GraphReport], None]:
-    """Return what writes reports to `log`: matches with -v, everything else always."""
+    """Return what writes reports to `log`: matches with -v, everything else always.
+
+    Of requests and replies that are dropped the first one of each endpoint is told; all are counted.
+    """
 
     def report(told: GraphReport) -> None:
         level, event = _EVENTS[type(told)]
+        if isinstance(told, NoServer | NoClient):
+            log.counters[event] += 1
+            if told.lost > 1:
+                return
         log.emit(level, event, "{told}", told=str(told), **asdict(told))
 
     return report

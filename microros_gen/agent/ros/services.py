@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Services and service clients of clients: raw requests and replies, correlated by ROS 2's own identities."""
+"""Services of clients, and what they share with service clients: raw requests and replies, correlated by ROS 2."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ import struct
 import time
 from collections import deque
 from collections.abc import Callable
-from ctypes import byref, c_char_p, c_int64, c_void_p
-from typing import Any
+from ctypes import byref, c_char_p, c_void_p
+from typing import Any, Protocol
 
-from microros_gen.agent.ros.bridge import BridgeError, NoServer
+from microros_gen.agent.ros.bridge import BridgeError, NoClient
 from microros_gen.agent.ros.endpoints import RawSource, Ros
 from microros_gen.agent.ros.graph import Endpoint, Events
 from microros_gen.agent.ros.layout import RawMessage, RequestId, ServiceInfo
@@ -23,42 +23,46 @@ from microros_gen.agent.wire.constants import Status
 
 IDENTITY_BYTES = 24
 """SampleIdentity of DDS-RPC: GUID, then the sequence number as signed high and unsigned low word."""
-WAIT_FOR_SERVER_S = 5.0
-"""How long a request waits for a service that has not been there yet."""
-SETTLE_S = 0.1
-"""From the discovery of a service to the first request: what is sent before the service has found its client too is
-only delivered with the writer's next heartbeat, 3 s later."""
-HELD_REQUESTS, HELD_BYTES = 64, 262_144
-"""Requests of one service client that wait for it, and their size together."""
-VANISHED_CLIENTS = 256
-"""Clients of a service that are remembered as unknown to the graph."""
+WAIT_FOR_CLIENT_S = 5.0
+"""How long a reply waits for a client that the graph does not have yet."""
+HELD_CALLS, HELD_BYTES = 64, 262_144
+"""Requests of one service client, or replies of one service, that wait for the other side, and their size together."""
+DEAF_CLIENTS = 256
+"""Clients of a service that are remembered as in the graph, and not to be reached."""
 _LOOK_AGAIN_S = 0.05
 _GUID_BYTES = 16
 _NUMBER = struct.Struct("<iI")
 
 
-class Servers(Watcher):
-    """Looks for services that requests wait for: ROS 2 has no event for them."""
+class Waiter(Protocol):
+    """Who waits for somebody in the graph."""
+
+    def still_waits(self) -> bool:
+        """Look for who is waited for, and go on when there is somebody; return whether to look again."""
+
+
+class Patience(Watcher):
+    """Comes back to those who wait for the other side of a service: ROS 2 has no event for that."""
 
     def __init__(self, wakeups: Wakeups[Any]) -> None:
         self._wakeups = wakeups
         self._timer = wakeups.add_timer(self)
-        self._waiting: set[RawRequester] = set()
+        self._waiting: set[Waiter] = set()
 
-    def wait_for(self, requester: RawRequester) -> None:
-        """Look for the service of `requester` until nothing of it waits."""
+    def wait_for(self, waiter: Waiter) -> None:
+        """Call `still_waits` of `waiter` again and again until it does not."""
         if not self._waiting:
             self._wakeups.set_timer(self._timer, _LOOK_AGAIN_S)
-        self._waiting.add(requester)
+        self._waiting.add(waiter)
 
     def look(self) -> None:
         """See Watcher."""
-        self._waiting = {requester for requester in self._waiting if requester.still_waits()}
+        self._waiting = {waiter for waiter in self._waiting if waiter.still_waits()}
         if self._waiting:
             self._wakeups.set_timer(self._timer, _LOOK_AGAIN_S)
 
 
-class _RawService(RawSource):
+class RawService(RawSource):
     """A service or a service client.
 
     Taking one may give nothing although more is there: replies to other clients of the service come here as well, and
@@ -106,22 +110,30 @@ class _RawService(RawSource):
             for endpoint in self._endpoints:
                 self._events.compare(endpoint)
 
-    def _check_alive(self) -> None:
+    def check_alive(self) -> None:
+        """Raise BridgeError when it was destroyed."""
         if self._descriptor < 0:
             raise BridgeError(f"{self.label} is gone")
 
 
-class RawReplier(_RawService):
+class RawReplier(RawService):
     """See Replier.
 
-    ROS 2 waits (100 ms) for a client that it does not know, since it may be about to be discovered. It is waited for
-    once; after that only when the graph has it.
+    ROS 2 waits (100 ms, and holds up the agent) for a client that it does not know, since it may be about to be
+    discovered. So it only gets replies to clients that the graph has; one to somebody else is held until it has.
     """
 
-    def __init__(self, handle: Any, ros: Ros, events: Events, endpoints: tuple[Endpoint, ...]) -> None:
+    def __init__(
+        self, handle: Any, ros: Ros, patience: Patience, events: Events, endpoints: tuple[Endpoint, ...]
+    ) -> None:
         libraries = ros.libraries
         super().__init__(handle, ros, libraries.notify_service, libraries.take_request, events, endpoints)
-        self._vanished: dict[bytes, None] = {}
+        self._report = ros.report
+        self._patience = patience
+        self._held: deque[tuple[float, bytes, bytes]] = deque()
+        self._held_bytes = 0
+        self._lost = 0
+        self._deaf: dict[bytes, None] = {}
 
     def take(self) -> tuple[bytes, bytes] | None:
         """See Replier."""
@@ -135,107 +147,63 @@ class RawReplier(_RawService):
         """See Replier."""
         if len(identity) != IDENTITY_BYTES:
             raise BridgeError(f"a sample identity of {len(identity)} bytes", Status.INVALID_DATA)
+        self.check_alive()
+        raw_message(serialized)
+        if identity[:_GUID_BYTES] in self._clients():
+            self._send(identity, serialized)
+        elif len(self._held) < HELD_CALLS and self._held_bytes + len(serialized) <= HELD_BYTES:
+            self._held.append((time.monotonic() + WAIT_FOR_CLIENT_S, identity, serialized))
+            self._held_bytes += len(serialized)
+            self._patience.wait_for(self)
+        else:
+            self._lose()
+
+    def still_waits(self) -> bool:
+        """See Waiter."""
+        if self._descriptor < 0:
+            return False
+        clients, now = self._clients(), time.monotonic()
+        held, self._held, self._held_bytes = self._held, deque(), 0
+        for until, identity, serialized in held:
+            if identity[:_GUID_BYTES] in clients:
+                self._send_held(identity, serialized)
+            elif until < now:
+                self._lose()
+            else:
+                self._held.append((until, identity, serialized))
+                self._held_bytes += len(serialized)
+        return bool(self._held)
+
+    def _clients(self) -> set[bytes]:
+        return self._events.readers(self._endpoints[1], _GUID_BYTES)
+
+    def _send_held(self, identity: bytes, serialized: bytes) -> None:
+        try:
+            self._send(identity, serialized)
+        except BridgeError:
+            self._lose()
+
+    def _send(self, identity: bytes, serialized: bytes) -> None:
         guid = identity[:_GUID_BYTES]
-        if guid in self._vanished:
-            if not self._events.has_reader(self._endpoints[1], guid):
-                raise self._nobody()
-            del self._vanished[guid]
+        if guid in self._deaf:
+            self._lose()
+            return
         high, low = _NUMBER.unpack_from(identity, _GUID_BYTES)
         request = RequestId(number=high << 32 | low)
         request.guid[:] = guid
-        self._check_alive()
         result = self._libraries.send_response(self._pointer, byref(request), byref(raw_message(serialized)))
-        if result == TIMEOUT:
-            self._vanished[guid] = None
-            if len(self._vanished) > VANISHED_CLIENTS:
-                del self._vanished[next(iter(self._vanished))]
+        if result == TIMEOUT:  # the graph has it, and its quality of service is another one
+            self._deaf[guid] = None
+            if len(self._deaf) > DEAF_CLIENTS:
+                del self._deaf[next(iter(self._deaf))]
             self._libraries.error()  # forget it: it says less
-            raise self._nobody()
-        if result != OK:
+            self._lose()
+        elif result != OK:
             raise self.failed("reply")
 
-    def _nobody(self) -> BridgeError:
-        return BridgeError(f"reply on {self.label}: the client that asked is not there to receive it")
-
-
-class RawRequester(_RawService):
-    """See Requester.
-
-    ROS 2 numbers requests from 1. What is held until the service is there is numbered ahead, in its order.
-    """
-
-    def __init__(
-        self, handle: Any, ros: Ros, servers: Servers, events: Events, endpoints: tuple[Endpoint, ...]
-    ) -> None:
-        libraries = ros.libraries
-        super().__init__(handle, ros, libraries.notify_client, libraries.take_response, events, endpoints)
-        self._report = ros.report
-        self._servers = servers
-        self._there = False
-        self._found: float | None = None
-        self._look_until = time.monotonic() + WAIT_FOR_SERVER_S
-        servers.wait_for(self)
-        self._held: deque[tuple[float, bytes]] = deque()
-        self._dropped = 0
-
-    def request(self, serialized: bytes) -> int:
-        """See Requester."""
-        self._check_alive()
-        raw_message(serialized)
-        if self.find_server():
-            return self._send(serialized)
-        held_bytes = sum(len(held) for _, held in self._held)
-        if len(self._held) >= HELD_REQUESTS or held_bytes + len(serialized) > HELD_BYTES:
-            raise BridgeError(f"request on {self.label}: nobody serves it", Status.RESOURCES)
-        self._held.append((time.monotonic() + WAIT_FOR_SERVER_S, serialized))
-        self._servers.wait_for(self)
-        return self._dropped + len(self._held)
-
-    def take(self) -> tuple[int, bytes] | None:
-        """See Requester."""
-        message = self._take_next()
-        return None if message is None else (self._info.request.number + self._dropped, message)
-
-    def find_server(self) -> bool:
-        """Return whether the service was there once, and had time to find this client; then what is held is sent."""
-        if self._there:
-            return True
-        now = time.monotonic()
-        if self._found is None and self._handle.service_server_is_available():
-            self._found = now
-        if self._found is None or now < self._found + SETTLE_S:
-            return False
-        self._there = True
-        while self._held:
-            self._send_held(self._held.popleft()[1])
-        return True
-
-    def still_waits(self) -> bool:
-        """Drop what waits for too long; return whether the service is still to be looked for."""
-        if self._descriptor < 0 or self.find_server():
-            return False
-        now = time.monotonic()
-        while self._held and self._held[0][0] < now and self._found is None:
-            self._held.popleft()
-            self._drop()
-        return bool(self._held) or now < self._look_until
-
-    def _send_held(self, serialized: bytes) -> None:
-        try:
-            self._send(serialized)
-        except BridgeError:
-            self._drop()
-
-    def _drop(self) -> None:
-        self._dropped += 1
-        self._report(NoServer(self._endpoints[0].node, self.label))
-
-    def _send(self, serialized: bytes) -> int:
-        number = c_int64()
-        message = raw_message(serialized)
-        if self._libraries.send_request(self._pointer, byref(message), byref(number)) != OK:
-            raise self.failed("request")
-        return number.value + self._dropped
+    def _lose(self) -> None:
+        self._lost += 1
+        self._report(NoClient(self._endpoints[0].node, self.label, self._lost))
 
 
 def raw_message(serialized: bytes) -> RawMessage:

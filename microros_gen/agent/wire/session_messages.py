@@ -240,11 +240,17 @@ class Info:
 
 
 Time = tuple[int, int]
-"""Seconds (signed) and nanoseconds since the epoch."""
+"""Seconds and nanoseconds since the epoch. On the wire seconds have 32 bits and a sign (Time_t, DDS-XRCE 1.0, annex A):
+from 2038-01-19 03:14:08 UTC on they go on modulo 2^32, so differences stay right, and moments for who reads them
+without the sign, until 2106."""
 
 
 def _read_time(reader: Reader) -> Time:
     return reader.i32(), reader.u32()
+
+
+def _write_time(writer: Writer, moment: Time) -> None:
+    writer.u32(moment[0] & 0xFFFF_FFFF).u32(moment[1])
 
 
 @dataclass(frozen=True)
@@ -261,7 +267,7 @@ class Timestamp:
 
     def encode(self, writer: Writer) -> int:
         """Write the payload; return the flags beside the byte order."""
-        writer.i32(self.transmit[0]).u32(self.transmit[1])
+        _write_time(writer, self.transmit)
         return 0
 
 
@@ -281,6 +287,6 @@ class TimestampReply:
 
     def encode(self, writer: Writer) -> int:
         """Write the payload; return the flags beside the byte order."""
-        for seconds, nanoseconds in (self.transmit, self.receive, self.originate):
-            writer.i32(seconds).u32(nanoseconds)
+        for moment in (self.transmit, self.receive, self.originate):
+            _write_time(writer, moment)
         return 0

@@ -5,7 +5,8 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_wire.h"
 
-/* A moment is seconds (signed) and nanoseconds; a reply has three of them. */
+/* A moment is seconds and nanoseconds; a reply has three of them. The standard's seconds have a sign, which would end in
+ * 2038: agents' clocks are not before 1970, so here they have none. */
 enum { MOMENT_SIZE = 8, TIMESTAMP_SIZE = 8 + MOMENT_SIZE, REPLY_SIZE = 3 * MOMENT_SIZE };
 enum { TRANSMIT = 0, RECEIVE = MOMENT_SIZE, ORIGINATE = 2 * MOMENT_SIZE };
 
@@ -30,9 +31,8 @@ static bool time_get_moment(const uint8_t * at, uint8_t flags, int64_t * moment_
 {
   const uint32_t seconds = time_get_u32(at, flags);
   const uint32_t nanoseconds = time_get_u32(&at[4], flags);
-  const int64_t before_1970 = seconds > (uint32_t)INT32_MAX ? (int64_t)UINT32_MAX + 1 : 0;
 
-  *moment_ns = ((int64_t)seconds - before_1970) * ns_per_s + (int64_t)nanoseconds;
+  *moment_ns = (int64_t)seconds * ns_per_s + (int64_t)nanoseconds;
   return nanoseconds < (uint32_t)ns_per_s;
 }
 
@@ -68,7 +68,7 @@ void xrce_time_sync_on_reply(xrce_client_t * client, const uint8_t * payload, si
   if (!sync->outstanding || originated_ns != sync->asked_ns) {
     return; /* late, or twice */
   }
-  /* Each moment is within 2^31 seconds, so the sum of two differences stays below 2^63 nanoseconds. */
+  /* Each moment is within 2^32 seconds, so the sum of two differences stays below 2^63 nanoseconds. */
   sync->offset_ns = ((received_ns - originated_ns) + (transmitted_ns - now_ns)) / 2;
   sync->outstanding = false;
   sync->synchronized = true;

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Service clients of clients. A client of ROS 2 sees whether its service is there and waits for it; an XRCE client
+cannot, so its requests wait here."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from ctypes import byref, c_int64
+from typing import Any
+
+from microros_gen.agent.ros.bridge import BridgeError, NoServer, ServerFound
+from microros_gen.agent.ros.endpoints import Ros
+from microros_gen.agent.ros.graph import Endpoint, Events
+from microros_gen.agent.ros.libraries import OK
+from microros_gen.agent.ros.services import HELD_BYTES, HELD_CALLS, Patience, RawService, raw_message
+
+SETTLE_S = 0.1
+"""From the discovery of a service to the first request: what is sent before the service has found its client too is
+only delivered with the writer's next heartbeat, 3 s later."""
+UNANSWERED = 4_096
+"""Requests of a service client whose numbers are remembered; the core forgets them earlier."""
+
+
+class RawRequester(RawService):
+    """See Requester.
+
+    ROS 2 numbers what is sent; here every request has a number, also one that waits or is dropped.
+    """
+
+    def __init__(
+        self, handle: Any, ros: Ros, patience: Patience, events: Events, endpoints: tuple[Endpoint, ...]
+    ) -> None:
+        libraries = ros.libraries
+        super().__init__(handle, ros, libraries.notify_client, libraries.take_response, events, endpoints)
+        self._report = ros.report
+        self._patience = patience
+        self._wait_s = ros.request_wait_s
+        self._there = False
+        self._found: float | None = None
+        self._look_until = time.monotonic() + self._wait_s
+        patience.wait_for(self)
+        self._held: deque[tuple[float, int, bytes]] = deque()
+        self._held_bytes = 0
+        self._count = 0
+        self._numbers: dict[int, int] = {}
+        """What was sent and is not answered: ROS 2's number and ours."""
+        self._lost = 0
+        """Requests that were dropped since the service was last there."""
+
+    def request(self, serialized: bytes) -> int:
+        """See Requester."""
+        self.check_alive()
+        raw_message(serialized)
+        there = self.find_server()
+        if not there and (len(self._held) >= HELD_CALLS or self._held_bytes + len(serialized) > HELD_BYTES):
+            self._lose("nobody serves it, and too many wait already")
+        elif not there:
+            self._held.append((time.monotonic() + self._wait_s, self._count + 1, serialized))
+            self._held_bytes += len(serialized)
+            self._patience.wait_for(self)
+        else:
+            self._send(self._count + 1, serialized)
+        self._count += 1
+        return self._count
+
+    def take(self) -> tuple[int, bytes] | None:
+        """See Requester."""
+        message = self._take_next()
+        return None if message is None else (self._numbers.pop(self._info.request.number, 0), message)
+
+    def find_server(self) -> bool:
+        """Return whether the service is there, and had time to find this client; then what is held is sent."""
+        if not self._handle.service_server_is_available():
+            self._there, self._found = False, None
+            return False
+        if self._there:
+            return True
+        now = time.monotonic()
+        if self._found is None:
+            self._found = now
+        if now < self._found + SETTLE_S:
+            return False
+        self._there = True
+        self._tell_found()
+        while self._held:
+            _, number, serialized = self._held.popleft()
+            self._send_held(number, serialized)
+        self._held_bytes = 0
+        return True
+
+    def still_waits(self) -> bool:
+        """See Waiter. What waits for too long is dropped."""
+        if self._descriptor < 0 or self.find_server():
+            return False
+        now = time.monotonic()
+        while self._held and self._held[0][0] <= now and self._found is None:
+            self._held_bytes -= len(self._held.popleft()[2])
+            self._lose(f"nobody served it for {self._wait_s:g} s")
+        return bool(self._held) or now < self._look_until
+
+    def _leave(self) -> None:
+        for _ in self._held:
+            self._lose("nobody served it, and then its client left")
+        self._held.clear()
+        super()._leave()
+
+    def _send_held(self, number: int, serialized: bytes) -> None:
+        try:
+            self._send(number, serialized)
+        except BridgeError as error:
+            self._lose(str(error))
+
+    def _send(self, number: int, serialized: bytes) -> None:
+        sent = c_int64()
+        message = raw_message(serialized)
+        if self._libraries.send_request(self._pointer, byref(message), byref(sent)) != OK:
+            raise self.failed("request")
+        self._numbers[sent.value] = number
+        if len(self._numbers) > UNANSWERED:
+            del self._numbers[next(iter(self._numbers))]
+
+    def _lose(self, reason: str) -> None:
+        self._lost += 1
+        self._report(NoServer(self._endpoints[0].node, self.label, reason, self._lost))
+
+    def _tell_found(self) -> None:
+        if self._lost:
+            self._report(ServerFound(self._endpoints[0].node, self.label, self._lost))
+            self._lost = 0

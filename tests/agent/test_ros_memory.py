@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Clients that come and go leave nothing: neither in Python nor, beyond what Fast DDS keeps, on the heap of C."""
+
+from __future__ import annotations
+
+import ctypes
+import gc
+import os
+import tracemalloc
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from agent.bridging import GET_TYPES, Bridged, opened
+from agent.captured import CREATE_CLIENT
+from agent.client import dds_type, participant_blob, reader_blob, service_blob, topic_blob, writer_blob
+from agent.fakes import FakeTransport
+from agent.process import own_domain
+from microros_gen.agent.core import Agent
+from microros_gen.agent.limits import Limits
+from microros_gen.agent.log import EventLog
+from microros_gen.agent.wire.constants import Format
+from microros_gen.agent.wire.entity_messages import Create, Delete
+from microros_gen.agent.wire.message import Header, join
+from microros_gen.agent.wire.submessages import Submessage, encode
+
+pytestmark = pytest.mark.ros
+
+INT32 = dds_type("std_msgs/msg/Int32")
+NODE, UP, DOWN = 0x11, 0x12, 0x22
+OBJECTS = (
+    (NODE, participant_blob("/comes_and_goes"), 0),
+    (UP, topic_blob("rt/goes/up", INT32), NODE),
+    (DOWN, topic_blob("rt/goes/down", INT32), NODE),
+    (0x13, b"\0\0", NODE),
+    (0x14, b"\0\0", NODE),
+    (0x15, writer_blob(UP, 3, 10), 0x13),
+    (0x16, reader_blob(DOWN, 3, 10), 0x14),
+    (0x17, service_blob("/goes/asks", GET_TYPES), NODE),
+    (0x18, service_blob("/goes/serves", GET_TYPES), NODE),
+)
+CYCLES = 150
+PYTHON_BYTES, HEAP_BYTES = 200, 400
+"""What one life may leave on average: it has nine objects, and tables that fill up differ by this much."""
+
+
+class _MallocInfo(ctypes.Structure):
+    """mallinfo2 of glibc: `used` and `mapped` are bytes in use."""
+
+    _fields_ = tuple(
+        (name, ctypes.c_size_t)
+        for name in ("arena", "free", "small", "maps", "mapped", "x", "y", "used", "unused", "top")
+    )
+
+
+def heap_bytes() -> int:
+    """Return what the C side of this process has in use."""
+    mallinfo = ctypes.CDLL(None).mallinfo2
+    mallinfo.restype = _MallocInfo
+    info = mallinfo()
+    return int(info.used + info.mapped)
+
+
+@pytest.fixture
+def agent() -> Iterator[tuple[Agent, Bridged]]:
+    with opened(own_domain()) as bridged, Path(os.devnull).open("w") as out:
+        yield Agent(bridged.bridge, EventLog(out), Limits()), bridged
+
+
+def message(stream: int, sequence: int, *submessages: Submessage) -> bytes:
+    return join(Header(0x81, stream, sequence), [encode(one) for one in submessages])
+
+
+def live(agent: Agent, domain: int, transport: FakeTransport) -> None:
+    """Connect, create everything, leave."""
+    agent.receive(bytes.fromhex(CREATE_CLIENT), "a", transport)
+    for place, (object_id, body, parent) in enumerate(OBJECTS):
+        kind = object_id & 0x0F
+        create = Create(
+            10 + place, object_id, kind, Format.BINARY, body, parent, domain * (kind == 1), True, True
+        )
+        agent.receive(message(0x80, place, create), "a", transport)
+    (client,) = agent.clients
+    assert len(client.objects) == len(OBJECTS)
+    agent.receive(message(0, 0, Delete(2, 0xFFFE)), "a", transport)
+    agent.flush()
+    agent.take()
+    assert not len(agent.clients)
+    transport.sent.clear()
+
+
+def test_a_life_leaves_nothing(agent: tuple[Agent, Bridged]) -> None:
+    core, bridged = agent
+    transport = FakeTransport()
+
+    def lives(count: int) -> tuple[int, int]:
+        for _ in range(count):
+            live(core, bridged.domain, transport)
+        bridged.wait_for(0.15)  # whoever looks for somebody forgets them when it looks again
+        gc.collect()
+        return tracemalloc.get_traced_memory()[0], heap_bytes()
+
+    tracemalloc.start()
+    try:
+        lives(CYCLES)
+        before = lives(CYCLES)
+        after = lives(CYCLES)
+    finally:
+        tracemalloc.stop()
+    python, heap = ((last - first) / CYCLES for first, last in zip(before, after, strict=True))
+    print(f"each life leaves {python:.0f} B in Python and {heap:.0f} B on the heap")
+    assert python < PYTHON_BYTES
+    assert heap < HEAP_BYTES
