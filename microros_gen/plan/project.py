@@ -146,6 +146,8 @@ def plan_project(
         ros_clocks_max=running.ros_clocks_max,
         jump_callbacks_max=running.jump_callbacks_max,
         has_discovery=selection.has("discovery"),
+        has_session_state=selection.has("session_state"),
+        has_sleep=selection.has("sleep_cycles"),
         discovery_port=application.transport.discover or DISCOVERY_PORT,
         has_time_sync=selection.has("time_sync"),
         has_ros_time=selection.has(CLOCK_ROS),

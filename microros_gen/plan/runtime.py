@@ -199,6 +199,8 @@ class RuntimePlan:
     has_time_sync: bool = False
     has_ros_time: bool = False
     has_discovery: bool = False
+    has_session_state: bool = False
+    has_sleep: bool = False
     discovery_port: int = DISCOVERY_PORT
     fixed_messages: bool = False
 

@@ -217,6 +217,7 @@ def _check(
     _check_axis_components(picker, axes, middleware)
     _check_liveliness(picker, axes["liveliness"])
     _check_discovery(picker, axes["transport"])
+    _check_sleep(picker, axes["transport"])
     _check_creation(picker, application, axes["entities"])
 
 
@@ -298,6 +299,27 @@ def _check_discovery(picker: _Picker, choice: AxisChoice) -> None:
             f"by UDP multicast",
             choice.span or root.span,
             "Write `transport: {type: udp}`, or drop it: `components: [-discovery]`",
+        )
+
+
+def _check_sleep(picker: _Picker, choice: AxisChoice) -> None:
+    if "sleep_cycles" not in picker.causes:
+        return
+    root = picker.roots("sleep_cycles")[0]
+    if choice.value == "tcp":
+        picker.diagnostics.error(
+            f"{choice.text} contradicts the component 'sleep_cycles' ({placed(root)}): the session ends with its"
+            " connection",
+            choice.span or root.span,
+            "Write `transport: {type: udp}`, or drop it: `components: [-sleep_cycles]`",
+        )
+    if "discovery" in picker.causes:
+        found = picker.roots("discovery")[0]
+        picker.diagnostics.error(
+            f"the component 'discovery' ({placed(found)}) contradicts 'sleep_cycles' ({placed(root)}): an agent is"
+            " searched for with each start",
+            found.span or root.span,
+            'Say where the agent is: `transport: {agent: "192.168.1.10:8888"}`',
         )
 
 

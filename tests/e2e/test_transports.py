@@ -25,7 +25,8 @@ session: {{key: {key}}}
 nodes:
   - name: talker
     publishers: [{{topic: {topic}, type: std_msgs/msg/Int32}}]
-pools: {{history: 64}}
+pools: {{history: 16}}
+on_full: block 2 s
 """
 LAST = 199
 """The last value of both programs; they take some seconds, which discovery needs."""

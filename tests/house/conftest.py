@@ -13,7 +13,16 @@ def trees(tmp_path_factory: pytest.TempPathFactory) -> list[Tree]:
     return make_trees(tmp_path_factory.mktemp("corpus"))
 
 
+@pytest.fixture(
+    scope="session",
+    params=[pytest.param(False, id="texts"), pytest.param(True, id="headers", marks=pytest.mark.long)],
+)
+def is_header_a_difference(request: pytest.FixtureRequest) -> bool:
+    """Whether a file is analysed with each set of headers that it includes, or once for each text that it has."""
+    return bool(request.param)
+
+
 @pytest.fixture(scope="session")
-def all_units(trees: list[Tree]) -> list[Unit]:
+def all_units(trees: list[Tree], is_header_a_difference: bool) -> list[Unit]:
     """Every C file of every tree."""
-    return units(trees)
+    return units(trees, is_header_a_difference)

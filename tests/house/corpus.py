@@ -57,6 +57,10 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "declared": _BOTH
         + "liveliness: acknack\non_full: drop_oldest\nerrors: code\nmemory: {arena: 1024}\nsession: {key: device}\n",
         "best_effort": _NODES + _BEST + "liveliness: none\n",
+        "session_states": _INT32 + "components: [+session_state, +sleep_cycles]\n",
+        "sleep_reader": _READER + _HEARD + _SERIAL + "components: [+sleep_cycles]\n",
+        "sleep_custom": _INT32
+        + "components: [+sleep_cycles, +time_sync]\nliveliness: acknack\ntransport: {type: custom}\n",
         "reliable_creation": _BOTH + "creation: reliable\npools: {input_history: 2}\n",
         "ordered_input": _BOTH + "creation: reliable\n",
         "large": _NODES + _LARGE,
@@ -185,10 +189,11 @@ def width_flags(unit: Unit) -> tuple[str, ...]:
     return ("-m32",) if unit.source.startswith(bare) else ()
 
 
-def units(trees: Sequence[Tree]) -> list[Unit]:
+def units(trees: Sequence[Tree], is_header_a_difference: bool = True) -> list[Unit]:
     """Return every file of every tree; a file with the text of one in an earlier tree has the key of that one.
 
-    What is rendered from a template counts as another file where the headers that it includes differ.
+    What is rendered from a template counts as another file where the headers that it includes differ, and so does
+    every file where errors are codes; with `is_header_a_difference` false, where its own text differs.
     """
     rendered = {path.name.removesuffix(".j2") for path in components_folder().rglob("*.c.j2")}
 
@@ -207,6 +212,8 @@ def units(trees: Sequence[Tree]) -> list[Unit]:
         for source in tree.sources:
             same = (source, names, (tree.out / source).read_text(encoding="utf-8"))
             identity = (*same, tree.name) if Path(source).name in rendered else same
+            if not is_header_a_difference:
+                identity = (source, same[-1])
             first.setdefault(identity, (tree, source))
             found.append((tree, source, identity))
     with ThreadPoolExecutor(WORKERS) as pool:

@@ -76,6 +76,7 @@ def small_catalogue() -> Catalogue:
             sends="ACKNACK",
             receives="HEARTBEAT FRAGMENT",
         ),
+        _component("sleep_cycles", needs="session node support"),
         _component("session_close", needs="session", sends="DELETE", receives="STATUS"),
         _component("entities", needs="session session_close", sends="CREATE DELETE", receives="STATUS"),
         _component("entities_binary", needs="entities", sends="CREATE", receives="STATUS"),

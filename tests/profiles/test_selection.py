@@ -220,6 +220,19 @@ ERRORS = {
         "are searched "
         "for by UDP multicast. Write `transport: {type: udp}`, or drop it: `components: [-discovery]`",
     ),
+    "sleep over TCP": (
+        "profiles: [pure_sender]\ncomponents: [+sleep_cycles]\ntransport: {type: tcp}\n",
+        "microros.yaml:3:19: error: transport: tcp (microros.yaml:3) contradicts the component 'sleep_cycles' "
+        "(components: +sleep_cycles (microros.yaml:2)): the session ends with its connection. "
+        "Write `transport: {type: udp}`, or drop it: `components: [-sleep_cycles]`",
+    ),
+    "sleep and agent search": (
+        "profiles: [ad_hoc_discoverable_sender]\ncomponents: [+sleep_cycles]\n",
+        "microros.yaml:1:12: error: the component 'discovery' (profile ad_hoc_discoverable_sender "
+        "(microros.yaml:1)) contradicts 'sleep_cycles' (components: +sleep_cycles (microros.yaml:2)): an agent is "
+        "searched for with each start. "
+        'Say where the agent is: `transport: {agent: "192.168.1.10:8888"}`',
+    ),
 }
 
 

@@ -29,7 +29,8 @@ def programs(tmp_path_factory: pytest.TempPathFactory) -> ProgramFactory:
         ping = "client_ping.c" if liveliness == "ping" else "client_no_ping.c"
         read = ["types_read.c", "client_read.c"] if plan.receives else ["types.c", "client_no_read.c"]
         epoch = "client_time.c" if plan.has_time_sync else "client_no_time.c"
-        return build(tree, ["port_fake.c", "client.c", ping, epoch, *read], "client")
+        extra = "client_extra.c" if plan.has_session_state and plan.has_sleep else "client_no_extra.c"
+        return build(tree, ["port_fake.c", "client.c", ping, epoch, extra, *read], "client")
 
     return compiled
 

@@ -48,7 +48,14 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
     sources = sorted(p for p in (out / "src").rglob("*.c") if p.parent.name != "port_posix")
     return build(
         Tree(out, tuple(sources)),
-        ["port_fake.c", "client.c", "client_ping.c", "client_no_read.c", "client_no_time.c"],
+        [
+            "port_fake.c",
+            "client.c",
+            "client_ping.c",
+            "client_no_read.c",
+            "client_no_time.c",
+            "client_no_extra.c",
+        ],
         "own_limits",
     )
 

@@ -10,16 +10,17 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from house import misra
-from house.corpus import make_trees
+from house.corpus import make_trees, units
 
 
 def main() -> int:
     """Write the page; 1 when a finding has no deviation, or a deviation no finding."""
     with tempfile.TemporaryDirectory() as folder:
-        places = misra.check(make_trees(Path(folder)))
+        trees = make_trees(Path(folder))
+        places = misra.check(trees, units(trees))
     print(misra.by_rule_and_file(places), end="")
     deviations = misra.load_deviations()
-    misra.write_page(misra.table(places, deviations))
+    misra.write_page(misra.table(deviations))
     open_points = [f"no deviation: {line}" for line in misra.undocumented(places, deviations)]
     open_points += [f"no finding: {line}" for line in misra.unused(places, deviations)]
     print("\n".join(open_points))

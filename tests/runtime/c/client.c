@@ -232,9 +232,10 @@ static rcl_ret_t call_entity(char ** word)
   return call_session(word);
 }
 
-int client_ping(char ** word);                         /* client_ping.c, or client_no_ping.c */
-int client_read(char ** word, rcl_node_t * node_list); /* client_read.c, or client_no_read.c */
-int client_time(char ** word);                         /* client_time.c, or client_no_time.c */
+int client_ping(char ** word);                            /* client_ping.c, or client_no_ping.c */
+int client_read(char ** word, rcl_node_t * node_list);    /* client_read.c, or client_no_read.c */
+int client_time(char ** word);                            /* client_time.c, or client_no_time.c */
+int client_extra(char ** word, rclc_support_t * session); /* client_extra.c, or client_no_extra.c */
 
 static rcl_ret_t call(const char * line)
 {
@@ -257,6 +258,9 @@ static rcl_ret_t call(const char * line)
   }
   if (strncmp(word[0], "epoch_", 6) == 0) {
     return client_time(word);
+  }
+  if (strncmp(word[0], "extra_", 6) == 0) {
+    return client_extra(word, &support);
   }
   return strncmp(word[0], "ping", 4) == 0 ? client_ping(word) : call_entity(word);
 }

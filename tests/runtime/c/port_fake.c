@@ -113,6 +113,21 @@ bool port_udp_open(port_udp_t * udp, const char * host, uint16_t port)
   return !open_fails;
 }
 
+enum { LOCAL = 5555 };
+
+bool port_udp_open_local(port_udp_t * udp, const char * host, uint16_t port, uint16_t local)
+{
+  if (local != LOCAL) {
+    abort();
+  }
+  return port_udp_open(udp, host, port);
+}
+
+uint16_t port_udp_local(const port_udp_t * udp)
+{
+  return udp->handle == 7 ? LOCAL : 0u;
+}
+
 void port_udp_close(port_udp_t * udp)
 {
   udp->handle = -1;

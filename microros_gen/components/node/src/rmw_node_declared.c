@@ -20,7 +20,7 @@ uint16_t rmw_node_take(xrce_client_t * client, const char * name, const char * n
     if (!microros_text_equals(declared->name, name) || !rmw_name_equals(&wanted, declared->namespace_)) {
       continue;
     }
-    if (!client->states[i].wanted) {
+    if (xrce_place_is_free(&client->states[i])) {
       participant->name = declared->name;
       participant->namespace_ = declared->namespace_;
       participant->domain_id = declared->domain_id;

@@ -34,7 +34,7 @@ uint16_t rmw_node_take(xrce_client_t * client, const char * name, const char * n
   for (uint16_t i = 0; i < MICROROS_NODES_MAX; ++i) {
     xrce_participant_t * participant = &client->participants[i];
 
-    if (!client->states[i].wanted) {
+    if (xrce_place_is_free(&client->states[i])) {
       (void)memcpy(names[i].name, name, microros_text_size(name) + 1u);
       rmw_name_copy(&expanded, names[i].namespace_);
       participant->name = names[i].name;

@@ -12,7 +12,7 @@
 
 bool port_tcp_open(port_tcp_t * tcp, const char * host, uint16_t port)
 {
-  const int handle = port_posix_socket_connect(host, port, SOCK_STREAM);
+  const int handle = port_posix_socket_connect(host, port, SOCK_STREAM, 0);
   const int at_once = 1;
 
   if (handle >= 0) { /* without it a message waits for the acknowledgement of the one before */

@@ -12,7 +12,7 @@
 
 bool port_udp_open(port_udp_t * udp, const char * host, uint16_t port)
 {
-  const int handle = port_posix_socket_connect(host, port, SOCK_DGRAM);
+  const int handle = port_posix_socket_connect(host, port, SOCK_DGRAM, 0);
 
   udp->handle = handle;
   return handle >= 0;

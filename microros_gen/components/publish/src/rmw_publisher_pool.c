@@ -20,7 +20,7 @@ bool rmw_publisher_take(xrce_endpoint_t * writer, const rmw_name_t * topic, cons
     return false;
   }
   for (uint16_t i = 0; i < MICROROS_PUBLISHERS_MAX; ++i) {
-    if (!writer->client->states[MICROROS_NODES_MAX + i].wanted) {
+    if (xrce_place_is_free(&writer->client->states[MICROROS_NODES_MAX + i])) {
       rmw_name_copy(topic, topics[i]);
       writer->name = topics[i];
       writer->index = i;

@@ -20,7 +20,7 @@ bool rmw_receiver_take(
       !microros_text_equals(declared->dds_type, type)) {
       continue;
     }
-    if (!wanted->client->states[MICROROS_NODES_MAX + i].wanted) {
+    if (xrce_place_is_free(&wanted->client->states[MICROROS_NODES_MAX + i])) {
       wanted->name = declared->name;
       wanted->index = i;
       return true;

@@ -23,7 +23,7 @@ bool rmw_receiver_take(
     return false;
   }
   for (uint16_t i = section->first; i < end; ++i) {
-    if (!wanted->client->states[MICROROS_NODES_MAX + i].wanted) {
+    if (xrce_place_is_free(&wanted->client->states[MICROROS_NODES_MAX + i])) {
       char * text = names[i - MICROROS_PUBLISHERS_MAX];
 
       rmw_name_copy(name, text);

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "e87b3c5e86236e95"
-#define rcl_init rcl_init__plan_e87b3c5e86236e95
-#define rclc_support_init rclc_support_init__plan_e87b3c5e86236e95
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_e87b3c5e86236e95
+#define MICROROS_PLAN_ID "7990dcbd9c968065"
+#define rcl_init rcl_init__plan_7990dcbd9c968065
+#define rclc_support_init rclc_support_init__plan_7990dcbd9c968065
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_7990dcbd9c968065
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

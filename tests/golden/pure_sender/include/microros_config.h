@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "6bd6d7552b36c66f"
-#define rcl_init rcl_init__plan_6bd6d7552b36c66f
-#define rclc_support_init rclc_support_init__plan_6bd6d7552b36c66f
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_6bd6d7552b36c66f
+#define MICROROS_PLAN_ID "9fae7dfffaf280c3"
+#define rcl_init rcl_init__plan_9fae7dfffaf280c3
+#define rclc_support_init rclc_support_init__plan_9fae7dfffaf280c3
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_9fae7dfffaf280c3
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

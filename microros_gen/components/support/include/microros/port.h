@@ -85,6 +85,11 @@ bool port_udp_send(port_udp_t * udp, const uint8_t * data, size_t size);
  * `capacity`. */
 int32_t port_udp_receive(port_udp_t * udp, uint8_t * buffer, size_t capacity);
 
+/* The same two for a device that sleeps: agents know a client over UDP by its address and port. The first opens a socket at
+ * the local port that the second has told; 0 is any. */
+bool port_udp_open_local(port_udp_t * udp, const char * host, uint16_t port, uint16_t local);
+uint16_t port_udp_local(const port_udp_t * udp);
+
 /* --- TCP --- */
 
 /* One connection; `handle` is the port's own, of which the library only keeps a copy. */

@@ -7,10 +7,16 @@
 #include <stdint.h>
 
 #include "microros_config.h"
+#include "rmw/init_options.h"
+#include "rmw/ret_types.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* Sets the agent's address in rmw_options: ip of at most RMW_UXRCE_MAX_HOST_SIZE - 1 characters, port 1 to 65535; both
+   are copied. RMW_RET_INVALID_ARGUMENT otherwise, or where one is NULL. */
+rmw_ret_t rmw_address_set(rmw_init_options_t * rmw_options, const char * ip, const char * port);
 
 /* Whether this is a decimal number of 1 to 65535, without leading zeros. */
 static inline bool rmw_address_is_port(const char * text)

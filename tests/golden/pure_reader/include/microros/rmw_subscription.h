@@ -21,6 +21,11 @@ rmw_ret_t rmw_subscription_open(
   const rmw_node_t * node, const rosidl_message_type_support_t * type_support, const char * topic,
   const rmw_qos_profile_t * qos, rmw_subscription_t ** subscription);
 
+/* The same for the subscription of /clock, whose place no other takes; with the component `clock_ros`. */
+rmw_ret_t rmw_subscription_open_clock(
+  const rmw_node_t * node, const rosidl_message_type_support_t * type_support, const char * topic,
+  const rmw_qos_profile_t * qos, rmw_subscription_t ** subscription);
+
 /* Gives the place back. */
 void rmw_subscription_close(rmw_subscription_t * subscription);
 
@@ -31,14 +36,15 @@ bool rmw_subscription_is_open(const rmw_subscription_t * subscription);
 /* Whether rmw_subscription_take has a sample, or an error to tell. */
 bool rmw_subscription_is_ready(const rmw_subscription_t * subscription);
 
-/* Decodes the oldest sample; *taken is false when there is none, and when the result is an error. `info` may be NULL. */
-rmw_ret_t rmw_subscription_take(
-  const rmw_subscription_t * subscription, void * ros_message, rmw_message_info_t * info, bool * taken);
+/* Describes the oldest sample, before it is taken; all zero when there is none. */
+void rmw_subscription_describe(const rmw_subscription_t * subscription, rmw_message_info_t * info);
+
+/* Decodes the oldest sample; *taken is false when there is none, and when the result is an error. */
+rmw_ret_t rmw_subscription_take(const rmw_subscription_t * subscription, void * ros_message, bool * taken);
 
 /* The same as bytes. */
 rmw_ret_t rmw_subscription_take_serialized(
-  const rmw_subscription_t * subscription, rmw_serialized_message_t * serialized_message,
-  rmw_message_info_t * info, bool * taken);
+  const rmw_subscription_t * subscription, rmw_serialized_message_t * serialized_message, bool * taken);
 
 /* Receives what has come, for these. */
 void rmw_subscription_pump(const rmw_subscription_t * subscription);

@@ -4,17 +4,31 @@
 #include "microros/port.h"
 #include "microros/rmw_client_wait.h"
 
-static const int64_t waiting_ns_per_ms = 1000000;
+/* A millisecond is 15625 units of 64 ns: a divisor that leaves room for 16 more digits in 32 bits. */
+enum { NS_PER_MS = 1000000, UNIT_DIGITS = 6, UNITS_PER_MS = NS_PER_MS >> UNIT_DIGITS, STEP_DIGITS = 16 };
 
-/* Rounded up; UINT32_MAX for what is longer, and for what is negative. */
+/*
+ * Rounded up; UINT32_MAX for what is longer, and for what is negative. Divides as on paper, 16 binary digits at a time: a
+ * division of 64 bits would bring a function into the image that is larger than all waiting.
+ */
 static uint32_t waiting_ms(int64_t duration_ns)
 {
-  const int64_t longest_ns = (int64_t)(UINT32_MAX - 1u) * waiting_ns_per_ms;
+  const int64_t longest_ns = (int64_t)(UINT32_MAX - 1u) * NS_PER_MS;
+  uint64_t units;
+  uint32_t rest = 0;
+  uint32_t whole_ms = 0;
 
   if (duration_ns < 0 || duration_ns > longest_ns) {
     return UINT32_MAX;
   }
-  return (uint32_t)((duration_ns + waiting_ns_per_ms - 1) / waiting_ns_per_ms);
+  units = ((uint64_t)duration_ns + NS_PER_MS - 1u) >> UNIT_DIGITS; /* below 2^46 */
+  for (uint32_t shift = 3u * STEP_DIGITS; shift != 0u;) {
+    shift -= STEP_DIGITS;
+    rest = rest << STEP_DIGITS | (uint16_t)(units >> shift);
+    whole_ms = whole_ms << STEP_DIGITS | rest / UNITS_PER_MS;
+    rest %= UNITS_PER_MS;
+  }
+  return whole_ms;
 }
 
 rcl_waiting_t rcl_waiting_begin(int64_t timeout_ns)

@@ -21,7 +21,7 @@ static rcl_ret_t subscription_take(rclc_executor_handle_t * handle)
   if (!rcl_subscription_is_valid(handle->subscription)) {
     return microros_error_refuse(RCL_RET_SUBSCRIPTION_INVALID, "subscription");
   }
-  return rmw_subscription_take(handle->subscription->impl, handle->data, NULL, &handle->data_available);
+  return rmw_subscription_take(handle->subscription->impl, handle->data, &handle->data_available);
 }
 
 static rcl_ret_t subscription_call(rclc_executor_handle_t * handle)

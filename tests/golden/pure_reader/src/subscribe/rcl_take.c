@@ -11,6 +11,14 @@ static rcl_ret_t take_result(rmw_ret_t result, bool taken)
   return taken ? RCL_RET_OK : RCL_RET_SUBSCRIPTION_TAKE_FAILED;
 }
 
+static void take_prepare(const rmw_subscription_t * subscription, rmw_message_info_t * info)
+{
+  rmw_subscription_pump(subscription);
+  if (info != NULL) {
+    rmw_subscription_describe(subscription, info);
+  }
+}
+
 rcl_ret_t rcl_take(
   const rcl_subscription_t * subscription, void * ros_message, rmw_message_info_t * message_info,
   rmw_subscription_allocation_t * allocation)
@@ -25,8 +33,8 @@ rcl_ret_t rcl_take(
   if (ros_message == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "message");
   }
-  rmw_subscription_pump(subscription->impl);
-  result = rmw_subscription_take(subscription->impl, ros_message, message_info, &taken);
+  take_prepare(subscription->impl, message_info);
+  result = rmw_subscription_take(subscription->impl, ros_message, &taken);
   return take_result(result, taken);
 }
 
@@ -44,7 +52,7 @@ rcl_ret_t rcl_take_serialized_message(
   if (serialized_message == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "serialized_message");
   }
-  rmw_subscription_pump(subscription->impl);
-  result = rmw_subscription_take_serialized(subscription->impl, serialized_message, message_info, &taken);
+  take_prepare(subscription->impl, message_info);
+  result = rmw_subscription_take_serialized(subscription->impl, serialized_message, &taken);
   return take_result(result, taken);
 }

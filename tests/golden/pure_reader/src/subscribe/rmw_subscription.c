@@ -22,13 +22,13 @@ static rmw_subscription_t * subscription_hand_out(xrce_endpoint_t * endpoint)
   return subscription;
 }
 
-rmw_ret_t rmw_subscription_open(
-  const rmw_node_t * node, const rosidl_message_type_support_t * type_support, const char * topic,
-  const rmw_qos_profile_t * qos, rmw_subscription_t ** subscription)
+static rmw_ret_t subscription_open_in(
+  uint16_t first, uint16_t count, const rmw_node_t * node, const rosidl_message_type_support_t * type_support,
+  const char * topic, const rmw_qos_profile_t * qos, rmw_subscription_t ** subscription)
 {
   const rmw_section_t section = {
-    MICROROS_PUBLISHERS_MAX, MICROROS_SUBSCRIPTIONS_MAX, microros_error_subscription_undeclared,
-    microros_error_subscription_open, microros_error_subscriptions_full};
+    first, count, microros_error_subscription_undeclared, microros_error_subscription_open,
+    microros_error_subscriptions_full};
   const rmw_name_t name = rmw_name_of_topic(topic, node->name, node->namespace_);
   xrce_endpoint_t wanted = {node->context->impl, type_support->data, NULL, 0, 0, rmw_node_index(node), 0};
   const char * refused = rmw_qos_to_xrce(qos, &wanted.qos, &wanted.depth);
@@ -44,6 +44,14 @@ rmw_ret_t rmw_subscription_open(
     *subscription = subscription_hand_out(endpoint);
   }
   return result;
+}
+
+rmw_ret_t rmw_subscription_open(
+  const rmw_node_t * node, const rosidl_message_type_support_t * type_support, const char * topic,
+  const rmw_qos_profile_t * qos, rmw_subscription_t ** subscription)
+{
+  return subscription_open_in(
+    MICROROS_PUBLISHERS_MAX, MICROROS_SUBSCRIPTIONS_MAX, node, type_support, topic, qos, subscription);
 }
 
 void rmw_subscription_close(rmw_subscription_t * subscription)

@@ -16,19 +16,23 @@ enum { ENCAPSULATION_SIZE = 4, CDR_LITTLE_ENDIAN = 1 };
 enum { NS_PER_MS = 1000000 };
 
 /* XRCE carries neither who has sent a sample nor when; when it arrived is known. */
-static void take_describe(const xrce_sample_t * sample, rmw_message_info_t * info)
+void rmw_subscription_describe(const rmw_subscription_t * subscription, rmw_message_info_t * info)
 {
-  const uint32_t age_ms = port_time_ms() - sample->arrived_ms;
+  xrce_sample_t sample;
+  uint32_t age_ms;
 
   (void)memset(info, 0, sizeof(*info));
+  if (!xrce_read_peek(subscription->data, &sample)) {
+    return;
+  }
+  age_ms = port_time_ms() - sample.arrived_ms;
   info->received_timestamp = port_time_epoch_ns() - (int64_t)age_ms * NS_PER_MS;
   info->publication_sequence_number = RMW_MESSAGE_INFO_SEQUENCE_NUMBER_UNSUPPORTED;
   info->reception_sequence_number = RMW_MESSAGE_INFO_SEQUENCE_NUMBER_UNSUPPORTED;
   info->publisher_gid.implementation_identifier = rmw_implementation_identifier;
 }
 
-rmw_ret_t rmw_subscription_take(
-  const rmw_subscription_t * subscription, void * ros_message, rmw_message_info_t * info, bool * taken)
+rmw_ret_t rmw_subscription_take(const rmw_subscription_t * subscription, void * ros_message, bool * taken)
 {
   const xrce_endpoint_t * endpoint = subscription->data;
   xrce_sample_t sample;
@@ -43,18 +47,12 @@ rmw_ret_t rmw_subscription_take(
   }
   result = rmw_decode(endpoint->type, sample.data, sample.size, sample.big_endian, ros_message);
   xrce_read_pop(endpoint, result != RMW_RET_OK);
-  if (result == RMW_RET_OK) {
-    *taken = true;
-    if (info != NULL) {
-      take_describe(&sample, info);
-    }
-  }
+  *taken = result == RMW_RET_OK;
   return result;
 }
 
 rmw_ret_t rmw_subscription_take_serialized(
-  const rmw_subscription_t * subscription, rmw_serialized_message_t * serialized_message,
-  rmw_message_info_t * info, bool * taken)
+  const rmw_subscription_t * subscription, rmw_serialized_message_t * serialized_message, bool * taken)
 {
   const xrce_endpoint_t * endpoint = subscription->data;
   xrce_sample_t sample;
@@ -77,9 +75,6 @@ rmw_ret_t rmw_subscription_take_serialized(
   serialized_message->buffer[1] = sample.big_endian ? (uint8_t)0 : (uint8_t)CDR_LITTLE_ENDIAN;
   (void)memcpy(&serialized_message->buffer[ENCAPSULATION_SIZE], sample.data, sample.size);
   serialized_message->buffer_length = size;
-  if (info != NULL) {
-    take_describe(&sample, info);
-  }
   xrce_read_pop(endpoint, false);
   *taken = true;
   return RMW_RET_OK;
@@ -95,7 +90,8 @@ rmw_ret_t rmw_take_with_info(
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "subscription, message, taken or message_info");
   }
   rmw_subscription_pump(subscription);
-  return rmw_subscription_take(subscription, ros_message, message_info, taken);
+  rmw_subscription_describe(subscription, message_info);
+  return rmw_subscription_take(subscription, ros_message, taken);
 }
 
 rmw_ret_t rmw_take(
@@ -116,5 +112,5 @@ rmw_ret_t rmw_take_serialized_message(
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "subscription, serialized_message or taken");
   }
   rmw_subscription_pump(subscription);
-  return rmw_subscription_take_serialized(subscription, serialized_message, NULL, taken);
+  return rmw_subscription_take_serialized(subscription, serialized_message, taken);
 }

@@ -12,9 +12,10 @@ extern "C" {
 
 /*
  * Opens a socket of this kind (SOCK_DGRAM, SOCK_STREAM) that does not block, and connects it, or begins to. `host` is an
- * IPv4 or IPv6 address in digits, without a zone. Returns its descriptor, or -1.
+ * IPv4 or IPv6 address in digits, without a zone; `local` is the port of this side, 0 for any. Returns its descriptor, or
+ * -1.
  */
-int port_posix_socket_connect(const char * host, uint16_t port, int kind);
+int port_posix_socket_connect(const char * host, uint16_t port, int kind, uint16_t local);
 
 #ifdef __cplusplus
 }

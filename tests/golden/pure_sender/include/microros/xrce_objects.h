@@ -60,6 +60,12 @@ typedef struct xrce_endpoint_t {
   uint8_t qos;          /* XRCE_QOS_ */
 } xrce_endpoint_t;
 
+/* Whether the application can open a place. */
+static inline bool xrce_place_is_free(const xrce_object_state_t * state)
+{
+  return !state->wanted;
+}
+
 /* Whether a place is a participant's, a data reader's, or one of a service. */
 static inline bool xrce_place_is_participant(uint16_t place)
 {

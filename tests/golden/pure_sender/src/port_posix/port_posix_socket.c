@@ -41,7 +41,22 @@ static bool socket_begin(int handle, const address_t * address, socklen_t size)
          (connect(handle, &address->any, size) == 0 || errno == EINPROGRESS);
 }
 
-int port_posix_socket_connect(const char * host, uint16_t port, int kind)
+/* Gives this side a port; 0: the system does when it connects. */
+static bool socket_bind(int handle, const address_t * peer, socklen_t size, uint16_t local)
+{
+  address_t address;
+
+  (void)memset(&address, 0, sizeof(address));
+  address.any.sa_family = peer->any.sa_family;
+  if (peer->any.sa_family == AF_INET) {
+    address.v4.sin_port = htons(local);
+  } else {
+    address.v6.sin6_port = htons(local);
+  }
+  return local == 0u || bind(handle, &address.any, size) == 0;
+}
+
+int port_posix_socket_connect(const char * host, uint16_t port, int kind, uint16_t local)
 {
   address_t address;
   const socklen_t size = socket_parse(&address, host, port);
@@ -51,7 +66,7 @@ int port_posix_socket_connect(const char * host, uint16_t port, int kind)
     return -1;
   }
   handle = socket(address.any.sa_family, kind, 0);
-  if (handle >= 0 && !socket_begin(handle, &address, size)) {
+  if (handle >= 0 && !(socket_bind(handle, &address, size, local) && socket_begin(handle, &address, size))) {
     (void)close(handle);
     handle = -1;
   }

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "rmw_microros/sleep.h"
+
+#include "microros/error.h"
+#include "microros/port.h"
+#include "microros/rmw_client.h"
+
+#include <string.h>
+
+/* "XRCE" and the version of this layout. */
+static const uint32_t retained_magic = 0x58520001u;
+
+static uint32_t retained_check(const rmw_uros_retained_t * retained)
+{
+  const size_t begin = offsetof(rmw_uros_retained_t, size);
+
+  return xrce_sleep_check(0, &((const uint8_t *)retained)[begin], sizeof(*retained) - begin);
+}
+
+rmw_ret_t rmw_uros_sleep(rmw_context_t * context, rmw_uros_retained_t * retained, uint32_t timeout_ms)
+{
+  const uint32_t start = port_time_ms();
+  xrce_client_t * client;
+
+  if (context == NULL || context->impl == NULL || retained == NULL) {
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "context or retained");
+  }
+  client = context->impl;
+  for (;;) {
+    xrce_session_pump(client);
+    if (xrce_sleep_can_begin(client)) {
+      break;
+    }
+    if (port_time_ms() - start >= timeout_ms) {
+      return RMW_RET_TIMEOUT;
+    }
+    port_sleep_ms(1);
+  }
+  xrce_sleep_begin(client);
+  (void)memset(retained, 0, sizeof(*retained));
+  retained->size = (uint32_t)sizeof(*retained);
+  (void)memcpy(retained->plan, MICROROS_PLAN_ID, sizeof(retained->plan));
+  (void)memcpy(retained->client, client, sizeof(retained->client));
+  retained->check = retained_check(retained);
+  retained->magic = retained_magic; /* last: before it, the memory is worth nothing */
+  xrce_session_close(client);
+  context->impl = NULL;
+  return RMW_RET_OK;
+}
+
+bool rmw_uros_wake(rmw_uros_retained_t * retained)
+{
+  xrce_client_t * client = rmw_client_instance();
+  bool good;
+
+  if (retained == NULL || client->session.state != (uint8_t)XRCE_CLOSED) {
+    return false;
+  }
+  good = retained->magic == retained_magic && retained->size == (uint32_t)sizeof(*retained) &&
+         memcmp(retained->plan, MICROROS_PLAN_ID, sizeof(retained->plan)) == 0 &&
+         retained->check == retained_check(retained);
+  retained->magic = 0; /* the numbers in it are used from now on */
+  if (good) {
+    (void)memcpy(client, retained->client, sizeof(retained->client));
+    client->session.state = (uint8_t)XRCE_CLOSED; /* until rcl_init */
+    client->session.transport_open = false;
+  }
+  return good;
+}
