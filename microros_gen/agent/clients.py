@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from microros_gen.agent.objects import ObjectTree
+from microros_gen.agent.rates import Rate
 from microros_gen.agent.services import Calls
 from microros_gen.agent.session import Ready, Session
 from microros_gen.agent.transport.base import Transport
@@ -28,6 +29,7 @@ class Client:
     timeout_s: float
     heard: float
     calls: Calls
+    rate: Rate
     opened: float = 0.0
     """When its session began; times of samples count from there."""
     probed: float = 0.0
@@ -43,6 +45,8 @@ class Client:
     """Stream of the message that is processed now."""
     more: bool = False
     """That message has further submessages."""
+    whole: bytes | None = None
+    """What the FRAGMENT that was processed last completed."""
     retry_at: float = 0.0
     """When a reliable stream that stopped is tried again, and how long that was put off."""
     retry_s: float = 0.0
@@ -70,7 +74,9 @@ class Client:
 
     def acknowledge(self) -> None:
         """Send the acknowledgements that are due, of what is done; what is not is still to be acknowledged."""
-        undone = [ready[2] for ready in self.ready]
+        undone = [
+            ready[2] for ready in self.ready if not ready[3]
+        ]  # behind what fragments made stands their rest
         if self.more:
             undone.append(self.stream)
         for stream in self.unacknowledged:

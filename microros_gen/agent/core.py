@@ -14,6 +14,7 @@ from pathlib import Path
 
 from microros_gen.agent.clients import Client, ClientTable
 from microros_gen.agent.deliveries import Deliveries
+from microros_gen.agent.input_pool import InputPool
 from microros_gen.agent.limits import PROBES, Limits
 from microros_gen.agent.lobby import Held, Lobby
 from microros_gen.agent.log import EventLog
@@ -30,6 +31,7 @@ from microros_gen.agent.wire.constants import (
     FLAG_LITTLE,
     STREAM_RELIABLE,
     ObjectKind,
+    Status,
     SubmessageId,
 )
 from microros_gen.agent.wire.data_messages import DATA_PREFIX
@@ -39,6 +41,8 @@ from microros_gen.agent.wire.submessages import decode
 
 WRITE_DATA = int(SubmessageId.WRITE_DATA)
 ACKNACK = int(SubmessageId.ACKNACK)
+COSTLY = (SubmessageId.CREATE, SubmessageId.DELETE)
+"""What changes the ROS graph: each client has a rate for it."""
 ANSWERED = (SubmessageId.CREATE, SubmessageId.READ_DATA)
 """Whoever sends these waits for a STATUS when they are refused, also for what cannot be read."""
 RETRY_S, LONGEST_RETRY_S = 0.002, 0.064
@@ -59,7 +63,9 @@ class Agent:
         preconfigured: Preconfigured | None = None,
         clock: Callable[[], float] = time.monotonic,
         manifests: Manifests | None = None,
+        pool: InputPool | None = None,
     ) -> None:
+        """`pool` is shared with the transports that hold input too; default: one for the clients alone."""
         self._bridge = bridge
         self._log = log
         self._limits = limits
@@ -71,7 +77,8 @@ class Agent:
         self.clients = ClientTable()
         held = Held(references or References(), preconfigured or Preconfigured(), manifests or Manifests())
         self._deliveries = Deliveries(log, lambda error: self._fault(error, b""))
-        self._lobby = Lobby(self.clients, bridge, log, limits, held, self._deliveries)
+        pool = pool or InputPool(limits.input_bytes, limits.clients)
+        self._lobby = Lobby(self.clients, bridge, log, limits, held, self._deliveries, pool)
         self._operations = Operations(log, self._deliveries)
         self.samples = 0
         """Samples, requests and replies that were handed to ROS 2."""
@@ -219,14 +226,21 @@ class Agent:
             elif identifier == ACKNACK and end - at == 5 and flags & FLAG_LITTLE:
                 first, missing = data[at] | data[at + 1] << 8, data[at + 2] << 8 | data[at + 3]
                 self._operations.acknowledged(client, data[at + 4], first, missing, self._clock())
+            elif identifier in COSTLY and not self._may_change(client, data, at, end):
+                waits = BusyError("it creates and deletes faster than it may")
+                if self._stop(
+                    client, (data, at - SUBMESSAGE_HEADER, stream, whole, 0), waits, "operations_wait"
+                ):
+                    return
+                self._refuse_costly(client, data, at, end)
             elif not self._operate(client, identifier, flags, data, at, end, whole):
                 return
 
     def _operate(
         self, client: Client, identifier: int, flags: int, data: bytes, at: int, end: int, whole: bool
     ) -> bool:
-        """Carry out a submessage that is no sample; False when it took the client away."""
-        if identifier == SubmessageId.DELETE and end - at >= 4 and data[at + 3] & 0x0F == ObjectKind.CLIENT:
+        """Carry out a submessage that is no sample; False: the rest of the message is not to be processed now."""
+        if identifier == SubmessageId.DELETE and _of_client(data, at, end):
             self._lobby.leave(client, data, at)
             self._to_acknowledge.discard(client)
             client.ready.clear()
@@ -243,32 +257,50 @@ class Agent:
         if identifier == SubmessageId.HEARTBEAT:
             self._to_acknowledge.add(client)
         now = self._clock()
-        client.more = (end + 3 & ~3) + SUBMESSAGE_HEADER <= len(data)
+        behind = end + 3 & ~3
+        client.more = not whole and behind + SUBMESSAGE_HEADER <= len(data)
         try:
             submessage = decode(identifier, flags, data, at, end)
         except MalformedError:
             if identifier in ANSWERED and end - at >= DATA_PREFIX:
-                ids = data[at] << 8 | data[at + 1], data[at + 2] << 8 | data[at + 3]
-                self._operations.refuse(client, *ids, now)
+                self._operations.refuse(client, data, at, Status.INVALID_DATA, now)
             raise
         self._operations.run(client, submessage, now)
         client.more = False
-        return True
+        if client.whole is None:
+            return True
+        client.ready.extendleft(
+            ((data, behind, client.stream, False, 0), (client.whole, 0, client.stream, True, 0))
+        )
+        client.whole = None
+        return False
 
-    def _stop(self, client: Client, unfinished: Ready, error: BusyError) -> bool:
+    def _may_change(self, client: Client, data: bytes, at: int, end: int) -> bool:
+        """Return whether a client may create or delete one more object now; it may always leave."""
+        return client.rate.take(self._clock()) or _of_client(data, at, end)
+
+    def _refuse_costly(self, client: Client, data: bytes, at: int, end: int) -> None:
+        if end - at >= DATA_PREFIX:
+            self._operations.refuse(client, data, at, Status.RESOURCES, self._clock())
+        detail = f"more than {self._limits.operations_per_second} CREATE and DELETE in a second"
+        self._refuse(MalformedError("too_many_operations", detail), data, client.address, client.transport)
+
+    def _stop(self, client: Client, unfinished: Ready, error: BusyError, kind: str = "publish_waits") -> bool:
         """Keep what cannot be done now, and what follows on its stream, unacknowledged; False where it is lost."""
         stream = unfinished[2]
-        followers = [ready[0] for ready in client.ready if ready[2] == stream and not ready[3]]
-        if stream < STREAM_RELIABLE or not client.session.stop(unfinished, followers):
+        behind = [ready for ready in client.ready if ready[2] == stream]
+        of_it = 1 if unfinished[3] else 0  # the rest of the message whose fragment completed it
+        message, followers = [unfinished, *behind[:of_it]], [ready[0] for ready in behind[of_it:]]
+        if stream < STREAM_RELIABLE or not client.session.stop(message, followers):
             return False
-        others = [ready for ready in client.ready if ready[2] != stream or ready[3]]
+        others = [ready for ready in client.ready if ready[2] != stream]
         client.ready.clear()
         client.ready.extend(others)
         if client not in self._stopped:
             self._stopped.add(client)
             client.retry_s = RETRY_S
             client.retry_at = self._clock() + RETRY_S
-            self._operations.waits(client, error)
+            self._operations.waits(client, kind, error)
         return True
 
     def _try_again(self, now: float) -> None:
@@ -312,6 +344,11 @@ class Agent:
             place=_place(error),
             data=data[:256].hex(),
         )
+
+
+def _of_client(data: bytes, at: int, end: int) -> bool:
+    """Return whether the ids at `data[at]` are those of a client itself."""
+    return end - at >= DATA_PREFIX and data[at + 3] & 0x0F == ObjectKind.CLIENT
 
 
 def _place(error: Exception) -> str:

@@ -67,9 +67,9 @@ class LengthDecoder:
         self._rest = b""
 
     @property
-    def unfinished(self) -> bool:
-        """Whether a message began and its end has not come."""
-        return bool(self._rest)
+    def unfinished(self) -> int:
+        """How many bytes are here of a message whose end has not come."""
+        return len(self._rest)
 
     def feed(self, data: bytes) -> list[bytes]:
         """Take what came next; return the messages that it completes, in order. Some may be empty."""

@@ -18,6 +18,8 @@ class Limits:
     """Streams of each kind (best effort, reliable) and each direction."""
     message_bytes: int = 262_144
     """Largest message that comes in fragments; also what a stream holds behind a gap."""
+    input_bytes: int = 33_554_432
+    """What comes from all clients together and waits: pieces of messages, what is behind a gap or waits for DDS."""
     backlog_bytes: int = 65_536
     """What waits for a reliable stream to the client, beyond the window of 16 messages."""
     requests: int = 1_024
@@ -26,6 +28,9 @@ class Limits:
     """Seconds that a request waits for its service to be there; then it is dropped, counted and told."""
     messages_per_second: int = 50_000
     """Messages that are taken from one client in a second; further ones are dropped and counted."""
+    operations_per_second: int = 100
+    """Objects that one client creates or deletes in a second, and messages outside of its session; ten seconds' worth
+    may come at once. On a reliable stream further ones wait, others are refused."""
     strangers_per_second: int = 2_000
     """Messages outside of any session that are answered in a second, of all senders together."""
     minimum_mtu: int = 32

@@ -10,12 +10,14 @@ from functools import partial
 from microros_gen.agent.clients import Client, ClientTable
 from microros_gen.agent.deliveries import Deliveries
 from microros_gen.agent.entities import Home
+from microros_gen.agent.input_pool import Holder, InputPool
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.objects import ObjectTree
 from microros_gen.agent.operations import agent_info, tell_outcome
 from microros_gen.agent.preconfigured import Preconfigured
+from microros_gen.agent.rates import Rates
 from microros_gen.agent.representation import References
 from microros_gen.agent.rivals import Rivals
 from microros_gen.agent.ros.bridge import Bridge
@@ -65,6 +67,7 @@ class Lobby:
         limits: Limits,
         held: Held,
         deliveries: Deliveries,
+        pool: InputPool,
     ) -> None:
         self._clients = clients
         self._bridge = bridge
@@ -72,6 +75,8 @@ class Lobby:
         self._limits = limits
         self._held = held
         self._deliveries = deliveries
+        self._pool = pool
+        self._rates = Rates(limits.operations_per_second, limits.clients)
         self._rivals = Rivals(log, limits.clients)
         self._answered = 0
         self._second = 0.0
@@ -95,6 +100,8 @@ class Lobby:
         """
         if client is None:
             self._count_stranger(now)
+        elif not client.rate.take(now):
+            raise MalformedError("too_many_operations", "a client says too much outside of its session")
         header = Header.decode(data)
         # What is out of session may be another client's by now: systems give a port to one after another.
         left = client is None and header.session not in OUT_OF_SESSION
@@ -163,6 +170,9 @@ class Lobby:
         """Take the entities of a client that is not heard out of the ROS graph; its session stays."""
         client.asleep = True
         client.objects.suspend()
+        for _ in range(client.session.rest()):
+            text = "client {client} fell silent within a message in fragments, which is lost"
+            self._log.count("unfinished", text, client=client.name)
         self._deliveries.refresh(client, client.heard)
         text = "client {client} was not heard for {seconds} s: its entities left the ROS graph"
         self._tell(client, "client_silent", text, seconds=client.timeout_s)
@@ -233,8 +243,9 @@ class Lobby:
         home = Home(self._bridge, name, partial(self._held.manifests.hash_of, link.key))
         objects = ObjectTree(home, self._held.references, self._limits.objects)
         calls = Calls(self._log, self._limits.requests, link.key.hex().upper())
-        session = Session(link, self._limits)
-        new = Client(session, objects, transport, address, timeout_s, heard=now, calls=calls, opened=now)
+        session = Session(link, self._limits, Holder(self._pool))
+        rate = self._rates.of(link.key)
+        new = Client(session, objects, transport, address, timeout_s, now, calls, rate, opened=now)
         self._clients.add(new)
         return new
 

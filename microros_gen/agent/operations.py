@@ -113,9 +113,10 @@ class Operations:
             status=status.name,
         )
 
-    def refuse(self, client: Client, request: int, object_id: int, now: float) -> None:
-        """Answer a request that cannot be read: STATUS_ERR_INVALID_DATA (table 2)."""
-        self._answer(client, request, object_id, Status.INVALID_DATA, now)
+    def refuse(self, client: Client, data: bytes, at: int, status: Status, now: float) -> None:
+        """Answer a request whose ids begin at `data[at]` and that is not carried out (table 2)."""
+        request, object_id = data[at] << 8 | data[at + 1], data[at + 2] << 8 | data[at + 3]
+        self._answer(client, request, object_id, status, now)
 
     def write(self, client: Client, data: bytes, at: int, end: int, flags: int, done: int) -> int:
         """Carry out a WRITE_DATA that is no plain sample of a data writer; return how much went to ROS 2.
@@ -152,10 +153,10 @@ class Operations:
         """Count a sample that ROS 2 refused."""
         self._log.count("publish", "client {client}: {reason}", client=client.name, reason=str(error))
 
-    def waits(self, client: Client, error: BusyError) -> None:
-        """Count that a reliable stream of `client` stopped, since DDS has no room for its sample now."""
-        text = "client {client}: {reason}; the sample and what follows on its stream wait, unacknowledged"
-        self._log.count("publish_waits", text, client=client.name, reason=str(error))
+    def waits(self, client: Client, kind: str, error: BusyError) -> None:
+        """Count that a reliable stream of `client` stopped for now."""
+        text = "client {client}: {reason}; this and what follows on its stream wait, unacknowledged"
+        self._log.count(kind, text, client=client.name, reason=str(error))
 
     def acknowledged(self, client: Client, stream: int, first: int, missing: int, now: float) -> None:
         """Carry out an ACKNACK: send again what is missing, then go on with what waits."""
@@ -236,9 +237,7 @@ class Operations:
 
     def _fragment(self, client: Client, submessage: Submessage, now: float) -> None:
         assert isinstance(submessage, Fragment)
-        whole = client.session.fragment(client.stream, submessage)
-        if whole is not None:
-            client.ready.appendleft((whole, 0, client.stream, True, 0))
+        client.whole = client.session.fragment(client.stream, submessage)
 
     def _timestamp(self, client: Client, submessage: Submessage, now: float) -> None:
         assert isinstance(submessage, Timestamp)

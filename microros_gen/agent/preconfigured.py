@@ -18,6 +18,11 @@ where whoever runs it knows that no other client comes, and only when
   stream the HEARTBEAT that goes before: only that says where the stream goes on;
 - nobody is in session at its address.
 
+A client that only reads cannot be adopted, nor can what an adopted client reads go on: it sent its READ_DATA to the
+agent before and sends nothing more; where it is, which request its DATA has to name and which sequence numbers it would
+take died with that agent, and the standard has no message by which an agent finds clients (DDS-XRCE 1.0, 8.4). Whoever
+reads needs liveliness; the parser of the file says so.
+
 An adopted client that pings or creates something shows that it is another one: it is sent away, and heals.
 """
 

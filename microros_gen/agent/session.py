@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from microros_gen.agent.input_pool import Holder
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.streams_in import BestEffortIn, Reassembly, ReliableIn
 from microros_gen.agent.streams_out import BestEffortOut, Link, ReliableOut
@@ -25,23 +26,26 @@ from microros_gen.agent.wire.submessages import Submessage, encode
 ACKNACK = int(SubmessageId.ACKNACK)
 Ready = tuple[bytes, int, int, bool, int]
 """To be processed: message, offset of its first submessage, its stream, whether fragments made it, and how many samples
-of that submessage went to ROS 2 already."""
+of that submessage went to ROS 2 already. What fragments made goes before the rest of the message with the last one."""
 
 
 class Session:
     """Session `link.session` of the client `link.key`; streams come into being when they are first used."""
 
-    def __init__(self, link: Link, limits: Limits) -> None:
+    def __init__(self, link: Link, limits: Limits, holder: Holder | None = None) -> None:
+        """`holder` holds what of its input is not complete, or waits."""
         self._limits = limits
+        self._holder = holder or Holder()
         self._open(link)
 
     def _open(self, link: Link) -> None:
+        self._holder.clear()
         self.link = link
         self._best_effort_in: dict[int, BestEffortIn] = {}
         self._reliable_in: dict[int, ReliableIn] = {}
         self._reassembly: dict[int, Reassembly] = {}
         self._outputs: dict[int, BestEffortOut | ReliableOut] = {}
-        self._unfinished: dict[int, Ready] = {}
+        self._unfinished: dict[int, list[Ready]] = {}
 
     def reset(self, link: Link | None = None) -> None:
         """Begin all streams again at 0: a RESET, or the client came again (then with its new `link`)."""
@@ -66,7 +70,7 @@ class Session:
         if lost and heartbeat.stream in self._reassembly:
             self._reassembly[heartbeat.stream].drop()
         if not reliable.stopped:
-            self._unfinished.pop(heartbeat.stream, None)  # given up by the client
+            self._drop_unfinished(heartbeat.stream)  # given up by the client
         return ready
 
     @property
@@ -74,28 +78,41 @@ class Session:
         """Whether a stream waits for `go_on`."""
         return bool(self._unfinished)
 
-    def stop(self, unfinished: Ready, followers: Sequence[bytes]) -> bool:
-        """Acknowledge nothing from `unfinished` on, and keep it and those that follow until `go_on`.
+    def stop(self, unfinished: list[Ready], followers: Sequence[bytes]) -> bool:
+        """Acknowledge nothing from the message `unfinished` on, and keep it and those that follow until `go_on`.
 
         False when its stream is not there any more or has stopped before.
         """
-        stream = unfinished[2]
+        stream = unfinished[0][2]
         reliable = self._reliable_in.get(stream)
         if reliable is None or reliable.stopped:
             return False
         reliable.stop(followers)
         self._unfinished[stream] = unfinished
+        self._holder.add(sum(len(part[0]) for part in unfinished))
         return True
 
     def go_on(self) -> list[Ready]:
         """Return what was stopped, to be processed now."""
         start = len(self.link.header(STREAM_NONE, 0))
         ready: list[Ready] = []
-        for stream, unfinished in self._unfinished.items():
+        for stream, unfinished in list(self._unfinished.items()):
             followers = self._reliable_in[stream].go_on()
-            ready += [unfinished, *((message, start, stream, False, 0) for message in followers)]
-        self._unfinished = {}
+            ready += [*unfinished, *((message, start, stream, False, 0) for message in followers)]
+            self._drop_unfinished(stream)
         return ready
+
+    def _drop_unfinished(self, stream: int) -> None:
+        self._holder.add(-sum(len(part[0]) for part in self._unfinished.pop(stream, ())))
+
+    def rest(self) -> int:
+        """Hold nothing for a client that says nothing; return how many messages are lost that it had begun."""
+        for reliable in self._reliable_in.values():
+            reliable.forget()
+        unfinished = [reassembly for reassembly in self._reassembly.values() if reassembly.unfinished]
+        for reassembly in unfinished:
+            reassembly.drop()
+        return len(unfinished)
 
     def begin(self, stream: int, first: int) -> None:
         """Let reliable input stream `stream` begin at `first`: what was before, another agent had."""
@@ -107,7 +124,7 @@ class Session:
             raise MalformedError("fragment_stream", f"stream {stream:#04x}")
         reassembly = self._reassembly.get(stream)
         if reassembly is None:
-            reassembly = self._reassembly[stream] = Reassembly(self._limits.message_bytes)
+            reassembly = self._reassembly[stream] = Reassembly(self._limits.message_bytes, self._holder)
         return reassembly.add(fragment.piece, fragment.last)
 
     def acknack(self, stream: int, unfinished: int = 0) -> bytes:
@@ -174,7 +191,7 @@ class Session:
 
     def _open_reliable(self, stream: int) -> ReliableIn:
         self._check_streams(len(self._reliable_in))
-        self._reliable_in[stream] = ReliableIn(self._limits.message_bytes)
+        self._reliable_in[stream] = ReliableIn(self._limits.message_bytes, self._holder)
         return self._reliable_in[stream]
 
     def _open_best_effort(self, stream: int) -> BestEffortIn:

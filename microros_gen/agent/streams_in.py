@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from microros_gen.agent.input_pool import Holder
 from microros_gen.agent.wire.constants import RELIABLE_WINDOW
 from microros_gen.agent.wire.errors import MalformedError
 
@@ -29,9 +30,13 @@ class BestEffortIn:
 
 
 class ReliableIn:
-    """Hands messages on in order and once each; holds those behind a gap, at most `hold_bytes` of them."""
+    """Hands messages on in order and once each; holds those behind a gap, at most `hold_bytes` of them.
 
-    def __init__(self, hold_bytes: int) -> None:
+    `holder` says whether there is room for them among all clients.
+    """
+
+    def __init__(self, hold_bytes: int, holder: Holder | None = None) -> None:
+        self._holder = holder or Holder()
         self.next = 0
         self._announced = 0  # messages from `next` on that are known to exist
         self._held: dict[int, bytes] = {}
@@ -55,7 +60,7 @@ class ReliableIn:
         self._announced = min(self._announced + len(given), RELIABLE_WINDOW)
         for i, message in enumerate(given):
             self._held[(self.next + i) & 0xFFFF] = message
-            self._held_bytes += len(message)
+            self._count(len(message))
 
     def go_on(self) -> tuple[bytes, ...]:
         """Return what follows the message at which it was stopped: the caller takes that one up again."""
@@ -66,18 +71,17 @@ class ReliableIn:
 
     def push(self, sequence: int, data: bytes) -> tuple[bytes, ...]:
         """Take a message; return those that can be processed now, in order. Duplicates are dropped."""
-        if sequence == self.next and not self._held:
+        if sequence == self.next and not self._stopped:
             self._advance()
-            return (data,)
+            return (data, *self._ready()) if self._held else (data,)
         ahead = (sequence - self.next) & 0xFFFF
         if ahead >= RELIABLE_WINDOW or sequence in self._held:
             return ()
         self._announced = max(self._announced, ahead + 1)
-        if ahead and self._held_bytes + len(data) > self._hold_bytes:
-            return ()  # not acknowledged, so the client sends it again
-        self._held[sequence] = data
-        self._held_bytes += len(data)
-        return self._ready()
+        if self._held_bytes + len(data) <= self._hold_bytes and self._holder.take(len(data)):
+            self._held[sequence] = data
+            self._held_bytes += len(data)
+        return ()  # what is not held is not acknowledged either, so the client sends it again
 
     def announce(self, first: int, last: int) -> tuple[tuple[bytes, ...], bool]:
         """Take a HEARTBEAT: messages before `first` cannot be had any more, those up to `last` can.
@@ -110,7 +114,7 @@ class ReliableIn:
             return ()
         ready = []
         while (data := self._held.pop(self.next, None)) is not None:
-            self._held_bytes -= len(data)
+            self._count(-len(data))
             self._advance()
             ready.append(data)
         return tuple(ready)
@@ -118,9 +122,20 @@ class ReliableIn:
     def _skip_to(self, first: int, skip: int) -> None:
         self._stopped = False
         for sequence in [s for s in self._held if (s - self.next) & 0xFFFF < skip]:
-            self._held_bytes -= len(self._held.pop(sequence))
+            self._count(-len(self._held.pop(sequence)))
         self.next = first
         self._announced = max(0, self._announced - skip)
+
+    def forget(self) -> None:
+        """Give up what is behind a gap: the client sends it again."""
+        if not self._stopped:
+            for data in self._held.values():
+                self._count(-len(data))
+            self._held.clear()
+
+    def _count(self, size: int) -> None:
+        self._held_bytes += size
+        self._holder.add(size)
 
     def _advance(self) -> None:
         self.next = (self.next + 1) & 0xFFFF
@@ -129,9 +144,10 @@ class ReliableIn:
 
 
 class Reassembly:
-    """Joins the FRAGMENTs of one reliable stream; never holds more than `limit` bytes."""
+    """Joins the FRAGMENTs of one reliable stream; never holds more than `limit` bytes, or than `holder` lets it."""
 
-    def __init__(self, limit: int) -> None:
+    def __init__(self, limit: int, holder: Holder | None = None) -> None:
+        self._holder = holder or Holder()
         self._limit = limit
         self._pieces = bytearray()
         self._refusing = False
@@ -139,25 +155,38 @@ class Reassembly:
     def add(self, piece: bytes, last: bool) -> bytes | None:
         """Take a piece; return the whole with the last one, else None.
 
-        MalformedError once for each whole that is larger than the limit; all of its pieces are dropped.
+        MalformedError once for each whole that is larger than the limit, or for which the pool has no room; all of its
+        pieces are dropped.
         """
-        refused_before = self._refusing
-        if not refused_before and len(self._pieces) + len(piece) > self._limit:
-            self._refusing = True
         if self._refusing:
-            self._pieces = bytearray()
             self._refusing = not last
-            if not refused_before:
-                raise MalformedError("fragments_too_large", f"more than {self._limit} bytes")
             return None
+        if len(self._pieces) + len(piece) > self._limit:
+            self._refuse(last)
+            raise MalformedError("fragments_too_large", f"more than {self._limit} bytes")
+        if not self._holder.take(len(piece)):
+            self._refuse(last)
+            raise MalformedError("input_full", "no room for fragments: those of all clients take too much")
         self._pieces += piece
         if not last:
             return None
         whole = bytes(self._pieces)
-        self._pieces = bytearray()
+        self._forget()
         return whole
+
+    @property
+    def unfinished(self) -> bool:
+        """Whether a whole began and did not end."""
+        return bool(self._pieces)
 
     def drop(self) -> None:
         """Forget what was gathered: a message between two pieces is lost. What comes is no whole any more."""
+        self._refuse(last=False)
+
+    def _refuse(self, last: bool) -> None:
+        self._forget()
+        self._refusing = not last
+
+    def _forget(self) -> None:
+        self._holder.add(-len(self._pieces))
         self._pieces = bytearray()
-        self._refusing = True

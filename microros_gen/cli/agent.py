@@ -32,7 +32,11 @@ class _Transports(click.Group):
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         if args and not args[0].startswith("-") and args[0] not in self.commands:
-            hint = nearest(args[0], self.commands) or f"There are {', '.join(self.commands)}"
+            both = [
+                name for name in self.commands if name.rstrip("46") == args[0].rstrip("0123456789").lower()
+            ]
+            found = f"Choose {' or '.join(both)}" if len(both) > 1 else nearest(args[0], self.commands)
+            hint = found or f"There are {', '.join(self.commands)}"
             raise click.UsageError(f"there is no transport '{args[0]}'. {hint}", ctx)
         return super().resolve_command(ctx, args)
 

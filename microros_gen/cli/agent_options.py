@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, fields, replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +13,7 @@ import click
 
 from microros_gen.agent.limits import Limits
 from microros_gen.cli.agent_types import ManifestOf
-from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, UserError, nearest
+from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, Span, UserError, nearest
 from microros_gen.model.agent_file import AgentFile, NamedPath, PtyChoice, SerialChoice, TransportChoice
 from microros_gen.parse.agent_file import DISCOVERY_PORT, parse_agent_file
 
@@ -130,6 +130,8 @@ class AgentOptions:
     interface_paths: tuple[Path, ...] = ()
     log_format: str = "text"
     verbose: int = 0
+    places: Mapping[Path, Span] = field(default_factory=dict, compare=False)
+    """Where the configuration file names a path."""
 
     @staticmethod
     def of(given: Sequence[dict[str, Any]], transports: Iterable[TransportChoice]) -> AgentOptions:
@@ -152,12 +154,13 @@ class AgentOptions:
             references=_paths(folder, file.references, one["references"]),
             entities=_paths(folder, file.entities, one["entities"]),
             manifests=(
-                *(ManifestOf.of(named.path, folder) for named in file.manifests),
+                *(ManifestOf.of(named.path, folder, named.span) for named in file.manifests),
                 *(ManifestOf.of(text, Path()) for text in one["manifest"]),
             ),
             interface_paths=_paths(folder, file.interface_paths, one["interface_path"]),
             log_format=one["log_format"] or file.log_format or "text",
             verbose=one["verbose"] or file.verbose or 0,
+            places={folder / n.path: n.span for n in _named(file) if n.span is not None},
         )
 
 
@@ -191,16 +194,25 @@ def _read_file(path: Path | None) -> tuple[AgentFile, Path]:
     return file, path.parent
 
 
-def read_sources(paths: Sequence[Path], diagnostics: Diagnostics) -> list[Source]:
-    """Return the texts of some files; one that cannot be read is an error."""
+def _named(file: AgentFile) -> tuple[NamedPath, ...]:
+    return (*file.references, *file.entities, *file.interface_paths)
+
+
+def read_sources(
+    paths: Sequence[Path], diagnostics: Diagnostics, places: Mapping[Path, Span] | None = None
+) -> list[Source]:
+    """Return the texts of some files; one that cannot be read is an error, at its place where somebody named it."""
+    known = places or {}
     sources = []
     for path in dict.fromkeys(paths):
         try:
             sources.append(Source(str(path), path.read_text(encoding="utf-8-sig")))
         except OSError as error:
-            diagnostics.error(f"{path} cannot be read: {error.strerror}")
+            diagnostics.error(f"{path} cannot be read: {error.strerror}", known.get(path))
         except UnicodeDecodeError as error:
-            diagnostics.error(f"{path} is not UTF-8 (byte {error.start})", hint="Save it as UTF-8")
+            diagnostics.error(
+                f"{path} is not UTF-8 (byte {error.start})", known.get(path), "Save it as UTF-8"
+            )
     return sources
 
 

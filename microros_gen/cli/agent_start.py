@@ -14,6 +14,7 @@ from typing import Any
 import click
 
 from microros_gen.agent.core import Agent
+from microros_gen.agent.input_pool import InputPool
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.preconfigured import Preconfigured
@@ -30,7 +31,7 @@ from microros_gen.cli.agent_options import AgentOptions, read_sources
 from microros_gen.cli.agent_types import ClientTypes, HashOf, TypeHashes, read_manifests
 from microros_gen.cli.type_hashes import type_hashes
 from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
-from microros_gen.model.agent_file import PtyChoice, SerialChoice, TransportChoice
+from microros_gen.model.agent_file import PtyChoice, SerialChoice, SocketChoice, TransportChoice
 from microros_gen.parse.preconfigured import parse_preconfigured
 
 
@@ -46,16 +47,17 @@ def serve(options: AgentOptions) -> None:
             " use the one here will misread it"
         )
         log.emit(Level.WARNING, "type_hash_differs", text, type=name)
-    transports = open_transports(options.transports, options.discovery, log)
+    limits = options.limits
+    pool = InputPool(limits.input_bytes, limits.clients + connections(options.transports))
+    transports = open_transports(options.transports, options.discovery, log, pool)
     try:
-        limits = options.limits
         report, wait_s = graph_reporter(log), limits.request_wait_s
         bridge = open_bridge(limits.domains, options.domain, files.hashes, report, wait_s)
     except UserError:
         _close(transports)
         raise
     manifests = Manifests(files.clients.by_client)
-    agent = Agent(bridge, log, limits, files.references, files.preconfigured, manifests=manifests)
+    agent = Agent(bridge, log, limits, files.references, files.preconfigured, manifests=manifests, pool=pool)
     if options.verbose:
         transports = [TracedTransport(transport, log) for transport in transports]
     server = Server(agent, transports, log)
@@ -68,13 +70,21 @@ def serve(options: AgentOptions) -> None:
 
 
 def open_transports(
-    choices: Sequence[TransportChoice], discovery: int | None, log: EventLog
+    choices: Sequence[TransportChoice], discovery: int | None, log: EventLog, pool: InputPool
 ) -> list[Transport]:
-    """Return open transports, and discovery of them at port `discovery`; UserError names the first that fails."""
+    """Return open transports, and discovery of them at port `discovery`; UserError names all that fail.
+
+    What they hold of messages that are not complete counts in `pool`.
+    """
     opened: list[Transport] = []
+    diagnostics = Diagnostics()
+    for choice in dict.fromkeys(choices):
+        try:
+            opened.append(_open(choice, log, pool))
+        except UserError as error:
+            diagnostics.extend(replace(d, span=d.span or choice.span) for d in error.diagnostics)
     try:
-        for choice in dict.fromkeys(choices):
-            opened.append(_open(choice, log))
+        diagnostics.check()
         if discovery is not None:
             opened.append(_discovery(opened, log, discovery))
     except UserError:
@@ -83,7 +93,15 @@ def open_transports(
     return opened
 
 
-def _open(choice: TransportChoice, log: EventLog) -> Transport:
+def connections(choices: Sequence[TransportChoice]) -> int:
+    """Return how many TCP connections transports may have together."""
+    from microros_gen.agent.transport.tcp import TcpLimits
+
+    streams = [c for c in choices if isinstance(c, SocketChoice) and PROTOCOLS[c.kind].stream]
+    return sum(int(dict(c.limits).get("connections", TcpLimits.connections)) for c in streams)
+
+
+def _open(choice: TransportChoice, log: EventLog, pool: InputPool) -> Transport:
     from microros_gen.agent.transport.serial import Pty, serial_line  # not on every system
     from microros_gen.agent.transport.tcp import Tcp, TcpLimits
     from microros_gen.agent.transport.udp import Udp
@@ -97,7 +115,7 @@ def _open(choice: TransportChoice, log: EventLog) -> Transport:
     if not protocol.stream:
         return Udp(protocol, host, choice.port)
     limits: dict[str, Any] = dict(choice.limits)
-    return Tcp(protocol, host, choice.port, log, replace(TcpLimits(), **limits))
+    return Tcp(protocol, host, choice.port, log, replace(TcpLimits(), **limits), pool)
 
 
 def _discovery(opened: Sequence[Transport], log: EventLog, port: int) -> Transport:
@@ -137,14 +155,17 @@ def _files(options: AgentOptions) -> _Files:
     """Return what the files say; UserError with the faults of all of them."""
     diagnostics = Diagnostics()
     references, preconfigured = References(), Preconfigured()
-    profiles = read_sources(options.references, diagnostics)
-    entities = read_sources(options.entities, diagnostics)
+    places = options.places
+    profiles = read_sources(options.references, diagnostics, places)
+    entities = read_sources(options.entities, diagnostics, places)
     clients = read_manifests(options.manifests, diagnostics)
     of_files: HashOf = _nobody
     try:
         of_files = type_hashes(options.interface_paths)
     except UserError as error:
-        diagnostics.extend(error.diagnostics)
+        missing = next((path for path in options.interface_paths if not path.exists()), Path())
+        span = places.get(missing)
+        diagnostics.extend(replace(d, span=d.span or span) for d in error.diagnostics)
     try:
         references = read_references(profiles)
     except UserError as error:

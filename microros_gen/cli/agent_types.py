@@ -6,11 +6,11 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from microros_gen.diagnostics import Diagnostics
+from microros_gen.diagnostics import Diagnostics, Span
 
 _KEYED = re.compile(r"(0[xX][0-9a-fA-F]{1,8})=(.+)")
 _HASH = re.compile(r"RIHS01_[0-9a-f]{64}")
@@ -24,12 +24,15 @@ class ManifestOf:
 
     path: Path
     key: str | None = None
+    span: Span | None = field(default=None, compare=False, repr=False)
 
     @staticmethod
-    def of(text: str, folder: Path) -> ManifestOf:
-        """Return what `FILE` or `KEY=FILE` says; the file is relative to `folder`."""
+    def of(text: str, folder: Path, span: Span | None = None) -> ManifestOf:
+        """Return what `FILE` or `KEY=FILE` says, perhaps at a place; the file is relative to `folder`."""
         match = _KEYED.fullmatch(text)
-        return ManifestOf(folder / match[2], match[1]) if match else ManifestOf(folder / text)
+        return (
+            ManifestOf(folder / match[2], match[1], span) if match else ManifestOf(folder / text, None, span)
+        )
 
 
 @dataclass(frozen=True)
@@ -74,7 +77,7 @@ def read_manifests(manifests: Sequence[ManifestOf], diagnostics: Diagnostics) ->
     by_client: dict[str, dict[str, str]] = {}
     first: dict[tuple[str, str], Path] = {}
     for manifest in dict.fromkeys(manifests):
-        content = _read(manifest.path, diagnostics)
+        content = _read(manifest, diagnostics)
         clients = [manifest.key] if manifest.key else content.nodes
         for client in clients or [""]:
             known = by_client.setdefault(client, {}) if client else common
@@ -83,7 +86,7 @@ def read_manifests(manifests: Sequence[ManifestOf], diagnostics: Diagnostics) ->
                     before = first[client, name]
                     message = f"{manifest.path} and {before} have different definitions of {name}"
                     hint = f"Say which client each is of: --manifest 0xKEY={manifest.path}"
-                    diagnostics.error(message, hint=hint)
+                    diagnostics.error(message, manifest.span, hint)
                 first.setdefault((client, name), manifest.path)
     return ClientTypes(common, by_client)
 
@@ -94,7 +97,8 @@ class _Content:
     nodes: list[str]
 
 
-def _read(path: Path, diagnostics: Diagnostics) -> _Content:
+def _read(manifest: ManifestOf, diagnostics: Diagnostics) -> _Content:
+    path, span = manifest.path, manifest.span
     try:
         data: Any = json.loads(path.read_text(encoding="utf-8"))
         types = {str(name): str(about["hash"]) for name, about in data["types"].items()}
@@ -102,9 +106,9 @@ def _read(path: Path, diagnostics: Diagnostics) -> _Content:
         if all(_HASH.fullmatch(told) for told in types.values()):
             return _Content(types, nodes)
     except OSError as error:
-        diagnostics.error(f"{path} cannot be read: {error.strerror}")
+        diagnostics.error(f"{path} cannot be read: {error.strerror}", span)
         return _Content({}, [])
     except (ValueError, KeyError, TypeError, AttributeError):
         pass
-    diagnostics.error(f"{path} is no manifest of microros-gen", hint="Give OUT/manifest.json of the client")
+    diagnostics.error(f"{path} is no manifest of microros-gen", span, "Give OUT/manifest.json of the client")
     return _Content({}, [])

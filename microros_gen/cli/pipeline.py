@@ -12,15 +12,16 @@ from microros_gen.cli.options import SelectionOptions
 from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.model.application import Application, EndpointDecl, Named, Transport
 from microros_gen.model.component import Catalogue, Profile
-from microros_gen.model.derived import declaring_name
+from microros_gen.model.derived import declaring_name, derived_name
 from microros_gen.model.selection import Selection
 from microros_gen.model.target import Target
 from microros_gen.model.types import TypeName
 from microros_gen.parse.application import parse_agent_address, parse_application, parse_discover
 from microros_gen.plan.agent_files import check_entities
 from microros_gen.plan.capacity import Capacities, Defaults, Entity, Root, plan_capacities
-from microros_gen.plan.declared import declarations, full_name, node_name, type_name
+from microros_gen.plan.declared import declarations, full_name, node_name, service_parts, type_name
 from microros_gen.plan.project import Project, plan_project
+from microros_gen.plan.service_limits import service_roots
 from microros_gen.plan.streams import DEFAULT_MTU, WRITE_DATA_OVERHEAD
 from microros_gen.plan.types import plan_types
 from microros_gen.resolve.clock import CLOCK_ROS, with_clock
@@ -149,6 +150,7 @@ def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Dia
         types,
         _published(interfaces, application),
         diagnostics,
+        tuple(name for name in interfaces.roots if name.kind == "srv"),
     )
     diagnostics.check()
     packages = sorted({entry.name.package for entry in interfaces})
@@ -311,7 +313,12 @@ def _capacities(resolved: Resolved, interfaces: InterfaceSet, diagnostics: Diagn
         for kind in ("publisher", "subscription")
         for index, (_, node, endpoint) in enumerate(declarations(application, kind))
     ]
+    declared += service_roots(application, interfaces.messages, room)
     known = {root.type for root in declared}
+    # A declared service exchanges a request and a response; its event, which ROS 2 derives, needs no limits.
+    known |= {
+        derived_name(declaring_name(root.type), "Event") for root in declared if root.type.kind == "srv"
+    }
     roots = declared + [
         _root(name, application, room) for name in interfaces.message_roots if name not in known
     ]
@@ -325,12 +332,16 @@ def _received(application: Application, selection: Selection, capacities: Capaci
     if decoding is None:
         return ()
     by_entities = all(reason.startswith("needed by ") for reason in decoding.reasons)
-    of_the_clock = selection.serves_only("subscribe", CLOCK_ROS)
-    if not by_entities or not (application.nodes or of_the_clock) or selection.has("services"):
+    of_the_clock = selection.serves_only("subscribe", CLOCK_ROS) and not selection.has("services")
+    if not by_entities or not (application.nodes or of_the_clock):
         return tuple(capacities.limits)
-    subscribed = {type_name(e.type) for _, _, e in declarations(application, "subscription")}
-    subscribed |= {type_name(e.type) for e in application.implied}
-    return tuple(name for name in capacities.limits if name in subscribed)
+    received = {type_name(e.type) for _, _, e in declarations(application, "subscription")}
+    received |= {type_name(e.type) for e in application.implied}
+    for kind in ("service", "client"):
+        for _, _, endpoint in declarations(application, kind):
+            service = type_name(endpoint.type, "srv")
+            received |= {derived_name(service, part) for part, sends in service_parts(kind) if not sends}
+    return tuple(name for name in capacities.limits if name in received)
 
 
 def _root(name: TypeName, application: Application, room: int) -> Root:

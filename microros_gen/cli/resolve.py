@@ -83,6 +83,15 @@ def _receiving_rows(planned: Planned) -> list[tuple[str, str, str]]:
     if runtime.subscriptions_max:
         source = "declared in nodes:" if runtime.declared else "pools: or one for each interface"
         rows.append(("subscriptions", str(runtime.subscriptions_max), source))
+    for name, places in (("services", runtime.services_max), ("clients", runtime.clients_max)):
+        if places:
+            rows.append(
+                (
+                    name,
+                    str(places),
+                    "declared in nodes:" if runtime.declared else "pools: or one for each service",
+                )
+            )
     if runtime.queues:
         slots = f"{runtime.queue_slots} slots, {runtime.queues_size} bytes"
         rows.append(("queues", slots, "queue: or depth, times the largest sample"))

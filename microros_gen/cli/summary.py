@@ -10,6 +10,7 @@ from microros_gen.build.compile import BuildReport
 from microros_gen.build.measure import Usage
 from microros_gen.cli.pipeline import Planned
 from microros_gen.plan.runtime import PublisherPlan, SubscriptionPlan
+from microros_gen.plan.services import ServicePlan
 
 
 def plan_summary(planned: Planned) -> str:
@@ -21,6 +22,8 @@ def plan_summary(planned: Planned) -> str:
         ("agent", _agent(planned)),
         *(("publishes", line) for line in _entities(planned, "publish", runtime.publishers)),
         *(("receives", line) for line in _entities(planned, "subscribe", runtime.subscriptions)),
+        *(("serves", line) for line in _services(runtime.services, runtime.services_max)),
+        *(("calls", line) for line in _services(runtime.clients, runtime.clients_max)),
         (
             "streams",
             f"reliable {runtime.reliable_slots} x {runtime.reliable_slot_size} bytes,"
@@ -84,6 +87,12 @@ def _entities(
     more = len(planned.project.roots) - len(shown)
     of_roots = f"up to {places} of {', '.join(shown)}{f' and {more} more types' if more else ''}"
     return [*own, *([of_roots] if places else [])]
+
+
+def _services(declared: Sequence[ServicePlan], places: int) -> list[str]:
+    if declared or not places:
+        return [f"{d.name} ({d.type})" for d in declared]
+    return [f"up to {places}"]
 
 
 def _defaults(planned: Planned) -> str:

@@ -19,6 +19,7 @@ class SocketChoice:
     port: int = 8888
     bind: str | None = None
     limits: tuple[tuple[str, float], ...] = ()
+    span: Span | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -27,6 +28,7 @@ class SerialChoice:
 
     device: str
     baud: int = 115_200
+    span: Span | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -34,6 +36,7 @@ class PtyChoice:
     """A pseudo-terminal, and the symbolic link to make to it."""
 
     link: str | None = None
+    span: Span | None = field(default=None, compare=False, repr=False)
 
 
 TransportChoice = SocketChoice | SerialChoice | PtyChoice

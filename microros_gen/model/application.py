@@ -30,6 +30,13 @@ DISCOVERY_PORT = 7400
 """Where agents are asked for by multicast, unless the application says another port."""
 
 
+LARGEST_UDP_PAYLOAD = 65_507
+"""Bytes that fit one UDP datagram over IPv4 (RFC 768, RFC 791)."""
+
+MOST_HISTORY = 16
+"""Most messages that a reliable stream keeps; application.schema.json says it too."""
+
+
 @dataclass(frozen=True)
 class Transport:
     """How the firmware reaches its agent. `mtu`: largest datagram or frame payload, bytes; None: planned.

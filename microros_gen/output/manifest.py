@@ -95,6 +95,7 @@ def _entities(project: Project) -> dict[str, Any]:
         ],
         "publishers": [_publisher(project, p) for p in project.runtime.publishers],
         **_subscriptions(project),
+        **_services(project),
     }
 
 
@@ -116,6 +117,31 @@ def _subscriptions(project: Project) -> dict[str, Any]:
             }
             for s in runtime.subscriptions
         ]
+    }
+
+
+def _services(project: Project) -> dict[str, Any]:
+    """Return the declared services and clients; nothing where there are no places for them."""
+    runtime = project.runtime
+    if not runtime.serves:
+        return {}
+    first = runtime.subscriptions_max
+    queues = runtime.queues[first:]
+    return {
+        key: [
+            {
+                "node": s.node,
+                "name": s.name,
+                "type": str(s.type),
+                "queue": queues[before + s.index].slots,
+                "slot_size": queues[before + s.index].slot_size,
+            }
+            for s in declared
+        ]
+        for key, declared, before in (
+            ("services", runtime.services, 0),
+            ("clients", runtime.clients, runtime.services_max),
+        )
     }
 
 
@@ -163,6 +189,8 @@ def _pools(project: Project) -> dict[str, int]:
         "nodes": runtime.nodes_max,
         "publishers": runtime.publishers_max,
         **({"subscriptions": runtime.subscriptions_max} if runtime.subscriptions_max else {}),
+        **({"services": runtime.services_max} if runtime.has_services else {}),
+        **({"clients": runtime.clients_max} if runtime.has_clients else {}),
         **({"queues": runtime.queues_size} if runtime.queues else {}),
         **({"reassembly": runtime.reassembly_size} if runtime.reassembly_size else {}),
         **({"timers": runtime.timers_max} if runtime.has_timers else {}),

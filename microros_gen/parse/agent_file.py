@@ -6,6 +6,8 @@ The structure is that of agent.schema.json, which editors use as well.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.model.agent_file import (
     AgentFile,
@@ -49,7 +51,7 @@ def parse_agent_file(source: Source, diagnostics: Diagnostics) -> AgentFile:
 
 
 def _transports(item: YamlNode) -> list[TransportChoice]:
-    return [_transport(entry.key, entry.value) for entry in entries(item)]
+    return [replace(_transport(e.key, e.value), span=e.key_span) for e in entries(item)]
 
 
 def _transport(kind: str, node: YamlNode) -> TransportChoice:

@@ -10,6 +10,7 @@ from types import MappingProxyType
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
 from microros_gen.model.application import (
     DISCOVERY_PORT,
+    LARGEST_UDP_PAYLOAD,
     Application,
     Memory,
     Named,
@@ -38,9 +39,6 @@ from microros_gen.parse.yaml_tree import MappingNode, ScalarNode, YamlNode, pars
 
 LONGEST_BLOCK_MS = 60_000
 """Longest time that `on_full: block …` may take, milliseconds."""
-
-LARGEST_UDP_PAYLOAD = 65_507
-"""Bytes that fit one UDP datagram over IPv4 (RFC 768, RFC 791)."""
 
 _BLOCK = re.compile(r"block ([0-9]+) ?(ms|s)")
 _POOLS_BESIDE_NODES = (

@@ -17,7 +17,7 @@ Subscribers and data readers are like publishers and data writers, requesters li
 from the name (`rq/armRequest`, `rr/armReply`) unless `request_topic` and `reply_topic` name them.
 
 `key` "*" stands for every client without an entry of its own. `adopt: true` is for a client without liveliness, which
-never opens its session again: the agent takes its samples also after a restart (agent/adoption.py).
+never opens its session again: the agent takes its samples also after a restart (agent/preconfigured.py).
 """
 
 from __future__ import annotations
@@ -73,6 +73,7 @@ _PARENT: Mapping[str, str] = MappingProxyType(
         "replier": "participant",
     }
 )
+_READ = ("data_reader", "requester", "replier")
 _DURABILITIES = ("volatile", "transient_local", "transient", "persistent")
 _HEX = re.compile(r"0[xX][0-9a-fA-F]{1,8}")
 _DOMAINS = (*range(233), 255)
@@ -124,6 +125,14 @@ def _client(node: YamlNode, diagnostics: Diagnostics) -> PreconfiguredClient | N
     if adopted and key is None and adopt is not None:
         diagnostics.error(
             "a client of any key cannot be adopted", adopt.span, "Give its key, or leave it out"
+        )
+    reads = [item for item in reader.found.values() if item.kind in _READ]
+    if adopted and adopt is not None and reads:
+        diagnostics.warning(
+            f"after a restart of the agent nothing comes from ROS 2 to this client: {len(reads)} of its objects read,"
+            " and without liveliness it does not ask again",
+            adopt.span,
+            "Give it `liveliness: ping` or `acknack` in its application file; then it needs no 'adopt'",
         )
     entry = client.entries.get("key")
     return PreconfiguredClient(

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from microros_gen.diagnostics import Diagnostics
@@ -11,13 +12,16 @@ from microros_gen.model.selection import Selection
 from microros_gen.plan.creation import (
     participant_reference,
     reader_reference,
+    replier_reference,
+    requester_reference,
     topic_reference,
     writer_reference,
 )
 from microros_gen.plan.declared import declarations, full_name, type_name
 from microros_gen.plan.example import example_node, example_topics
-from microros_gen.plan.names import dds_topic, dds_type
+from microros_gen.plan.names import dds_topic, dds_type, reply_topic, request_topic
 from microros_gen.plan.project import Project
+from microros_gen.plan.runtime import RuntimePlan
 
 REFERENCES = "agent/references.xml"
 ENTITIES = "agent/entities.json"
@@ -28,6 +32,8 @@ _KINDS = {
     "subscriber": 4,
     "data_writer": 5,
     "data_reader": 6,
+    "requester": 7,
+    "replier": 8,
 }
 _REFERENCES = {"publisher": writer_reference, "subscription": reader_reference}
 
@@ -70,6 +76,37 @@ class AgentEndpoint:
 
 
 @dataclass(frozen=True)
+class AgentService:
+    """A replier or (`calls`) a requester. `name` is the service's; the types are those of its messages in DDS."""
+
+    index: int
+    node: int
+    name: str
+    dds_type: str
+    calls: bool
+
+    @property
+    def kind(self) -> str:
+        """The kind of its object."""
+        return "requester" if self.calls else "replier"
+
+    @property
+    def reference(self) -> str:
+        """The name under which the client asks for it."""
+        return requester_reference(self.name) if self.calls else replier_reference(self.name)
+
+    @property
+    def types(self) -> tuple[str, str]:
+        """The types of requests and replies."""
+        return f"{self.dds_type}Request_", f"{self.dds_type}Response_"
+
+    @property
+    def topics(self) -> tuple[str, str]:
+        """The topics of requests and replies."""
+        return request_topic(self.name), reply_topic(self.name)
+
+
+@dataclass(frozen=True)
 class AgentFiles:
     """The files' contents. `key` is the client's, None: any. `complete` is false where others may be created too.
 
@@ -81,6 +118,7 @@ class AgentFiles:
     endpoints: tuple[AgentEndpoint, ...]
     complete: bool
     adopt: bool = False
+    services: tuple[AgentService, ...] = ()
 
 
 def object_id(index: int, kind: str) -> int:
@@ -112,7 +150,19 @@ def plan_agent_files(project: Project) -> AgentFiles:
         for s in runtime.subscriptions
     ]
     adopt = project.selection.liveliness == "none" and runtime.client_key is not None
-    return AgentFiles(runtime.client_key, nodes, tuple(endpoints), complete=True, adopt=adopt)
+    services = tuple(_services(runtime))
+    return AgentFiles(
+        runtime.client_key, nodes, tuple(endpoints), complete=True, adopt=adopt, services=services
+    )
+
+
+def _services(runtime: RuntimePlan) -> Iterator[AgentService]:
+    first = runtime.publisher_places + runtime.subscriptions_max
+    for service in runtime.services:
+        yield AgentService(first + service.index, service.node, service.name, service.dds_type, calls=False)
+    for client in runtime.clients:
+        index = first + runtime.services_max + client.index
+        yield AgentService(index, client.node, client.name, client.dds_type, calls=True)
 
 
 def check_entities(application: Application, selection: Selection, diagnostics: Diagnostics) -> None:

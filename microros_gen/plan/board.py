@@ -20,6 +20,7 @@ _LINE_USERS = ("serial", "custom")
 _ACKNACK = 13
 _FRAME = 6
 _SERIAL_FUNCTIONS = ("port_serial_open", "port_serial_close", "port_serial_write", "port_serial_read")
+_LOCK_FUNCTIONS = ("port_lock", "port_unlock")
 _UDP_FUNCTIONS = ("port_udp_open", "port_udp_close", "port_udp_send", "port_udp_receive")
 
 
@@ -62,6 +63,7 @@ def plan_board(
     _check_unique_id(application, target, diagnostics)
     driver = target.uart_driver if target.has_image and runtime.transport in _LINE_USERS else "none"
     functions = _application_functions(runtime.transport, driver)
+    functions += _LOCK_FUNCTIONS if runtime.multithread else ()
     if not target.has_image:
         return BoardPlan(application_functions=functions)
     uart = target.uart if driver != "none" else None

@@ -21,17 +21,26 @@ _XML_WRITER = len(
     "<depth></depth></historyQos></topic><qos><durability><kind>TRANSIENT_LOCAL</kind></durability><reliability><kind>"
     "BEST_EFFORT</kind></reliability></qos></data_writer></dds>"
 )
+_XML_SERVICE = len(
+    '<dds><requester profile_name="" service_name="" request_type="Request_" reply_type="Response_">'
+    "<request_topic_name>rqRequest</request_topic_name><reply_topic_name>rrReply</reply_topic_name></requester></dds>"
+)
 _NUL = 1
 
 
 @dataclass(frozen=True)
 class CreateNames:
-    """Longest names that a CREATE carries, in characters: on the wire, and of references."""
+    """Longest names that a CREATE carries, in characters: on the wire, and of references.
+
+    `service` with its slash, `service_type` that of the service itself (`std_srvs::srv::dds_::SetBool_`); 0: none.
+    """
 
     participant: int
     topic: int
     type: int
     participant_reference: int = 0
+    service: int = 0
+    service_type: int = 0
 
 
 def create_size(names: CreateNames, entities: str = "binary") -> int:
@@ -64,23 +73,53 @@ def reader_reference(topic: str) -> str:
     return f"{topic[1:]}__dr"
 
 
-def _binary(names: CreateNames) -> tuple[int, int, int]:
+def replier_reference(service: str) -> str:
+    """Return the reference of a service's replier: `/set_bool` → `set_bool__rp`."""
+    return f"{service[1:]}__rp"
+
+
+def requester_reference(service: str) -> str:
+    """Return the reference of a client's requester: `/set_bool` → `set_bool__rq`."""
+    return f"{service[1:]}__rq"
+
+
+def _binary(names: CreateNames) -> tuple[int, ...]:
     topic = _align4(4 + names.topic + _NUL + 2) + 4 + names.type + _NUL
-    return 8 + names.participant + _NUL, topic, 14
+    return 8 + names.participant + _NUL, topic, 14, _binary_service(names) if names.service else 0
 
 
-def _xml(names: CreateNames) -> tuple[int, int, int]:
+def _binary_service(names: CreateNames) -> int:
+    strings = (
+        (0, names.service),
+        (0, names.service_type + len("Request_")),
+        (0, names.service_type + len("Response_")),
+    )
+    topics = (1, len("rq") + names.service + len("Request")), (1, len("rr") + names.service + len("Reply"))
+    end = 0
+    for flag, length in (*strings, *topics):
+        end = _align4(end + flag) + 4 + length + _NUL
+    return end
+
+
+def _xml(names: CreateNames) -> tuple[int, ...]:
     both = names.topic + names.type + _NUL
     return (
         _XML_PARTICIPANT + names.participant + _NUL,
         _XML_TOPIC + both,
         _XML_WRITER + _LONGEST_DEPTH + both,
+        _XML_SERVICE + 4 * names.service + 2 * names.service_type + _NUL if names.service else 0,
     )
 
 
-def _reference(names: CreateNames) -> tuple[int, int, int]:
+def _reference(names: CreateNames) -> tuple[int, ...]:
     topic = names.topic - len("rt/")
-    return names.participant_reference + _NUL, topic + len("__t") + _NUL, topic + len("__dw") + _NUL
+    of_service = names.service - len("/") + len("__rp") + _NUL if names.service else 0
+    return (
+        names.participant_reference + _NUL,
+        topic + len("__t") + _NUL,
+        topic + len("__dw") + _NUL,
+        of_service,
+    )
 
 
 _DESCRIPTIONS = {"binary": _binary, "xml": _xml, "reference": _reference}

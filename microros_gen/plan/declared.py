@@ -32,6 +32,11 @@ def subscription_declarations(application: Application) -> tuple[tuple[int, Node
     return declarations(application, "subscription")
 
 
+def service_parts(kind: str) -> tuple[tuple[str, bool], ...]:
+    """Return what a `service` or a `client` exchanges: each message's suffix, and whether it sends that."""
+    return ("Request", kind == "client"), ("Response", kind == "service")
+
+
 def full_name(node: NodeDecl, endpoint: EndpointDecl) -> str:
     """Return the fully qualified name of an endpoint's topic or service: `/imu/data`."""
     return expand_topic_name(endpoint.topic, node.name, node.namespace)
@@ -42,9 +47,9 @@ def node_name(node: NodeDecl) -> str:
     return expand_topic_name("~", node.name, node.namespace)
 
 
-def type_name(text: str) -> TypeName:
-    """Return the name that `pkg/Type` or `pkg/msg/Type` stands for (already checked)."""
-    name = split_type_name(text)
+def type_name(text: str, kind: str = "msg") -> TypeName:
+    """Return the name that `pkg/Type` or `pkg/msg/Type` stands for (already checked); `kind` is srv for services."""
+    name = split_type_name(text, kind)
     assert name is not None, text
     return name
 

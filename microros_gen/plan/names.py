@@ -24,3 +24,13 @@ def participant_name(node: str, namespace: str) -> str:
     """Return the name that a participant carries: `node`, or `/ns/node` where it has a namespace."""
     base = namespace.strip("/")
     return f"/{base}/{node}" if base else node
+
+
+def request_topic(name: str) -> str:
+    """Return the DDS topic of a service's requests; `name` is fully qualified."""
+    return f"rq{name}Request"
+
+
+def reply_topic(name: str) -> str:
+    """Return the DDS topic of a service's replies; `name` is fully qualified."""
+    return f"rr{name}Reply"

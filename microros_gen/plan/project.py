@@ -21,7 +21,8 @@ from microros_gen.plan.names import dds_topic, dds_type, participant_name
 from microros_gen.plan.receiving import plan_receiving
 from microros_gen.plan.running import plan_running
 from microros_gen.plan.runtime import DISCOVERY_GROUP, NodePlan, PublisherPlan, RuntimePlan, SubscriptionPlan
-from microros_gen.plan.streams import Received, StreamPlan, Written, plan_streams
+from microros_gen.plan.serving import Serving, plan_serving
+from microros_gen.plan.streams import StreamPlan, Written, plan_streams
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_own_limits import LimitSet
 from microros_gen.resolve.clock import CLOCK_ROS
@@ -90,18 +91,33 @@ def plan_project(
     types: tuple[TypePlan, ...],
     roots: tuple[TypeName, ...],
     diagnostics: Diagnostics,
+    services: tuple[TypeName, ...] = (),
 ) -> Project:
-    """Size and name everything. Errors are collected; the result is only valid when there are none."""
+    """Size and name everything. Errors are collected; the result is only valid when there are none.
+
+    `roots` are the messages and `services` the services that an application without `nodes:` can have.
+    """
     name = "+".join(selection.profiles)
     by_name = {plan.name: plan for plan in types}
     nodes, publishers = _declared(application, by_name)
     receiving = plan_receiving(application, selection, by_name, roots, diagnostics)
-    running = plan_running(
-        application, selection, receiving.subscriptions_max - int(selection.has(CLOCK_ROS)), diagnostics
-    )
+    serving = plan_serving(application, selection, by_name, services, diagnostics)
+    queues = (*receiving.queues, *serving.queues)
+    endpoints: list[PublisherPlan | SubscriptionPlan] = [*publishers, *receiving.subscriptions]
     names = (*roots, *(type_name(e.type) for e in application.implied))
-    create = _create_size(application, selection, nodes, (*publishers, *receiving.subscriptions), names)
-    streams = _streams(application, selection, by_name, roots, create, receiving.received, diagnostics)
+    create = _create_size(application, selection, nodes, tuple(endpoints), names, serving, services)
+    streams = plan_streams(
+        application,
+        selection.transport,
+        (*_written_by_publishers(application, selection, by_name, roots), *serving.written),
+        create,
+        diagnostics,
+        selection.has("stream_reliable_input"),
+        (*receiving.received, *serving.received),
+    )
+    receivers = receiving.subscriptions_max + serving.services_max + serving.clients_max
+    receivers -= 1 if selection.has(CLOCK_ROS) else 0  # nobody adds the subscription of /clock to an executor
+    running = plan_running(application, selection, receivers, diagnostics)
     agent = _agent(application.transport, selection)
     runtime = RuntimePlan(
         plan_id="",
@@ -132,11 +148,15 @@ def plan_project(
         else "",
         serial_baud=application.transport.baud,
         framing=_FRAMING[application.transport.framing],
-        type_name_size=0 if nodes else _longest_type(names) + 1,
+        type_name_size=0 if nodes else _longest_type((*names, *services)) + 1,
         creation_size=streams.creation_size,
         subscriptions=receiving.subscriptions,
         subscriptions_max=receiving.subscriptions_max,
-        queues=receiving.queues,
+        services=serving.services,
+        services_max=serving.services_max,
+        clients=serving.clients,
+        clients_max=serving.clients_max,
+        queues=queues,
         timers=running.timers,
         timers_max=running.timers_max,
         executors_max=running.executors_max,
@@ -148,6 +168,7 @@ def plan_project(
         has_discovery=selection.has("discovery"),
         has_session_state=selection.has("session_state"),
         has_sleep=selection.has("sleep_cycles"),
+        multithread=selection.has("multithread"),
         discovery_port=application.transport.discover or DISCOVERY_PORT,
         has_time_sync=selection.has("time_sync"),
         has_ros_time=selection.has(CLOCK_ROS),
@@ -182,32 +203,22 @@ def _declared(
     return nodes, tuple(publishers)
 
 
-def _streams(
+def _written_by_publishers(
     application: Application,
     selection: Selection,
     types: Mapping[TypeName, TypePlan],
     roots: tuple[TypeName, ...],
-    create: int,
-    received: tuple[Received, ...],
-    diagnostics: Diagnostics,
-) -> StreamPlan:
+) -> tuple[Written, ...]:
     if not selection.has("publish"):
-        written: tuple[Written, ...] = ()
-    elif application.nodes:
-        declarations = publisher_declarations(application)
-        written = tuple(
-            _written(index, node, endpoint, types) for index, (_, node, endpoint) in enumerate(declarations)
-        )
-    else:
+        return ()
+    if not application.nodes:
         spans = {named.name: named.span for named in application.interfaces}
-        written = tuple(
+        return tuple(
             Written(str(r), types[r].max_encoded_size, True, True, spans.get(str(r)) or spans.get(r.package))
             for r in roots
         )
-    reliable_input = selection.has("stream_reliable_input")
-    return plan_streams(
-        application, selection.transport, written, create, diagnostics, reliable_input, received
-    )
+    declared = enumerate(publisher_declarations(application))
+    return tuple(_written(index, node, endpoint, types) for index, (_, node, endpoint) in declared)
 
 
 def _written(
@@ -225,6 +236,8 @@ def _create_size(
     nodes: tuple[NodePlan, ...],
     endpoints: tuple[PublisherPlan | SubscriptionPlan, ...],
     roots: tuple[TypeName, ...],
+    serving: Serving,
+    services: tuple[TypeName, ...],
 ) -> int:
     """Return the size of the largest CREATE; 0: the client creates nothing."""
     if selection.entities == "preconfigured":
@@ -234,13 +247,17 @@ def _create_size(
         size = application.pools.get("name_size", DEFAULT_NAME_SIZE) - 1
         # A namespace takes `size` with its slash in front, which its reference does not have.
         reference = participant_reference("x" * 2 * size, application.pools.get("nodes", 1))
-        names = CreateNames(2 * size + 1, size + len("rt"), longest_type, len(reference))
+        places = serving.services_max + serving.clients_max
+        of_service = (size, _longest_type(services)) if places else (0, 0)
+        names = CreateNames(2 * size + 1, size + len("rt"), longest_type, len(reference), *of_service)
     else:
         names = CreateNames(
             max(len(n.participant_name) for n in nodes),
             max((len(p.dds_topic) for p in endpoints), default=len("rt/")),
             max((len(p.dds_type) for p in endpoints), default=0),
             max(len(participant_reference(n.participant_name, len(nodes))) for n in nodes),
+            max((len(s.name) for s in (*serving.services, *serving.clients)), default=0),
+            max((len(s.dds_type) for s in (*serving.services, *serving.clients)), default=0),
         )
     return create_size(names, selection.entities)
 
@@ -287,8 +304,12 @@ def _check_budget(
             f" (reliable {streams.reliable_slots} x {streams.reliable_slot_size}, best effort"
             f" {streams.best_effort_size}, input {streams.input_size}{f', queues {queues}' if queues else ''})",
             application.memory.ram_span,
-            "Lower pools.history or the limits of the largest message, or raise the budget",
+            f"Lower {_what_is_kept(streams)}the limits of the largest message, or raise the budget",
         )
+
+
+def _what_is_kept(streams: StreamPlan) -> str:
+    return "pools.history or " if streams.reliable_slots > 1 else ""
 
 
 def _agent(transport: Transport, selection: Selection) -> tuple[str, int]:
@@ -305,5 +326,6 @@ def _plan_id(runtime: RuntimePlan, selection: Selection, types: tuple[TypePlan, 
     parts = [repr(runtime), *(c.component.name for c in selection.components)]
     parts += [f"{t.name} {t.type_hash} {t.max_encoded_size}" for t in types]
     parts += [f"{p.index} {p.limited}" for p in runtime.publishers if p.limited]
+    parts += [f"{s.kind} {s.index} {s.limited}" for s in (*runtime.services, *runtime.clients) if s.limited]
     parts += [f"{s.name} {s.max_encoded_size}" for t in types for s in t.limit_sets]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:16]

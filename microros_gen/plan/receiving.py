@@ -88,11 +88,11 @@ def _with_storage(plan: SubscriptionPlan, types: Mapping[TypeName, TypePlan]) ->
         storage=type_.storage_name(plan.topic),
         header=include_path(type_.files.storage),
         c_type=type_.c_name,
-        buffers=tuple(_buffers(type_.message, messages, "")),
+        buffers=tuple(buffers_of(type_.message, messages)),
     )
 
 
-def _buffers(message: Message, messages: Mapping[TypeName, Message], prefix: str) -> Iterator[str]:
+def buffers_of(message: Message, messages: Mapping[TypeName, Message], prefix: str = "") -> Iterator[str]:
     """Yield the strings and sequences that are there in a message without elements: `header.frame_id`."""
     for field in message.fields:
         element = element_of(field.type)
@@ -102,7 +102,7 @@ def _buffers(message: Message, messages: Mapping[TypeName, Message], prefix: str
             if isinstance(field.type, SequenceType) or isinstance(element, StringType):
                 yield member
             elif isinstance(element, NamedType):
-                yield from _buffers(messages[element.name], messages, f"{member}.")
+                yield from buffers_of(messages[element.name], messages, f"{member}.")
 
 
 def default_queue(qos: Qos) -> int:
@@ -111,7 +111,7 @@ def default_queue(qos: Qos) -> int:
 
 
 def _queue(endpoint: EndpointDecl, size: int) -> QueuePlan:
-    return QueuePlan(endpoint.queue or default_queue(endpoint.qos), _slot(size))
+    return QueuePlan(endpoint.queue or default_queue(endpoint.qos), slot_of(size))
 
 
 def _pooled(
@@ -126,10 +126,10 @@ def _pooled(
         Received(f"{e.type} on {e.topic}", types[type_name(e.type)].max_encoded_size, False, True, e.span)
         for e in application.implied
     ]
-    queues += [QueuePlan(slots, _slot(largest))] * places
+    queues += [QueuePlan(slots, slot_of(largest))] * places
     return Receiving((), len(queues), tuple(queues), tuple(received))
 
 
-def _slot(size: int) -> int:
+def slot_of(size: int) -> int:
     """Return the bytes of a slot: a body, padded as some writers do."""
     return (max(size, 1) + _SLOT_ALIGNMENT - 1) // _SLOT_ALIGNMENT * _SLOT_ALIGNMENT

@@ -5,9 +5,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from microros_gen.model.application import DISCOVERY_PORT
+from microros_gen.model.application import DISCOVERY_PORT, MOST_HISTORY
 from microros_gen.model.types import TypeName
 from microros_gen.plan.names import dds_type
+from microros_gen.plan.services import ServicePlan
 from microros_gen.plan.types_names import include_path, type_files
 
 DISCOVERY_GROUP = "239.255.0.2"
@@ -82,7 +83,8 @@ class SubscriptionPlan:
 class QueuePlan:
     """What waits for the application to take it: `slots` samples, of at most `slot_size` bytes each.
 
-    A sample is what DATA carries behind the object's id: for a subscription the CDR body.
+    A sample is what DATA carries behind the object's id: the CDR body, for a service behind 24 bytes (who asks), for a
+    client behind 4 (which request).
     """
 
     slots: int
@@ -133,9 +135,9 @@ class RuntimePlan:
     `fragments`: some reliable message is larger than the MTU, `reliable_slot_size` holds it whole.
     `reliable_input_slots`: messages of the agent's reliable stream that the client holds at a time, the one that is
     being handled among them; 0: there is no such stream.
-    `subscriptions_max`, `services_max`, `clients_max`: places of each, at least one of what is selected; `queues` has
-    one entry for each of them, in this order. `reassembly_size`: the largest DATA that comes in fragments, with its
-    header; 0: none does.
+    `subscriptions_max`: places, at least one where subscriptions are selected; `services_max`, `clients_max`: places, 0
+    where `nodes:` declares none; `queues` has one entry for each of the three, in this order. `reassembly_size`: the
+    largest DATA that comes in fragments, with its header; 0: none does.
     `timers_max`, `executors_max` with `handles_max` each, `guard_conditions_max`, `wait_sets_max`, `ros_clocks_max`,
     `jump_callbacks_max`: places of each; 0 timers, executors or clocks: the component is not selected.
     `has_ros_time`: the first subscription is that of /clock, which the library opens itself.
@@ -184,7 +186,9 @@ class RuntimePlan:
     creation_size: int = 0
     subscriptions: tuple[SubscriptionPlan, ...] = ()
     subscriptions_max: int = 0
+    services: tuple[ServicePlan, ...] = ()
     services_max: int = 0
+    clients: tuple[ServicePlan, ...] = ()
     clients_max: int = 0
     queues: tuple[QueuePlan, ...] = ()
     reassembly_size: int = 0
@@ -201,6 +205,7 @@ class RuntimePlan:
     has_discovery: bool = False
     has_session_state: bool = False
     has_sleep: bool = False
+    multithread: bool = False
     discovery_port: int = DISCOVERY_PORT
     fixed_messages: bool = False
 
@@ -292,7 +297,31 @@ class RuntimePlan:
         publishers = [EndpointRow(p.topic, p.dds_type, p.node, p.limited) for p in self.publishers]
         subscriptions = [EndpointRow(s.topic, s.dds_type, s.node) for s in self.subscriptions]
         rows = publishers + [EndpointRow()] * (self.publisher_places - len(publishers))
-        return (*rows, *subscriptions, *[EndpointRow()] * (self.subscriptions_max - len(subscriptions)))
+        subscriptions += [EndpointRow()] * (self.subscriptions_max - len(subscriptions))
+        services = [
+            EndpointRow(s.name, s.dds_type, s.node, s.limited) for s in (*self.services, *self.clients)
+        ]
+        return (*rows, *subscriptions, *services)
+
+    @property
+    def has_services(self) -> bool:
+        """Whether there are places of service servers."""
+        return self.services_max > 0
+
+    @property
+    def has_clients(self) -> bool:
+        """Whether there are places of service clients."""
+        return self.clients_max > 0
+
+    @property
+    def serves(self) -> bool:
+        """Whether there are places of services or of clients."""
+        return self.has_services or self.has_clients
+
+    @property
+    def requests_max(self) -> int:
+        """Requests of all clients that can be under way: as many as their replies have room."""
+        return sum(queue.slots for queue in self.queues[len(self.queues) - self.clients_max :])
 
     @property
     def queue_rows(self) -> tuple[QueueRow, ...]:
@@ -329,6 +358,11 @@ class RuntimePlan:
         return self.reliable_slots - (1 if self.on_full == "drop_oldest" and self.reliable_slots > 1 else 0)
 
     @property
+    def history_can_grow(self) -> bool:
+        """Whether `pools: {history: …}` may be larger than it is."""
+        return 0 < self.reliable_slots < MOST_HISTORY
+
+    @property
     def reliable_input_mode(self) -> str:
         """`ordered` or `held`: what becomes of a reliable message of the agent that comes before its turn."""
         return "held" if self.reliable_input_slots > 1 else "ordered"
@@ -345,8 +379,9 @@ class RuntimePlan:
 
     @property
     def limited_headers(self) -> tuple[str, ...]:
-        """Headers that declare the types of publishers with limits of their own; none: no publisher has such."""
-        headers = {type_files(p.type).type_support for p in self.publishers if p.limited}
+        """Headers that declare the types of what sends with limits of their own; none: no publisher has such."""
+        senders: list[PublisherPlan | ServicePlan] = [*self.publishers, *self.services, *self.clients]
+        headers = {type_files(s.type).type_support for s in senders if s.limited}
         return tuple(sorted(map(include_path, headers)))
 
     @property

@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from microros_gen.diagnostics import Diagnostics, Span
-from microros_gen.model.application import Application
+from microros_gen.model.application import LARGEST_UDP_PAYLOAD, Application
 from microros_gen.plan.creation import MESSAGE_HEADER, SUBMESSAGE_HEADER
 
 OBJECT_PREFIX = 4  # request id and object id
@@ -22,6 +22,7 @@ WRITE_SIDE_INPUT = 64
 # transports are those that micro-ROS has.
 DEFAULT_MTU = {"udp": 1472, "tcp": 1460, "serial": 512, "custom": 512}
 DEFAULT_HISTORY = 4
+LARGEST_MTU = 0xFFFF  # application.schema.json says it too
 DEFAULT_INPUT_HISTORY = 1
 # In front of a message that goes in fragments: FRAGMENT's header, beside that of the message.
 FRAGMENT_HEADER = 4
@@ -100,9 +101,9 @@ def plan_streams(
     messages, samples = tuple(written), tuple(received)
     ceiling = application.transport.mtu or DEFAULT_MTU[transport]
     for message in messages:
-        _check_fits(message, ceiling, application, diagnostics)
+        _check_fits(message, ceiling, transport, application, diagnostics)
     for sample in samples:
-        _check_received(sample, ceiling, application, diagnostics)
+        _check_received(sample, ceiling, transport, application, diagnostics)
     _check_create(create, ceiling, application, diagnostics)
     asked = application.pools.get("slot_size", 0)
     least = min(asked, ceiling)
@@ -159,7 +160,15 @@ def _check_create(create: int, ceiling: int, application: Application, diagnosti
         )
 
 
-def _check_fits(message: Written, ceiling: int, application: Application, diagnostics: Diagnostics) -> None:
+def _larger_mtu(size: int, transport: str) -> str:
+    """Return the advice to take a larger MTU, where the transport has one."""
+    largest = LARGEST_UDP_PAYLOAD if transport == "udp" else LARGEST_MTU
+    return f"Set transport.mtu: {size}, or lower" if size <= largest else "Lower"
+
+
+def _check_fits(
+    message: Written, ceiling: int, transport: str, application: Application, diagnostics: Diagnostics
+) -> None:
     size = _datagram(message)
     span = message.span or application.transport.mtu_span or application.transport.span
     if message.max_encoded_size > LARGEST_BODY:
@@ -174,13 +183,13 @@ def _check_fits(message: Written, ceiling: int, application: Application, diagno
         diagnostics.error(
             f"{message.label} takes up to {size} bytes in its stream and {_mtu_is(application)} {ceiling}",
             span,
-            f"Set transport.mtu: {size}, or lower its limits{message.hint}, or {reliable}: reliable messages"
+            f"{_larger_mtu(size, transport)} its limits{message.hint}, or {reliable}: reliable messages"
             " are sent in fragments",
         )
 
 
 def _check_received(
-    sample: Received, ceiling: int, application: Application, diagnostics: Diagnostics
+    sample: Received, ceiling: int, transport: str, application: Application, diagnostics: Diagnostics
 ) -> None:
     size = _align4(WRITE_DATA_OVERHEAD + sample.max_size)
     span = sample.span or application.transport.mtu_span or application.transport.span
@@ -196,7 +205,7 @@ def _check_received(
         diagnostics.error(
             f"{sample.label} takes up to {size} bytes when it arrives and {_mtu_is(application)} {ceiling}",
             span,
-            f"Set transport.mtu: {size}, or lower its limits, or {reliable}: reliable messages come in fragments",
+            f"{_larger_mtu(size, transport)} its limits, or {reliable}: reliable messages come in fragments",
         )
 
 

@@ -12,6 +12,7 @@ from microros_gen.plan.agent_files import (
     REFERENCES,
     AgentEndpoint,
     AgentFiles,
+    AgentService,
     object_id,
     plan_agent_files,
 )
@@ -32,6 +33,7 @@ def references_xml(files: AgentFiles) -> str:
     blocks = {n.reference: _participant(n.reference, n.name) for n in files.nodes}
     blocks |= {e.topic_reference: _topic(e) for e in files.endpoints}
     blocks |= {e.reference: _data(e) for e in files.endpoints}
+    blocks |= {s.reference: _service(s) for s in files.services}
     return '<?xml version="1.0" encoding="UTF-8"?>\n<profiles>\n' + "".join(blocks.values()) + "</profiles>\n"
 
 
@@ -46,6 +48,7 @@ def entities_json(files: AgentFiles) -> str:
         for endpoint in files.endpoints:
             if endpoint.node == node.index:
                 objects += _objects(endpoint, participant)
+        objects += [_service_object(s, participant) for s in files.services if s.node == node.index]
     key = "*" if files.key is None else f"0x{files.key:08X}"
     lines = ",\n".join(f"        {json.dumps(entry, ensure_ascii=False)}" for entry in objects)
     adopt = '"adopt": true, ' if files.adopt else ""
@@ -80,6 +83,30 @@ def _data(endpoint: AgentEndpoint) -> str:
         f"      <reliability>\n        <kind>{qos.reliability.upper()}</kind>\n      </reliability>\n    </qos>\n"
         f"  </{endpoint.kind}>\n"
     )
+
+
+def _service(service: AgentService) -> str:
+    (request, reply), (requests, replies) = service.types, service.topics
+    return (
+        f'  <{service.kind} profile_name="{escape(service.reference)}" service_name="{escape(service.name)}"'
+        f' request_type="{escape(request)}" reply_type="{escape(reply)}">\n'
+        f"    <request_topic_name>{escape(requests)}</request_topic_name>\n"
+        f"    <reply_topic_name>{escape(replies)}</reply_topic_name>\n  </{service.kind}>\n"
+    )
+
+
+def _service_object(service: AgentService, participant: str) -> dict[str, Any]:
+    (request, reply), (requests, replies) = service.types, service.topics
+    return {
+        "id": _id(service.index, service.kind),
+        "kind": service.kind,
+        "parent": participant,
+        "name": service.name,
+        "request_type": request,
+        "reply_type": reply,
+        "request_topic": requests,
+        "reply_topic": replies,
+    }
 
 
 def _objects(endpoint: AgentEndpoint, participant: str) -> list[dict[str, Any]]:

@@ -66,7 +66,7 @@ def render_project(
     `#error` each.
     """
     rendered = _component_files(project, files, environment)
-    rendered |= render_types(project.types, environment)
+    rendered |= render_types(project.types, environment, project.selection.has("services"))
     rendered |= render_decoders(project.types, environment)
     if project.selection.has("micro_ros_utilities"):
         rendered |= render_members(project.types, environment)
@@ -150,6 +150,7 @@ def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectVi
         f"subscription `{s.topic}` of {s.type}, {'reliable' if s.reliable else 'best effort'}"
         for s in runtime.subscriptions
     ]
+    declared += [f"{s.kind} `{s.name}` of {s.type}" for s in (*runtime.services, *runtime.clients)]
     pools = [
         f"up to {runtime.nodes_max} node(s), named by the application",
     ]
@@ -160,6 +161,8 @@ def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectVi
         ("subscription", runtime.application_subscriptions),
     ):
         pools += [f"up to {places} {name}(s) of {of_roots}"] if places else []
+    for name, places in (("service", runtime.services_max), ("client", runtime.clients_max)):
+        pools += [f"up to {places} {name}(s)"] if places else []
     return _ProjectView(
         title=project.name,
         image=project.name,

@@ -7,30 +7,42 @@ A file holds one message, or every message of a service or an action, as rosidl_
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from pathlib import PurePosixPath
 from typing import Any
 
 from jinja2 import Environment
 
-from microros_gen.model.derived import declaring_name
+from microros_gen.model.derived import SERVICE_PARTS, declaring_name, derived_name
+from microros_gen.plan.names import dds_type
 from microros_gen.plan.types import TypePlan
-from microros_gen.plan.types_names import guard, include_path
+from microros_gen.plan.types_names import c_name, guard, include_path
 from microros_gen.render.types_encode import EncoderViews
 from microros_gen.render.types_notes import message_note
 from microros_gen.render.types_storage import storage_view
 from microros_gen.render.types_struct import functions_view, struct_view
 
 
-def render_types(type_plans: Sequence[TypePlan], environment: Environment) -> dict[str, bytes]:
+@dataclass(frozen=True)
+class ServiceView:
+    """The handle of a service type: what its C names begin with, its function, and its name on the wire."""
+
+    name: str
+    handle: str
+    dds_name: str
+
+
+def render_types(
+    type_plans: Sequence[TypePlan], environment: Environment, services: bool = False
+) -> dict[str, bytes]:
     """Return path → contents of every file of the types, in the order of the plans.
 
-    `type_plans` must hold every type that one of them is made of.
+    `type_plans` must hold every type that one of them is made of. `services`: service types get handles.
     """
     files: dict[str, list[TypePlan]] = {}
     for plan in type_plans:
         files.setdefault(plan.files.header, []).append(plan)
-    renderer = _Renderer(type_plans, environment)
+    renderer = _Renderer(type_plans, environment, services)
     for plans in files.values():
         renderer.add(plans)
     return renderer.files
@@ -39,11 +51,12 @@ def render_types(type_plans: Sequence[TypePlan], environment: Environment) -> di
 class _Renderer:
     """Prints views through templates."""
 
-    def __init__(self, type_plans: Sequence[TypePlan], environment: Environment) -> None:
+    def __init__(self, type_plans: Sequence[TypePlan], environment: Environment, services: bool) -> None:
         self.files: dict[str, bytes] = {}
         self._plans = {plan.name: plan for plan in type_plans}
         self._encoders = EncoderViews(self._plans)
         self._environment = environment
+        self._services = services
 
     def add(self, plans: Sequence[TypePlan]) -> None:
         """Print every file of the messages that share one header."""
@@ -56,9 +69,15 @@ class _Renderer:
         encoded = [self._encoders.view(plan) for plan in plans if plan.wire is not None]
         if encoded:
             own.append(paths.type_support)
-            header = _file(plans, paths.type_support, encoded, "header_includes")
+            service = _service(plans) if self._services else None
+            header = {**_file(plans, paths.type_support, encoded, "header_includes"), "service": service}
+            source = {**_file(plans, paths.type_support, encoded), "service": service}
+            if service:
+                header["includes"] = _with(
+                    header["includes"], "rosidl_runtime_c/service_type_support_struct.h"
+                )
+                source["includes"] = _with(source["includes"], "microros/service_type.h")
             self._print(paths.type_support, "type_support.h", header)
-            source = _file(plans, paths.type_support, encoded)
             self._print(paths.type_support_source, "type_support.c", source)
         stored = [storage_view(plan, self._plans) for plan in plans if plan.storage]
         if stored:
@@ -85,6 +104,20 @@ class _Renderer:
     def _print(self, path: str, template: str, view: dict[str, Any]) -> None:
         text = self._environment.get_template(f"types/{template}.j2").render(view)
         self.files[path] = text.encode("utf-8")
+
+
+def _with(includes: tuple[str, ...], more: str) -> tuple[str, ...]:
+    return tuple(sorted({*includes, more}))
+
+
+def _service(plans: Sequence[TypePlan]) -> ServiceView | None:
+    """Return the view of the service whose messages these are; None where they are not of one, or one is missing."""
+    name = declaring_name(plans[0].name)
+    roots = {plan.name for plan in plans if plan.root}
+    if name.kind != "srv" or not {derived_name(name, part) for part in SERVICE_PARTS} <= roots:
+        return None
+    handle = f"rosidl_typesupport_c__get_service_type_support_handle__{c_name(name)}"
+    return ServiceView(c_name(name), handle, dds_type(name))
 
 
 def _title(plans: Sequence[TypePlan]) -> str:

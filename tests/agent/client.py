@@ -51,7 +51,7 @@ class XrceClient:
         key: int = 0xA1B2C3D4,
         session: int = 0x81,
         mtu: int = 512,
-        timeout_s: float = 3.0,
+        timeout_s: float = 10.0,
     ) -> None:
         self.key = key.to_bytes(4, "big")
         self.session = session

@@ -182,6 +182,25 @@ class _Peer:
         self._raw.append((topic, handle))
         return True
 
+    def starve(self, topic: str, type: str) -> bool:
+        """Subscribe, and take nothing until `feed`."""
+        from rclpy.impl.implementation_singleton import rclpy_implementation
+        from rclpy.qos import HistoryPolicy, QoSProfile
+        from rclpy.type_support import check_for_type_support
+
+        profile = QoSProfile(history=HistoryPolicy.KEEP_ALL).get_c_qos_profile()
+        message_class = _load(type)
+        check_for_type_support(message_class)
+        self._starved = rclpy_implementation.Subscription(self._node.handle, message_class, topic, profile)
+        return True
+
+    def feed(self) -> list[str]:
+        """Take what is there; return the bytes of the samples behind their encapsulation."""
+        found = []
+        while (taken := self._starved.take_message(None, True)) is not None:
+            found.append(taken[0][4:].hex())
+        return found
+
     def serve(self, service: str, type: str, hold: int) -> bool:
         from rclpy.impl.implementation_singleton import rclpy_implementation
 

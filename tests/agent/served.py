@@ -51,7 +51,7 @@ class Served:
         assert got == [int32_body(value) for value in values]
 
 
-def wait_until(done: Callable[[], bool], what: str, timeout_s: float = 5.0) -> None:
+def wait_until(done: Callable[[], bool], what: str, timeout_s: float = 15.0) -> None:
     """Return when `done` is true."""
     end = time.monotonic() + timeout_s
     while not done():

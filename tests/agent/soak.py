@@ -256,6 +256,7 @@ class World:
 
     def __post_init__(self) -> None:
         self.began = time.monotonic()
+        self._minute = 0
         self._line = SharedLine(self.agent.places["serial"])
         self._links: dict[int, Link | SharedLine] = {self._line.fileno(): self._line}
         self._poll = select.poll()
@@ -298,7 +299,24 @@ class World:
             if now >= rss_at:
                 rss_at = now + 2
                 self.rss.append((now - self.began, self.agent.rss_kib))
+                self._tell_minute()
         self._line.close()
+
+    def _tell_minute(self) -> None:
+        """Print what a minute that is over looked like, for who waits and sees (`pytest -s`)."""
+        minute = int(self.rss[-1][0]) // 60
+        if minute > self._minute:
+            self._minute = minute
+            low, high = self.rss_of(minute - 1)
+            lives = sum(self.ends.values())
+            print(
+                f"minute {minute}: RSS {low / 1024:.1f} to {high / 1024:.1f} MiB, {lives} lives", flush=True
+            )
+
+    def rss_of(self, minute: int) -> tuple[int, int]:
+        """Return the agent's least and largest RSS in KiB in a minute (from 0), of samples every 2 s."""
+        seen = [kib for at, kib in self.rss if at // 60 == minute]
+        return min(seen, default=0), max(seen, default=0)
 
     def _stalled(self, places: list[Place]) -> None:
         """This process did not run for long: its clients may have been taken for asleep, and were."""

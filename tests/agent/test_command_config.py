@@ -299,3 +299,21 @@ def test_another_system_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("sys.platform", "win32")
     with pytest.raises(UserError, match="the agent needs Linux"):
         serve(AgentOptions(transports=(PtyChoice(),)))
+
+
+def test_what_the_file_names_and_is_not_there_is_told_at_its_place(tmp_path: Path) -> None:
+    """All of one kind in one run: first files, then transports."""
+    text = "version: 1\ntransports:\n  - udp4: {port: 0, bind: 10.1.2.300}\n  - serial: {device: x, baud: 115201}\n"
+    missing = "references: [r.xml]\nentities: [e.json]\nmanifests: [m.json]\ninterface_paths: [idl]\n"
+    for more, wanted in (
+        (missing, ["5:14: r.xml", "6:12: e.json", "7:13: m.json", "8:19: the interface path"]),
+        ("", ["3:5: '10.1.2.300' is not", "4:5: this system has no serial speed of 115201"]),
+    ):
+        with pytest.raises(UserError) as caught:
+            serve(options(text + more, tmp_path))
+        told = [
+            d.headline().replace(f"{tmp_path}/", "").replace("error: ", "") for d in caught.value.diagnostics
+        ]
+        assert len(told) == len(wanted)
+        for line, begin in zip(told, wanted, strict=True):
+            assert line.startswith(f"agent.yaml:{begin}"), line

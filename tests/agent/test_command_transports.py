@@ -138,6 +138,7 @@ def test_faults_of_the_file_come_before_everything_else(tmp_path: Path) -> None:
     [
         ((), "the agent has no transport. Name one, as `microros-gen agent udp4 --port 8888`"),
         (("upd4",), "there is no transport 'upd4'. Did you mean 'udp4'?"),
+        (("udp",), "there is no transport 'udp'. Choose udp4 or udp6"),
         (("udp4", "--port", "0", "tpc4"), "there is no transport 'tpc4'. Did you mean 'tcp4'?"),
         (
             ("udp4", "--port", "0", "--domain", "1", "tcp4", "--domain", "2"),

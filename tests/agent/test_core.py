@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import time
 
@@ -461,6 +462,29 @@ def test_a_client_with_reliable_streams_is_asked_by_heartbeat() -> None:
     bench.say("81 80 00 00 0c 01 00 00")
     bench.say("81 00 00 00 0b 01 05 00 00 00 00 00 80")
     assert set(bench.wait(1.9)) == {"81 00 00 00 0b 01 05 00 00 00 ff ff 80"}
+
+
+@pytest.mark.parametrize("kind", ["best effort", "reliable", "unacknowledged"])
+def test_what_a_silent_client_is_sent_over_time(kind: str) -> None:
+    """The profile of heartbeats and questions: few, evenly, and none any more when it has left the graph."""
+    bench = publishing()
+    if kind != "best effort":
+        bench.say(message(entities()[0], stream=0x80))
+    if kind == "reliable":
+        bench.say("81 00 00 00 0a 01 05 00 01 00 00 00 80")
+    began, times = bench.now, []
+    while bench.now < began + 60:
+        times += [bench.now - began] * len(bench.wait(0.05))
+    apart = [later - earlier for earlier, later in itertools.pairwise(times)]
+    if kind == "unacknowledged":
+        assert 0.15 <= times[0] <= 0.3
+        assert 115 <= len(times) <= 156, "heartbeats as often as before, and questions"
+    else:
+        assert 14.9 <= times[0] <= 18.2
+        assert len(times) in (4, 5)
+        assert all(2.9 <= gap <= 3.2 for gap in apart)
+    assert times[-1] <= 30.1
+    assert bench.bridge.graph == []
 
 
 def test_a_client_that_answers_stays() -> None:

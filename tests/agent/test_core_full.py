@@ -118,6 +118,25 @@ def test_fragments_are_acknowledged_up_to_the_last() -> None:
     assert values(bench) == [7, 8]
 
 
+@pytest.mark.parametrize("room", [0, 1, 2, 3])
+def test_what_follows_the_last_fragment_follows_it_to_dds(room: int) -> None:
+    """One message has the end of one sample, two more samples, and a question that is answered after them."""
+    bench = full()
+    bench.bridge.room = room
+    whole = encode(samples(7)[0])
+    bench.say(message(Fragment(whole[:8], False), stream=RELIABLE, sequence=0))
+    tail = message(Fragment(whole[8:], True), *samples(8, 9), Delete(9, 0x15), stream=RELIABLE, sequence=1)
+    told = acknacks(bench.say(tail))
+    assert values(bench) == [7, 8, 9][:room]
+    assert told[-1] == ((1 if room < 3 else 2), 0)
+    assert acknacks(bench.say(write(2, 10)))[-1] == ((1 if room < 3 else 3), 0)
+    assert drain(bench)[-1:] == ([(3, 0)] if room < 3 else [])
+    assert values(bench) == [7, 8, 9]
+    assert bench.log.counters["unknown_writer"] == 1, "the last sample came behind the DELETE"
+    (client,) = bench.agent.clients
+    assert client.session._holder.held == 0
+
+
 def test_what_waits_behind_a_gap_follows() -> None:
     bench = full()
     bench.say(write(1, 2))

@@ -364,6 +364,22 @@ def test_every_fault_in_one_run() -> None:
     assert len(faults(json.dumps(made))) == 3
 
 
+def test_a_client_that_reads_and_is_to_be_adopted_is_warned_of() -> None:
+    """A new agent cannot reach it: it asked the one before, and says nothing more."""
+    made = content(adopt=True)
+    assert faults(json.dumps(made)) == []
+    made["clients"][0]["objects"].append(service(28, "replier"))
+    diagnostics = Diagnostics()
+    text = json.dumps(made)
+    assert parse_preconfigured([Source("e.json", text)], diagnostics)[0].adopt
+    (warning,) = diagnostics
+    assert not diagnostics.has_errors()
+    assert warning.span is not None
+    assert text[warning.span.column - 1 :].startswith("true")
+    assert "after a restart of the agent nothing comes from ROS 2 to this client: 1 of" in warning.message
+    assert "liveliness: ping" in str(warning.hint)
+
+
 def test_an_id_or_a_key_twice() -> None:
     made = content()
     made["clients"][0]["objects"].append(made["clients"][0]["objects"][0])

@@ -42,7 +42,10 @@ def soak(
             print(
                 f"after {time.monotonic() - world.began:.0f} s: {dict(world.count)}, ends of lives {dict(world.ends)}"
             )
-            print("RSS of the agent in KiB:", [kib for _, kib in world.rss[:: max(1, len(world.rss) // 20)]])
+            minutes = range(int(world.rss[-1][0]) // 60 + 1 if world.rss else 0)
+            print(
+                "RSS of the agent in MiB, most of each minute:", [world.rss_of(m)[1] // 1024 for m in minutes]
+            )
             peer.close()
         agent.process.terminate()
         assert agent.process.wait(timeout=60) == 0

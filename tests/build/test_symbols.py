@@ -28,7 +28,7 @@ HEAP_AND_STDIO = re.compile(
 # A freestanding C compiler may call these four whatever the source says (GCC manual, "Standards"); strlen beside.
 LIBRARY_MAY_CALL = {"memcpy", "memmove", "memset", "memcmp", "strlen"}
 COMPILER_BRINGS = {"_GLOBAL_OFFSET_TABLE_"}
-PREFIXES = ("rcl_", "rclc_", "rcutils_", "rmw_", "rosidl_", "xrce_", "cdr_", "port_", "microros_")
+PREFIXES = ("rcl_", "rclc_", "rcutils_", "rmw_", "rosidl_", "xrce_", "uxr_", "cdr_", "port_", "microros_")
 _DEFINITION = re.compile(
     r"^(?!static\b|typedef\b|extern\b|#|/|\*|\s)[A-Za-z_][\w \t*]*?\b([a-z]\w*)\((?:[^;{}]*)\)\s*\n\{",
     re.MULTILINE,

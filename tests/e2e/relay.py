@@ -35,6 +35,17 @@ def rough(seed: int) -> Fault:
     return fault
 
 
+def lossy(seed: int, loss: float = 0.3) -> Fault:
+    """Return a network that loses the part `loss` of all datagrams, doubles one in ten, and overtakes one in five."""
+    chance = random.Random(seed)
+
+    def fault() -> list[float]:
+        copies = 0 if chance.random() < loss else chance.choice([1] * 9 + [2])
+        return [chance.uniform(0.001, 0.03) if chance.random() < 0.2 else 0.0 for _ in range(copies)]
+
+    return fault
+
+
 @dataclass(order=True)
 class _Waiting:
     due: float

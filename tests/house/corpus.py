@@ -38,6 +38,11 @@ _SAID = (
     "      - {topic: said, type: std_msgs/msg/String, limits: {string: 3000}, queue: 2}\n"
     "      - {topic: word, type: std_msgs/msg/String, limits: {string: 8}}\n"
 )
+_SERVED = (
+    "version: 1\nprofiles: [pure_reader]\ncomponents: [-subscribe, +services, +executor]\nnodes:\n  - name: probe\n"
+    "    services: [{name: set, type: std_srvs/srv/SetBool, limits: {message: 20}}]\n"
+)
+_ASKED = "    clients: [{name: ask, type: std_srvs/srv/SetBool, queue: 2, limits: {message: 9}}]\n"
 _SERIAL = "transport: {type: serial, device: /dev/ttyACM0, baud: 115200}\n"
 
 APPLICATIONS: Mapping[str, str] = MappingProxyType(
@@ -58,6 +63,12 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "liveliness: acknack\non_full: drop_oldest\nerrors: code\nmemory: {arena: 1024}\nsession: {key: device}\n",
         "best_effort": _NODES + _BEST + "liveliness: none\n",
         "session_states": _INT32 + "components: [+session_state, +sleep_cycles]\n",
+        "threads": _BOTH
+        + "    subscriptions:\n"
+        + _HEARD
+        + "components: [+subscribe, +multithread, +time_sync]\nmemory: {arena: 512}\n",
+        "threads_custom": _INT32
+        + "components: [+executor, +multithread]\nerrors: code\ntransport: {type: custom}\n",
         "sleep_reader": _READER + _HEARD + _SERIAL + "components: [+sleep_cycles]\n",
         "sleep_custom": _INT32
         + "components: [+sleep_cycles, +time_sync]\nliveliness: acknack\ntransport: {type: custom}\n",
@@ -70,6 +81,11 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "reader_reference": _READER + _HEARD + "entities: reference\n",
         "reader_preconfigured": _READER + _HEARD + "entities: preconfigured\nliveliness: none\n",
         "reader_and_sender": _BOTH + "    subscriptions:\n" + _HEARD + "components: [+subscribe]\n",
+        "services": _SERVED + _ASKED,
+        "services_xml": _SERVED + "entities: xml\n",
+        "services_reference": _SERVED.replace("services: [{", "clients: [{") + "entities: reference\n",
+        "services_pool": "version: 1\nprofiles: [pure_reader]\ncomponents: [+services, +executor]\n"
+        + "interfaces: [std_srvs/srv/SetBool, std_msgs/msg/String]\nlimits: {'*': {string: 9, sequence: 2}}\n",
         "timers": _BOTH + "    timers: [{name: tick, period: 1 s}]\ncomponents: [+timers]\n",
         "timers_ticked": _BOTH
         + "    timers: [{name: a, period: 1 s, kind: rtos}, {name: b, period: 2 s, kind: hardware}]\n"

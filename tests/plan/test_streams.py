@@ -97,6 +97,14 @@ def test_a_best_effort_message_above_the_mtu_has_three_ways_out() -> None:
     assert "or declare its publisher under `nodes:` as reliable" in line
 
 
+def test_no_advice_to_take_an_mtu_that_a_datagram_cannot_have() -> None:
+    (line,) = plan(large(65_500, reliable=False))[1]
+    assert "Set transport.mtu" not in line
+    assert "Lower its limits, or make it reliable" in line
+    (line,) = plan(large(65_500, reliable=False), transport="serial")[1]
+    assert "Set transport.mtu: 65512, or lower its limits" in line
+
+
 def test_the_settings_of_another_stack() -> None:
     """MTU 512, output history 4, input history 1, slots of the MTU."""
     asked = Application(

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 LOGIN_TAIL = bytes.fromhex("58524345 0100 010f")
 KINDS = {1: "participant", 2: "topic", 3: "publisher", 4: "subscriber", 5: "datawriter", 6: "datareader"}
+KINDS |= {7: "requester", 8: "replier"}
 WINDOW = 16
 
 

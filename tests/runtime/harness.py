@@ -32,6 +32,7 @@ CORE = (
     "rosidl_runtime",
     "node",
     "publish",
+    "write",
     "qos",
     "cdr",
     "port_posix",
@@ -92,6 +93,18 @@ READER = replace(
 )
 
 
+SERVER = replace(
+    POOL,
+    mtu=256,
+    best_effort_size=256,
+    publishers_max=1,
+    services_max=1,
+    clients_max=2,
+    queues=(QueuePlan(2, 40), QueuePlan(3, 20), QueuePlan(2, 20)),
+    reliable_input_slots=2,
+    reliable_input_slot_size=64,
+)
+
 EXECUTOR = replace(
     READER,
     timers_max=3,
@@ -117,14 +130,18 @@ def components(plan: RuntimePlan, liveliness: str = "ping") -> tuple[str, ...]:
     """Return the components that the resolver selects for `plan`."""
     names = [*CORE, f"entities_{plan.entities}", f"transport_{plan.transport}"]
     names = [name for name in names if name != "publish" or plan.publisher_places]
+    names = [name for name in names if name != "write" or plan.publisher_places or plan.serves]
     framed = plan.transport == "serial" or (plan.transport == "custom" and plan.framing != "off")
     names += ["framing"] if framed else []
     names += ["entities", "session_close"] if plan.entities != "preconfigured" else []
     names += ["stream_reliable_input"] if plan.reliable_input_slots else []
     names += ["stream_best_effort"] if plan.best_effort_size else []
-    names += ["subscribe", "read", "cdr_decode", "stream_best_effort_input"] if plan.receives else []
+    names += ["read", "cdr_decode"] if plan.receives else []
+    names += ["subscribe", "stream_best_effort_input"] if plan.has_subscriptions else []
+    names += ["services"] if plan.serves else []
     names += ["stream_reliable"] if plan.reliable_slots else []
     names += ["discovery"] if plan.has_discovery else []
+    names += ["multithread"] if plan.multithread else []
     names += ["sleep_cycles"] if plan.has_sleep else []
     names += ["session_state"] if plan.has_session_state else []
     names += ["time_sync"] if plan.has_time_sync else []

@@ -26,7 +26,7 @@ from microros_gen.agent.wire.constants import Status
 
 CHECK_AFTER_S = 0.5
 """From a match to the comparison of hashes."""
-CHECKS = 6
+CHECKS = 20
 """How often an endpoint is looked at whose node has no name yet, `CHECK_AFTER_S` apart."""
 _UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
 """What rmw calls a node whose name it does not know yet."""

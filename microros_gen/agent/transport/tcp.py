@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from microros_gen.agent.framing import LARGEST_PAYLOAD, LengthDecoder, encode_length
+from microros_gen.agent.input_pool import Holder, InputPool
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.transport.base import Receive
 from microros_gen.agent.transport.outbox import Outbox, is_sample
@@ -53,8 +54,16 @@ class Connection:
     """One connection: the address of its client. It is equal to itself alone."""
 
     def __init__(
-        self, made: socket.socket, peer: str, limit: int, now: float, too_slow: Callable[[str], None]
+        self,
+        made: socket.socket,
+        peer: str,
+        limit: int,
+        now: float,
+        too_slow: Callable[[str], None],
+        holder: Holder,
     ) -> None:
+        self.holder = holder
+        """Holds the message that it began."""
         self.socket = made
         self.descriptor = made.fileno()
         self.peer = peer
@@ -78,9 +87,16 @@ class Tcp:
     """A listening socket and its connections behind one epoll descriptor."""
 
     def __init__(
-        self, protocol: Protocol, host: str, port: int, log: EventLog, limits: TcpLimits | None = None
+        self,
+        protocol: Protocol,
+        host: str,
+        port: int,
+        log: EventLog,
+        limits: TcpLimits | None = None,
+        pool: InputPool | None = None,
     ) -> None:
-        """Bind to `host` and `port` (0: a free one); UserError when that is not possible."""
+        """Bind to `host` and `port` (0: a free one); UserError when that is not possible. `pool` is the agent's."""
+        self._pool = pool
         self._log = log
         self._limits = limits or TcpLimits()
         self._listener = open_socket(protocol, host, port)
@@ -194,6 +210,8 @@ class Tcp:
             else:
                 text = "{transport}: {peer} sent an empty message"
                 self._log.count("frame_empty", text, transport=self.label, peer=connection.peer)
+        if connection.closed or not self._holds(connection):
+            return
         if connection.spoke and not connection.decoder.unfinished:
             connection.due_since = None
         elif connection.due_since is None:
@@ -209,6 +227,16 @@ class Tcp:
         if not connection.outbox:
             connection.stuck_since = None
             self._watch(connection, writing=False)
+
+    def _holds(self, connection: Connection) -> bool:
+        """Count what a connection has begun to say; one for which there is no room is closed."""
+        holder, unfinished = connection.holder, connection.decoder.unfinished
+        if unfinished or holder.held:
+            holder.clear()
+            if not holder.take(unfinished):
+                self._fail(connection, "tcp_input_full", "unfinished messages of all clients take too much")
+                return False
+        return True
 
     def _accept(self) -> None:
         for _ in range(ACCEPTS):
@@ -238,7 +266,9 @@ class Tcp:
         made.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
         for name, value in _KEEPALIVE:
             made.setsockopt(socket.IPPROTO_TCP, getattr(socket, name), value)
-        connection = Connection(made, peer, self._limits.output_bytes, self._now, self._too_slow)
+        connection = Connection(
+            made, peer, self._limits.output_bytes, self._now, self._too_slow, Holder(self._pool)
+        )
         self._connections[connection.descriptor] = connection
         self._epoll.register(made, select.EPOLLIN)
         self._log.emit(
@@ -282,6 +312,7 @@ class Tcp:
         connection.descriptor = -1
         connection.socket.close()
         connection.outbox.clear()
+        connection.holder.clear()
         text = "{transport}: {peer} ended: {why}"
         fields = {"transport": self.label, "peer": connection.peer, "why": why}
         self._log.emit(Level.DEBUG, "connection_closed", text, **fields)

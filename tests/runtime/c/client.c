@@ -236,6 +236,7 @@ int client_ping(char ** word);                            /* client_ping.c, or c
 int client_read(char ** word, rcl_node_t * node_list);    /* client_read.c, or client_no_read.c */
 int client_time(char ** word);                            /* client_time.c, or client_no_time.c */
 int client_extra(char ** word, rclc_support_t * session); /* client_extra.c, or client_no_extra.c */
+int client_serve(char ** word, rcl_node_t * node_list);     /* client_serve.c, or client_no_serve.c */
 
 static rcl_ret_t call(const char * line)
 {
@@ -252,6 +253,9 @@ static rcl_ret_t call(const char * line)
   for (size_t i = 0; i < WORDS && at != NULL; ++i) {
     word[i] = at;
     at = strtok(NULL, " ");
+  }
+  if (strncmp(word[0], "serve_", 6) == 0) {
+    return client_serve(word, nodes);
   }
   if (strncmp(word[0], "read_", 5) == 0) {
     return client_read(word, nodes);

@@ -68,6 +68,9 @@ static uint8_t * binary_put_data_reader(uint8_t * blob, const xrce_endpoint_t * 
 uint8_t * xrce_describe(
   const xrce_client_t * client, uint16_t place, uint8_t kind, uint8_t * blob, uint8_t * format)
 {
+  if (xrce_place_is_service(place)) {
+    return xrce_describe_service(client, place, blob, format);
+  }
   *format = XRCE_FORMAT_BINARY;
   if (xrce_place_is_reader(place) && kind == XRCE_KIND_DATAREADER) {
     return binary_put_data_reader(blob, xrce_entities_endpoint(client, place));

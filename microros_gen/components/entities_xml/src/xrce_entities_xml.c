@@ -91,6 +91,9 @@ uint8_t * xrce_describe(
 {
   uint8_t * end = blob;
 
+  if (xrce_place_is_service(place)) {
+    return xrce_describe_service(client, place, blob, format);
+  }
   *format = XRCE_FORMAT_XML;
   if (kind == XRCE_KIND_PARTICIPANT) {
     end = xml_put_participant(blob, &client->participants[place]);

@@ -2,6 +2,7 @@
 #include "microros/arena.h"
 
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros_config.h"
 
 #include <stdbool.h>
@@ -76,11 +77,10 @@ static uint32_t arena_needed(size_t size)
   return size > sizeof(arena) ? UNITS + 1u : (uint32_t)(1u + (size + UNIT - 1u) / UNIT);
 }
 
-void * microros_arena_allocate(size_t size, void * state)
+static void * arena_allocate(size_t size)
 {
   const uint32_t units = arena_needed(size == 0u ? 1u : size);
 
-  (void)state;
   if (arena[0] == 0u) {
     arena_set(0, UNITS, false);
   }
@@ -100,6 +100,17 @@ void * microros_arena_allocate(size_t size, void * state)
   return NULL;
 }
 
+void * microros_arena_allocate(size_t size, void * state)
+{
+  void * memory;
+
+  (void)state;
+  microros_lock();
+  memory = arena_allocate(size);
+  microros_unlock();
+  return memory;
+}
+
 void * microros_arena_zero_allocate(size_t number_of_elements, size_t size_of_element, void * state)
 {
   const bool overflows = size_of_element != 0u && number_of_elements > SIZE_MAX / size_of_element;
@@ -112,7 +123,7 @@ void * microros_arena_zero_allocate(size_t number_of_elements, size_t size_of_el
   return memory;
 }
 
-void * microros_arena_reallocate(void * pointer, size_t size, void * state)
+static void * arena_reallocate(void * pointer, size_t size, void * state)
 {
   const uint32_t block = arena_find(pointer);
   const uint32_t units = arena_needed(size == 0u ? 1u : size);
@@ -134,12 +145,25 @@ void * microros_arena_reallocate(void * pointer, size_t size, void * state)
   return memory;
 }
 
+void * microros_arena_reallocate(void * pointer, size_t size, void * state)
+{
+  void * memory;
+
+  microros_lock();
+  memory = arena_reallocate(pointer, size, state);
+  microros_unlock();
+  return memory;
+}
+
 void microros_arena_deallocate(void * pointer, void * state)
 {
-  const uint32_t block = arena_find(pointer);
+  uint32_t block;
 
   (void)state;
+  microros_lock();
+  block = arena_find(pointer);
   if (block != UNITS) {
     arena_set(block, arena_units(block), false);
   }
+  microros_unlock();
 }

@@ -2,6 +2,7 @@
 #include "microros/rmw_publisher.h"
 
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_node.h"
 #include "microros/rmw_qos.h"
@@ -53,6 +54,7 @@ rmw_ret_t rmw_publisher_open(
     microros_error_set(microros_error_qos, topic, refused, 0, 0);
     return RMW_RET_UNSUPPORTED;
   }
+  microros_lock();
   if (rmw_publisher_take(&wanted, &name, topic) && publisher_fits(&wanted)) {
     xrce_endpoint_t * writer = &wanted.client->endpoints[wanted.index];
 
@@ -62,6 +64,7 @@ rmw_ret_t rmw_publisher_open(
       *publisher = publisher_hand_out(writer);
     }
   }
+  microros_unlock();
   return result;
 }
 
@@ -69,7 +72,9 @@ void rmw_publisher_close(rmw_publisher_t * publisher)
 {
   const xrce_endpoint_t * writer = publisher->data;
 
+  microros_lock();
   rmw_place_close(writer->client, publisher_place(writer));
+  microros_unlock();
 }
 
 bool rmw_publisher_is_open(const rmw_publisher_t * publisher)

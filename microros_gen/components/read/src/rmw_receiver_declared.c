@@ -8,7 +8,7 @@
 bool rmw_receiver_take(
   xrce_endpoint_t * wanted, const rmw_section_t * section, const rmw_name_t * name, const char * given)
 {
-  const char * type = wanted->type->dds_type_name;
+  const char * type = section->dds_type_name;
   const uint16_t end = (uint16_t)(section->first + section->count);
   microros_error_t error = section->undeclared;
 

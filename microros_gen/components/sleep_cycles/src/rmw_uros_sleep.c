@@ -2,6 +2,7 @@
 #include "rmw_microros/sleep.h"
 
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/port.h"
 #include "microros/rmw_client.h"
 
@@ -17,35 +18,52 @@ static uint32_t retained_check(const rmw_uros_retained_t * retained)
   return xrce_sleep_check(0, &((const uint8_t *)retained)[begin], sizeof(*retained) - begin);
 }
 
-rmw_ret_t rmw_uros_sleep(rmw_context_t * context, rmw_uros_retained_t * retained, uint32_t timeout_ms)
+/* Waits until the session can be kept; false: it is as it was. */
+static bool sleep_await(xrce_client_t * client, uint32_t timeout_ms)
 {
   const uint32_t start = port_time_ms();
-  xrce_client_t * client;
 
-  if (context == NULL || context->impl == NULL || retained == NULL) {
-    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "context or retained");
-  }
-  client = context->impl;
   for (;;) {
     xrce_session_pump(client);
     if (xrce_sleep_can_begin(client)) {
-      break;
+      return true;
     }
     if (port_time_ms() - start >= timeout_ms) {
-      return RMW_RET_TIMEOUT;
+      return false;
     }
-    port_sleep_ms(1);
+    microros_pause();
   }
-  xrce_sleep_begin(client);
+}
+
+static void sleep_write(rmw_uros_retained_t * retained, const xrce_client_t * client)
+{
   (void)memset(retained, 0, sizeof(*retained));
   retained->size = (uint32_t)sizeof(*retained);
   (void)memcpy(retained->plan, MICROROS_PLAN_ID, sizeof(retained->plan));
   (void)memcpy(retained->client, client, sizeof(retained->client));
   retained->check = retained_check(retained);
   retained->magic = retained_magic; /* last: before it, the memory is worth nothing */
-  xrce_session_close(client);
-  context->impl = NULL;
-  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_uros_sleep(rmw_context_t * context, rmw_uros_retained_t * retained, uint32_t timeout_ms)
+{
+  xrce_client_t * client;
+  bool asleep;
+
+  if (context == NULL || context->impl == NULL || retained == NULL) {
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "context or retained");
+  }
+  microros_lock();
+  client = context->impl;
+  asleep = sleep_await(client, timeout_ms);
+  if (asleep) {
+    xrce_sleep_begin(client);
+    sleep_write(retained, client);
+    xrce_session_close(client);
+    context->impl = NULL;
+  }
+  microros_unlock();
+  return asleep ? RMW_RET_OK : RMW_RET_TIMEOUT;
 }
 
 bool rmw_uros_wake(rmw_uros_retained_t * retained)

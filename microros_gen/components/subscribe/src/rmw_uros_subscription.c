@@ -2,6 +2,7 @@
 #include "rmw_microros/subscription.h"
 
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/rmw_subscription.h"
 #include "microros/xrce_read.h"
 
@@ -15,7 +16,9 @@ rmw_ret_t rmw_uros_get_subscription_statistics(
   if (!rmw_subscription_is_open(subscription) || statistics == NULL) {
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "subscription or statistics");
   }
+  microros_lock();
   counted = xrce_read_counters(subscription->data);
+  microros_unlock();
   statistics->dropped = counted.dropped;
   statistics->refused = counted.refused;
   return RMW_RET_OK;

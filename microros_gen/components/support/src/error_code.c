@@ -2,6 +2,7 @@
 /* errors: code. Numbers stand for the texts. */
 #include "microros/error.h"
 #include "microros/error_state.h"
+#include "microros/lock.h"
 
 #include <stddef.h>
 
@@ -11,12 +12,14 @@ static void error_write(uint32_t code, const char * file, size_t line_number)
 {
   rcutils_error_state_t * state = microros_error_state();
 
+  microros_lock();
   state->message[0] = 'E';
   state->message[1] = (char)('0' + (char)(code / 10u));
   state->message[2] = (char)('0' + (char)(code % 10u));
   state->message[3] = '\0';
   state->file = file;
   state->line_number = line_number;
+  microros_unlock();
 }
 
 int32_t microros_error_code(int32_t result, microros_error_t error)

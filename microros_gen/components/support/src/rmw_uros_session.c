@@ -2,6 +2,7 @@
 #include "rmw_microros/session.h"
 
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/rmw_client.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_routes.h"
@@ -24,6 +25,7 @@ rmw_ret_t rmw_uros_get_statistics(const rmw_context_t * context, rmw_uros_statis
   if (statistics == NULL || !session_is_open(context)) {
     return RMW_RET_INVALID_ARGUMENT;
   }
+  microros_lock();
   counted = &context->impl->session.statistics;
   statistics->sent = counted->sent;
   statistics->resent = counted->resent;
@@ -32,13 +34,19 @@ rmw_ret_t rmw_uros_get_statistics(const rmw_context_t * context, rmw_uros_statis
   statistics->dropped = counted->dropped;
   statistics->reconnects = counted->reconnects;
   statistics->refused = counted->refused;
+  microros_unlock();
   return RMW_RET_OK;
 }
 
 bool rmw_uros_is_connected(const rmw_context_t * context)
 {
-  return context != NULL && context->impl != NULL && context->impl->session.state == XRCE_READY &&
-         xrce_route_settled(context->impl);
+  bool connected;
+
+  microros_lock();
+  connected = context != NULL && context->impl != NULL && context->impl->session.state == XRCE_READY &&
+              xrce_route_settled(context->impl);
+  microros_unlock();
+  return connected;
 }
 
 rmw_ret_t rmw_uros_spin_once(rmw_context_t * context)
@@ -46,7 +54,9 @@ rmw_ret_t rmw_uros_spin_once(rmw_context_t * context)
   if (!session_is_open(context)) {
     return RMW_RET_INVALID_ARGUMENT;
   }
+  microros_lock();
   xrce_session_pump(context->impl);
+  microros_unlock();
   return RMW_RET_OK;
 }
 

@@ -2,6 +2,7 @@
 #include "rmw_microros/time_sync.h"
 
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/port.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_epoch.h"
@@ -34,11 +35,11 @@ static bool sync_wait(xrce_client_t * client, uint32_t timeout_ms)
       asked = now;
       (void)xrce_time_sync_ask(client);
     }
-    port_sleep_ms(1);
+    microros_pause();
   }
 }
 
-rmw_ret_t rmw_uros_sync_session(const int timeout_ms)
+static rmw_ret_t sync_session(int timeout_ms)
 {
   const uint32_t timeout = timeout_ms > 0 ? (uint32_t)timeout_ms : 0u;
   xrce_client_t * client = rmw_client_connected();
@@ -56,15 +57,28 @@ rmw_ret_t rmw_uros_sync_session(const int timeout_ms)
   return RMW_RET_OK;
 }
 
+rmw_ret_t rmw_uros_sync_session(const int timeout_ms)
+{
+  rmw_ret_t result;
+
+  microros_lock();
+  result = sync_session(timeout_ms);
+  microros_unlock();
+  return result;
+}
+
 bool rmw_epoch_now(int64_t * epoch_ns)
 {
   const xrce_client_t * client = rmw_client_instance();
+  bool synchronized;
 
-  if (client->session.state == XRCE_CLOSED || !client->time_sync.synchronized) {
-    return false;
+  microros_lock();
+  synchronized = client->session.state != XRCE_CLOSED && client->time_sync.synchronized;
+  if (synchronized) {
+    *epoch_ns = port_time_steady_ns() + client->time_sync.offset_ns;
   }
-  *epoch_ns = port_time_steady_ns() + client->time_sync.offset_ns;
-  return true;
+  microros_unlock();
+  return synchronized;
 }
 
 bool rmw_uros_epoch_synchronized(void)
@@ -77,8 +91,12 @@ bool rmw_uros_epoch_synchronized(void)
 int64_t rmw_uros_epoch_nanos(void)
 {
   const xrce_client_t * client = rmw_client_instance();
+  int64_t epoch_ns;
 
-  return client->session.state == XRCE_CLOSED ? 0 : port_time_steady_ns() + client->time_sync.offset_ns;
+  microros_lock();
+  epoch_ns = client->session.state == XRCE_CLOSED ? 0 : port_time_steady_ns() + client->time_sync.offset_ns;
+  microros_unlock();
+  return epoch_ns;
 }
 
 int64_t rmw_uros_epoch_millis(void)

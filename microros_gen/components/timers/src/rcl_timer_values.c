@@ -3,7 +3,7 @@
 #include "microros/error.h"
 #include "microros/rcl_timer.h"
 
-rcl_ret_t rcl_timer_clock(rcl_timer_t * timer, rcl_clock_t ** clock)
+rcl_ret_t rcl_timer_clock(const rcl_timer_t * timer, rcl_clock_t ** clock)
 {
   if (timer == NULL || clock == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "timer or clock");

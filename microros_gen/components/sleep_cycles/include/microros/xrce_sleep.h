@@ -22,6 +22,7 @@ extern "C" {
 typedef struct xrce_sleep_t {
   uint32_t identity[XRCE_PLACES]; /* what each place was when the sleep began */
   uint16_t local;                 /* where the agent has its answers sent to, as the transport says */
+  uint16_t taken;                 /* the place that was taken up last, plus 1 */
   bool over;                      /* the client was taken from memory and is to go on */
 } xrce_sleep_t;
 
@@ -43,6 +44,9 @@ bool xrce_sleep_keeps(const xrce_client_t * client, uint16_t place);
 
 /* The application opens a place, which is filled in. True: it is the one that was kept, and there is nothing to create. */
 bool xrce_sleep_take_up(xrce_client_t * client, uint16_t place);
+
+/* Whether that was the answer for this place the last time that one was opened. */
+bool xrce_sleep_took_up(const xrce_client_t * client, uint16_t place);
 
 /* A session is new: what was kept for the one before is no more. */
 void xrce_sleep_forget(xrce_client_t * client);

@@ -69,7 +69,7 @@ rcl_ret_t rcl_timer_call(rcl_timer_t * timer);
 /* The same, and tells when the call was due and when it came. */
 rcl_ret_t rcl_timer_call_with_info(rcl_timer_t * timer, rcl_timer_call_info_t * call_info);
 
-rcl_ret_t rcl_timer_clock(rcl_timer_t * timer, rcl_clock_t ** clock);
+rcl_ret_t rcl_timer_clock(const rcl_timer_t * timer, rcl_clock_t ** clock);
 
 /* A canceled timer is not ready. */
 rcl_ret_t rcl_timer_is_ready(const rcl_timer_t * timer, bool * is_ready);

@@ -62,6 +62,18 @@ extern const char microros_error_executor[];
 extern const char microros_error_field_bound[];
 extern const char microros_error_field_capacity[];
 extern const char microros_error_field_data[];
+extern const char microros_error_service_undeclared[];
+extern const char microros_error_service_open[];
+extern const char microros_error_services_full[];
+extern const char microros_error_client_undeclared[];
+extern const char microros_error_client_open[];
+extern const char microros_error_clients_full[];
+extern const char microros_error_service_qos[];
+extern const char microros_error_service_small[];
+extern const char microros_error_service_full[];
+extern const char microros_error_service_session[];
+extern const char microros_error_service_short[];
+extern const char microros_error_requests_lost[];
 
 /*
  * Makes this the last error. What `name`, `detail`, `found` and `fits` mean is said beside the texts; the

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* WRITE_DATA: one message of a writer, encoded into the stream's room. */
+/* WRITE_DATA: one message of an endpoint, encoded into the stream's room. */
 #ifndef MICROROS_XRCE_WRITE_H
 #define MICROROS_XRCE_WRITE_H
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/xrce_session.h"
 
+#include "microros/lock.h"
 #include "microros/port.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_routes.h"
@@ -198,7 +199,7 @@ bool xrce_session_await(xrce_client_t * client, uint32_t timeout_ms)
     if (client->session.refusal != 0u || port_time_ms() - start >= timeout_ms) {
       return false;
     }
-    port_sleep_ms(1);
+    microros_pause();
   }
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/xrce_session_close.h"
 
+#include "microros/lock.h"
 #include "microros/port.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_wire.h"
@@ -39,7 +40,7 @@ void xrce_session_leave(xrce_client_t * client, uint32_t timeout_ms)
     if (session->state != XRCE_CLOSING || now - start >= timeout_ms) {
       return;
     }
-    port_sleep_ms(1);
+    microros_pause();
   }
 }
 

@@ -22,6 +22,7 @@ typedef struct rmw_section_t {
   microros_error_t undeclared; /* name, type */
   microros_error_t taken;      /* name: it is open already */
   microros_error_t full;       /* name, found: how many there are, fits: how many would do */
+  const char * dds_type_name;  /* of the message, or of the service */
 } rmw_section_t;
 
 /*
@@ -32,6 +33,9 @@ typedef struct rmw_section_t {
 rmw_ret_t rmw_receiver_open(
   xrce_endpoint_t * wanted, const rmw_section_t * section, const rmw_name_t * name, const char * given,
   xrce_endpoint_t ** endpoint);
+
+/* The second half of it: `wanted` has a place already. */
+rmw_ret_t rmw_receiver_start(const xrce_endpoint_t * wanted);
 
 /* Gives the place back. */
 void rmw_receiver_close(const xrce_endpoint_t * endpoint);

@@ -4,6 +4,7 @@
 #define MICROROS_RCUTILS_TYPES_H
 
 #include "rcutils/types/rcutils_ret.h"
+#include "rcutils/types/string_array.h"
 #include "rcutils/types/uint8_array.h"
 
 #endif /* MICROROS_RCUTILS_TYPES_H */

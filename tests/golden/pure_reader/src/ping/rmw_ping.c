@@ -2,6 +2,7 @@
 #include "rmw_microros/ping.h"
 
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/port.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_transport.h"
@@ -25,14 +26,13 @@ static bool ping_in_session(xrce_client_t * client, uint32_t timeout_ms)
   (void)xrce_session_send(&client->session, message, sizeof(message));
   for (;;) {
     xrce_session_pump(client);
-    if (client->ping.answered) {
-      return true;
+    if (
+      client->ping.answered || client->session.state != XRCE_READY || port_time_ms() - start >= timeout_ms) {
+      break;
     }
-    if (client->session.state != XRCE_READY || port_time_ms() - start >= timeout_ms) {
-      return false;
-    }
-    port_sleep_ms(1);
+    microros_pause();
   }
+  return client->ping.answered;
 }
 
 /* `input` holds MICROROS_INPUT_SIZE bytes. */
@@ -86,20 +86,33 @@ static rmw_ret_t ping_agent(const rmw_uxrce_transport_params_t * params, int tim
   return RMW_RET_OK;
 }
 
+/* The lock is held but where it waits. */
+static bool ping_session(xrce_client_t * client, int timeout_ms, uint8_t attempts)
+{
+  bool answered = false;
+
+  for (uint8_t i = 0; i < attempts && !answered; ++i) {
+    answered = ping_in_session(client, timeout_ms > 0 ? (uint32_t)timeout_ms : 0u);
+  }
+  return answered;
+}
+
 rmw_ret_t rmw_uros_ping_agent(const int timeout_ms, const uint8_t attempts)
 {
   static const rmw_uxrce_transport_params_t planned = {0};
-  xrce_client_t * client = rmw_client_connected();
+  xrce_client_t * client;
+  bool answered = false;
 
+  microros_lock();
+  client = rmw_client_connected();
+  if (client != NULL) {
+    answered = ping_session(client, timeout_ms, attempts);
+  }
+  microros_unlock();
   if (client == NULL) {
     return ping_agent(&planned, timeout_ms, attempts);
   }
-  for (uint8_t i = 0; i < attempts; ++i) {
-    if (ping_in_session(client, timeout_ms > 0 ? (uint32_t)timeout_ms : 0u)) {
-      return RMW_RET_OK;
-    }
-  }
-  return RMW_RET_ERROR;
+  return answered ? RMW_RET_OK : RMW_RET_ERROR;
 }
 
 rmw_ret_t rmw_uros_ping_agent_options(

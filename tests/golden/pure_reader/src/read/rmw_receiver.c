@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rmw_receiver.h"
 
+#include "microros/lock.h"
 #include "microros/rmw_node.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_read.h"
@@ -12,25 +13,35 @@ static uint16_t receiver_place(const xrce_endpoint_t * endpoint)
   return (uint16_t)(MICROROS_NODES_MAX + endpoint->index);
 }
 
+rmw_ret_t rmw_receiver_start(const xrce_endpoint_t * wanted)
+{
+  xrce_endpoint_t * place = &wanted->client->endpoints[wanted->index];
+
+  *place = *wanted;
+  xrce_read_open(place);
+  return rmw_place_open(place->client, receiver_place(place), place->name);
+}
+
 rmw_ret_t rmw_receiver_open(
   xrce_endpoint_t * wanted, const rmw_section_t * section, const rmw_name_t * name, const char * given,
   xrce_endpoint_t ** endpoint)
 {
-  xrce_endpoint_t * place;
+  rmw_ret_t result = RMW_RET_ERROR;
 
-  if (!rmw_receiver_take(wanted, section, name, given)) {
-    return RMW_RET_ERROR;
+  microros_lock();
+  if (rmw_receiver_take(wanted, section, name, given)) {
+    *endpoint = &wanted->client->endpoints[wanted->index];
+    result = rmw_receiver_start(wanted);
   }
-  place = &wanted->client->endpoints[wanted->index];
-  *place = *wanted;
-  xrce_read_open(place);
-  *endpoint = place;
-  return rmw_place_open(place->client, receiver_place(place), place->name);
+  microros_unlock();
+  return result;
 }
 
 void rmw_receiver_close(const xrce_endpoint_t * endpoint)
 {
+  microros_lock();
   rmw_place_close(endpoint->client, receiver_place(endpoint));
+  microros_unlock();
 }
 
 /* A client that was ended has forgotten its endpoints. */

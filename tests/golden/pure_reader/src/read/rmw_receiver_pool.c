@@ -17,9 +17,9 @@ bool rmw_receiver_take(
     microros_error_set(microros_error_name_long, given, NULL, (uint32_t)size, (uint32_t)size + 1u);
     return false;
   }
-  if (microros_text_size(wanted->type->dds_type_name) >= MICROROS_TYPE_NAME_SIZE) {
+  if (microros_text_size(section->dds_type_name) >= MICROROS_TYPE_NAME_SIZE) {
     microros_error_set(
-      microros_error_name, wanted->type->dds_type_name, "too long for the stream of this plan", 0, 0);
+      microros_error_name, section->dds_type_name, "too long for the stream of this plan", 0, 0);
     return false;
   }
   for (uint16_t i = section->first; i < end; ++i) {

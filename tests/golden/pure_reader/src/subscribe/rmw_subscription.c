@@ -2,6 +2,7 @@
 #include "microros/rmw_subscription.h"
 
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_node.h"
 #include "microros/rmw_qos.h"
@@ -26,11 +27,15 @@ static rmw_ret_t subscription_open_in(
   uint16_t first, uint16_t count, const rmw_node_t * node, const rosidl_message_type_support_t * type_support,
   const char * topic, const rmw_qos_profile_t * qos, rmw_subscription_t ** subscription)
 {
-  const rmw_section_t section = {
-    first, count, microros_error_subscription_undeclared, microros_error_subscription_open,
-    microros_error_subscriptions_full};
+  const microros_message_type_t * type = type_support->data;
+  const rmw_section_t section = {first,
+                                 count,
+                                 microros_error_subscription_undeclared,
+                                 microros_error_subscription_open,
+                                 microros_error_subscriptions_full,
+                                 type->dds_type_name};
   const rmw_name_t name = rmw_name_of_topic(topic, node->name, node->namespace_);
-  xrce_endpoint_t wanted = {node->context->impl, type_support->data, NULL, 0, 0, rmw_node_index(node), 0};
+  xrce_endpoint_t wanted = {node->context->impl, type, NULL, 0, 0, rmw_node_index(node), 0};
   const char * refused = rmw_qos_to_xrce(qos, &wanted.qos, &wanted.depth);
   xrce_endpoint_t * endpoint = NULL;
   rmw_ret_t result;
@@ -66,12 +71,19 @@ bool rmw_subscription_is_open(const rmw_subscription_t * subscription)
 
 bool rmw_subscription_is_ready(const rmw_subscription_t * subscription)
 {
-  return xrce_read_is_ready(subscription->data);
+  bool ready;
+
+  microros_lock();
+  ready = xrce_read_is_ready(subscription->data);
+  microros_unlock();
+  return ready;
 }
 
 void rmw_subscription_pump(const rmw_subscription_t * subscription)
 {
   const xrce_endpoint_t * endpoint = subscription->data;
 
+  microros_lock();
   xrce_session_pump(endpoint->client);
+  microros_unlock();
 }

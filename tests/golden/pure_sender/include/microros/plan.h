@@ -16,7 +16,7 @@ typedef struct microros_declared_node_t {
 
 typedef struct microros_declared_endpoint_t {
   const char * name;     /* fully qualified */
-  const char * dds_type; /* "std_msgs::msg::dds_::Int32_"; of a service its request's */
+  const char * dds_type; /* "std_msgs::msg::dds_::Int32_"; of a service its own */
   uint16_t node;         /* index of its node */
 } microros_declared_endpoint_t;
 

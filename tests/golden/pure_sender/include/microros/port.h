@@ -4,7 +4,7 @@
  * function is a symbol of its own, so that what nobody calls is not linked. The library calls these from the
  * task that calls it, and keeps no pointer that it hands over.
  *
- * Groups: time and sleep, waiting, timers, unique id, UDP, TCP, multicast, serial line. A further group (mutex, tasks, memory sections,
+ * Groups: time and sleep, lock, waiting, timers, unique id, UDP, TCP, multicast, serial line. A further group (tasks, memory sections,
  * other transports) is added here with the component that needs it.
  */
 #ifndef MICROROS_PORT_H
@@ -31,6 +31,13 @@ void port_sleep_ms(uint32_t duration_ms);
 
 /* Returns nanoseconds since some start; never goes back. Clocks and the executor's periods use it. */
 int64_t port_time_steady_ns(void);
+
+/* --- lock; for applications with the component multithread --- */
+
+/* Waits for the one lock of the library; the task that has it takes it again at once, and gives it back as often. Holders
+ * should inherit priority. No interrupt calls these. */
+void port_lock(void);
+void port_unlock(void);
 
 /* --- waiting; for the executor --- */
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/xrce_creation.h"
 
+#include "microros/lock.h"
 #include "microros/port.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_wire.h"
@@ -295,6 +296,6 @@ uint8_t xrce_entities_await(xrce_client_t * client, uint16_t place, uint32_t tim
     if (port_time_ms() - start >= timeout_ms) {
       return XRCE_SILENT;
     }
-    port_sleep_ms(1);
+    microros_pause();
   }
 }

@@ -2,6 +2,7 @@
 /* errors: text. The words of the library are here, but for those of a component that brings its own. */
 #include "microros/error.h"
 #include "microros/error_state.h"
+#include "microros/lock.h"
 #include "microros/xrce_transport.h"
 
 #include <stdbool.h>
@@ -36,8 +37,6 @@ const char microros_error_field_bound[] = "%t.%d: %n, and its interface file all
 const char microros_error_field_capacity[] =
   "%t.%d: %n, capacity for %m: raise limits%y, or that of your buffer";
 const char microros_error_field_data[] = "%t.%d has a size, %n, and no data: NULL";
-const char microros_error_stream_full[] =
-  "publisher %s: stream full, %n unacknowledged: raise pools: {history: %m}%y";
 const char microros_error_no_session[] = "publisher %s: no session with the agent";
 const char microros_error_not_sent[] = "publisher %s: the transport takes nothing";
 const char microros_error_arena[] = "no memory for %n bytes: raise memory: {arena: %m}%y";
@@ -135,8 +134,10 @@ static text_t error_begin(const char * file, size_t line_number)
 void microros_error_set(
   microros_error_t error, const char * name, const char * detail, uint32_t found, uint32_t fits)
 {
-  text_t text = error_begin(NULL, 0);
+  text_t text;
 
+  microros_lock();
+  text = error_begin(NULL, 0);
   for (const char * at = error; *at != '\0'; ++at) {
     if (*at != '%') {
       text_put(&text, *at);
@@ -171,14 +172,18 @@ void microros_error_set(
     }
   }
   *text.at = '\0';
+  microros_unlock();
 }
 
 void rcutils_set_error_state(const char * error_string, const char * file, size_t line_number)
 {
-  text_t text = error_begin(file, line_number);
+  text_t text;
 
+  microros_lock();
+  text = error_begin(file, line_number);
   text_put_string(&text, error_string);
   *text.at = '\0';
+  microros_unlock();
 }
 
 int32_t microros_error_named(int32_t result, microros_error_t error, const char * name)

@@ -2,6 +2,7 @@
 #include "rmw/init.h"
 
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/port.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_open.h"
@@ -61,7 +62,7 @@ static bool init_is_free(void)
 }
 
 /* Opens a session as context->options say. */
-static rmw_ret_t init_open(rmw_context_t * context)
+static rmw_ret_t init_open_session(rmw_context_t * context)
 {
   xrce_client_t * client = rmw_client_instance();
   const rmw_uxrce_transport_params_t * params = &context->options.transport_params;
@@ -81,6 +82,16 @@ static rmw_ret_t init_open(rmw_context_t * context)
     context->options.domain_id == RMW_DEFAULT_DOMAIN_ID ? 0u : context->options.domain_id;
   context->impl = client;
   return RMW_RET_OK;
+}
+
+static rmw_ret_t init_open(rmw_context_t * context)
+{
+  rmw_ret_t result;
+
+  microros_lock();
+  result = init_open_session(context);
+  microros_unlock();
+  return result;
 }
 
 rmw_ret_t rmw_open_as_planned(rmw_context_t * context)
@@ -110,8 +121,10 @@ rmw_ret_t rmw_shutdown(rmw_context_t * context)
   if (context == NULL || context->impl == NULL) {
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "context");
   }
+  microros_lock();
   xrce_route_close(context->impl);
   context->impl = NULL;
+  microros_unlock();
   return RMW_RET_OK;
 }
 

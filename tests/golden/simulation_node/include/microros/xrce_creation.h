@@ -64,6 +64,10 @@ enum { XRCE_FORMAT_REFERENCE = 0x01, XRCE_FORMAT_XML = 0x02, XRCE_FORMAT_BINARY 
 uint8_t * xrce_describe(
   const xrce_client_t * client, uint16_t place, uint8_t kind, uint8_t * blob, uint8_t * format);
 
+/* The same for a replier or requester, of the same component; where none is selected there is none. */
+uint8_t * xrce_describe_service(
+  const xrce_client_t * client, uint16_t place, uint8_t * blob, uint8_t * format);
+
 /* Copies the characters of `text` and returns their end. */
 uint8_t * xrce_describe_text(uint8_t * at, const char * text);
 

@@ -14,6 +14,10 @@
 #include "rmw/time.h"
 #include "rmw/visibility_control.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define RMW_GID_STORAGE_SIZE 16u
 
 typedef struct rmw_node_s {
@@ -76,6 +80,18 @@ typedef struct rmw_subscription_allocation_s {
   const char * implementation_identifier;
   void * data;
 } rmw_subscription_allocation_t;
+
+typedef struct rmw_service_s {
+  const char * implementation_identifier;
+  void * data;
+  const char * service_name;
+} rmw_service_t;
+
+typedef struct rmw_client_s {
+  const char * implementation_identifier;
+  void * data;
+  const char * service_name;
+} rmw_client_t;
 
 typedef struct rmw_request_id_s {
   uint8_t writer_guid[RMW_GID_STORAGE_SIZE];
@@ -161,5 +177,11 @@ typedef struct rmw_message_info_s {
   rmw_gid_t publisher_gid;
   bool from_intra_process;
 } rmw_message_info_t;
+
+rmw_message_info_t rmw_get_zero_initialized_message_info(void);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif /* MICROROS_RMW_TYPES_H */

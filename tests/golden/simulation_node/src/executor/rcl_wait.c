@@ -15,12 +15,12 @@ typedef struct wait_look_t {
 static void look_at_subscriptions(const rcl_wait_set_t * wait_set, wait_look_t * look)
 {
   for (size_t i = 0; i < wait_set->size_of_subscriptions; ++i) {
-    const rcl_subscription_t ** subscription = &wait_set->subscriptions[i];
+    const rcl_subscription_t * subscription = wait_set->subscriptions[i];
 
-    if (rcl_subscription_is_valid(*subscription) && rmw_subscription_is_ready((*subscription)->impl)) {
+    if (subscription != NULL && rmw_subscription_is_open(subscription->impl) && rmw_subscription_is_ready(subscription->impl)) {
       look->any = true;
     } else if (look->settle) {
-      *subscription = NULL;
+      wait_set->subscriptions[i] = NULL;
     }
   }
 }

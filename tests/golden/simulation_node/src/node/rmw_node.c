@@ -2,6 +2,7 @@
 #include "microros/rmw_node.h"
 
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/rmw_client.h"
 #include "microros/xrce_client.h"
 
@@ -58,7 +59,7 @@ uint16_t rmw_node_index(const rmw_node_t * node)
   return (uint16_t)(participant - node->context->impl->participants);
 }
 
-rmw_ret_t rmw_node_open(
+static rmw_ret_t node_open(
   rmw_context_t * context, const char * name, const char * namespace_, rmw_node_t ** node)
 {
   static rmw_node_t nodes[MICROROS_NODES_MAX]; /* handed out by place */
@@ -87,7 +88,20 @@ rmw_ret_t rmw_node_open(
   return RMW_RET_OK;
 }
 
+rmw_ret_t rmw_node_open(
+  rmw_context_t * context, const char * name, const char * namespace_, rmw_node_t ** node)
+{
+  rmw_ret_t result;
+
+  microros_lock();
+  result = node_open(context, name, namespace_, node);
+  microros_unlock();
+  return result;
+}
+
 void rmw_node_close(rmw_node_t * node)
 {
+  microros_lock();
   rmw_place_close(node->context->impl, rmw_node_index(node));
+  microros_unlock();
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/rmw_subscription.h"
 #include "rcl/subscription.h"
 
@@ -33,8 +34,10 @@ rcl_ret_t rcl_take(
   if (ros_message == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "message");
   }
+  microros_lock();
   take_prepare(subscription->impl, message_info);
   result = rmw_subscription_take(subscription->impl, ros_message, &taken);
+  microros_unlock();
   return take_result(result, taken);
 }
 
@@ -52,7 +55,9 @@ rcl_ret_t rcl_take_serialized_message(
   if (serialized_message == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "serialized_message");
   }
+  microros_lock();
   take_prepare(subscription->impl, message_info);
   result = rmw_subscription_take_serialized(subscription->impl, serialized_message, &taken);
+  microros_unlock();
   return take_result(result, taken);
 }

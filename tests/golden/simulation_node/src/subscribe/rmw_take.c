@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/port.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_decode.h"
@@ -32,7 +33,7 @@ void rmw_subscription_describe(const rmw_subscription_t * subscription, rmw_mess
   info->publisher_gid.implementation_identifier = rmw_implementation_identifier;
 }
 
-rmw_ret_t rmw_subscription_take(const rmw_subscription_t * subscription, void * ros_message, bool * taken)
+static rmw_ret_t take_message(const rmw_subscription_t * subscription, void * ros_message, bool * taken)
 {
   const xrce_endpoint_t * endpoint = subscription->data;
   xrce_sample_t sample;
@@ -51,7 +52,7 @@ rmw_ret_t rmw_subscription_take(const rmw_subscription_t * subscription, void * 
   return result;
 }
 
-rmw_ret_t rmw_subscription_take_serialized(
+static rmw_ret_t take_serialized(
   const rmw_subscription_t * subscription, rmw_serialized_message_t * serialized_message, bool * taken)
 {
   const xrce_endpoint_t * endpoint = subscription->data;
@@ -80,18 +81,44 @@ rmw_ret_t rmw_subscription_take_serialized(
   return RMW_RET_OK;
 }
 
+rmw_ret_t rmw_subscription_take(const rmw_subscription_t * subscription, void * ros_message, bool * taken)
+{
+  rmw_ret_t result;
+
+  microros_lock();
+  result = take_message(subscription, ros_message, taken);
+  microros_unlock();
+  return result;
+}
+
+rmw_ret_t rmw_subscription_take_serialized(
+  const rmw_subscription_t * subscription, rmw_serialized_message_t * serialized_message, bool * taken)
+{
+  rmw_ret_t result;
+
+  microros_lock();
+  result = take_serialized(subscription, serialized_message, taken);
+  microros_unlock();
+  return result;
+}
+
 rmw_ret_t rmw_take_with_info(
   const rmw_subscription_t * subscription, void * ros_message, bool * taken,
   rmw_message_info_t * message_info, rmw_subscription_allocation_t * allocation)
 {
+  rmw_ret_t result;
+
   (void)allocation;
   if (
     !rmw_subscription_is_open(subscription) || ros_message == NULL || taken == NULL || message_info == NULL) {
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "subscription, message, taken or message_info");
   }
+  microros_lock();
   rmw_subscription_pump(subscription);
   rmw_subscription_describe(subscription, message_info);
-  return rmw_subscription_take(subscription, ros_message, taken);
+  result = rmw_subscription_take(subscription, ros_message, taken);
+  microros_unlock();
+  return result;
 }
 
 rmw_ret_t rmw_take(

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error_state.h"
 
+#include "microros/lock.h"
+
 #include <stddef.h>
 #include <string.h>
 
@@ -25,11 +27,15 @@ rcutils_error_string_t rcutils_get_error_string(void)
 {
   rcutils_error_string_t text;
 
+  microros_lock();
   (void)memcpy(text.str, microros_error_state()->message, sizeof(text.str));
+  microros_unlock();
   return text;
 }
 
 void rcutils_reset_error(void)
 {
+  microros_lock();
   microros_error_state()->message[0] = '\0';
+  microros_unlock();
 }

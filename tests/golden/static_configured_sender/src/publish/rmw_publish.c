@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/rmw_encode.h"
 #include "microros/rmw_publisher.h"
 #include "microros/xrce_routes.h"
@@ -16,8 +17,6 @@ enum { ENCAPSULATION_SIZE = 4, CDR_LITTLE_ENDIAN = 1 };
 static rmw_ret_t publish_report(
   const xrce_endpoint_t * writer, xrce_write_t outcome, const cdr_fault_t * fault)
 {
-  uint32_t waiting;
-
   switch (outcome) {
     case XRCE_WRITTEN:
     case XRCE_WRITE_DROPPED:
@@ -25,8 +24,8 @@ static rmw_ret_t publish_report(
     case XRCE_WRITE_REFUSED:
       return rmw_encode_refuse(writer->type, fault);
     case XRCE_WRITE_FULL:
-      waiting = xrce_route_unacknowledged(writer->client);
-      microros_error_set(microros_error_stream_full, writer->name, NULL, waiting, waiting + 1u);
+      microros_error_set(
+        microros_error_stream_full, writer->name, NULL, xrce_route_unacknowledged(writer->client), 0);
       break;
     case XRCE_WRITE_NO_SESSION:
       microros_error_set(microros_error_no_session, writer->name, NULL, 0, 0);
@@ -43,9 +42,16 @@ rmw_ret_t rmw_publisher_write(const rmw_publisher_t * publisher, const void * ro
 {
   cdr_fault_t fault; /* filled where a message is refused */
   xrce_endpoint_t * writer = publisher->data;
-  const xrce_write_t outcome = xrce_write_message(writer, ros_message, &fault);
+  rmw_ret_t result = RMW_RET_OK;
+  xrce_write_t outcome;
 
-  return outcome == XRCE_WRITTEN ? RMW_RET_OK : publish_report(writer, outcome, &fault);
+  microros_lock();
+  outcome = xrce_write_message(writer, ros_message, &fault);
+  if (outcome != XRCE_WRITTEN) {
+    result = publish_report(writer, outcome, &fault);
+  }
+  microros_unlock();
+  return result;
 }
 
 rmw_ret_t rmw_publish(
@@ -67,6 +73,7 @@ rmw_ret_t rmw_publish_serialized_message(
   xrce_endpoint_t * writer;
   size_t capacity;
   size_t size;
+  rmw_ret_t result;
 
   (void)allocation;
   if (serialized_message == NULL || serialized_message->buffer == NULL || !rmw_publisher_is_open(publisher)) {
@@ -80,6 +87,9 @@ rmw_ret_t rmw_publish_serialized_message(
     microros_error_set(microros_error_serialized, NULL, NULL, (uint32_t)size, (uint32_t)capacity);
     return RMW_RET_ERROR;
   }
-  return publish_report(
+  microros_lock();
+  result = publish_report(
     writer, xrce_write_body(writer, &bytes[ENCAPSULATION_SIZE], size - ENCAPSULATION_SIZE), &none);
+  microros_unlock();
+  return result;
 }

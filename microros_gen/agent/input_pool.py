@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What unfinished and waiting input takes of all clients and connections together.
+
+Half of the total is for whoever comes first. The other half is divided: each holder has its share for itself, so those
+who take all that they can get keep nobody else from talking.
+"""
+
+from __future__ import annotations
+
+
+class InputPool:
+    """At most `total` bytes for at most `holders` of them."""
+
+    def __init__(self, total: int, holders: int) -> None:
+        self.share = total // 2 // max(1, holders)
+        self.free = total - self.share * holders
+        """Bytes that are nobody's; below 0 when holders took what could not be refused."""
+
+
+class Holder:
+    """What one client, or one connection, holds of a pool; without a pool it is not limited."""
+
+    def __init__(self, pool: InputPool | None = None) -> None:
+        self._pool = pool
+        self.held = 0
+
+    def take(self, size: int) -> bool:
+        """Hold `size` bytes more; False when there is no room for them."""
+        more = self._beyond(self.held + size) - self._beyond(self.held)
+        if self._pool is not None and more > max(0, self._pool.free):
+            return False
+        self.add(size)
+        return True
+
+    def add(self, size: int) -> None:
+        """Hold `size` bytes more, which cannot be refused, or fewer (below 0)."""
+        before, self.held = self._beyond(self.held), self.held + size
+        if self._pool is not None:
+            self._pool.free -= self._beyond(self.held) - before
+
+    def clear(self) -> None:
+        """Hold nothing."""
+        self.add(-self.held)
+
+    def _beyond(self, size: int) -> int:
+        """Return how much of `size` is beyond the share."""
+        return max(0, size - self._pool.share) if self._pool is not None else 0

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How often a client may do what costs much: create, delete, and speak outside of its session."""
+
+from __future__ import annotations
+
+BURST_S = 10.0
+"""What a client did not do in this time it may do at once."""
+
+
+class Rate:
+    """So many a second, in the long run."""
+
+    def __init__(self, per_second: int) -> None:
+        self._per_second = per_second
+        self._credit = per_second * BURST_S
+        self._at = 0.0
+
+    def take(self, now: float) -> bool:
+        """Return whether one more is within the rate at `now` (seconds, of any clock that does not go back)."""
+        most = self._per_second * BURST_S
+        self._credit = min(most, self._credit + max(0.0, now - self._at) * self._per_second)
+        self._at = now
+        if self._credit < 1:
+            return False
+        self._credit -= 1
+        return True
+
+
+class Rates:
+    """Of each key one, also after its client has gone; of at most `limit` keys."""
+
+    def __init__(self, per_second: int, limit: int) -> None:
+        self._per_second = per_second
+        self._limit = limit
+        self._by_key: dict[bytes, Rate] = {}
+
+    def of(self, key: bytes) -> Rate:
+        """Return the rate of a key."""
+        rate = self._by_key.pop(key, None) or Rate(self._per_second)
+        self._by_key[key] = rate
+        if len(self._by_key) > self._limit:
+            del self._by_key[next(iter(self._by_key))]
+        return rate

@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/error.h"
+#include "microros/executor_handles.h"
+#include "microros/rmw_service.h"
+
+#include <stddef.h>
+
+static rcl_ret_t service_refuse(void)
+{
+  return microros_error_refuse(RCL_RET_SERVICE_INVALID, "service");
+}
+
+static rcl_ret_t service_look(const rclc_executor_handle_t * handle, bool * is_ready, int64_t * look_again_ns)
+{
+  (void)look_again_ns; /* requests wake the executor */
+  if (!rcl_service_is_valid(handle->service)) {
+    return service_refuse();
+  }
+  *is_ready = rmw_replier_is_ready(handle->service->impl);
+  return RCL_RET_OK;
+}
+
+static rcl_ret_t service_take(rclc_executor_handle_t * handle)
+{
+  rmw_service_info_t info;
+  rmw_ret_t result;
+
+  if (!rcl_service_is_valid(handle->service)) {
+    return service_refuse();
+  }
+  result = rmw_replier_take(handle->service->impl, &info, handle->data, &handle->data_available);
+  if (handle->data_available) {
+    handle->req_id = info.request_id;
+  }
+  return result;
+}
+
+static rcl_ret_t service_respond(const rclc_executor_handle_t * handle)
+{
+  if (!rcl_service_is_valid(handle->service)) {
+    return service_refuse(); /* the callback has ended it */
+  }
+  return rmw_replier_respond(handle->service->impl, &handle->req_id, handle->data_response_msg);
+}
+
+static rcl_ret_t service_call(rclc_executor_handle_t * handle)
+{
+  handle->callback.service(handle->data, handle->data_response_msg);
+  return service_respond(handle);
+}
+
+static rcl_ret_t service_call_with_request_id(rclc_executor_handle_t * handle)
+{
+  handle->callback.service_with_request_id(handle->data, &handle->req_id, handle->data_response_msg);
+  return service_respond(handle);
+}
+
+static rcl_ret_t service_call_with_context(rclc_executor_handle_t * handle)
+{
+  handle->callback.service_with_context(handle->data, handle->data_response_msg, handle->callback_context);
+  return service_respond(handle);
+}
+
+/* Returns a handle without its callback, or NULL. */
+static rclc_executor_handle_t * service_add(
+  rclc_executor_t * executor, rcl_service_t * service, void * request_msg, void * response_msg,
+  rclc_executor_handle_type_t type, const rclc_handle_kind_t * kind)
+{
+  rclc_executor_handle_t * handle = rclc_executor_add_handle(executor, type, kind);
+
+  if (handle != NULL) {
+    handle->service = service;
+    handle->data = request_msg;
+    handle->data_response_msg = response_msg;
+    ++executor->info.number_of_services;
+    if (rcl_service_is_valid(service)) {
+      rmw_replier_bind(service->impl, request_msg, response_msg);
+    }
+  }
+  return handle;
+}
+
+static rcl_ret_t service_refuse_argument(void)
+{
+  return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "executor, service, messages or callback");
+}
+
+rcl_ret_t rclc_executor_add_service(
+  rclc_executor_t * executor, rcl_service_t * service, void * request_msg, void * response_msg,
+  rclc_service_callback_t callback)
+{
+  static const rclc_handle_kind_t kind = {service_look, service_take, service_call};
+  rclc_executor_handle_t * handle;
+
+  if (
+    executor == NULL || service == NULL || request_msg == NULL || response_msg == NULL || callback == NULL) {
+    return service_refuse_argument();
+  }
+  handle = service_add(executor, service, request_msg, response_msg, RCLC_SERVICE, &kind);
+  if (handle == NULL) {
+    return RCL_RET_ERROR;
+  }
+  handle->callback.service = callback;
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rclc_executor_add_service_with_request_id(
+  rclc_executor_t * executor, rcl_service_t * service, void * request_msg, void * response_msg,
+  rclc_service_callback_with_request_id_t callback)
+{
+  static const rclc_handle_kind_t kind = {service_look, service_take, service_call_with_request_id};
+  rclc_executor_handle_t * handle;
+
+  if (
+    executor == NULL || service == NULL || request_msg == NULL || response_msg == NULL || callback == NULL) {
+    return service_refuse_argument();
+  }
+  handle = service_add(executor, service, request_msg, response_msg, RCLC_SERVICE_WITH_REQUEST_ID, &kind);
+  if (handle == NULL) {
+    return RCL_RET_ERROR;
+  }
+  handle->callback.service_with_request_id = callback;
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rclc_executor_add_service_with_context(
+  rclc_executor_t * executor, rcl_service_t * service, void * request_msg, void * response_msg,
+  rclc_service_callback_with_context_t callback, void * context)
+{
+  static const rclc_handle_kind_t kind = {service_look, service_take, service_call_with_context};
+  rclc_executor_handle_t * handle;
+
+  if (
+    executor == NULL || service == NULL || request_msg == NULL || response_msg == NULL || callback == NULL) {
+    return service_refuse_argument();
+  }
+  handle = service_add(executor, service, request_msg, response_msg, RCLC_SERVICE_WITH_CONTEXT, &kind);
+  if (handle == NULL) {
+    return RCL_RET_ERROR;
+  }
+  handle->callback.service_with_context = callback;
+  handle->callback_context = context;
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rclc_executor_remove_service(rclc_executor_t * executor, const rcl_service_t * service)
+{
+  const rcl_ret_t result = rclc_executor_remove_handle(executor, service);
+
+  if (result == RCL_RET_OK) {
+    --executor->info.number_of_services;
+  }
+  return result;
+}

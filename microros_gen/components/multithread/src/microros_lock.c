@@ -1,0 +1,9 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/lock.h"
+
+void microros_pause(void)
+{
+  port_unlock();
+  port_sleep_ms(1);
+  port_lock();
+}

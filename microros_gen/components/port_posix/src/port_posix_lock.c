@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#define _POSIX_C_SOURCE 200809L
+#include "microros/port.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+
+static pthread_mutex_t lock;
+
+static void lock_make(void)
+{
+  pthread_mutexattr_t kind;
+
+  if (
+    pthread_mutexattr_init(&kind) != 0 || pthread_mutexattr_settype(&kind, PTHREAD_MUTEX_RECURSIVE) != 0 ||
+    pthread_mutex_init(&lock, &kind) != 0) {
+    abort(); /* without it nothing that follows could be trusted */
+  }
+  (void)pthread_mutexattr_destroy(&kind);
+}
+
+void port_lock(void)
+{
+  static pthread_once_t once = PTHREAD_ONCE_INIT;
+
+  (void)pthread_once(&once, lock_make);
+  (void)pthread_mutex_lock(&lock);
+}
+
+void port_unlock(void)
+{
+  (void)pthread_mutex_unlock(&lock);
+}

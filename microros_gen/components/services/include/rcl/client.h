@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Service clients. */
+#ifndef MICROROS_RCL_CLIENT_H
+#define MICROROS_RCL_CLIENT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "rcl/macros.h"
+#include "rcl/node.h"
+#include "rcl/visibility_control.h"
+#include "rmw/qos_profiles.h"
+#include "rosidl_runtime_c/service_type_support_struct.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct rmw_client_s rcl_client_impl_t;
+
+typedef struct rcl_client_s {
+  rcl_client_impl_t * impl; /* the library's; NULL: not initialized */
+} rcl_client_t;
+
+typedef struct rcl_client_options_s {
+  rmw_qos_profile_t qos;
+  rcl_allocator_t allocator;
+} rcl_client_options_t;
+
+rcl_client_t rcl_get_zero_initialized_client(void);
+
+/*
+ * Waits for the agent, at most MICROROS_CREATE_TIMEOUT_MS; not for a server: XRCE does not tell whether there is one. With
+ * `nodes:` in the application file the client must be declared there; else it takes one of `pools: {clients: N}`. QoS and
+ * errors as rcl_service_init.
+ */
+rcl_ret_t rcl_client_init(
+  rcl_client_t * client, const rcl_node_t * node, const rosidl_service_type_support_t * type_support,
+  const char * service_name, const rcl_client_options_t * options);
+
+/* Frees the client's place at once, with its requests; waits for the agent at most MICROROS_CLOSE_TIMEOUT_MS. */
+rcl_ret_t rcl_client_fini(rcl_client_t * client, rcl_node_t * node);
+
+/* rmw_qos_profile_services_default */
+rcl_client_options_t rcl_client_get_default_options(void);
+
+/*
+ * Encodes the request into the reliable stream and hands it to the transport; does not wait, unless `on_full` is block.
+ * Gives its sequence number: 1, 2, 3, … As many requests may be under way as `queue:` says; a further one takes the place of
+ * the oldest, whose reply is then thrown away, and is counted (rmw_uros_get_client_statistics): so a client goes on when a
+ * server was not there. RCL_RET_ERROR, with a text: a field above its limit, or no room, or no session.
+ */
+rcl_ret_t rcl_send_request(const rcl_client_t * client, const void * ros_request, int64_t * sequence_number);
+
+/*
+ * Receives what has come, without waiting, and decodes the oldest reply into the storage that the message has; the header
+ * gets the sequence number of its request. Replies come in the order in which the server gives them.
+ * RCL_RET_CLIENT_TAKE_FAILED: there is none. RCL_RET_ERROR, with a text: a reply was thrown away, as
+ * rcl_take_request_with_info says; or, once after a session was lost, how many requests were under way: whether their
+ * replies come is not known. The next call goes on with the next reply.
+ */
+rcl_ret_t rcl_take_response_with_info(
+  const rcl_client_t * client, rmw_service_info_t * request_header, void * ros_response);
+
+/* As rcl_take_response_with_info, without times. */
+rcl_ret_t rcl_take_response(
+  const rcl_client_t * client, rmw_request_id_t * request_header, void * ros_response);
+
+/* Returns the fully qualified name, which belongs to the client; NULL for an invalid one. */
+const char * rcl_client_get_service_name(const rcl_client_t * client);
+
+rmw_client_t * rcl_client_get_rmw_handle(const rcl_client_t * client);
+
+bool rcl_client_is_valid(const rcl_client_t * client);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RCL_CLIENT_H */

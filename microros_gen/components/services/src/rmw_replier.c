@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Service servers. What identifies a request stays with the application until it answers; nothing is kept here. */
+#include "microros/lock.h"
+#include "microros/rmw_client.h"
+#include "microros/rmw_node.h"
+#include "microros/rmw_service.h"
+#include "microros/xrce_client.h"
+#include "microros/xrce_wire.h"
+
+#include <stddef.h>
+#include <string.h>
+
+/* In SampleIdentity (OMG DDS-XRCE 1.0, annex A): the writer's GUID, then the two halves of the sequence number. */
+enum { HIGH_AT = RMW_GID_STORAGE_SIZE, LOW_AT = HIGH_AT + 4 };
+
+static uint32_t replier_get_u32(const uint8_t * at, bool big_endian)
+{
+  const uint8_t flags = big_endian ? (uint8_t)0 : (uint8_t)XRCE_FLAG_LITTLE_ENDIAN;
+  const uint32_t first = xrce_get_u16(&at[0], flags);
+  const uint32_t second = xrce_get_u16(&at[2], flags);
+
+  return big_endian ? first << 16 | second : second << 16 | first;
+}
+
+static int64_t replier_sequence(const xrce_sample_t * sample)
+{
+  const uint64_t high = replier_get_u32(&sample->data[HIGH_AT], sample->big_endian);
+  const uint64_t low = replier_get_u32(&sample->data[LOW_AT], sample->big_endian);
+  const uint64_t sequence = high << 32 | low;
+
+  return (int64_t)sequence;
+}
+
+static void replier_put_u32(uint8_t * at, uint32_t value)
+{
+  xrce_put_le16(&at[0], (uint16_t)(value & UINT16_MAX));
+  xrce_put_le16(&at[2], (uint16_t)(value >> 16));
+}
+
+static rmw_ret_t replier_open(
+  const rmw_node_t * node, const rosidl_service_type_support_t * type_support, const char * name,
+  const rmw_qos_profile_t * qos, rmw_service_t ** service)
+{
+  static rmw_service_t services[MICROROS_SERVICES_MAX]; /* handed out by place */
+  const microros_service_type_t * type = type_support->data;
+  const xrce_service_t opened = {type, type->response};
+  const rmw_section_t section = {XRCE_REPLIERS_AT - MICROROS_NODES_MAX, MICROROS_SERVICES_MAX,
+                                 microros_error_service_undeclared,     microros_error_service_open,
+                                 microros_error_services_full,          type->dds_type_name};
+  xrce_endpoint_t wanted = {node->context->impl, type->request, NULL, 0, 0, rmw_node_index(node), 0};
+  const rmw_ret_t result = rmw_service_open(&wanted, &opened, &section, node, name, qos);
+
+  if (result == RMW_RET_OK) {
+    xrce_endpoint_t * endpoint = &wanted.client->endpoints[wanted.index];
+
+    *service = &services[wanted.index - section.first];
+    (*service)->implementation_identifier = rmw_implementation_identifier;
+    (*service)->data = endpoint;
+    (*service)->service_name = endpoint->name;
+  }
+  return result;
+}
+
+rmw_ret_t rmw_replier_open(
+  const rmw_node_t * node, const rosidl_service_type_support_t * type_support, const char * name,
+  const rmw_qos_profile_t * qos, rmw_service_t ** service)
+{
+  rmw_ret_t result;
+
+  microros_lock();
+  result = replier_open(node, type_support, name, qos, service);
+  microros_unlock();
+  return result;
+}
+
+void rmw_replier_close(rmw_service_t * service)
+{
+  rmw_receiver_close(service->data);
+}
+
+bool rmw_replier_is_open(const rmw_service_t * service)
+{
+  return service != NULL && service->data != NULL && rmw_receiver_is_open(service->data);
+}
+
+static bool replier_is_ready(const rmw_service_t * service)
+{
+  return xrce_read_is_ready(service->data) && xrce_write_reserve(service->data) != NULL;
+}
+
+bool rmw_replier_is_ready(const rmw_service_t * service)
+{
+  bool result;
+
+  microros_lock();
+  result = replier_is_ready(service);
+  microros_unlock();
+  return result;
+}
+
+void rmw_replier_pump(const rmw_service_t * service)
+{
+  const xrce_endpoint_t * endpoint = service->data;
+
+  microros_lock();
+  xrce_session_pump(endpoint->client);
+  microros_unlock();
+}
+
+static rmw_ret_t replier_take(
+  const rmw_service_t * service, rmw_service_info_t * info, void * ros_request, bool * taken)
+{
+  const xrce_endpoint_t * endpoint = service->data;
+  xrce_sample_t sample;
+  rmw_ret_t result;
+
+  *taken = false;
+  if (rmw_receiver_report(endpoint)) {
+    return RMW_RET_ERROR;
+  }
+  if (!xrce_read_peek(endpoint, &sample)) {
+    return RMW_RET_OK;
+  }
+  if (sample.size < XRCE_IDENTITY_SIZE) {
+    xrce_read_pop(endpoint, true);
+    microros_error_set(microros_error_service_short, endpoint->name, NULL, sample.size, XRCE_IDENTITY_SIZE);
+    return RMW_RET_ERROR;
+  }
+  rmw_service_describe(&sample, info);
+  (void)memcpy(info->request_id.writer_guid, sample.data, RMW_GID_STORAGE_SIZE);
+  info->request_id.sequence_number = replier_sequence(&sample);
+  result = rmw_service_decode(endpoint, &sample, XRCE_IDENTITY_SIZE, ros_request);
+  *taken = result == RMW_RET_OK;
+  return result;
+}
+
+rmw_ret_t rmw_replier_take(
+  const rmw_service_t * service, rmw_service_info_t * info, void * ros_request, bool * taken)
+{
+  rmw_ret_t result;
+
+  microros_lock();
+  result = replier_take(service, info, ros_request, taken);
+  microros_unlock();
+  return result;
+}
+
+static rmw_ret_t replier_respond(
+  const rmw_service_t * service, const rmw_request_id_t * request, const void * ros_response)
+{
+  const uint64_t sequence = (uint64_t)request->sequence_number;
+  cdr_fault_t fault; /* filled where the message is refused */
+  xrce_endpoint_t * endpoint = service->data;
+  uint8_t identity[XRCE_IDENTITY_SIZE];
+  xrce_write_t outcome;
+
+  (void)memcpy(identity, request->writer_guid, RMW_GID_STORAGE_SIZE);
+  replier_put_u32(&identity[HIGH_AT], (uint32_t)(sequence >> 32));
+  replier_put_u32(&identity[LOW_AT], (uint32_t)(sequence & UINT32_MAX));
+  outcome = xrce_service_write(endpoint, XRCE_REQUEST_NONE, identity, ros_response, &fault);
+  return rmw_service_report(endpoint, outcome, &fault);
+}
+
+rmw_ret_t rmw_replier_respond(
+  const rmw_service_t * service, const rmw_request_id_t * request, const void * ros_response)
+{
+  rmw_ret_t result;
+
+  microros_lock();
+  result = replier_respond(service, request, ros_response);
+  microros_unlock();
+  return result;
+}

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/xrce_write.h"
+
+#include "microros/xrce_client.h"
+#include "microros/xrce_routes.h"
+#include "microros/xrce_wire.h"
+
+#include <string.h>
+
+/* What stands before the body in a submessage. */
+enum { BODY_OFFSET = XRCE_SUBMESSAGE_HEADER + XRCE_OBJECT_PREFIX };
+
+static bool write_is_reliable(const xrce_endpoint_t * writer)
+{
+  return (writer->qos & XRCE_QOS_RELIABLE) != 0u;
+}
+
+/* Returns how many objects a writer, replier or requester has when it is complete. */
+static uint8_t write_complete(const xrce_endpoint_t * writer)
+{
+  return xrce_place_is_service((uint16_t)(MICROROS_NODES_MAX + writer->index))
+           ? (uint8_t)XRCE_SERVICE_COMPLETE
+           : (uint8_t)XRCE_ENDPOINT_COMPLETE;
+}
+
+static bool write_has_session(const xrce_endpoint_t * writer)
+{
+  return writer->client->session.state == XRCE_READY &&
+         writer->client->states[MICROROS_NODES_MAX + writer->index].level == write_complete(writer);
+}
+
+uint8_t * xrce_write_reserve(const xrce_endpoint_t * writer)
+{
+  return write_has_session(writer) ? xrce_route_reserve(writer->client, write_is_reliable(writer)) : NULL;
+}
+
+xrce_write_t xrce_write_obstacle(const xrce_endpoint_t * writer)
+{
+  return write_has_session(writer) ? XRCE_WRITE_FULL : XRCE_WRITE_NO_SESSION;
+}
+
+/* Pumps, and returns XRCE_WRITTEN with the room for a submessage, or why there is none. */
+static xrce_write_t write_begin(xrce_endpoint_t * writer, uint8_t ** room)
+{
+  xrce_session_pump(writer->client);
+  *room = xrce_write_reserve(writer);
+  return *room != NULL ? XRCE_WRITTEN : xrce_write_on_full(writer, room);
+}
+
+static xrce_write_t write_end(xrce_endpoint_t * writer, uint8_t * room, size_t size)
+{
+  xrce_client_t * client = writer->client;
+
+  xrce_put_submessage(room, XRCE_WRITE_DATA, XRCE_FLAG_LITTLE_ENDIAN, (uint16_t)(XRCE_OBJECT_PREFIX + size));
+  xrce_put_be16(&room[4], XRCE_REQUEST_NONE);
+  xrce_put_be16(&room[6], xrce_object_id(writer->index, XRCE_KIND_DATAWRITER));
+  if (!xrce_route_commit(client, write_is_reliable(writer), BODY_OFFSET + size)) {
+    ++client->session.statistics.dropped;
+    return XRCE_WRITE_NOT_SENT;
+  }
+  return XRCE_WRITTEN;
+}
+
+xrce_write_t xrce_write_message(xrce_endpoint_t * writer, const void * message, cdr_fault_t * fault)
+{
+  uint8_t * room;
+  size_t size;
+  const xrce_write_t outcome = write_begin(writer, &room);
+
+  if (outcome != XRCE_WRITTEN) {
+    return outcome;
+  }
+  size = writer->type->encode(message, &room[BODY_OFFSET], fault);
+  return size == 0u ? XRCE_WRITE_REFUSED : write_end(writer, room, size);
+}
+
+xrce_write_t xrce_write_body(xrce_endpoint_t * writer, const uint8_t * body, size_t size)
+{
+  uint8_t * room;
+  const xrce_write_t outcome = write_begin(writer, &room);
+
+  if (outcome != XRCE_WRITTEN) {
+    return outcome;
+  }
+  (void)memcpy(&room[BODY_OFFSET], body, size);
+  return write_end(writer, room, size);
+}

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Services and clients: their places, their queues, and what they send and receive.
+
+Sources: OMG DDS-XRCE 1.0, 7.7.14 (a request comes behind its SampleIdentity); a reply comes behind request and object
+id of its request, as the public agent sends it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.model.application import Application, EndpointDecl
+from microros_gen.model.derived import derived_name
+from microros_gen.model.selection import Selection
+from microros_gen.model.types import TypeName
+from microros_gen.plan.declared import declarations, full_name, pool, service_parts, type_name
+from microros_gen.plan.receiving import LARGEST_DEFAULT_QUEUE, buffers_of, slot_of
+from microros_gen.plan.runtime import QueuePlan
+from microros_gen.plan.services import ServicePlan, StoredMessage
+from microros_gen.plan.streams import Received, Written
+from microros_gen.plan.types import TypePlan
+from microros_gen.plan.types_names import include_path
+
+IDENTITY_SIZE = 24
+RELATED_SIZE = 4
+KINDS = ("service", "client")
+_HEAD = {"service": IDENTITY_SIZE, "client": RELATED_SIZE}
+_WRITTEN_HEAD = {"service": IDENTITY_SIZE, "client": 0}
+
+
+@dataclass(frozen=True)
+class Serving:
+    """`queues` has one entry for each place: those of services, then those of clients."""
+
+    services: tuple[ServicePlan, ...] = ()
+    clients: tuple[ServicePlan, ...] = ()
+    services_max: int = 0
+    clients_max: int = 0
+    queues: tuple[QueuePlan, ...] = ()
+    received: tuple[Received, ...] = ()
+    written: tuple[Written, ...] = ()
+
+
+def plan_serving(
+    application: Application,
+    selection: Selection,
+    types: Mapping[TypeName, TypePlan],
+    roots: tuple[TypeName, ...],
+    diagnostics: Diagnostics,
+) -> Serving:
+    """Plan services and clients; without `nodes:` each place can have any of `roots`, which are services."""
+    if not selection.has("services"):
+        return Serving()
+    if not application.nodes:
+        return _pooled(application, types, roots, diagnostics)
+    plans: dict[str, list[ServicePlan]] = {kind: [] for kind in KINDS}
+    queues, received, written = [], [], []
+    for kind in KINDS:
+        for index, (node_index, node, endpoint) in enumerate(declarations(application, kind)):
+            name = full_name(node, endpoint)
+            plans[kind].append(_plan(kind, index, node_index, name, endpoint, types))
+            label = f"the {{}} of {endpoint.type} on {name}"
+            arriving, leaving = _sizes(kind, index, endpoint, types)
+            span = endpoint.type_span or endpoint.span
+            slots = endpoint.queue or LARGEST_DEFAULT_QUEUE
+            what = ("request", "reply") if kind == "service" else ("reply", "request")
+            queues.append(QueuePlan(slots, slot_of(arriving) + _HEAD[kind]))
+            received.append(
+                Received(label.format(what[0]), slot_of(arriving) + _HEAD[kind], True, False, span)
+            )
+            written.append(Written(label.format(what[1]), leaving + _WRITTEN_HEAD[kind], True, False, span))
+    services, clients = (tuple(plans[kind]) for kind in KINDS)
+    return Serving(
+        services, clients, len(services), len(clients), tuple(queues), tuple(received), tuple(written)
+    )
+
+
+def _sizes(
+    kind: str, index: int, endpoint: EndpointDecl, types: Mapping[TypeName, TypePlan]
+) -> tuple[int, int]:
+    """Return the largest body that comes, and the largest that goes."""
+    service = type_name(endpoint.type, "srv")
+    sizes = {
+        sends: types[derived_name(service, part)].largest(kind, index) for part, sends in service_parts(kind)
+    }
+    return sizes[False], sizes[True]
+
+
+def _plan(
+    kind: str, index: int, node: int, name: str, endpoint: EndpointDecl, types: Mapping[TypeName, TypePlan]
+) -> ServicePlan:
+    service = type_name(endpoint.type, "srv")
+    messages = {known: plan.message for known, plan in types.items()}
+    limited, stored = "", []
+    for part, sends in service_parts(kind):
+        type_ = types[derived_name(service, part)]
+        own = type_.limit_set(kind, index) if sends else None
+        limited = own.name if own else limited
+        if type_.storage and not (sends and kind == "client"):
+            stored.append(
+                StoredMessage(
+                    part.lower(),
+                    type_.storage_name(name),
+                    include_path(type_.files.storage),
+                    type_.c_name,
+                    tuple(buffers_of(type_.message, messages)),
+                )
+            )
+    return ServicePlan(kind, index, node, name, service, limited, tuple(stored))
+
+
+def _pooled(
+    application: Application,
+    types: Mapping[TypeName, TypePlan],
+    roots: tuple[TypeName, ...],
+    diagnostics: Diagnostics,
+) -> Serving:
+    services = pool(application, "services", len(roots), diagnostics)
+    clients = pool(application, "clients", len(roots), diagnostics)
+    slots = application.pools.get("queue", LARGEST_DEFAULT_QUEUE)
+    requests = [(root, types[derived_name(root, "Request")].max_encoded_size) for root in roots]
+    replies = [(root, types[derived_name(root, "Response")].max_encoded_size) for root in roots]
+    of_service = QueuePlan(slots, slot_of(max((size for _, size in requests), default=0)) + IDENTITY_SIZE)
+    of_client = QueuePlan(slots, slot_of(max((size for _, size in replies), default=0)) + RELATED_SIZE)
+    received = [
+        Received(f"the request of {root}", slot_of(size) + IDENTITY_SIZE, True, False)
+        for root, size in requests
+    ]
+    received += [
+        Received(f"the reply of {root}", slot_of(size) + RELATED_SIZE, True, False) for root, size in replies
+    ]
+    written = [Written(f"the request of {root}", size, True, False) for root, size in requests]
+    written += [Written(f"the reply of {root}", size + IDENTITY_SIZE, True, False) for root, size in replies]
+    return Serving(
+        services_max=services,
+        clients_max=clients,
+        queues=(of_service,) * services + (of_client,) * clients,
+        received=tuple(received),
+        written=tuple(written),
+    )

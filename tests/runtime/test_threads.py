@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Several tasks in one client, watched by ThreadSanitizer; and what the option leaves where it is not selected."""
+
+from __future__ import annotations
+
+import socket
+import subprocess
+import threading
+from dataclasses import replace
+from pathlib import Path
+
+from microros_gen.plan.runtime import QueuePlan
+from runtime.harness import EXECUTOR, build, components, render
+from runtime.reading_agent import ReadingAgent
+
+TASKS, PUBLISHERS, VALUES, TASK_VALUES, RECEIVED = 4, 3, 150, 100_000, 300
+PLAN = replace(
+    EXECUTOR,
+    multithread=True,
+    subscriptions_max=1,
+    queues=(QueuePlan(8, 16),),
+    reliable_input_slots=4,
+    timers_max=0,
+    guard_conditions_max=1,
+    on_full="block",
+    on_full_block_ms=20_000,
+    create_timeout_ms=20_000,
+    connect_timeout_ms=20_000,
+    liveliness_period_ms=5000,
+)
+THREAD_SANITIZER = ("-g", "-O1", "-fsanitize=thread")
+
+
+def serve(agent: ReadingAgent, served: socket.socket) -> None:
+    """Answer datagrams until the socket is closed; offer the samples when the reader is there."""
+    offered = False
+    while True:
+        try:
+            datagram, peer = served.recvfrom(2048)
+        except OSError:
+            return
+        answers = agent.receive(datagram)
+        if agent.reads and not offered:
+            offered = True
+            answers += agent.numbers(PLAN.publisher_places, *range(RECEIVED))
+        for answer in [*answers, *(agent.tick() if agent.unacknowledged else [])]:
+            served.sendto(answer, peer)
+
+
+def test_nothing_is_lost_and_nothing_races(tmp_path: Path) -> None:
+    agent = ReadingAgent()
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as served:
+        served.bind(("127.0.0.1", 0))
+        thread = threading.Thread(target=serve, args=(agent, served), daemon=True)
+        thread.start()
+        plan = replace(PLAN, agent_port=served.getsockname()[1])
+        tree = render(tmp_path, plan, components(plan))
+        program = build(tree, ["types_read.c", "threads.c"], "threads", "gcc", THREAD_SANITIZER)
+        done = subprocess.run([program], capture_output=True, text=True, timeout=120, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    for task in range(TASKS):
+        values = agent.values(task if task < PUBLISHERS else 0)
+        mine = [value - task * TASK_VALUES for value in values if value // TASK_VALUES == task]
+        assert mine == list(range(VALUES))
