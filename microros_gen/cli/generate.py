@@ -59,7 +59,7 @@ def plan(options: SelectionOptions, output: Path | None) -> tuple[Planned, Path]
 
     diagnostics = Diagnostics()
     resolved = resolve(read_request(options, diagnostics), diagnostics)
-    out = output or Path("build") / "+".join(resolved.selection.profiles)
+    out = output or Path("build") / resolved.selection.name
     check_owned(out)
     planned = plan_request(resolved, options, diagnostics)
     click.echo(planned.warnings, nl=False, err=True)

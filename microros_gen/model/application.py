@@ -65,7 +65,8 @@ class Transport:
 class Qos:
     """QoS of an endpoint.
 
-    The values are those of rmw/types.h in lower case, the defaults rmw_qos_profile_default.
+    The values are those of rmw/types.h in lower case, the defaults rmw_qos_profile_default. `deadline_ms` and
+    `lifespan_ms`: 0 for none.
     """
 
     reliability: str = "reliable"
@@ -73,6 +74,8 @@ class Qos:
     history: str = "keep_last"
     depth: int = 10
     span: Span | None = None
+    deadline_ms: int = 0
+    lifespan_ms: int = 0
 
 
 @dataclass(frozen=True)
@@ -98,7 +101,8 @@ class EndpointDecl:
     """A publisher, subscription, service or client of a node.
 
     `topic` holds the service's name for the latter two. {node} and {ns} in it are replaced. `queue`: how many samples
-    wait on the device at most until they are taken; None: follows from the depth. Publishers have none.
+    wait on the device at most until they are taken; None: follows from the depth. Publishers have none. `given`: the
+    fully qualified name that the source has, where `remap:` makes it `topic`; empty: the same.
     `of_the_library`: nobody declared it, and the library itself opens it.
     """
 
@@ -111,6 +115,7 @@ class EndpointDecl:
     type_span: Span | None = None
     topic_span: Span | None = None
     queue: int | None = None
+    given: str = ""
     of_the_library: bool = False
 
 
@@ -175,7 +180,7 @@ class TaskDecl:
 
 @dataclass(frozen=True)
 class NodeDecl:
-    """A node and what it owns."""
+    """A node and what it owns. `given_name`, `given_namespace`: what the source has, where `remap:` changes them."""
 
     name: str
     namespace: str = "/"
@@ -186,6 +191,8 @@ class NodeDecl:
     parameters: tuple[ParameterDecl, ...] = ()
     executors: tuple[ExecutorDecl, ...] = ()
     name_span: Span | None = None
+    given_name: str = ""
+    given_namespace: str = ""
 
 
 @dataclass(frozen=True)

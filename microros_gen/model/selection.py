@@ -58,6 +58,11 @@ class Selection:
     objects: tuple[Chosen, ...]
     axes: tuple[ChosenAxis, ...] = ()
 
+    @property
+    def name(self) -> str:
+        """The profiles, joined by `+`; `application` where components alone were selected."""
+        return "+".join(self.profiles) or "application"
+
     def has(self, component: str) -> bool:
         """Return whether `component` is selected."""
         return any(c.component.name == component for c in self.components)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from microros_gen.diagnostics import Diagnostics, Span, nearest
@@ -12,11 +12,9 @@ from microros_gen.model.application import (
     ExecutorDecl,
     NodeDecl,
     ParameterDecl,
-    Qos,
     TimerDecl,
 )
 from microros_gen.model.names import (
-    NameFault,
     absolute,
     expand_topic_name,
     expanded_fault,
@@ -25,6 +23,8 @@ from microros_gen.model.names import (
     substitute,
     topic_fault,
 )
+from microros_gen.parse.application_qos import endpoint_qos
+from microros_gen.parse.application_remap import rename_endpoints, rename_node
 from microros_gen.parse.limits import endpoint_limits
 from microros_gen.parse.tree_values import (
     bool_of,
@@ -33,6 +33,7 @@ from microros_gen.parse.tree_values import (
     items,
     named_of,
     number_of,
+    report_name,
     size_of,
     span_of,
     text_of,
@@ -81,11 +82,13 @@ def _node(item: YamlNode, diagnostics: Diagnostics) -> NodeDecl:
         parameters=tuple(_parameter(p, diagnostics) for p in items(child(item, "parameters"))),
         name_span=span_of(name) or item.span,
     )
+    remap = child(item, "remap")
+    node = rename_node(node, remap, diagnostics)
     node = replace(node, endpoints=tuple(_endpoints(item, node, diagnostics)))
     executors = tuple(_executor(e, node, diagnostics) for e in items(child(item, "executors")))
     for kind, named in (("timer", node.timers), ("parameter", node.parameters), ("executor", executors)):
         check_unique(kind, [(n.name, n.span) for n in named], diagnostics)
-    return replace(node, executors=executors)
+    return rename_endpoints(replace(node, executors=executors), remap, diagnostics)
 
 
 def _endpoints(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> Iterator[EndpointDecl]:
@@ -100,7 +103,7 @@ def _endpoints(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> Iter
                 kind=kind,
                 topic=substitute(text_of(name) or "", node.name, node.namespace),
                 type=type_name,
-                qos=_qos(child(endpoint, "qos")),
+                qos=endpoint_qos(child(endpoint, "qos"), diagnostics),
                 limits=endpoint_limits(child(endpoint, "limits"), type_name),
                 span=endpoint.span,
                 type_span=span_of(type_node),
@@ -117,17 +120,6 @@ def _check_expanded(name: YamlNode | None, what: str, node: NodeDecl, diagnostic
             full = expand_topic_name(text, node.name, node.namespace)
             shown = full if len(full) <= 60 else f"{full[:60]}…"
             diagnostics.error(f"{what} '{shown}' {fault.message}", name.span, fault.hint)
-
-
-def _qos(node: YamlNode | None) -> Qos:
-    default = Qos()
-    return Qos(
-        reliability=text_of(child(node, "reliability")) or default.reliability,
-        durability=text_of(child(node, "durability")) or default.durability,
-        history=text_of(child(node, "history")) or default.history,
-        depth=int_of(child(node, "depth")) or default.depth,
-        span=span_of(node),
-    )
 
 
 def _timer(item: YamlNode, diagnostics: Diagnostics) -> TimerDecl:
@@ -223,32 +215,3 @@ def check_unique(kind: str, named: list[tuple[str, Span | None]], diagnostics: D
             where = f"; the first is in line {first.line}" if first else ""
             diagnostics.error(f"there are two {kind}s '{name}'{where}", span, "Give each a name of its own")
         seen.setdefault(name, span)
-
-
-def report_name(
-    node: YamlNode | None, what: str, judge: Callable[[str], NameFault | None], diagnostics: Diagnostics
-) -> bool:
-    """Report what `judge` finds wrong with the text of `node`, at the character.
-
-    Return whether it is right.
-    """
-    text = text_of(node)
-    if text is None or node is None:
-        return False
-    fault = judge(text)
-    if fault is None:
-        return True
-    diagnostics.error(
-        f"{what} '{text}' {fault.message}", _character_span(node, text, fault.index), fault.hint
-    )
-    return False
-
-
-def _character_span(node: YamlNode, text: str, index: int) -> Span:
-    span = node.span
-    line = span.source.line(span.line)
-    start = span.column - 1
-    start += 0 if isinstance(node, ScalarNode) and node.plain else 1
-    if line[start : start + len(text)] != text or index >= len(text):
-        return span
-    return Span(span.source, span.line, start + index + 1)

@@ -7,9 +7,11 @@ What does not fit was reported before, and reads as not there.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
-from microros_gen.diagnostics import Span
+from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.model.application import Named
+from microros_gen.model.names import NameFault
 from microros_gen.parse.yaml_tree import Entry, MappingNode, ScalarNode, SequenceNode, YamlNode
 
 _SIZE = re.compile(r"([0-9]+) ?(B|kB|KiB|MB|MiB)")
@@ -81,3 +83,32 @@ def time_of(node: YamlNode | None) -> int | None:
     """Return microseconds: `20 ms`; a part of one is rounded away."""
     match = _TIME.fullmatch(text_of(node) or "")
     return int(float(match.group(1)) * _TIME_UNITS[match.group(2)] + 0.5) if match else None
+
+
+def report_name(
+    node: YamlNode | None, what: str, judge: Callable[[str], NameFault | None], diagnostics: Diagnostics
+) -> bool:
+    """Report what `judge` finds wrong with the text of `node`, at the character.
+
+    Return whether it is right.
+    """
+    text = text_of(node)
+    if text is None or node is None:
+        return False
+    fault = judge(text)
+    if fault is None:
+        return True
+    diagnostics.error(
+        f"{what} '{text}' {fault.message}", _character_span(node, text, fault.index), fault.hint
+    )
+    return False
+
+
+def _character_span(node: YamlNode, text: str, index: int) -> Span:
+    span = node.span
+    line = span.source.line(span.line)
+    start = span.column - 1
+    start += 0 if isinstance(node, ScalarNode) and node.plain else 1
+    if line[start : start + len(text)] != text or index >= len(text):
+        return span
+    return Span(span.source, span.line, start + index + 1)

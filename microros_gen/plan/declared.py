@@ -32,6 +32,20 @@ def subscription_declarations(application: Application) -> tuple[tuple[int, Node
     return declarations(application, "subscription")
 
 
+def timed_qos(application: Application, entities: str, diagnostics: Diagnostics) -> bool:
+    """Return whether an endpoint has a deadline or lifespan; where objects are not described in binary: an error."""
+    timed = [
+        e for node in application.nodes for e in node.endpoints if e.qos.deadline_ms or e.qos.lifespan_ms
+    ]
+    for endpoint in timed if entities != "binary" else ():
+        diagnostics.error(
+            f"'entities: {entities}' carries neither deadline nor lifespan: '{endpoint.topic}' has one",
+            endpoint.qos.span,
+            "Take `entities: binary`, or remove it",
+        )
+    return bool(timed)
+
+
 def service_parts(kind: str) -> tuple[tuple[str, bool], ...]:
     """Return what a `service` or a `client` exchanges: each message's suffix, and whether it sends that."""
     return ("Request", kind == "client"), ("Response", kind == "service")

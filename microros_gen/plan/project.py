@@ -16,7 +16,7 @@ from microros_gen.model.target import Target
 from microros_gen.model.types import Message, TypeName
 from microros_gen.plan.board import BoardPlan, plan_board
 from microros_gen.plan.creation import CreateNames, create_size, participant_reference
-from microros_gen.plan.declared import pool, publisher_declarations, type_name
+from microros_gen.plan.declared import pool, publisher_declarations, timed_qos, type_name
 from microros_gen.plan.names import dds_topic, dds_type, participant_name
 from microros_gen.plan.receiving import plan_receiving
 from microros_gen.plan.running import plan_running
@@ -97,7 +97,7 @@ def plan_project(
 
     `roots` are the messages and `services` the services that an application without `nodes:` can have.
     """
-    name = "+".join(selection.profiles)
+    name = selection.name
     by_name = {plan.name: plan for plan in types}
     nodes, publishers = _declared(application, by_name)
     receiving = plan_receiving(application, selection, by_name, roots, diagnostics)
@@ -173,6 +173,7 @@ def plan_project(
         has_time_sync=selection.has("time_sync"),
         has_ros_time=selection.has(CLOCK_ROS),
         fixed_messages=all(plan.fixed_size for plan in types if plan.wire is not None),
+        timed_qos=timed_qos(application, selection.entities, diagnostics),
         reassembly_size=streams.reassembly_size,
         fragments=streams.fragments,
         reliable_input_slots=streams.reliable_input_slots,
@@ -188,7 +189,15 @@ def _declared(
     application: Application, types: Mapping[TypeName, TypePlan]
 ) -> tuple[tuple[NodePlan, ...], tuple[PublisherPlan, ...]]:
     nodes = tuple(
-        NodePlan(i, n.name, n.namespace, participant_name(n.name, n.namespace), n.domain_id)
+        NodePlan(
+            i,
+            n.name,
+            n.namespace,
+            participant_name(n.name, n.namespace),
+            n.domain_id,
+            n.given_name,
+            n.given_namespace,
+        )
         for i, n in enumerate(application.nodes)
     )
     publishers = []
@@ -198,7 +207,16 @@ def _declared(
         name = type_name(endpoint.type)
         own = types[name].limit_set("publisher", index)
         publishers.append(
-            PublisherPlan(index, node_index, topic, dds_topic(topic), name, reliable, own.name if own else "")
+            PublisherPlan(
+                index,
+                node_index,
+                topic,
+                dds_topic(topic),
+                name,
+                reliable,
+                own.name if own else "",
+                endpoint.given,
+            )
         )
     return nodes, tuple(publishers)
 

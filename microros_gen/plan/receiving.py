@@ -62,7 +62,9 @@ def plan_receiving(
         topic, name = full_name(node, endpoint), type_name(endpoint.type)
         reliable = endpoint.qos.reliability == "reliable"
         size = types[name].largest("subscription", index)
-        plan = SubscriptionPlan(index, node_index, topic, dds_topic(topic), name, reliable)
+        plan = SubscriptionPlan(
+            index, node_index, topic, dds_topic(topic), name, reliable, given=endpoint.given
+        )
         subscriptions.append(_with_storage(plan, types))
         queues.append(_queue(endpoint, size))
         received.append(

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from microros_gen.model.application import DISCOVERY_PORT, MOST_HISTORY
 from microros_gen.model.types import TypeName
 from microros_gen.plan.names import dds_type
+from microros_gen.plan.runtime_rows import EndpointRow, QueueRow
 from microros_gen.plan.services import ServicePlan
 from microros_gen.plan.types_names import include_path, type_files
 
@@ -17,13 +18,28 @@ DISCOVERY_GROUP = "239.255.0.2"
 
 @dataclass(frozen=True)
 class NodePlan:
-    """A declared node. `participant_name` is what goes on the wire: `name`, or `namespace/name`."""
+    """A declared node. `participant_name` is what goes on the wire: `name`, or `namespace/name`.
+
+    `given_name` and `given_namespace` are what the source passes, where `remap:` changes them.
+    """
 
     index: int
     name: str
     namespace: str
     participant_name: str
     domain_id: int
+    given_name: str = ""
+    given_namespace: str = ""
+
+    @property
+    def source_name(self) -> str:
+        """The name that the source passes."""
+        return self.given_name or self.name
+
+    @property
+    def source_namespace(self) -> str:
+        """The namespace that the source passes, as ROS 2 reports it."""
+        return "/" + (self.given_namespace or self.namespace).strip("/")
 
     @property
     def full_namespace(self) -> str:
@@ -36,7 +52,7 @@ class PublisherPlan:
     """A declared publisher; `topic` is the expanded ROS name (`/imu/data`), `dds_topic` is `rt` + topic.
 
     `limited` begins the C names of its type under limits of its own (plan/types_own_limits.py); empty: those of the
-    type.
+    type. `given` is the expanded name that the source has, where `remap:` makes it `topic`.
     """
 
     index: int
@@ -46,6 +62,7 @@ class PublisherPlan:
     type: TypeName
     reliable: bool
     limited: str = field(default="", repr=False)
+    given: str = field(default="", repr=False)
 
     @property
     def dds_type(self) -> str:
@@ -72,6 +89,7 @@ class SubscriptionPlan:
     header: str = ""
     c_type: str = ""
     buffers: tuple[str, ...] = ()
+    given: str = field(default="", repr=False)
 
     @property
     def dds_type(self) -> str:
@@ -103,26 +121,6 @@ class TimerPlan:
 
 
 @dataclass(frozen=True)
-class EndpointRow:
-    """A row of the table of declared endpoints, as PublisherPlan; an empty name is a place that nobody declared."""
-
-    name: str = ""
-    dds_type: str = ""
-    node: int = 0
-    limited: str = ""
-
-
-@dataclass(frozen=True)
-class QueueRow:
-    """Where a queue lies in the storage of all: its first slot, and the first byte of that."""
-
-    slots: int
-    slot_size: int
-    first: int
-    offset: int
-
-
-@dataclass(frozen=True)
 class RuntimePlan:
     """Sizes are bytes, times are milliseconds.
 
@@ -141,7 +139,7 @@ class RuntimePlan:
     `timers_max`, `executors_max` with `handles_max` each, `guard_conditions_max`, `wait_sets_max`, `ros_clocks_max`,
     `jump_callbacks_max`: places of each; 0 timers, executors or clocks: the component is not selected.
     `has_ros_time`: the first subscription is that of /clock, which the library opens itself.
-    `fixed_messages`: no message that is sent has a string or sequence.
+    `fixed_messages`: no message that is sent has a string or sequence. `timed_qos`: one has a deadline or lifespan.
     `error_text_size` 0: codes only. `best_effort_size` 0 or `reliable_slots` 0: there is no such stream.
     """
 
@@ -208,6 +206,7 @@ class RuntimePlan:
     multithread: bool = False
     discovery_port: int = DISCOVERY_PORT
     fixed_messages: bool = False
+    timed_qos: bool = False
 
     @property
     def has_subscriptions(self) -> bool:
@@ -294,12 +293,13 @@ class RuntimePlan:
     @property
     def endpoints(self) -> tuple[EndpointRow, ...]:
         """The declared endpoints in the order of their places, with the places that nobody declared."""
-        publishers = [EndpointRow(p.topic, p.dds_type, p.node, p.limited) for p in self.publishers]
-        subscriptions = [EndpointRow(s.topic, s.dds_type, s.node) for s in self.subscriptions]
+        publishers = [EndpointRow(p.topic, p.dds_type, p.node, p.limited, p.given) for p in self.publishers]
+        subscriptions = [EndpointRow(s.topic, s.dds_type, s.node, given=s.given) for s in self.subscriptions]
         rows = publishers + [EndpointRow()] * (self.publisher_places - len(publishers))
         subscriptions += [EndpointRow()] * (self.subscriptions_max - len(subscriptions))
         services = [
-            EndpointRow(s.name, s.dds_type, s.node, s.limited) for s in (*self.services, *self.clients)
+            EndpointRow(s.name, s.dds_type, s.node, s.limited, s.given)
+            for s in (*self.services, *self.clients)
         ]
         return (*rows, *subscriptions, *services)
 
@@ -322,6 +322,11 @@ class RuntimePlan:
     def requests_max(self) -> int:
         """Requests of all clients that can be under way: as many as their replies have room."""
         return sum(queue.slots for queue in self.queues[len(self.queues) - self.clients_max :])
+
+    @property
+    def remaps(self) -> bool:
+        """Whether some name of the source is another one on the wire."""
+        return any(node.given_name for node in self.nodes) or any(row.given for row in self.endpoints)
 
     @property
     def queue_rows(self) -> tuple[QueueRow, ...]:

@@ -55,6 +55,7 @@ def plan_serving(
         return Serving()
     if not application.nodes:
         return _pooled(application, types, roots, diagnostics)
+    _check_names(application, diagnostics)
     plans: dict[str, list[ServicePlan]] = {kind: [] for kind in KINDS}
     queues, received, written = [], [], []
     for kind in KINDS:
@@ -75,6 +76,31 @@ def plan_serving(
     return Serving(
         services, clients, len(services), len(clients), tuple(queues), tuple(received), tuple(written)
     )
+
+
+def _check_names(application: Application, diagnostics: Diagnostics) -> None:
+    """Report a service that is served twice, or whose declarations differ in type.
+
+    ROS 2 has one server for a name: of two, a caller would get both answers. Several clients of one service are right.
+    """
+    first: dict[str, EndpointDecl] = {}
+    server: dict[str, EndpointDecl] = {}
+    for _, node, endpoint in declarations(application, *KINDS):
+        name = full_name(node, endpoint)
+        other = first.setdefault(name, endpoint)
+        same = server.setdefault(name, endpoint) if endpoint.kind == "service" else endpoint
+        if type_name(other.type, "srv") != type_name(endpoint.type, "srv"):
+            diagnostics.error(
+                f"{name} is a {endpoint.type} here and a {other.type} elsewhere ({other.span})",
+                endpoint.type_span or endpoint.span,
+                "Give both the same type, or one of them another name",
+            )
+        elif same is not endpoint:
+            diagnostics.error(
+                f"two servers for {name}: each request would have two answers (the other: {same.span})",
+                endpoint.topic_span or endpoint.span,
+                "Remove one of them, or give it another name",
+            )
 
 
 def _sizes(
@@ -108,7 +134,7 @@ def _plan(
                     tuple(buffers_of(type_.message, messages)),
                 )
             )
-    return ServicePlan(kind, index, node, name, service, limited, tuple(stored))
+    return ServicePlan(kind, index, node, name, service, limited, tuple(stored), endpoint.given)
 
 
 def _pooled(

@@ -119,7 +119,7 @@ class _Publisher:
 def _nodes(project: Project) -> tuple[NodeView, ...]:
     if project.runtime.nodes:
         return tuple(
-            NodeView(f"node_{n.index}" if n.index else "node", n.name, _namespace(n.namespace))
+            NodeView(f"node_{n.index}" if n.index else "node", n.source_name, _namespace(n.source_namespace))
             for n in project.runtime.nodes
         )
     return (NodeView("node", example_node(project.name), ""),) if project.runtime.nodes_max else ()
@@ -137,7 +137,7 @@ def _publishers(
                 types[p.type],
                 nodes[p.node],
                 p.index,
-                declared[p.index].topic,
+                declared[p.index].given or declared[p.index].topic,
                 declared[p.index].qos,
                 types[p.type].storage_name(p.topic),
             )
@@ -211,7 +211,7 @@ def _subscription(
         package=plan.name.package,
         type=plan.name.name,
         c_type=plan.c_name,
-        topic=endpoint.topic,
+        topic=endpoint.given or endpoint.topic,
         storage=storage,
         format=shown.format if shown else "",
         value=shown.expression.format(message=name) if shown else "",
@@ -236,7 +236,13 @@ def _init(qos: Qos, what: str = "publisher") -> tuple[str, tuple[str, ...]]:
         if value != getattr(default, policy)
     ]
     changes += [f"depth = {asked.depth}"] if asked.depth != default.depth else []
+    changes += _times("deadline", asked.deadline_ms) + _times("lifespan", asked.lifespan_ms)
     return f"rclc_{what}_init", tuple(changes)
+
+
+def _times(policy: str, milliseconds: int) -> list[str]:
+    parts = (("sec", milliseconds // 1000), ("nsec", milliseconds % 1000 * 1_000_000))
+    return [f"{policy}.{part} = {value}" for part, value in parts if value]
 
 
 def _publisher(

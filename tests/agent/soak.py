@@ -56,6 +56,8 @@ class Place:
         self.life = 0
         self.replies: dict[int, list[int]] = {}
         self.heard: int | None = None
+        self.heard_count = 0
+        self.connected_at = 0.0
         self.gap_allowed = False
         self.served = 0
         self.client = self._fresh()
@@ -112,6 +114,7 @@ class Place:
     def _connect(self, client: SoakClient) -> None:
         client.link = self.world.link(self.number, client.hear)
         self.heard, self.gap_allowed = None, False
+        self.heard_count, self.connected_at = 0, time.monotonic()
         self.replies.clear()
 
     def _create(self, client: SoakClient) -> Step:
@@ -234,9 +237,11 @@ class Place:
         assert rest == "x" * int(size)
         if self.heard is not None and int(number) != self.heard + 1:
             assert int(number) > self.heard, f"{number} after {self.heard}"
-            assert self.gap_allowed, f"samples between {self.heard} and {number} are lost"
+            seen = f"{self.heard_count} before, in {time.monotonic() - self.connected_at:.1f} s"
+            assert self.gap_allowed, f"samples between {self.heard} and {number} are lost ({seen})"
             self.gap_allowed = False
         self.heard = int(number)
+        self.heard_count += 1
         self.world.count["samples down"] += 1
 
 

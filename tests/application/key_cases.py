@@ -121,6 +121,23 @@ def _endpoint_cases(
                 f"3:{start + 27 + len(type_name) + len(qos)}",
                 f"'nodes[0].{key}[0].qos.{qos}' must be ",
             )
+        for time in ("deadline", "lifespan"):
+            cases[f"{path}.qos.{time}"] = KeyCase(
+                one(f"{entry}, qos: {{{time}: 1.5 s}}"),
+                lambda a, q=time: getattr(_endpoint(a).qos, f"{q}_ms"),
+                1500,
+                one(f"topic: a, type: {type_name}, qos: {{{time}: 5}}"),
+                f"3:{start + 35 + len(type_name)}",
+                f"'nodes[0].{key}[0].qos.{time}' must be a time with its unit such as 20 ms",
+            )
+        cases[f"{path}.qos.liveliness"] = KeyCase(
+            one(f"{entry}, qos: {{liveliness: automatic}}"),
+            lambda a: _endpoint(a).qos.depth,
+            10,
+            one(f"topic: a, type: {type_name}, qos: {{liveliness: manual_by_topic}}"),
+            f"3:{start + 37 + len(type_name)}",
+            f"'nodes[0].{key}[0].qos.liveliness' must be automatic",
+        )
         cases[f"{path}.qos"] = KeyCase(
             one(f"{entry}, qos: {{depth: 2}}"),
             lambda a: _endpoint(a).qos.depth,
@@ -457,6 +474,14 @@ _NODES = {
         "nodes: [{name: a, domain_id: 233}]",
         "1:30",
         "'nodes[0].domain_id' must be a whole number between 0 and 232; it is 233",
+    ),
+    "nodes[].remap": KeyCase(
+        "nodes: [{name: a, remap: {__ns: /b}}]",
+        lambda a: (_node(a).namespace, _node(a).given_namespace),
+        ("/b", "/"),
+        "nodes: [{name: a, remap: [b]}]",
+        "1:26",
+        "'nodes[0].remap' must be a mapping such as {imu/data: /left/imu, __ns: /left}; it is a list",
     ),
     "nodes[].timers": KeyCase(
         _in_node("timers: [{name: t, period: 1.5 ms}]"),

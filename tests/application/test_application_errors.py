@@ -31,6 +31,10 @@ ERRORS: dict[str, tuple[str, str]] = {
         "profles: [a]\n",
         "f:1:1: error: the file has no key 'profles'. Did you mean 'profiles'?",
     ),
+    "a deadline below a millisecond": (
+        f"{NODE}    publishers: [{{topic: a, type: std_msgs/msg/Bool, qos: {{deadline: 1500 us}}}}]\n",
+        "f:3:70: error: XRCE carries a deadline in whole milliseconds, up to 4294966 s; it is 1500 us. Round it up",
+    ),
     "unknown key, nothing near": (
         "xyzzy: 1\n",
         "f:1:1: error: the file has no key 'xyzzy'. Known are version,",

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """`make bench`: generate and build, encode and decode beside Fast CDR, instructions, flash of types, firmware,
-the agent.
+the client, the agent.
 
 Times depend on the machine; so each stands beside a peer that ran in the same minutes. Instruction counts come
 from callgrind and repeat exactly with one compiler.
@@ -16,13 +16,14 @@ from pathlib import Path
 
 from agent_bench import bench_agent
 from agent_sides import Target
+from client import bench_client
 from codec import bench_codec
 from footprint import bench_footprint
 from generation import Seconds, bench_generate, median, row, timed, tool
 from instructions import bench_instructions
 from type_flash import bench_type_flash
 
-PARTS = ("generate", "build", "instructions", "codec", "types", "footprint", "agent")
+PARTS = ("generate", "build", "instructions", "codec", "types", "footprint", "client", "agent")
 
 
 def main() -> int:
@@ -51,6 +52,8 @@ def main() -> int:
             bench_type_flash(work)
         if "footprint" in options.parts:
             bench_footprint(work / "footprint")
+        if "client" in options.parts:
+            bench_client(work / "client")
         if "agent" in options.parts:
             bench_agent(work / "agent", Target(*options.agent) if options.agent else None)
     return 0

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 from agent.observer import Observer
-from agent.process import AgentProcess
+from agent.process import AgentProcess, running_agent
 
-from e2e.images import C_FILES, SANITIZE, Images, started
+from e2e.images import C_FILES, QUICK, SANITIZE, Images, started
 from e2e.relay import Relay
 
 pytestmark = pytest.mark.ros
@@ -56,19 +56,8 @@ def await_replies(observer: Observer) -> list[list[int]]:
     return list(replies)
 
 
-@pytest.mark.parametrize("entities", ["binary", "xml"])
-def test_rclpy_calls_a_service(
-    images: Images,
-    image_port: Relay,
-    agent: AgentProcess,
-    observer: Observer,
-    tmp_path: Path,
-    entities: str,
-) -> None:
+def call(program: Path, observer: Observer) -> None:
     """Six requests at once, with a queue of four; then one above the limits, which is refused in words."""
-    flags = ("-m32", *SANITIZE) if entities == "xml" else SANITIZE
-    image = images.build(image_port.port, f"{SERVER}entities: {entities}\n", "gcc", flags)
-    program = image.application(C_FILES / "serve.c", tmp_path / "serve", *STRICT)
     with started(program, "7") as process:
         await_line(process, "ready /arm/lengths")
         names = [["a" * (i + 1), "b"][: 1 + i % 2] for i in range(6)]
@@ -83,34 +72,57 @@ def test_rclpy_calls_a_service(
     assert (process.returncode, errors) == (0, ""), out
 
 
-@pytest.mark.parametrize("entities", ["binary", "xml"])
-def test_a_client_calls_rclpy(
-    images: Images,
-    image_port: Relay,
-    agent: AgentProcess,
-    observer: Observer,
-    tmp_path: Path,
-    entities: str,
-) -> None:
+def answer(program: Path, observer: Observer) -> None:
     """Three requests under way; the server answers the last one first."""
-    flags = ("-m32", *SANITIZE) if entities == "binary" else SANITIZE
-    image = images.build(image_port.port, f"{ASKER}entities: {entities}\n", "gcc", flags)
-    program = image.application(C_FILES / "ask.c", tmp_path / "ask", *STRICT)
     observer.ask(do="serve", service="/peer/lengths", type=TYPE, hold=3)
-    command = [program, "3"]
     pipe = subprocess.PIPE
-    with subprocess.Popen(command, text=True, stdin=pipe, stdout=pipe, stderr=pipe) as process:
+    with subprocess.Popen([program, "3"], text=True, stdin=pipe, stdout=pipe, stderr=pipe) as process:
         try:
             await_line(process, "ready")
-            end = time.monotonic() + 15
-            while not any(e["node"] == "/asker" for e in observer.ask(do="endpoints", topic="/peer/lengths")):
-                if time.monotonic() > end - 14:
-                    break  # services are not among the topics of the graph: discovery has had a second
-                time.sleep(0.05)
+            time.sleep(1)  # services are not among the topics of the graph: discovery has had a second
             out, errors = process.communicate("\n", timeout=20)
         finally:
             process.kill()
+            observer.ask(do="stop_serving")
     assert (process.returncode, errors) == (0, ""), out
     lines = out.splitlines()
     assert lines[:3] == ["request 1", "request 2", "request 3"]
     assert lines[3:] == ["reply 3: 1 2 3", "reply 2: 1 2", "reply 1: 1"]
+
+
+@pytest.mark.parametrize("entities", ["binary", "xml"])
+def test_rclpy_calls_a_service(
+    images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, tmp_path: Path, entities: str
+) -> None:
+    flags = ("-m32", *SANITIZE) if entities == "xml" else SANITIZE
+    image = images.build(image_port.port, f"{SERVER}entities: {entities}\n", "gcc", flags)
+    call(image.application(C_FILES / "serve.c", tmp_path / "serve", *STRICT), observer)
+
+
+@pytest.mark.parametrize("entities", ["binary", "xml"])
+def test_a_client_calls_rclpy(
+    images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, tmp_path: Path, entities: str
+) -> None:
+    flags = ("-m32", *SANITIZE) if entities == "binary" else SANITIZE
+    image = images.build(image_port.port, f"{ASKER}entities: {entities}\n", "gcc", flags)
+    answer(image.application(C_FILES / "ask.c", tmp_path / "ask", *STRICT), observer)
+
+
+@pytest.mark.parametrize(
+    "ways", [("reference", "preconfigured"), ("preconfigured", "reference")], ids="-".join
+)
+def test_the_agent_holds_them(
+    images: Images, relay: Relay, observer: Observer, domain: int, tmp_path: Path, ways: tuple[str, str]
+) -> None:
+    """Server and client by what OUT/agent has: nothing of them is described on the wire."""
+    sources = {SERVER: ("serve.c", call), ASKER: ("ask.c", answer)}
+    options, programs = [], []
+    for (application, (source, act)), way in zip(sources.items(), ways, strict=True):
+        image = images.build(relay.port, f"{application}entities: {way}\n", "gcc", QUICK)
+        (file,) = (image.out / "agent").iterdir()
+        options += ["--references" if way == "reference" else "--entities", str(file)]
+        programs.append((image.application(C_FILES / source, tmp_path / source[:-2], *STRICT), act))
+    with running_agent(domain, "--domain", str(domain), *options) as agent:
+        relay.connect(agent.port)
+        for program, act in programs:
+            act(program, observer)

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import pytest
-from house.corpus import Tree, Unit, make_trees, units
+from house.corpus import Tree, Unit, make_examples, make_trees, units
 
 
 @pytest.fixture(scope="session")
@@ -23,6 +23,9 @@ def is_header_a_difference(request: pytest.FixtureRequest) -> bool:
 
 
 @pytest.fixture(scope="session")
-def all_units(trees: list[Tree], is_header_a_difference: bool) -> list[Unit]:
-    """Every C file of every tree."""
-    return units(trees, is_header_a_difference)
+def all_units(
+    trees: list[Tree], is_header_a_difference: bool, tmp_path_factory: pytest.TempPathFactory
+) -> list[Unit]:
+    """Every C file of every tree, and the applications of examples/."""
+    every = [*trees, *make_examples(tmp_path_factory.mktemp("examples"))]
+    return units(every, is_header_a_difference)

@@ -8,6 +8,7 @@ is analysed once.
 from __future__ import annotations
 
 import hashlib
+import shutil
 import subprocess
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -21,6 +22,7 @@ from microros_gen.sources.components import components_folder, load_catalogue
 from microros_gen.sources.interfaces import shipped_folder
 
 ROOT = Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "examples"
 INTERFACES = Path(__file__).parent / "interfaces"
 CACHE = ROOT / "build" / "quality"
 WORKERS = 2
@@ -81,6 +83,12 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "reader_reference": _READER + _HEARD + "entities: reference\n",
         "reader_preconfigured": _READER + _HEARD + "entities: preconfigured\nliveliness: none\n",
         "reader_and_sender": _BOTH + "    subscriptions:\n" + _HEARD + "components: [+subscribe]\n",
+        "remapped": _BOTH.replace("best_effort}", "best_effort, lifespan: 1 s}").replace(
+            "name: probe", "name: probe\n    remap: {fast: quick, __ns: /left}"
+        )
+        + "    subscriptions:\n"
+        + _HEARD
+        + "components: [+subscribe]\n",
         "services": _SERVED + _ASKED,
         "services_xml": _SERVED + "entities: xml\n",
         "services_reference": _SERVED.replace("services: [{", "clients: [{") + "entities: reference\n",
@@ -170,6 +178,22 @@ def make_trees(folder: Path) -> list[Tree]:
     """Generate every application whose components are ready."""
     ready = ready_components()
     return [make_tree(name, folder) for name in APPLICATIONS if AWAITED.get(name, frozenset()) <= ready]
+
+
+def make_examples(folder: Path) -> list[Tree]:
+    """Generate what each application of examples/ is compiled against; the application is all that a tree lists."""
+    return [_make_example(path, folder / path.parent.name) for path in sorted(EXAMPLES.glob("*/main.c"))]
+
+
+def _make_example(source: Path, out: Path) -> Tree:
+    options = SelectionOptions(source.with_name("microros.yaml"), (), (), (shipped_folder(),), None, None)
+    planned, _ = plan(options, out)
+    write(planned, out)
+    copy = out / "applications" / source.relative_to(EXAMPLES)
+    copy.parent.mkdir(parents=True)
+    shutil.copy(source, copy)
+    shutil.copy(EXAMPLES / "example.h", copy.parents[1])
+    return Tree(f"example_{source.parent.name}", out, (copy.relative_to(out).as_posix(),))
 
 
 def covered(trees: Sequence[Tree]) -> set[str]:

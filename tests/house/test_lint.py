@@ -20,8 +20,8 @@ def run(*command: str) -> None:
 
 
 def c_files() -> list[str]:
-    folder = ROOT / "microros_gen" / "components"
-    return [str(p.relative_to(ROOT)) for p in sorted(folder.rglob("*.[ch]"))]
+    folders = (ROOT / "microros_gen" / "components", ROOT / "examples")
+    return [str(p.relative_to(ROOT)) for folder in folders for p in sorted(folder.rglob("*.[ch]"))]
 
 
 def test_ruff_check() -> None:

@@ -108,6 +108,66 @@ def test_one_reference_for_two_is_refused(tmp_path: Path, change: tuple[str, str
     rendered(tmp_path, text)
 
 
+SERVICES = """\
+version: 1
+profiles: [pure_sender]
+components: [+services]
+nodes:
+  - name: arm
+    namespace: /left
+    publishers: [{topic: count, type: std_msgs/msg/Int32}]
+    services: [{name: grip, type: std_srvs/srv/SetBool}]
+    clients:
+      - {name: ~/ask, type: std_srvs/srv/Empty}
+      - {name: ~/ask, type: std_srvs/srv/Empty}
+limits: {"*": {string: 16}}
+"""
+
+
+def test_services_have_their_topics_and_types(tmp_path: Path) -> None:
+    found = profiles(rendered(tmp_path, SERVICES + "entities: reference\n"))
+    replier = found["replier", "left/grip__rp"]
+    assert replier.attrib["service_name"] == "/left/grip"
+    assert replier.attrib["reply_type"] == "std_srvs::srv::dds_::SetBool_Response_"
+    assert replier.findtext("request_topic_name") == "rq/left/gripRequest"
+    requester = found["requester", "left/arm/ask__rq"]
+    assert requester.attrib["request_type"] == "std_srvs::srv::dds_::Empty_Request_"
+    assert requester.findtext("reply_topic_name") == "rr/left/arm/askReply"
+    files = rendered(tmp_path, SERVICES + "entities: preconfigured\n")
+    objects = json.loads(files["agent/entities.json"])["clients"][0]["objects"]
+    ids = [(entry["id"], entry["kind"], entry["parent"]) for entry in objects[-3:]]
+    assert ids == [
+        ("0x0018", "replier", "0x0001"),
+        ("0x0027", "requester", "0x0001"),
+        ("0x0037", "requester", "0x0001"),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("kind", "other", "place", "said"),
+    [
+        ("services", "{name: /left/grip, type: std_srvs/srv/SetBool}", "10:16", "two servers for /left/grip"),
+        (
+            "clients",
+            "{name: grip, type: std_srvs/srv/Empty}",
+            "11:28",
+            "/left/grip is a std_srvs/srv/Empty here",
+        ),
+    ],
+)
+def test_a_service_has_one_server_and_one_type(
+    tmp_path: Path, kind: str, other: str, place: str, said: str
+) -> None:
+    start, end = SERVICES.split("    services: [")
+    first = end.partition("]")[0]
+    limits = 'limits: {"*": {string: 16}}\n'
+    both = f"    services:\n      - {first}\n"
+    text = start + both + ("" if kind == "services" else "    clients:\n") + f"      - {other}\n" + limits
+    line = refused(tmp_path, text)
+    assert said in line
+    assert line.partition("microros.yaml:")[2].startswith(f"{place}:")
+
+
 def test_pools_get_what_the_example_creates(tmp_path: Path) -> None:
     files = rendered(
         tmp_path, "version: 1\nprofiles: [static_configured_sender]\ninterfaces: [std_msgs/msg/Int32]\n"

@@ -17,7 +17,9 @@ uint16_t rmw_node_take(xrce_client_t * client, const char * name, const char * n
     const microros_declared_node_t * declared = &microros_declared_nodes[i];
     xrce_participant_t * participant = &client->participants[i];
 
-    if (!microros_text_equals(declared->name, name) || !rmw_name_equals(&wanted, declared->namespace_)) {
+    if (
+      !microros_text_equals(microros_declared_node_name(declared), name) ||
+      !rmw_name_equals(&wanted, microros_declared_node_namespace(declared))) {
       continue;
     }
     if (xrce_place_is_free(&client->states[i])) {

@@ -16,7 +16,7 @@ bool rmw_receiver_take(
     const microros_declared_endpoint_t * declared = &microros_declared_endpoints[i];
 
     if (
-      declared->node != wanted->participant || !rmw_name_equals(name, declared->name) ||
+      declared->node != wanted->participant || !rmw_name_equals(name, microros_declared_name(declared)) ||
       !microros_text_equals(declared->dds_type, type)) {
       continue;
     }

@@ -47,7 +47,8 @@ static rmw_ret_t replier_open(
   const rmw_section_t section = {XRCE_REPLIERS_AT - MICROROS_NODES_MAX, MICROROS_SERVICES_MAX,
                                  microros_error_service_undeclared,     microros_error_service_open,
                                  microros_error_services_full,          type->dds_type_name};
-  xrce_endpoint_t wanted = {node->context->impl, type->request, NULL, 0, 0, rmw_node_index(node), 0};
+  xrce_endpoint_t wanted = {
+    .client = node->context->impl, .type = type->request, .participant = rmw_node_index(node)};
   const rmw_ret_t result = rmw_service_open(&wanted, &opened, &section, node, name, qos);
 
   if (result == RMW_RET_OK) {

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "edaa122b417441ff"
-#define rcl_init rcl_init__plan_edaa122b417441ff
-#define rclc_support_init rclc_support_init__plan_edaa122b417441ff
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_edaa122b417441ff
+#define MICROROS_PLAN_ID "f2d0e14fefd4216b"
+#define rcl_init rcl_init__plan_f2d0e14fefd4216b
+#define rclc_support_init rclc_support_init__plan_f2d0e14fefd4216b
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_f2d0e14fefd4216b
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "092f613c0792cb17"
-#define rcl_init rcl_init__plan_092f613c0792cb17
-#define rclc_support_init rclc_support_init__plan_092f613c0792cb17
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_092f613c0792cb17
+#define MICROROS_PLAN_ID "ca242b58d63dc406"
+#define rcl_init rcl_init__plan_ca242b58d63dc406
+#define rclc_support_init rclc_support_init__plan_ca242b58d63dc406
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_ca242b58d63dc406
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

@@ -46,7 +46,8 @@ rmw_ret_t rmw_publisher_open(
   const rmw_qos_profile_t * qos, rmw_publisher_t ** publisher)
 {
   const rmw_name_t name = rmw_name_of_topic(topic, node->name, node->namespace_);
-  xrce_endpoint_t wanted = {node->context->impl, type_support->data, NULL, 0, 0, rmw_node_index(node), 0};
+  xrce_endpoint_t wanted = {
+    .client = node->context->impl, .type = type_support->data, .participant = rmw_node_index(node)};
   const char * refused = rmw_qos_to_xrce(qos, &wanted.qos, &wanted.depth);
   rmw_ret_t result = RMW_RET_ERROR;
 
@@ -54,6 +55,7 @@ rmw_ret_t rmw_publisher_open(
     microros_error_set(microros_error_qos, topic, refused, 0, 0);
     return RMW_RET_UNSUPPORTED;
   }
+  rmw_qos_add_times(qos, &wanted);
   microros_lock();
   if (rmw_publisher_take(&wanted, &name, topic) && publisher_fits(&wanted)) {
     xrce_endpoint_t * writer = &wanted.client->endpoints[wanted.index];

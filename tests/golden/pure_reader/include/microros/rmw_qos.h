@@ -5,6 +5,7 @@
 
 #include <stdint.h>
 
+#include "microros/xrce_objects.h"
 #include "rmw/types.h"
 
 #ifdef __cplusplus
@@ -14,6 +15,13 @@ extern "C" {
 /* Gives the flags and depth that XRCE carries for `qos`; returns NULL, or the name of a policy that it cannot
  * carry. */
 const char * rmw_qos_to_xrce(const rmw_qos_profile_t * qos, uint8_t * flags, uint16_t * depth);
+
+/* The same for the times of an endpoint: this plan has none. */
+static inline void rmw_qos_add_times(const rmw_qos_profile_t * qos, const xrce_endpoint_t * endpoint)
+{
+  (void)qos;
+  (void)endpoint;
+}
 
 #ifdef __cplusplus
 }

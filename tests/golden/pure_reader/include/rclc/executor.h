@@ -18,6 +18,7 @@
 #include "rcl/allocator.h"
 #include "rcl/context.h"
 #include "rcl/error_handling.h"
+#include "rcl/rcl.h"
 #include "rcl/types.h"
 #include "rcl/wait.h"
 #include "rclc/executor_handle.h"

@@ -3,6 +3,7 @@
 #ifndef MICROROS_RCLC_RCLC_H
 #define MICROROS_RCLC_RCLC_H
 
+#include "rcl/rcl.h"
 #include "rclc/init.h"
 #include "rclc/node.h"
 #include "rclc/sleep.h"

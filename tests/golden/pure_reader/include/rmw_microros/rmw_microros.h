@@ -3,6 +3,8 @@
 #ifndef MICROROS_RMW_MICROROS_RMW_MICROROS_H
 #define MICROROS_RMW_MICROROS_RMW_MICROROS_H
 
+#include "rcutils/error_handling.h"
+#include "rcutils/types.h"
 #include "rmw/rmw.h"
 #include "rmw_microxrcedds_c/config.h"
 #include "rmw_microros/init_options.h"

@@ -2,6 +2,7 @@
 #include "microros/rmw_qos.h"
 #include "microros/xrce_wire.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Nothing is asked for, or an age: RMW_DURATION_INFINITE has more than 2^33 seconds. */
@@ -25,10 +26,10 @@ static const char * qos_refuse(const rmw_qos_profile_t * qos)
     return "depth";
   }
   if (!qos_is_unlimited(&qos->deadline)) {
-    return "deadline";
+    return "deadline, unless it is declared";
   }
   if (!qos_is_unlimited(&qos->lifespan)) {
-    return "lifespan";
+    return "lifespan, unless it is declared";
   }
   if (
     qos->liveliness > RMW_QOS_POLICY_LIVELINESS_AUTOMATIC ||

@@ -25,4 +25,20 @@ extern const microros_declared_node_t microros_declared_nodes[MICROROS_NODES_MAX
 /* In the order of their places: publishers, subscriptions, services, clients. */
 extern const microros_declared_endpoint_t microros_declared_endpoints[XRCE_ENDPOINTS];
 
+/* The names by which the source knows them: those on the wire. */
+static inline const char * microros_declared_node_name(const microros_declared_node_t * node)
+{
+  return node->name;
+}
+
+static inline const char * microros_declared_node_namespace(const microros_declared_node_t * node)
+{
+  return node->namespace_;
+}
+
+static inline const char * microros_declared_name(const microros_declared_endpoint_t * endpoint)
+{
+  return endpoint->name;
+}
+
 #endif /* MICROROS_PLAN_H */

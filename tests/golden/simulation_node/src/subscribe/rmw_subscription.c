@@ -35,7 +35,8 @@ static rmw_ret_t subscription_open_in(
                                  microros_error_subscriptions_full,
                                  type->dds_type_name};
   const rmw_name_t name = rmw_name_of_topic(topic, node->name, node->namespace_);
-  xrce_endpoint_t wanted = {node->context->impl, type, NULL, 0, 0, rmw_node_index(node), 0};
+  xrce_endpoint_t wanted = {
+    .client = node->context->impl, .type = type, .participant = rmw_node_index(node)};
   const char * refused = rmw_qos_to_xrce(qos, &wanted.qos, &wanted.depth);
   xrce_endpoint_t * endpoint = NULL;
   rmw_ret_t result;
@@ -44,6 +45,7 @@ static rmw_ret_t subscription_open_in(
     microros_error_set(microros_error_subscription_qos, topic, refused, 0, 0);
     return RMW_RET_UNSUPPORTED;
   }
+  rmw_qos_add_times(qos, &wanted);
   result = rmw_receiver_open(&wanted, &section, &name, topic, &endpoint);
   if (result == RMW_RET_OK) {
     *subscription = subscription_hand_out(endpoint);

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Rows of tables that the runtime's plan prints."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class EndpointRow:
+    """A row of the table of declared endpoints, as PublisherPlan; an empty name is a place that nobody declared."""
+
+    name: str = ""
+    dds_type: str = ""
+    node: int = 0
+    limited: str = ""
+    given: str = ""
+
+
+@dataclass(frozen=True)
+class QueueRow:
+    """Where a queue lies in the storage of all: its first slot, and the first byte of that."""
+
+    slots: int
+    slot_size: int
+    first: int
+    offset: int

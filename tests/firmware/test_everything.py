@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One executor on a board with all that a node has, over the serial line, to rclpy and back."""
+
+from __future__ import annotations
+
+import time
+from itertools import pairwise
+
+import pytest
+from agent.observer import Observer
+from e2e.test_serving import await_replies
+
+from firmware.board import Builds, board, need
+from firmware.test_run import BOARD, domain, observer, started
+
+__all__ = ["domain", "observer"]
+
+TYPE = "rcl_interfaces/srv/GetParameterTypes"
+APPLICATION = """\
+version: 1
+profiles: [pure_sender, pure_reader]
+components: [+timers, +services, +executor]
+on_full: block 1 s
+pools: {history: 16}
+nodes:
+  - name: board
+    publishers:
+      - {topic: ticks, type: std_msgs/msg/Int32}
+      - {topic: seen, type: std_msgs/msg/Int32}
+    subscriptions: [{topic: set, type: std_msgs/msg/Int32}]
+    services: [{name: lengths, type: rcl_interfaces/srv/GetParameterTypes}]
+    clients: [{name: /peer/lengths, type: rcl_interfaces/srv/GetParameterTypes}]
+    timers: [{name: tick, period: 50 ms}]
+limits: {"*": {string: 8, sequence: 3}}
+"""
+TOPICS = ("/ticks", "/seen")
+HEARD, ANSWERED = 1000, 2000
+"""The board publishes on /seen: HEARD and what came on /set, ANSWERED and each element of a reply."""
+VALUES = list(range(8))
+
+
+@pytest.mark.ros
+def test_everything_under_one_executor(builds: Builds, observer: Observer, domain: int) -> None:
+    built = builds.build(BOARD, APPLICATION)
+    need(BOARD, emulator=True)
+    image = builds.application(built, "everything.c")
+    for topic in TOPICS:
+        observer.subscribe(topic, "std_msgs/msg/Int32", reliable=True)
+    observer.ask(do="serve", service="/peer/lengths", type=TYPE, hold=1)
+    with (
+        board(built, image) as running,
+        started("agent", "serial", "--dev", running.device, "--domain", str(domain), domain=domain) as agent,
+    ):
+        agent.wait_for("agent ready")
+        running.go_on()
+        before = _until(observer, ANSWERED + 7)
+        observer.ask(do="call", service="/lengths", type=TYPE, names=[["a", "bb"], ["ccc"], []])
+        _publish_when_heard(observer)
+        after = _until(observer, HEARD + VALUES[-1])
+        replies = await_replies(observer)
+        refused = running.words("everything_refused")[0]
+    ticks, seen = (before[topic] + after[topic] for topic in TOPICS)
+    assert replies == [[1, 2], [3], []]
+    assert ticks == list(range(ticks[0], ticks[0] + len(ticks)))
+    assert [value - HEARD for value in seen if value < ANSWERED] == VALUES
+    answered = [value - ANSWERED for value in seen if value >= ANSWERED]
+    assert set(answered) == {3, 7}
+    assert all(one != other for one, other in pairwise(answered)), "a reply was lost or came twice"
+    assert refused == 0
+
+
+def _until(observer: Observer, last: int) -> dict[str, list[int]]:
+    """Return what comes on both topics, until `last` has been seen."""
+    found: dict[str, list[int]] = {topic: [] for topic in TOPICS}
+    end = time.monotonic() + 30
+    while last not in found["/seen"]:
+        assert time.monotonic() < end, found
+        for topic, value in observer.ask(do="samples"):
+            if topic in found:
+                found[topic].append(value["data"])
+        time.sleep(0.02)
+    return found
+
+
+def _publish_when_heard(observer: Observer) -> None:
+    """Publish VALUES on /set when the board's subscription is there."""
+    where = {"topic": "/set", "type": "std_msgs/msg/Int32"}
+    observer.ask(do="publish", values=[], **where)
+    end = time.monotonic() + 15
+    while not observer.ask(do="matched", topic="/set"):
+        assert time.monotonic() < end, "nobody hears /set"
+        time.sleep(0.02)
+    observer.ask(do="publish", values=[{"data": value} for value in VALUES], **where)
