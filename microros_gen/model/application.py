@@ -223,6 +223,7 @@ class TargetRef:
 class Application:
     """The whole file. `interfaces` are `pkg` or `pkg/msg/Type`.
 
+    `hard_liveliness_ms`: how long the agent goes on without hearing the client; 0: as it likes.
     `pools` count entities where no nodes are given. `creation` (best_effort, reliable) is the stream of CREATE; None:
     best effort. `logging` (console, callback, rosout) and `clock`
     (steady, ros) are axes like `entities` and `liveliness`. `implied` are the endpoints of the library itself where
@@ -238,6 +239,7 @@ class Application:
     liveliness: Named | None = None
     transport: Transport = Transport()
     session_key: int | str | None = None
+    hard_liveliness_ms: int = 0
     target: TargetRef = TargetRef()
     nodes: tuple[NodeDecl, ...] = ()
     interfaces: tuple[Named, ...] = ()

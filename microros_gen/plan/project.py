@@ -29,6 +29,8 @@ from microros_gen.resolve.clock import CLOCK_ROS
 
 SESSION_ID = 0x81
 DEFAULT_NAME_SIZE = 64
+DEFAULT_SILENCE_MS = 10_000
+"""Of the component liveliness_hard without `session.hard_liveliness`; the public client has the same."""
 ERROR_TEXT_SIZE = 160
 _FRAMING = {True: "on", False: "off", None: "either"}
 
@@ -169,6 +171,7 @@ def plan_project(
         has_session_state=selection.has("session_state"),
         has_sleep=selection.has("sleep_cycles"),
         multithread=selection.has("multithread"),
+        hard_liveliness_ms=_hard_liveliness(application, selection),
         discovery_port=application.transport.discover or DISCOVERY_PORT,
         has_time_sync=selection.has("time_sync"),
         has_ros_time=selection.has(CLOCK_ROS),
@@ -310,6 +313,11 @@ def _client_key(application: Application, name: str) -> int | None:
         return application.session_key
     text = "/".join([name, *(participant_name(n.name, n.namespace) for n in application.nodes)])
     return int.from_bytes(hashlib.sha256(text.encode()).digest()[:4], "big") or 1
+
+
+def _hard_liveliness(application: Application, selection: Selection) -> int:
+    asked = application.hard_liveliness_ms
+    return asked or (DEFAULT_SILENCE_MS if selection.has("liveliness_hard") else 0)
 
 
 def _check_budget(

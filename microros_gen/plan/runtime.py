@@ -140,6 +140,7 @@ class RuntimePlan:
     `jump_callbacks_max`: places of each; 0 timers, executors or clocks: the component is not selected.
     `has_ros_time`: the first subscription is that of /clock, which the library opens itself.
     `fixed_messages`: no message that is sent has a string or sequence. `timed_qos`: one has a deadline or lifespan.
+    `hard_liveliness_ms`: after so long without a message of the client its agent gives it up; 0: as the agent likes.
     `error_text_size` 0: codes only. `best_effort_size` 0 or `reliable_slots` 0: there is no such stream.
     """
 
@@ -204,6 +205,7 @@ class RuntimePlan:
     has_session_state: bool = False
     has_sleep: bool = False
     multithread: bool = False
+    hard_liveliness_ms: int = 0
     discovery_port: int = DISCOVERY_PORT
     fixed_messages: bool = False
     timed_qos: bool = False

@@ -59,6 +59,9 @@ def resolve_selection(
         picker.pick(
             "framing", "transport: {type: custom} without `framing: false`", application.transport.span
         )
+    if application.hard_liveliness_ms:
+        place = application.spans.get("session.hard_liveliness")
+        picker.pick("liveliness_hard", f"session: {{hard_liveliness}}{at(place)}", place)
     if application.transport.discover is not None:
         picker.pick("discovery", "transport: {agent: discover}", application.transport.agent_span)
     picker.close()

@@ -71,6 +71,9 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "components: [+subscribe, +multithread, +time_sync]\nmemory: {arena: 512}\n",
         "threads_custom": _INT32
         + "components: [+executor, +multithread]\nerrors: code\ntransport: {type: custom}\n",
+        "hard_liveliness": _READER
+        + _HEARD
+        + "session: {hard_liveliness: 10 s}\ncomponents: [+executor, +sleep_cycles]\n",
         "sleep_reader": _READER + _HEARD + _SERIAL + "components: [+sleep_cycles]\n",
         "sleep_custom": _INT32
         + "components: [+sleep_cycles, +time_sync]\nliveliness: acknack\ntransport: {type: custom}\n",

@@ -141,6 +141,7 @@ def components(plan: RuntimePlan, liveliness: str = "ping") -> tuple[str, ...]:
     names += ["services"] if plan.serves else []
     names += ["stream_reliable"] if plan.reliable_slots else []
     names += ["discovery"] if plan.has_discovery else []
+    names += ["liveliness_hard"] if plan.hard_liveliness_ms else []
     names += ["multithread"] if plan.multithread else []
     names += ["sleep_cycles"] if plan.has_sleep else []
     names += ["session_state"] if plan.has_session_state else []

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "52a2722bd005fdd3"
-#define rcl_init rcl_init__plan_52a2722bd005fdd3
-#define rclc_support_init rclc_support_init__plan_52a2722bd005fdd3
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_52a2722bd005fdd3
+#define MICROROS_PLAN_ID "7ac8b4e2b858488f"
+#define rcl_init rcl_init__plan_7ac8b4e2b858488f
+#define rclc_support_init rclc_support_init__plan_7ac8b4e2b858488f
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_7ac8b4e2b858488f
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u
