@@ -101,6 +101,10 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "timers_ticked": _BOTH
         + "    timers: [{name: a, period: 1 s, kind: rtos}, {name: b, period: 2 s, kind: hardware}]\n"
         + "components: [+timers, +subscribe]\nerrors: code\npools: {guard_conditions: 1}\n",
+        "simulation": "version: 1\nprofiles: [simulation_node]\n",
+        "simulation_timers": _READER
+        + _HEARD
+        + "    timers: [{name: a, period: 1 s}]\ncomponents: [+timers]\nclock: ros\n",
         "executor_custom": _INT32 + "components: [+executor]\ntransport: {type: custom}\n",
         "executor_board": _BOTH
         + "    timers: [{name: a, period: 1 s, kind: rtos}]\n"

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "189a31059d42511b"
-#define rcl_init rcl_init__plan_189a31059d42511b
-#define rclc_support_init rclc_support_init__plan_189a31059d42511b
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_189a31059d42511b
+#define MICROROS_PLAN_ID "a62f609dc8a3413b"
+#define rcl_init rcl_init__plan_a62f609dc8a3413b
+#define rclc_support_init rclc_support_init__plan_a62f609dc8a3413b
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_a62f609dc8a3413b
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

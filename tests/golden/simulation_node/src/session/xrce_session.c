@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/xrce_session.h"
+
+#include "microros/lock.h"
+#include "microros/port.h"
+#include "microros/xrce_client.h"
+#include "microros/xrce_routes.h"
+#include "microros/xrce_wire.h"
+
+#include <string.h>
+
+enum { CREATE_CLIENT_SIZE = 24 };
+
+/* One pump takes no more datagrams than this: who floods us must not stop us. */
+enum { DATAGRAMS_PER_PUMP = 32 };
+
+static const uint8_t cookie_and_version[] = {'X', 'R', 'C', 'E', 1, 0, 1, 15};
+
+void xrce_session_open(xrce_client_t * client, uint32_t key)
+{
+  xrce_session_t * session = &client->session;
+
+  (void)memset(client, 0, sizeof(*client));
+  session->key = key;
+  session->request = XRCE_REQUEST_FIRST;
+  session->retry_ms = MICROROS_RETRY_FIRST_MS;
+  session->due_ms = port_time_ms();
+  session->state = XRCE_CONNECTING;
+  client->create_timeout_ms = MICROROS_CREATE_TIMEOUT_MS;
+  client->close_timeout_ms = MICROROS_CLOSE_TIMEOUT_MS;
+}
+
+uint16_t xrce_session_next_request(xrce_session_t * session)
+{
+  const uint16_t request = session->request;
+
+  session->request = request == UINT16_MAX ? (uint16_t)XRCE_REQUEST_FIRST : (uint16_t)(request + 1u);
+  return request;
+}
+
+bool xrce_session_send(xrce_session_t * session, const uint8_t * message, size_t size)
+{
+  if (!session->transport_open || !xrce_transport_send(&session->transport, message, size)) {
+    return false;
+  }
+  ++session->statistics.sent;
+  return true;
+}
+
+static void session_close_transport(xrce_session_t * session)
+{
+  if (session->transport_open) {
+    xrce_transport_close(&session->transport);
+    session->transport_open = false;
+  }
+}
+
+static void session_send_create_client(xrce_session_t * session)
+{
+  uint8_t message[CREATE_CLIENT_SIZE];
+
+  xrce_put_header(message, XRCE_SESSION_NONE, XRCE_STREAM_NONE, 0);
+  xrce_put_submessage(&message[4], XRCE_CREATE_CLIENT, XRCE_FLAG_LITTLE_ENDIAN, CREATE_CLIENT_SIZE - 8);
+  (void)memcpy(&message[8], cookie_and_version, sizeof(cookie_and_version));
+  xrce_put_be16(&message[16], (uint16_t)(session->key >> 16));
+  xrce_put_be16(&message[18], (uint16_t)(session->key & 0xffffu));
+  message[20] = XRCE_SESSION_ID;
+  message[21] = 0; /* no properties */
+  xrce_put_le16(&message[22], MICROROS_INPUT_SIZE);
+  (void)xrce_session_send(session, message, sizeof(message)); /* a loss is what the retry is for */
+}
+
+/* Twice as long, up to MICROROS_RETRY_MOST_MS. */
+static uint16_t session_longer_pause(uint16_t pause_ms)
+{
+  return pause_ms < MICROROS_RETRY_MOST_MS / 2u ? (uint16_t)(2u * pause_ms)
+                                                : (uint16_t)MICROROS_RETRY_MOST_MS;
+}
+
+void xrce_session_step(xrce_client_t * client, uint32_t now)
+{
+  xrce_session_t * session = &client->session;
+
+  if (session->state != XRCE_CONNECTING || !xrce_is_due(now, session->due_ms)) {
+    return;
+  }
+  if (!session->transport_open) {
+    session->transport_open = xrce_transport_open(&session->transport);
+  }
+  session_send_create_client(session);
+  session->due_ms = now + session->retry_ms;
+  session->retry_ms = session_longer_pause(session->retry_ms);
+}
+
+void xrce_session_lose(xrce_client_t * client, uint32_t now)
+{
+  xrce_session_t * session = &client->session;
+
+  session_close_transport(session); /* a fresh socket follows a new address of ours */
+  session->state = XRCE_CONNECTING;
+  session->retry_ms = MICROROS_RETRY_FIRST_MS;
+  session->due_ms = now;
+}
+
+void xrce_session_on_status_agent(xrce_client_t * client, const uint8_t * payload, size_t size, uint32_t now)
+{
+  xrce_session_t * session = &client->session;
+
+  if (size < 2u) {
+    ++session->statistics.malformed;
+    return;
+  }
+  if (session->state != XRCE_CONNECTING) {
+    return; /* the answer to a repetition */
+  }
+  if (payload[0] > XRCE_STATUS_OK_MATCHED) {
+    session->refusal = payload[0];
+    return;
+  }
+  session->refusal = 0;
+  session->state = XRCE_READY;
+  session->heard_ms = now;
+  if (session->was_ready) {
+    ++session->statistics.reconnects;
+  }
+  session->was_ready = true;
+  xrce_route_connected(client, now);
+}
+
+bool xrce_session_take_submessages(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
+{
+  const bool in_session = message[0] == XRCE_SESSION_ID;
+  size_t at = XRCE_MESSAGE_HEADER;
+
+  while (at < size) {
+    size_t length;
+
+    if (size - at < XRCE_SUBMESSAGE_HEADER) {
+      return false;
+    }
+    length = xrce_get_le16(&message[at + 2u]);
+    if (length > size - at - XRCE_SUBMESSAGE_HEADER) {
+      return false;
+    }
+    xrce_route_submessage(
+      client, message[at], message[at + 1u], &message[at + XRCE_SUBMESSAGE_HEADER], length, in_session, now);
+    at = (at + XRCE_SUBMESSAGE_HEADER + length + 3u) & ~(size_t)3u;
+  }
+  return true;
+}
+
+/* Hands a message to its stream; false where it is not what it should be. */
+static bool session_take_message(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
+{
+  if (size < XRCE_MESSAGE_HEADER || (message[0] != XRCE_SESSION_ID && message[0] != XRCE_SESSION_NONE)) {
+    return false;
+  }
+  if (message[0] == XRCE_SESSION_ID) {
+    client->session.heard_ms = now;
+  }
+  return xrce_route_message(client, message, size, now);
+}
+
+static void session_receive(xrce_client_t * client, uint32_t now)
+{
+  xrce_session_t * session = &client->session;
+
+  for (uint8_t i = 0; i < DATAGRAMS_PER_PUMP && session->transport_open; ++i) {
+    const int32_t size = xrce_transport_receive(&session->transport, client->input, sizeof(client->input));
+
+    if (size == 0) {
+      return;
+    }
+    ++session->statistics.received;
+    if (size < 0 || !session_take_message(client, client->input, (size_t)size, now)) {
+      ++session->statistics.malformed;
+    }
+  }
+}
+
+void xrce_session_pump(xrce_client_t * client)
+{
+  const uint32_t now = port_time_ms();
+
+  client->session.now_ms = now;
+  session_receive(client, now);
+  xrce_route_step(client, now);
+}
+
+bool xrce_session_await(xrce_client_t * client, uint32_t timeout_ms)
+{
+  const uint32_t start = port_time_ms();
+
+  for (;;) {
+    xrce_session_pump(client);
+    if (client->session.state == XRCE_READY) {
+      return true;
+    }
+    if (client->session.refusal != 0u || port_time_ms() - start >= timeout_ms) {
+      return false;
+    }
+    microros_pause();
+  }
+}
+
+void xrce_session_close(xrce_client_t * client)
+{
+  client->session.state = XRCE_CLOSED;
+  session_close_transport(&client->session);
+  (void)memset(client->states, 0, sizeof(client->states)); /* whoever still has an entity has it no more */
+}
