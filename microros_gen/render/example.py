@@ -79,6 +79,8 @@ class ExampleView:
     subscriptions: tuple[SubscriptionView, ...]
     uses_time: bool
     hosted: bool
+    ros_time: bool
+    shows_time: bool
 
 
 def example_view(project: Project) -> ExampleView:
@@ -91,17 +93,20 @@ def example_view(project: Project) -> ExampleView:
     includes = {include_path(types[name].files.header) for name in used}
     includes |= {include_path(types[name].files.storage) for name in used if types[name].storage}
     views = tuple(p.view for p in publishers)
+    shows_time = project.runtime.has_ros_time and not views and not subscriptions
     if any(view.texts for view in views):
         includes.add("rosidl_runtime_c/string_functions.h")
     return ExampleView(
         title=project.name,
-        summary=_summary(views, [view for _, view in subscriptions]),
+        summary=_summary(views, [view for _, view in subscriptions], shows_time),
         includes=tuple(sorted(includes)),
         nodes=nodes,
         publishers=views,
         subscriptions=tuple(view for _, view in subscriptions),
         uses_time=any(view.stamps for view in views),
         hosted=project.target.hosted,
+        ros_time=project.runtime.has_ros_time,
+        shows_time=shows_time,
     )
 
 
@@ -117,7 +122,8 @@ def _nodes(project: Project) -> tuple[NodeView, ...]:
             NodeView(f"node_{n.index}" if n.index else "node", n.source_name, _namespace(n.source_namespace))
             for n in project.runtime.nodes
         )
-    return (NodeView("node", example_node(project.name), ""),) if project.runtime.nodes_max else ()
+    has_node = project.runtime.nodes_max and project.selection.has("node")
+    return (NodeView("node", example_node(project.name), ""),) if has_node else ()
 
 
 def _publishers(
@@ -145,9 +151,13 @@ def _publishers(
     ]
 
 
-def _summary(publishers: Sequence[PublisherView], subscriptions: Sequence[SubscriptionView]) -> str:
+def _summary(
+    publishers: Sequence[PublisherView], subscriptions: Sequence[SubscriptionView], shows_time: bool
+) -> str:
     """Return what the example does, as a sentence without its end."""
     every = "every EXAMPLE_PERIOD_MS milliseconds"
+    if shows_time:
+        return f"looks {every} what time it is on /clock"
     written = ", ".join(f"{p.package}/msg/{p.type} on {p.topic}" for p in publishers) or "nothing"
     if not subscriptions:
         return f"publishes {written} {every}"
@@ -167,8 +177,9 @@ def _subscriptions(
                 _subscription(project, types[s.type], nodes[s.node], s.index, declared[s.index], s.storage),
             )
             for s in runtime.subscriptions
+            if not declared[s.index].of_the_library
         ]
-    topics = example_topics(project.roots[: runtime.subscriptions_max])
+    topics = example_topics(project.roots[: runtime.application_subscriptions])
     return [
         (
             root,

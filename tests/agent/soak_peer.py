@@ -19,6 +19,8 @@ from typing import Any
 
 DOWN_S = 0.2
 LONG_EVERY, LONG = 7, 1500
+DEPTH = 2000
+"""Samples that a reader may be behind: on a machine full of work DDS repeats late what it lost; 100 would be 20 s."""
 
 
 class Ledger:
@@ -39,7 +41,7 @@ class Ledger:
         latched = QoSProfile(depth=5000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         node.create_subscription(String, "/soak/up", self._came, latched)
         node.create_service(GetParameterTypes, "/soak/ledger", self._asked)
-        self._down = node.create_publisher(String, "/soak/down", 100)
+        self._down = node.create_publisher(String, "/soak/down", DEPTH)
         node.create_timer(DOWN_S, self._publish)
 
     def _came(self, message: Any) -> None:

@@ -105,6 +105,22 @@ def test_requests_wait_for_a_service_that_comes_later(bridged: Bridged, bridge_o
     node.destroy()
 
 
+def test_what_waits_of_all_services_together_is_bounded(
+    bridged: Bridged, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(services, "HELD_BYTES_OF_ALL", 1000)
+    node = bridged.bridge.create_node("many", bridged.domain)
+    one, two = (node.create_requester(get_types(name)) for name in ("nobody_1", "nobody_2"))
+    one.request(names_body(["n" * 600]))
+    assert not lost(bridged, "/many")
+    two.request(names_body(["n" * 600]))
+    assert [told.endpoint for told in lost(bridged, "/many")] == [f"/nobody_2 [{GET_TYPES}]"]
+    one.destroy()
+    two.request(names_body(["n" * 600]))
+    assert [told.lost for told in lost(bridged, "/many")] == [1, 1], "the first one's was lost with it"
+    node.destroy()
+
+
 def lost(bridged: Bridged, node: str) -> list[NoServer]:
     return [told for told in bridged.reports if isinstance(told, NoServer) and told.node == node]
 

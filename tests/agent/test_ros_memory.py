@@ -65,7 +65,7 @@ def heap_bytes() -> int:
 @pytest.fixture
 def agent() -> Iterator[tuple[Agent, Bridged]]:
     with opened(own_domain()) as bridged, Path(os.devnull).open("w") as out:
-        yield Agent(bridged.bridge, EventLog(out), Limits()), bridged
+        yield Agent(bridged.bridge, EventLog(out), Limits(operations_per_second=1_000_000)), bridged
 
 
 def message(stream: int, sequence: int, *submessages: Submessage) -> bytes:

@@ -5,7 +5,6 @@ cannot, so its requests wait here."""
 from __future__ import annotations
 
 import time
-from collections import deque
 from ctypes import byref, c_int64
 from typing import Any
 
@@ -13,7 +12,7 @@ from microros_gen.agent.ros.bridge import BridgeError, NoServer, ServerFound
 from microros_gen.agent.ros.endpoints import Ros
 from microros_gen.agent.ros.graph import Endpoint, Events
 from microros_gen.agent.ros.libraries import OK
-from microros_gen.agent.ros.services import HELD_BYTES, HELD_CALLS, Patience, RawService, raw_message
+from microros_gen.agent.ros.services import Held, Patience, RawService, raw_message
 
 SETTLE_S = 0.1
 """From the discovery of a service to the first request: what is sent before the service has found its client too is
@@ -40,8 +39,7 @@ class RawRequester(RawService):
         self._found: float | None = None
         self._look_until = time.monotonic() + self._wait_s
         patience.wait_for(self)
-        self._held: deque[tuple[float, int, bytes]] = deque()
-        self._held_bytes = 0
+        self._held = Held(patience)
         self._count = 0
         self._numbers: dict[int, int] = {}
         """What was sent and is not answered: ROS 2's number and ours."""
@@ -52,15 +50,13 @@ class RawRequester(RawService):
         """See Requester."""
         self.check_alive()
         raw_message(serialized)
-        there = self.find_server()
-        if not there and (len(self._held) >= HELD_CALLS or self._held_bytes + len(serialized) > HELD_BYTES):
-            self._lose("nobody serves it, and too many wait already")
-        elif not there:
-            self._held.append((time.monotonic() + self._wait_s, self._count + 1, serialized))
-            self._held_bytes += len(serialized)
+        number = self._count + 1
+        if self.find_server():
+            self._send(number, serialized)
+        elif self._held.put(time.monotonic() + self._wait_s, number, serialized):
             self._patience.wait_for(self)
         else:
-            self._send(self._count + 1, serialized)
+            self._lose("nobody serves it, and too many wait already")
         self._count += 1
         return self._count
 
@@ -84,9 +80,8 @@ class RawRequester(RawService):
         self._there = True
         self._tell_found()
         while self._held:
-            _, number, serialized = self._held.popleft()
+            _, number, serialized = self._held.pop()
             self._send_held(number, serialized)
-        self._held_bytes = 0
         return True
 
     def still_waits(self) -> bool:
@@ -94,15 +89,15 @@ class RawRequester(RawService):
         if self._descriptor < 0 or self.find_server():
             return False
         now = time.monotonic()
-        while self._held and self._held[0][0] <= now and self._found is None:
-            self._held_bytes -= len(self._held.popleft()[2])
+        while self._found is None and self._held.over(now):
+            self._held.pop()
             self._lose(f"nobody served it for {self._wait_s:g} s")
         return bool(self._held) or now < self._look_until
 
     def _leave(self) -> None:
-        for _ in self._held:
+        while self._held:
+            self._held.pop()
             self._lose("nobody served it, and then its client left")
-        self._held.clear()
         super()._leave()
 
     def _send_held(self, number: int, serialized: bytes) -> None:

@@ -27,6 +27,8 @@ WAIT_FOR_CLIENT_S = 5.0
 """How long a reply waits for a client that the graph does not have yet."""
 HELD_CALLS, HELD_BYTES = 64, 262_144
 """Requests of one service client, or replies of one service, that wait for the other side, and their size together."""
+HELD_BYTES_OF_ALL = 16_777_216
+"""The same of all services and service clients of the agent."""
 DEAF_CLIENTS = 256
 """Clients of a service that are remembered as in the graph, and not to be reached."""
 _LOOK_AGAIN_S = 0.05
@@ -48,6 +50,8 @@ class Patience(Watcher):
         self._wakeups = wakeups
         self._timer = wakeups.add_timer(self)
         self._waiting: set[Waiter] = set()
+        self.held_bytes = 0
+        """What all that wait hold."""
 
     def wait_for(self, waiter: Waiter) -> None:
         """Call `still_waits` of `waiter` again and again until it does not."""
@@ -60,6 +64,45 @@ class Patience(Watcher):
         self._waiting = {waiter for waiter in self._waiting if waiter.still_waits()}
         if self._waiting:
             self._wakeups.set_timer(self._timer, _LOOK_AGAIN_S)
+
+
+class Held:
+    """Calls that wait for the other side, each until a moment (of the monotonic clock), the oldest first."""
+
+    def __init__(self, patience: Patience) -> None:
+        self._patience = patience
+        self._calls: deque[tuple[float, Any, bytes]] = deque()
+        self._bytes = 0
+
+    def __len__(self) -> int:
+        return len(self._calls)
+
+    def put(self, until: float, key: Any, serialized: bytes) -> bool:
+        """Hold a call; False when there is no room for it."""
+        size = len(serialized)
+        if (
+            len(self._calls) >= HELD_CALLS
+            or self._bytes + size > HELD_BYTES
+            or self._patience.held_bytes + size > HELD_BYTES_OF_ALL
+        ):
+            return False
+        self._calls.append((until, key, serialized))
+        self._count(size)
+        return True
+
+    def over(self, now: float) -> bool:
+        """Return whether the oldest has waited long enough."""
+        return bool(self._calls) and self._calls[0][0] <= now
+
+    def pop(self) -> tuple[float, Any, bytes]:
+        """Return the oldest: its moment, its key, its bytes."""
+        call = self._calls.popleft()
+        self._count(-len(call[2]))
+        return call
+
+    def _count(self, size: int) -> None:
+        self._bytes += size
+        self._patience.held_bytes += size
 
 
 class RawService(RawSource):
@@ -130,8 +173,7 @@ class RawReplier(RawService):
         super().__init__(handle, ros, libraries.notify_service, libraries.take_request, events, endpoints)
         self._report = ros.report
         self._patience = patience
-        self._held: deque[tuple[float, bytes, bytes]] = deque()
-        self._held_bytes = 0
+        self._held = Held(patience)
         self._lost = 0
         self._deaf: dict[bytes, None] = {}
 
@@ -151,9 +193,7 @@ class RawReplier(RawService):
         raw_message(serialized)
         if identity[:_GUID_BYTES] in self._clients():
             self._send(identity, serialized)
-        elif len(self._held) < HELD_CALLS and self._held_bytes + len(serialized) <= HELD_BYTES:
-            self._held.append((time.monotonic() + WAIT_FOR_CLIENT_S, identity, serialized))
-            self._held_bytes += len(serialized)
+        elif self._held.put(time.monotonic() + WAIT_FOR_CLIENT_S, identity, serialized):
             self._patience.wait_for(self)
         else:
             self._lose()
@@ -163,16 +203,20 @@ class RawReplier(RawService):
         if self._descriptor < 0:
             return False
         clients, now = self._clients(), time.monotonic()
-        held, self._held, self._held_bytes = self._held, deque(), 0
-        for until, identity, serialized in held:
+        for _ in range(len(self._held)):
+            until, identity, serialized = self._held.pop()
             if identity[:_GUID_BYTES] in clients:
                 self._send_held(identity, serialized)
             elif until < now:
                 self._lose()
             else:
-                self._held.append((until, identity, serialized))
-                self._held_bytes += len(serialized)
+                self._held.put(until, identity, serialized)
         return bool(self._held)
+
+    def _leave(self) -> None:
+        while self._held:
+            self._held.pop()
+        super()._leave()
 
     def _clients(self) -> set[bytes]:
         return self._events.readers(self._endpoints[1], _GUID_BYTES)
