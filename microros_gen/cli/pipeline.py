@@ -24,6 +24,7 @@ from microros_gen.plan.project import Project, plan_project
 from microros_gen.plan.service_limits import service_roots
 from microros_gen.plan.streams import DEFAULT_MTU, WRITE_DATA_OVERHEAD
 from microros_gen.plan.types import plan_types
+from microros_gen.resolve.clock import CLOCK_ROS, with_clock
 from microros_gen.resolve.interfaces import InterfaceSet, resolve_interfaces, split_type_name
 from microros_gen.resolve.profiles import resolve_profiles
 from microros_gen.resolve.selection import check_ready, resolve_selection
@@ -120,6 +121,12 @@ def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
     )
     diagnostics.check()
     own = tuple(p for p in profiles.profiles.values() if not p.builtin)
+    application = request.application
+    if selection.serves_only("subscribe", CLOCK_ROS) and not selection.has("publish"):
+        application = replace(
+            application, interfaces=tuple(i for i in application.interfaces if i != Named(DEFAULT_INTERFACE))
+        )
+    request = replace(request, application=with_clock(application, selection))
     return Resolved(request, own, catalogue, selection)
 
 
@@ -141,7 +148,7 @@ def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Dia
         selection,
         resolved.request.target,
         types,
-        _published(interfaces),
+        _published(interfaces, application),
         diagnostics,
         tuple(name for name in interfaces.roots if name.kind == "srv"),
     )
@@ -248,8 +255,8 @@ def _named(values: Iterable[str], option: str) -> tuple[Named, ...]:
 def _requested(application: Application) -> tuple[Named, ...]:
     declared = tuple(
         Named(_of_kind(endpoint), endpoint.type_span or endpoint.span)
-        for node in application.nodes
-        for endpoint in node.endpoints
+        for endpoints in (*(node.endpoints for node in application.nodes), application.implied)
+        for endpoint in endpoints
     )
     return declared + application.interfaces
 
@@ -263,7 +270,7 @@ def _interfaces(resolved: Resolved, finder: InterfaceFinder, diagnostics: Diagno
     requested = _requested(application)
     interfaces = resolve_interfaces(requested, finder, diagnostics)
     diagnostics.check()
-    if application.nodes or _published(interfaces) or not resolved.selection.has("publish"):
+    if application.nodes or _published(interfaces, application) or not resolved.selection.has("publish"):
         return interfaces
     diagnostics.warning(
         f"there is no message to publish among the interfaces, so {DEFAULT_INTERFACE} is added",
@@ -281,9 +288,15 @@ def _of_kind(endpoint: EndpointDecl) -> str:
     return endpoint.type if name is None else str(name)
 
 
-def _published(interfaces: InterfaceSet) -> tuple[TypeName, ...]:
-    """Return the requested types that publishers can have: messages, not what services and actions exchange."""
-    return tuple(name for name in interfaces.roots if name.kind == "msg")
+def _published(interfaces: InterfaceSet, application: Application) -> tuple[TypeName, ...]:
+    """Return the requested types that publishers can have: messages, not what services and actions exchange.
+
+    What the library alone asked for is not among them.
+    """
+    asked = {named.name for named in application.interfaces}
+    own = {type_name(e.type) for e in application.implied if e.type not in asked}
+    own = {name for name in own if name.package not in asked}
+    return tuple(name for name in interfaces.roots if name.kind == "msg" and name not in own)
 
 
 def _capacities(resolved: Resolved, interfaces: InterfaceSet, diagnostics: Diagnostics) -> Capacities:
@@ -319,9 +332,11 @@ def _received(application: Application, selection: Selection, capacities: Capaci
     if decoding is None:
         return ()
     by_entities = all(reason.startswith("needed by ") for reason in decoding.reasons)
-    if not by_entities or not application.nodes:
+    of_the_clock = selection.serves_only("subscribe", CLOCK_ROS) and not selection.has("services")
+    if not by_entities or not (application.nodes or of_the_clock):
         return tuple(capacities.limits)
     received = {type_name(e.type) for _, _, e in declarations(application, "subscription")}
+    received |= {type_name(e.type) for e in application.implied}
     for kind in ("service", "client"):
         for _, _, endpoint in declarations(application, kind):
             service = type_name(endpoint.type, "srv")

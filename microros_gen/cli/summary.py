@@ -80,9 +80,13 @@ def _entities(
     if not planned.project.selection.has(component):
         return []
     places = runtime.publishers_max if component == "publish" else runtime.subscriptions_max
+    own = [f"{e.topic} ({e.type}, best effort)" for e in planned.project.application.implied]
+    own = own if component == "subscribe" else []
+    places -= len(own)
     shown = [str(root) for root in planned.project.roots[:6]]
     more = len(planned.project.roots) - len(shown)
-    return [f"up to {places} of {', '.join(shown)}{f' and {more} more types' if more else ''}"]
+    of_roots = f"up to {places} of {', '.join(shown)}{f' and {more} more types' if more else ''}"
+    return [*own, *([of_roots] if places else [])]
 
 
 def _services(declared: Sequence[ServicePlan], places: int) -> list[str]:

@@ -103,6 +103,7 @@ class EndpointDecl:
     `topic` holds the service's name for the latter two. {node} and {ns} in it are replaced. `queue`: how many samples
     wait on the device at most until they are taken; None: follows from the depth. Publishers have none. `given`: the
     fully qualified name that the source has, where `remap:` makes it `topic`; empty: the same.
+    `of_the_library`: nobody declared it, and the library itself opens it.
     """
 
     kind: str
@@ -115,6 +116,7 @@ class EndpointDecl:
     topic_span: Span | None = None
     queue: int | None = None
     given: str = ""
+    of_the_library: bool = False
 
 
 @dataclass(frozen=True)
@@ -221,9 +223,11 @@ class TargetRef:
 class Application:
     """The whole file. `interfaces` are `pkg` or `pkg/msg/Type`.
 
+    `hard_liveliness_ms`: how long the agent goes on without hearing the client; 0: as it likes.
     `pools` count entities where no nodes are given. `creation` (best_effort, reliable) is the stream of CREATE; None:
     best effort. `logging` (console, callback, rosout) and `clock`
-    (steady, ros) are axes like `entities` and `liveliness`. `spans` holds the places of top-level keys and of
+    (steady, ros) are axes like `entities` and `liveliness`. `implied` are the endpoints of the library itself where
+    there are no nodes (with nodes they stand among their endpoints). `spans` holds the places of top-level keys and of
     the keys of `pools` (as `pools.history`), for later steps.
     """
 
@@ -235,6 +239,7 @@ class Application:
     liveliness: Named | None = None
     transport: Transport = Transport()
     session_key: int | str | None = None
+    hard_liveliness_ms: int = 0
     target: TargetRef = TargetRef()
     nodes: tuple[NodeDecl, ...] = ()
     interfaces: tuple[Named, ...] = ()
@@ -247,4 +252,5 @@ class Application:
     logging: Named | None = None
     clock: Named | None = None
     tasks: tuple[TaskDecl, ...] = ()
+    implied: tuple[EndpointDecl, ...] = ()
     spans: Mapping[str, Span] = field(default_factory=dict)

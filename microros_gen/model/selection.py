@@ -66,3 +66,8 @@ class Selection:
     def has(self, component: str) -> bool:
         """Return whether `component` is selected."""
         return any(c.component.name == component for c in self.components)
+
+    def serves_only(self, component: str, other: str) -> bool:
+        """Return whether `component` is selected because `other` needs it, and for no other reason."""
+        reasons = [c.reasons for c in self.components if c.component.name == component]
+        return reasons == [(f"needed by {other}",)]

@@ -17,7 +17,7 @@ from microros_gen.plan.creation import (
     topic_reference,
     writer_reference,
 )
-from microros_gen.plan.declared import declarations, full_name
+from microros_gen.plan.declared import declarations, full_name, type_name
 from microros_gen.plan.example import example_node, example_topics
 from microros_gen.plan.names import dds_topic, dds_type, reply_topic, request_topic
 from microros_gen.plan.project import Project
@@ -195,7 +195,7 @@ def _check_references(application: Application, diagnostics: Diagnostics) -> Non
             continue
         diagnostics.error(
             f"two {what} of {topic} differ in type or QoS and would get one reference name, "
-            f"'{reference}' (the other: {other.span})",
+            f"'{reference}' (the other: {other.span or other.topic})",
             endpoint.topic_span or endpoint.span,
             "Make them alike, or write `entities: binary`",
         )
@@ -210,10 +210,16 @@ def _of_the_example(project: Project) -> tuple[tuple[AgentNode, ...], tuple[Agen
         _endpoint(index, 0, f"/{topic}", dds_type(root), Qos())
         for index, (root, topic) in enumerate(example_topics(project.roots[:written]))
     ]
+    first = runtime.publisher_places
+    endpoints += [
+        _endpoint(index, 0, e.topic, dds_type(type_name(e.type)), e.qos, reads=True)
+        for index, e in enumerate(project.application.implied, first)
+    ]
     endpoints += [
         _endpoint(index, 0, f"/{topic}", dds_type(root), Qos(), reads=True)
         for index, (root, topic) in enumerate(
-            example_topics(project.roots[: runtime.subscriptions_max]), runtime.publisher_places
+            example_topics(project.roots[: runtime.application_subscriptions]),
+            first + len(project.application.implied),
         )
     ]
     return (node,), tuple(endpoints)

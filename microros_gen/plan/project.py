@@ -25,9 +25,12 @@ from microros_gen.plan.serving import Serving, plan_serving
 from microros_gen.plan.streams import StreamPlan, Written, plan_streams
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_own_limits import LimitSet
+from microros_gen.resolve.clock import CLOCK_ROS
 
 SESSION_ID = 0x81
 DEFAULT_NAME_SIZE = 64
+DEFAULT_SILENCE_MS = 10_000
+"""Of the component liveliness_hard without `session.hard_liveliness`; the public client has the same."""
 ERROR_TEXT_SIZE = 160
 _FRAMING = {True: "on", False: "off", None: "either"}
 
@@ -107,7 +110,8 @@ def plan_project(
     serving = plan_serving(application, selection, by_name, services, diagnostics)
     queues = (*receiving.queues, *serving.queues)
     endpoints: list[PublisherPlan | SubscriptionPlan] = [*publishers, *receiving.subscriptions]
-    create = _create_size(application, selection, nodes, tuple(endpoints), roots, serving, services)
+    names = (*roots, *(type_name(e.type) for e in application.implied))
+    create = _create_size(application, selection, nodes, tuple(endpoints), names, serving, services)
     streams = plan_streams(
         application,
         selection.transport,
@@ -118,6 +122,7 @@ def plan_project(
         (*receiving.received, *serving.received),
     )
     receivers = receiving.subscriptions_max + serving.services_max + serving.clients_max
+    receivers -= 1 if selection.has(CLOCK_ROS) else 0  # nobody adds the subscription of /clock to an executor
     running = plan_running(application, selection, receivers, diagnostics)
     agent = _agent(application.transport, selection)
     runtime = RuntimePlan(
@@ -149,7 +154,7 @@ def plan_project(
         else "",
         serial_baud=application.transport.baud,
         framing=_FRAMING[application.transport.framing],
-        type_name_size=0 if nodes else _longest_type((*roots, *services)) + 1,
+        type_name_size=0 if nodes else _longest_type((*names, *services)) + 1,
         creation_size=streams.creation_size,
         subscriptions=receiving.subscriptions,
         subscriptions_max=receiving.subscriptions_max,
@@ -170,8 +175,10 @@ def plan_project(
         has_session_state=selection.has("session_state"),
         has_sleep=selection.has("sleep_cycles"),
         multithread=selection.has("multithread"),
+        hard_liveliness_ms=_hard_liveliness(application, selection),
         discovery_port=application.transport.discover or DISCOVERY_PORT,
         has_time_sync=selection.has("time_sync"),
+        has_ros_time=selection.has(CLOCK_ROS),
         fixed_messages=all(plan.fixed_size for plan in types if plan.wire is not None),
         timed_qos=timed_qos(application, selection.entities, diagnostics),
         reassembly_size=streams.reassembly_size,
@@ -310,6 +317,11 @@ def _client_key(application: Application, name: str) -> int | None:
         return application.session_key
     text = "/".join([name, *(participant_name(n.name, n.namespace) for n in application.nodes)])
     return int.from_bytes(hashlib.sha256(text.encode()).digest()[:4], "big") or 1
+
+
+def _hard_liveliness(application: Application, selection: Selection) -> int:
+    asked = application.hard_liveliness_ms
+    return asked or (DEFAULT_SILENCE_MS if selection.has("liveliness_hard") else 0)
 
 
 def _check_budget(

@@ -24,6 +24,7 @@ from microros_gen.plan.runtime import QueuePlan, SubscriptionPlan
 from microros_gen.plan.streams import Received
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_names import include_path
+from microros_gen.resolve.clock import CLOCK_ROS
 
 LARGEST_DEFAULT_QUEUE = 4
 _SLOT_ALIGNMENT = 4
@@ -53,7 +54,9 @@ def plan_receiving(
     if not selection.has("subscribe"):
         return Receiving()
     if not application.nodes:
-        return _pooled(application, types, roots, diagnostics)
+        least, default = (0, 0) if selection.serves_only("subscribe", CLOCK_ROS) else (1, len(roots))
+        places = pool(application, "subscriptions", default, diagnostics)
+        return _pooled(application, types, roots, max(places, least))
     subscriptions, queues, received = [], [], []
     for index, (node_index, node, endpoint) in enumerate(subscription_declarations(application)):
         topic, name = full_name(node, endpoint), type_name(endpoint.type)
@@ -114,17 +117,19 @@ def _queue(endpoint: EndpointDecl, size: int) -> QueuePlan:
 
 
 def _pooled(
-    application: Application,
-    types: Mapping[TypeName, TypePlan],
-    roots: tuple[TypeName, ...],
-    diagnostics: Diagnostics,
+    application: Application, types: Mapping[TypeName, TypePlan], roots: tuple[TypeName, ...], places: int
 ) -> Receiving:
-    places = pool(application, "subscriptions", len(roots), diagnostics)
+    """Return `places` for the application's subscriptions, behind those of the library itself."""
     slots = application.pools.get("queue", LARGEST_DEFAULT_QUEUE)
     largest = max((types[root].max_encoded_size for root in roots), default=0)
-    received = tuple(Received(str(r), types[r].max_encoded_size, True, True) for r in roots)
-    queue = QueuePlan(slots, slot_of(largest))
-    return Receiving((), max(places, 1), (queue,) * max(places, 1), received)
+    received = [Received(str(r), types[r].max_encoded_size, True, True) for r in roots if places]
+    queues = [_queue(e, types[type_name(e.type)].max_encoded_size) for e in application.implied]
+    received += [
+        Received(f"{e.type} on {e.topic}", types[type_name(e.type)].max_encoded_size, False, True, e.span)
+        for e in application.implied
+    ]
+    queues += [QueuePlan(slots, slot_of(largest))] * places
+    return Receiving((), len(queues), tuple(queues), tuple(received))
 
 
 def slot_of(size: int) -> int:

@@ -10,6 +10,7 @@ from microros_gen.model.application import Application, ExecutorDecl, NodeDecl
 from microros_gen.model.selection import Selection
 from microros_gen.plan.declared import pool
 from microros_gen.plan.runtime import TimerPlan
+from microros_gen.resolve.clock import CLOCK_ROS
 
 _NS_PER_US = 1000
 
@@ -35,16 +36,19 @@ def plan_running(
 
     `receivers` are the subscriptions, services and clients that an executor can run. Declared timers and executors are
     the least; `pools` says more, and how many there are without `nodes:`, one of each by default. A guard condition is
-    not declared by a node: with `nodes:` there are those of `pools`.
+    not declared by a node: with `nodes:` there are those of `pools`. rclc's support has a ROS clock where time comes
+    from /clock.
     """
     declared = bool(application.nodes)
-    clocks = selection.has("clock")
+    clocks, of_support = selection.has("clock"), 1 if selection.has(CLOCK_ROS) else 0
+    ros_clocks = max(pool(application, "ros_clocks", 1 + of_support, diagnostics), 1) if clocks else 0
+    jump_callbacks = max(pool(application, "jump_callbacks", 1, diagnostics), 1) if clocks else 0
     timers = _timers(application) if selection.has("timers") else ()
     timers_max = _places(application, "timers", len(timers), diagnostics) if selection.has("timers") else 0
     if not selection.has("executor"):
         return Running(
-            ros_clocks_max=max(pool(application, "ros_clocks", 1, diagnostics), 1) if clocks else 0,
-            jump_callbacks_max=max(pool(application, "jump_callbacks", 1, diagnostics), 1) if clocks else 0,
+            ros_clocks_max=ros_clocks,
+            jump_callbacks_max=jump_callbacks,
         )
     guards = pool(application, "guard_conditions", 0 if declared else 1, diagnostics)
     executors = tuple((node, e) for node in application.nodes for e in node.executors)
@@ -59,8 +63,8 @@ def plan_running(
         handles_max=max(pool(application, "handles", handles, diagnostics), 1),
         guard_conditions_max=guards,
         wait_sets_max=max(pool(application, "wait_sets", 1, diagnostics), 1),
-        ros_clocks_max=max(pool(application, "ros_clocks", 1, diagnostics), 1) if clocks else 0,
-        jump_callbacks_max=max(pool(application, "jump_callbacks", 1, diagnostics), 1) if clocks else 0,
+        ros_clocks_max=ros_clocks,
+        jump_callbacks_max=jump_callbacks,
     )
 
 
@@ -79,4 +83,6 @@ def _places(application: Application, key: str, declared: int, diagnostics: Diag
 
 def _handles(node: NodeDecl, executor: ExecutorDecl) -> int:
     """Return how many handles an executor has: those that it names, or all that its node has."""
-    return len(executor.handles) or len(node.timers) + sum(e.kind != "publisher" for e in node.endpoints)
+    return len(executor.handles) or len(node.timers) + sum(
+        e.kind != "publisher" and not e.of_the_library for e in node.endpoints
+    )

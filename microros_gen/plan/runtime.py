@@ -138,7 +138,9 @@ class RuntimePlan:
     largest DATA that comes in fragments, with its header; 0: none does.
     `timers_max`, `executors_max` with `handles_max` each, `guard_conditions_max`, `wait_sets_max`, `ros_clocks_max`,
     `jump_callbacks_max`: places of each; 0 timers, executors or clocks: the component is not selected.
+    `has_ros_time`: the first subscription is that of /clock, which the library opens itself.
     `fixed_messages`: no message that is sent has a string or sequence. `timed_qos`: one has a deadline or lifespan.
+    `hard_liveliness_ms`: after so long without a message of the client its agent gives it up; 0: as the agent likes.
     `error_text_size` 0: codes only. `best_effort_size` 0 or `reliable_slots` 0: there is no such stream.
     """
 
@@ -198,10 +200,12 @@ class RuntimePlan:
     ros_clocks_max: int = 0
     jump_callbacks_max: int = 0
     has_time_sync: bool = False
+    has_ros_time: bool = False
     has_discovery: bool = False
     has_session_state: bool = False
     has_sleep: bool = False
     multithread: bool = False
+    hard_liveliness_ms: int = 0
     discovery_port: int = DISCOVERY_PORT
     fixed_messages: bool = False
     timed_qos: bool = False
@@ -210,6 +214,11 @@ class RuntimePlan:
     def has_subscriptions(self) -> bool:
         """Whether `subscribe` is selected."""
         return self.subscriptions_max > 0
+
+    @property
+    def application_subscriptions(self) -> int:
+        """Places of subscriptions that the application opens: the last ones."""
+        return self.subscriptions_max - (1 if self.has_ros_time else 0)
 
     @property
     def has_timers(self) -> bool:

@@ -81,6 +81,8 @@ class ExampleView:
     services: tuple[ServiceView, ...]
     uses_time: bool
     hosted: bool
+    ros_time: bool
+    shows_time: bool
 
 
 def example_view(project: Project) -> ExampleView:
@@ -93,13 +95,14 @@ def example_view(project: Project) -> ExampleView:
     includes = {include_path(types[name].files.header) for name in used}
     includes |= {include_path(types[name].files.storage) for name in used if types[name].storage}
     views = tuple(p.view for p in publishers)
+    shows_time = project.runtime.has_ros_time and not (views or subscriptions or project.runtime.serves)
     services = service_views(project, tuple(node.variable for node in nodes))
     includes |= {include for service in services for include in service.includes}
     if any(view.texts for view in views) or any(service.filling.texts for service in services):
         includes.add("rosidl_runtime_c/string_functions.h")
     return ExampleView(
         title=project.name,
-        summary=_summary(views, [view for _, view in subscriptions], services),
+        summary=_summary(views, [view for _, view in subscriptions], services, shows_time),
         includes=tuple(sorted(includes)),
         nodes=nodes,
         publishers=views,
@@ -107,6 +110,8 @@ def example_view(project: Project) -> ExampleView:
         services=services,
         uses_time=any(view.stamps for view in views) or any(s.filling.stamps for s in services),
         hosted=project.target.hosted,
+        ros_time=project.runtime.has_ros_time,
+        shows_time=shows_time,
     )
 
 
@@ -154,9 +159,12 @@ def _summary(
     publishers: Sequence[PublisherView],
     subscriptions: Sequence[SubscriptionView],
     services: Sequence[ServiceView],
+    shows_time: bool,
 ) -> str:
     """Return what the example does, as a sentence without its end."""
     every = "every EXAMPLE_PERIOD_MS milliseconds"
+    if shows_time:
+        return f"looks {every} what time it is on /clock"
     said = []
     if publishers or not (subscriptions or services):
         written = ", ".join(f"{p.package}/msg/{p.type} on {p.topic}" for p in publishers) or "nothing"
@@ -182,8 +190,9 @@ def _subscriptions(
                 _subscription(project, types[s.type], nodes[s.node], s.index, declared[s.index], s.storage),
             )
             for s in runtime.subscriptions
+            if not declared[s.index].of_the_library
         ]
-    topics = example_topics(project.roots[: runtime.subscriptions_max])
+    topics = example_topics(project.roots[: runtime.application_subscriptions])
     return [
         (
             root,

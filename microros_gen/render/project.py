@@ -154,8 +154,12 @@ def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectVi
     pools = [
         f"up to {runtime.nodes_max} node(s), named by the application",
     ]
+    pools += [f"subscription `{e.topic}` of {e.type}" for e in project.application.implied]
     of_roots = ", ".join(str(root) for root in project.roots)
-    for name, places in (("publisher", runtime.publishers_max), ("subscription", runtime.subscriptions_max)):
+    for name, places in (
+        ("publisher", runtime.publishers_max),
+        ("subscription", runtime.application_subscriptions),
+    ):
         pools += [f"up to {places} {name}(s) of {of_roots}"] if places else []
     for name, places in (("service", runtime.services_max), ("client", runtime.clients_max)):
         pools += [f"up to {places} {name}(s)"] if places else []

@@ -16,6 +16,7 @@ from microros_gen.model.component import AxisValue, Catalogue, Middleware, Resol
 from microros_gen.model.selection import Chosen, ChosenAxis, ChosenComponent, Selection
 from microros_gen.model.xrce import MICRO_ROS_COMPONENTS, OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
 from microros_gen.resolve.axes import AxisChoice, choose_axes
+from microros_gen.resolve.clock import CLOCK_ROS
 from microros_gen.resolve.declared import STREAM_RELIABLE, declared_components, stream_demands
 from microros_gen.resolve.profiles import at, signed, unique_changes
 
@@ -52,12 +53,15 @@ def resolve_selection(
         _pick_axis(picker, choice, middleware)
     _pick_port(picker, application, port)
     picker.close()
-    for demand in stream_demands(application, frozenset(picker.causes), axes["entities"].value):
+    for demand in stream_demands(application, picker.open_to(application), axes["entities"].value):
         picker.pick(demand.component, demand.text, demand.span)
     if axes["transport"].value == "custom" and application.transport.framing is not False:
         picker.pick(
             "framing", "transport: {type: custom} without `framing: false`", application.transport.span
         )
+    if application.hard_liveliness_ms:
+        place = application.spans.get("session.hard_liveliness")
+        picker.pick("liveliness_hard", f"session: {{hard_liveliness}}{at(place)}", place)
     if application.transport.discover is not None:
         picker.pick("discovery", "transport: {agent: discover}", application.transport.agent_span)
     picker.close()
@@ -123,6 +127,11 @@ class _Picker:
                 if need not in self.causes:
                     waiting.append(need)
                 self.pick(need, f"needed by {name}", None, name)
+
+    def open_to(self, application: Application) -> frozenset[str]:
+        """Return what is selected; where no nodes are declared, without what the ROS clock alone needs for itself."""
+        own = [] if application.nodes else [_Reason(f"needed by {CLOCK_ROS}", None, CLOCK_ROS)]
+        return frozenset(name for name, reasons in self.causes.items() if reasons != own)
 
     def roots(self, name: str) -> tuple[Named, ...]:
         """Return the choices of the user that lead to `name`, sorted."""
@@ -247,7 +256,7 @@ def _check_axis_components(picker: _Picker, axes: Mapping[str, AxisChoice], midd
     for axis, choice in axes.items():
         chosen = middleware.axes[axis][choice.value].component
         for other in middleware.axes[axis].values():
-            if other.component is None or other.component in (chosen, "clock_ros"):
+            if other.component is None or other.component in (chosen, CLOCK_ROS):
                 continue
             if other.component in picker.causes:
                 root = picker.roots(other.component)[0]

@@ -123,6 +123,15 @@ def main() -> None:
         print(json.dumps(answer), flush=True)
 
 
+def _filled(message: Any, value: dict[str, Any]) -> Any:
+    """Return `message` with what `value` says of its members, which may be messages themselves."""
+    for name, member in value.items():
+        setattr(
+            message, name, _filled(getattr(message, name), member) if isinstance(member, dict) else member
+        )
+    return message
+
+
 class _Peer:
     """What the observer does beside watching: publishes, serves, calls."""
 
@@ -152,7 +161,7 @@ class _Peer:
             self._publishers[topic] = self._node.create_publisher(
                 message_class, topic, _profile(transient_local=transient_local, **qos)
             )
-        messages = [message_class(**value) for value in values]
+        messages = [_filled(message_class(), value) for value in values]
         for message in messages:
             self._publishers[topic].publish(message)
         return [serialize_message(message).hex() for message in messages]

@@ -272,6 +272,14 @@ _TOP = {
         "1:10",
         "'session' must be a mapping of keys and values; it is 3",
     ),
+    "session.hard_liveliness": KeyCase(
+        "session: {hard_liveliness: 10 s}",
+        lambda a: a.hard_liveliness_ms,
+        10_000,
+        "session: {hard_liveliness: 10}",
+        "1:28",
+        "'session.hard_liveliness' must be a time with its unit",
+    ),
     "session.key": KeyCase(
         "session: {key: 0xAABBCCDD}",
         lambda a: a.session_key,

@@ -27,6 +27,14 @@ def topic(name: str) -> str:
 
 # The topic stands in column 26 of line 3.
 ERRORS: dict[str, tuple[str, str]] = {
+    "hard liveliness of a moment": (
+        "session: {hard_liveliness: 20 ms}\n",
+        "f:1:28: error: 'session.hard_liveliness' must be between 100 ms and 999 s; it is 20 ms",
+    ),
+    "hard liveliness of an hour": (
+        "session: {hard_liveliness: 3600 s}\n",
+        "f:1:28: error: 'session.hard_liveliness' must be between 100 ms and 999 s; it is 3600 s",
+    ),
     "unknown key": (
         "profles: [a]\n",
         "f:1:1: error: the file has no key 'profles'. Did you mean 'profiles'?",

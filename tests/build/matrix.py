@@ -85,6 +85,8 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "      - {topic: fast, type: std_msgs/msg/Int32, qos: {reliability: best_effort}}\n",
         "reader-code-none-preconfigured": _READER
         + "entities: preconfigured\nliveliness: none\nerrors: code\n",
+        "simulation-pool": "version: 1\nprofiles: [simulation_node, pure_sender]\nlimits: {'*': {string: 8}}\n"
+        + "interfaces: [std_msgs/msg/Header]\n",
         "reader-pool-xml": "version: 1\nprofiles: [pure_reader]\ninterfaces: [std_msgs/msg/String]\n"
         + "entities: xml\nlimits: {'*': {string: 2000}}\ntransport: {mtu: 2400}\n",
     }

@@ -11,6 +11,7 @@ import selectors
 import socket
 import threading
 import time
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from types import TracebackType
@@ -59,6 +60,8 @@ class Relay:
     def __init__(self) -> None:
         self.fault: Fault = no_fault
         self.passed = 0
+        self.sent: Counter[int] = Counter()
+        """Messages of clients by the id of their first submessage."""
         self._front = _socket()
         self.port: int = self._front.getsockname()[1]
         self._target = 0
@@ -111,6 +114,7 @@ class Relay:
         if client is not None:
             self._pass_on(lambda: self._front.sendto(data, client))
         elif self._target:
+            self.sent.update(data[4:5])
             back = self._back(address)
             self._pass_on(lambda: back.send(data))
 

@@ -13,7 +13,7 @@ import pytest
 from agent.observer import Observer
 from agent.process import AgentProcess, running_agent
 
-from e2e.images import C_FILES, SANITIZE, Images, started
+from e2e.images import C_FILES, QUICK, Images, started
 from e2e.line_relay import LineRelay
 from e2e.relay import Relay, lossy
 
@@ -70,7 +70,7 @@ def echo(observer: Observer, program: Path, count: int, timeout_s: float) -> dic
 def over_udp(
     images: Images, observer: Observer, agent: AgentProcess, relay: Relay, count: int, timeout_s: float
 ) -> None:
-    image = images.build(relay.port, APPLICATION.format(transport=""), "gcc", SANITIZE)
+    image = images.build(relay.port, APPLICATION.format(transport=""), "gcc", QUICK)
     program = image.application(C_FILES / "echo.c", image.out.parent / "echo", "-std=c99", "-Wall", "-Werror")
     relay.connect(agent.port)
     relay.fault = lossy(count)
@@ -84,7 +84,7 @@ def over_a_line(
     """A line of 115200 baud, a part of whose frames is cut or changed."""
     device = folder / "line"
     text = APPLICATION.format(transport=f'transport: {{type: serial, device: "{device}"}}')
-    image = images.build(0, text, "gcc", SANITIZE)
+    image = images.build(0, text, "gcc", QUICK)
     program = image.application(C_FILES / "echo.c", folder / "echo", "-std=c99", "-Wall", "-Werror")
     with (
         LineRelay(device, 115_200, 0.01, count) as line,

@@ -71,6 +71,9 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "components: [+subscribe, +multithread, +time_sync]\nmemory: {arena: 512}\n",
         "threads_custom": _INT32
         + "components: [+executor, +multithread]\nerrors: code\ntransport: {type: custom}\n",
+        "hard_liveliness": _READER
+        + _HEARD
+        + "session: {hard_liveliness: 10 s}\ncomponents: [+executor, +sleep_cycles]\n",
         "sleep_reader": _READER + _HEARD + _SERIAL + "components: [+sleep_cycles]\n",
         "sleep_custom": _INT32
         + "components: [+sleep_cycles, +time_sync]\nliveliness: acknack\ntransport: {type: custom}\n",
@@ -98,6 +101,10 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "timers_ticked": _BOTH
         + "    timers: [{name: a, period: 1 s, kind: rtos}, {name: b, period: 2 s, kind: hardware}]\n"
         + "components: [+timers, +subscribe]\nerrors: code\npools: {guard_conditions: 1}\n",
+        "simulation": "version: 1\nprofiles: [simulation_node]\n",
+        "simulation_timers": _READER
+        + _HEARD
+        + "    timers: [{name: a, period: 1 s}]\ncomponents: [+timers]\nclock: ros\n",
         "executor_custom": _INT32 + "components: [+executor]\ntransport: {type: custom}\n",
         "executor_board": _BOTH
         + "    timers: [{name: a, period: 1 s, kind: rtos}]\n"

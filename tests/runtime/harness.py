@@ -116,6 +116,15 @@ EXECUTOR = replace(
     jump_callbacks_max=2,
 )
 
+# The first subscription is that of /clock.
+ROS_TIME = replace(
+    EXECUTOR,
+    has_ros_time=True,
+    type_name_size=40,
+    subscriptions_max=3,
+    queues=(QueuePlan(1, 8), QueuePlan(3, 16), QueuePlan(3, 16)),
+)
+
 
 def components(plan: RuntimePlan, liveliness: str = "ping") -> tuple[str, ...]:
     """Return the components that the resolver selects for `plan`."""
@@ -132,6 +141,7 @@ def components(plan: RuntimePlan, liveliness: str = "ping") -> tuple[str, ...]:
     names += ["services"] if plan.serves else []
     names += ["stream_reliable"] if plan.reliable_slots else []
     names += ["discovery"] if plan.has_discovery else []
+    names += ["liveliness_hard"] if plan.hard_liveliness_ms else []
     names += ["multithread"] if plan.multithread else []
     names += ["sleep_cycles"] if plan.has_sleep else []
     names += ["session_state"] if plan.has_session_state else []
@@ -139,6 +149,7 @@ def components(plan: RuntimePlan, liveliness: str = "ping") -> tuple[str, ...]:
     names += ["executor"] if plan.has_executors else []
     names += ["timers"] if plan.has_timers else []
     names += ["clock"] if plan.has_clocks else []
+    names += ["clock_ros"] if plan.has_ros_time else []
     names += {"ping": ["ping"], "acknack": ["liveliness_acknack"], "none": []}[liveliness]
     return tuple(sorted(names))
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from microros_gen.plan.runtime import RuntimePlan, TimerPlan
-from runtime.harness import EXECUTOR, SANITIZE, Tree, build, compilers, components, render
+from runtime.harness import EXECUTOR, ROS_TIME, SANITIZE, Tree, build, compilers, components, render
 
 MS = 1_000_000
 TICKS = replace(
@@ -26,6 +26,7 @@ UNITS = {
     "unit_timer.c": EXECUTOR,
     "unit_executor.c": EXECUTOR,
     "unit_ticks.c": TICKS,
+    "unit_clock_ros.c": ROS_TIME,
 }
 
 
@@ -44,7 +45,8 @@ def test_unit(unit: str, compiler: str, flags: tuple[str, ...], tmp_path: Path) 
 def _run(unit: str, plan: RuntimePlan, compiler: str, flags: tuple[str, ...], tmp_path: Path) -> None:
     names = [name for name in components(plan) if name != "port_posix"]
     tree = render(tmp_path, plan, names)
-    program = build(tree, ["port_agent.c", "types_read.c", unit], "unit", compiler, flags)
+    fixtures = ["port_agent.c", "types_read.c", *(["types_clock.c"] if plan.has_ros_time else []), unit]
+    program = build(tree, fixtures, "unit", compiler, flags)
     done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 0, done.stderr
 

@@ -3,6 +3,7 @@
 
 #include "microros/error.h"
 #include "microros/rcl_subscription_open.h"
+#include "microros/rmw_qos.h"
 
 #include <stddef.h>
 
@@ -24,7 +25,7 @@ rcl_ret_t rclc_subscription_init_default(
   rcl_subscription_t * subscription, rcl_node_t * node, const rosidl_message_type_support_t * type_support,
   const char * topic_name)
 {
-  return rclc_subscription_init(subscription, node, type_support, topic_name, &rmw_qos_profile_default);
+  return rclc_subscription_init(subscription, node, type_support, topic_name, rmw_qos_default());
 }
 
 rcl_ret_t rclc_subscription_init_best_effort(

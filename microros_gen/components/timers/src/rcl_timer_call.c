@@ -4,33 +4,26 @@
 #include "microros/rcl_timer.h"
 
 /*
- * Returns what is left of `time` after whole periods; `period` is not 0. Takes away twofold periods, the largest first: as
- * many steps as the number of periods has binary digits, and no division of 64 bits in the image.
+ * Returns when the next call is due after one that was due at `due`: periods that have gone by are left out. It goes forward
+ * in steps that double, and begins with one period again where a step would lead too far; so even years are gone through in
+ * some hundred steps, and no division of 64 bits comes into the image.
  */
-static uint64_t call_rest(uint64_t time, uint64_t period)
-{
-  uint64_t step = period;
-
-  while (step <= time >> 1) {
-    step <<= 1;
-  }
-  for (; step >= period; step >>= 1) {
-    if (time >= step) {
-      time -= step;
-    }
-  }
-  return time;
-}
-
-/* Returns when the next call is due after one that was due at `due`: periods that have gone by are left out. */
 static int64_t call_next(int64_t due, int64_t period, int64_t now)
 {
-  const int64_t next = due + period;
+  int64_t next = due + period;
+  uint64_t step = (uint64_t)period;
 
-  if (next > now) {
-    return next;
+  if (period == 0) {
+    return next > now ? next : now;
   }
-  return period == 0 ? now : now - (int64_t)call_rest((uint64_t)(now - next), (uint64_t)period) + period;
+  while (next <= now) {
+    if (step > (uint64_t)(now - next)) {
+      step = (uint64_t)period;
+    }
+    next += (int64_t)step;
+    step += step;
+  }
+  return next;
 }
 
 static rcl_ret_t call_now(rcl_timer_t * timer, rcl_timer_call_info_t * call_info)

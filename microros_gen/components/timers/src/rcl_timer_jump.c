@@ -38,19 +38,20 @@ static void jump_settle(rcl_timer_impl_t * timer, int64_t now)
   }
 }
 
-void rcl_timer_on_jump(const rcl_clock_t * clock, const rcl_time_jump_t * jump, bool before_jump)
+void rcl_timer_on_jump(
+  const rcl_clock_t * clock, const rcl_time_jump_t * jump, rcl_time_point_value_t now, bool before_jump)
 {
+  const bool changes_time = jump_changes_time(jump);
+
   for (size_t i = 0; i < MICROROS_TIMERS_MAX; ++i) {
     rcl_timer_impl_t * timer = &rcl_timers[i];
-    rcl_time_point_value_t now;
 
-    if (timer->clock != clock || rcl_clock_get_now(timer->clock, &now) != RCL_RET_OK) {
-      continue;
-    }
-    if (jump_changes_time(jump)) {
+    if (timer->clock == clock && changes_time) {
       jump_carry_over(timer, now, before_jump);
-    } else if (!before_jump) {
+    } else if (timer->clock == clock && !before_jump) {
       jump_settle(timer, now);
+    } else {
+      /* another clock's, or nothing to do before it */
     }
   }
   if (!before_jump) {

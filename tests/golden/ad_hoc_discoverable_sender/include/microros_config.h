@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "ced84cee2d6c1d40"
-#define rcl_init rcl_init__plan_ced84cee2d6c1d40
-#define rclc_support_init rclc_support_init__plan_ced84cee2d6c1d40
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_ced84cee2d6c1d40
+#define MICROROS_PLAN_ID "7a39c62280e3e734"
+#define rcl_init rcl_init__plan_7a39c62280e3e734
+#define rclc_support_init rclc_support_init__plan_7a39c62280e3e734
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_7a39c62280e3e734
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "561b671b1b5b5caf"
-#define rcl_init rcl_init__plan_561b671b1b5b5caf
-#define rclc_support_init rclc_support_init__plan_561b671b1b5b5caf
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_561b671b1b5b5caf
+#define MICROROS_PLAN_ID "eb987d9529d1ba7d"
+#define rcl_init rcl_init__plan_eb987d9529d1ba7d
+#define rclc_support_init rclc_support_init__plan_eb987d9529d1ba7d
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_eb987d9529d1ba7d
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

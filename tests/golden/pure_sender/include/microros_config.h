@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "53727334d0b5acf3"
-#define rcl_init rcl_init__plan_53727334d0b5acf3
-#define rclc_support_init rclc_support_init__plan_53727334d0b5acf3
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_53727334d0b5acf3
+#define MICROROS_PLAN_ID "a62f609dc8a3413b"
+#define rcl_init rcl_init__plan_a62f609dc8a3413b
+#define rclc_support_init rclc_support_init__plan_a62f609dc8a3413b
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_a62f609dc8a3413b
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "34e2762973409e32"
-#define rcl_init rcl_init__plan_34e2762973409e32
-#define rclc_support_init rclc_support_init__plan_34e2762973409e32
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_34e2762973409e32
+#define MICROROS_PLAN_ID "ee914929b9576b24"
+#define rcl_init rcl_init__plan_ee914929b9576b24
+#define rclc_support_init rclc_support_init__plan_ee914929b9576b24
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_ee914929b9576b24
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

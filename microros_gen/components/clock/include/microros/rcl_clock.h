@@ -16,8 +16,8 @@ typedef rcl_ret_t (*rcl_clock_get_now_t)(void * data, rcl_time_point_value_t * n
 /* What `data` of a ROS clock is. */
 typedef struct rcl_ros_time_t {
   rcl_time_point_value_t now; /* 0: not set */
-  bool taken;
-  bool active; /* `now` counts, and not the system's time */
+  rcl_clock_t * clock;        /* whose it is; NULL: free */
+  bool active;                /* `now` counts, and not the system's time */
 } rcl_ros_time_t;
 
 /* Makes an empty clock of this type; RCL_RET_INVALID_ARGUMENT, with a text, where clock or allocator is NULL. */
@@ -35,6 +35,9 @@ void rcl_clock_call_callbacks(const rcl_clock_t * clock, const rcl_time_jump_t *
 
 /* Nanoseconds since 1970; on a board without the time of day those since its start. */
 rcl_ret_t rcl_clock_system_now(void * data, rcl_time_point_value_t * now);
+
+/* Sets all ROS clocks, as rcl_set_ros_time_override. */
+void rcl_ros_clocks_set(rcl_time_point_value_t time_value);
 
 /* Sets this text, "clock: " in front, and returns `result`. */
 rcl_ret_t rcl_clock_refuse(rcl_ret_t result, const char * reason);

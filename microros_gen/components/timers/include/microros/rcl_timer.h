@@ -36,8 +36,9 @@ rcl_ret_t rcl_timer_check(const rcl_timer_t * timer);
 /* Wakes who waits for the timer or for its guard condition. */
 void rcl_timer_wake(rcl_timer_impl_t * timer);
 
-/* The clock of timers jumps; called before and after it does. */
-void rcl_timer_on_jump(const rcl_clock_t * clock, const rcl_time_jump_t * jump, bool before_jump);
+/* The clock of timers jumps, and says `now`; called before and after it does. */
+void rcl_timer_on_jump(
+  const rcl_clock_t * clock, const rcl_time_jump_t * jump, rcl_time_point_value_t now, bool before_jump);
 
 /*
  * For who waits: gives whether a valid timer is ready, and if not, when to look again at the latest, in nanoseconds:

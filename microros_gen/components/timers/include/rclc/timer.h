@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Timers on the steady clock of `support`, the short way; codes are those of rcl_timer_init2. */
+/*
+ * Timers on the clock of `support`, the short way: the steady one, or ROS time with `clock: ros`. Codes are those of
+ * rcl_timer_init2.
+ */
 #ifndef MICROROS_RCLC_TIMER_H
 #define MICROROS_RCLC_TIMER_H
 

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "microros/xrce_objects.h"
+#include "rmw/qos_profiles.h"
 #include "rmw/types.h"
 
 #ifdef __cplusplus
@@ -21,6 +22,12 @@ static inline void rmw_qos_add_times(const rmw_qos_profile_t * qos, const xrce_e
 {
   (void)qos;
   (void)endpoint;
+}
+
+/* Returns rmw_qos_profile_default. */
+static inline const rmw_qos_profile_t * rmw_qos_default(void)
+{
+  return &rmw_qos_profile_default;
 }
 
 #ifdef __cplusplus

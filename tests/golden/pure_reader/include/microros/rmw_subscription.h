@@ -21,6 +21,11 @@ rmw_ret_t rmw_subscription_open(
   const rmw_node_t * node, const rosidl_message_type_support_t * type_support, const char * topic,
   const rmw_qos_profile_t * qos, rmw_subscription_t ** subscription);
 
+/* The same for the subscription of /clock, whose place no other takes; with the component `clock_ros`. */
+rmw_ret_t rmw_subscription_open_clock(
+  const rmw_node_t * node, const rosidl_message_type_support_t * type_support, const char * topic,
+  const rmw_qos_profile_t * qos, rmw_subscription_t ** subscription);
+
 /* Gives the place back. */
 void rmw_subscription_close(rmw_subscription_t * subscription);
 

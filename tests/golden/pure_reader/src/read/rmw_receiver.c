@@ -6,6 +6,8 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_read.h"
 
+#include <stddef.h>
+
 static uint16_t receiver_place(const xrce_endpoint_t * endpoint)
 {
   return (uint16_t)(MICROROS_NODES_MAX + endpoint->index);
@@ -42,9 +44,10 @@ void rmw_receiver_close(const xrce_endpoint_t * endpoint)
   microros_unlock();
 }
 
+/* A client that was ended has forgotten its endpoints. */
 bool rmw_receiver_is_open(const xrce_endpoint_t * endpoint)
 {
-  return endpoint->client->states[receiver_place(endpoint)].wanted;
+  return endpoint->client != NULL && endpoint->client->states[receiver_place(endpoint)].wanted;
 }
 
 bool rmw_receiver_report(const xrce_endpoint_t * endpoint)

@@ -23,13 +23,13 @@ static rmw_subscription_t * subscription_hand_out(xrce_endpoint_t * endpoint)
   return subscription;
 }
 
-rmw_ret_t rmw_subscription_open(
-  const rmw_node_t * node, const rosidl_message_type_support_t * type_support, const char * topic,
-  const rmw_qos_profile_t * qos, rmw_subscription_t ** subscription)
+static rmw_ret_t subscription_open_in(
+  uint16_t first, uint16_t count, const rmw_node_t * node, const rosidl_message_type_support_t * type_support,
+  const char * topic, const rmw_qos_profile_t * qos, rmw_subscription_t ** subscription)
 {
   const microros_message_type_t * type = type_support->data;
-  const rmw_section_t section = {MICROROS_PUBLISHERS_MAX,
-                                 MICROROS_SUBSCRIPTIONS_MAX,
+  const rmw_section_t section = {first,
+                                 count,
                                  microros_error_subscription_undeclared,
                                  microros_error_subscription_open,
                                  microros_error_subscriptions_full,
@@ -51,6 +51,14 @@ rmw_ret_t rmw_subscription_open(
     *subscription = subscription_hand_out(endpoint);
   }
   return result;
+}
+
+rmw_ret_t rmw_subscription_open(
+  const rmw_node_t * node, const rosidl_message_type_support_t * type_support, const char * topic,
+  const rmw_qos_profile_t * qos, rmw_subscription_t ** subscription)
+{
+  return subscription_open_in(
+    MICROROS_PUBLISHERS_MAX, MICROROS_SUBSCRIPTIONS_MAX, node, type_support, topic, qos, subscription);
 }
 
 void rmw_subscription_close(rmw_subscription_t * subscription)

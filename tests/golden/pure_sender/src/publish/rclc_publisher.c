@@ -3,6 +3,7 @@
 
 #include "microros/error.h"
 #include "microros/rcl_publisher_open.h"
+#include "microros/rmw_qos.h"
 
 #include <stddef.h>
 
@@ -24,7 +25,7 @@ rcl_ret_t rclc_publisher_init_default(
   rcl_publisher_t * publisher, const rcl_node_t * node, const rosidl_message_type_support_t * type_support,
   const char * topic_name)
 {
-  return rclc_publisher_init(publisher, node, type_support, topic_name, &rmw_qos_profile_default);
+  return rclc_publisher_init(publisher, node, type_support, topic_name, rmw_qos_default());
 }
 
 rcl_ret_t rclc_publisher_init_best_effort(

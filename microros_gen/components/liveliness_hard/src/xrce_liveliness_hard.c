@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/xrce_liveliness_hard.h"
+
+#include "microros/xrce_client.h"
+#include "microros/xrce_wire.h"
+
+enum { QUESTION_SIZE = 16, MASK_ACTIVITY = 2, SHARE = 3 };
+
+static void hard_show_life(xrce_session_t * session)
+{
+  uint8_t message[QUESTION_SIZE];
+
+  xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_NONE, 0);
+  xrce_put_submessage(&message[4], XRCE_GET_INFO, XRCE_FLAG_LITTLE_ENDIAN, QUESTION_SIZE - 8);
+  xrce_put_be16(&message[8], XRCE_REQUEST_PING);
+  xrce_put_be16(&message[10], XRCE_OBJECT_AGENT);
+  xrce_put_le16(&message[12], MASK_ACTIVITY);
+  xrce_put_le16(&message[14], 0);
+  (void)xrce_session_send(session, message, sizeof(message)); /* there are two more before it is too late */
+}
+
+void xrce_liveliness_hard_step(xrce_client_t * client, uint32_t now)
+{
+  xrce_liveliness_hard_t * hard = &client->hard;
+  xrce_session_t * session = &client->session;
+
+  if (
+    session->state == (uint8_t)XRCE_READY && hard->sent == session->statistics.sent &&
+    xrce_is_due(now, hard->due_ms)) {
+    hard_show_life(session);
+    hard->due_ms = now + MICROROS_HARD_LIVELINESS_MS / SHARE;
+  }
+  if (hard->sent != session->statistics.sent) {
+    hard->sent = session->statistics.sent;
+    hard->due_ms = now + MICROROS_HARD_LIVELINESS_MS / SHARE;
+  }
+}
+
+void xrce_liveliness_hard_on_get_info(xrce_client_t * client, uint32_t now)
+{
+  client->hard.due_ms = now;
+}

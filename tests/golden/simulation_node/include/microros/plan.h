@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What the application file declares, as constant tables; only where it has `nodes:`. */
+#ifndef MICROROS_PLAN_H
+#define MICROROS_PLAN_H
+
+#include <stdint.h>
+
+#include "microros/xrce_objects.h"
+#include "microros_config.h"
+
+typedef struct microros_declared_node_t {
+  const char * name;
+  const char * namespace_; /* "/" or "/a/b" */
+  uint16_t domain_id;
+} microros_declared_node_t;
+
+typedef struct microros_declared_endpoint_t {
+  const char * name;     /* fully qualified */
+  const char * dds_type; /* "std_msgs::msg::dds_::Int32_"; of a service its own */
+  uint16_t node;         /* index of its node */
+} microros_declared_endpoint_t;
+
+extern const microros_declared_node_t microros_declared_nodes[MICROROS_NODES_MAX];
+
+/* In the order of their places: publishers, subscriptions, services, clients. */
+extern const microros_declared_endpoint_t microros_declared_endpoints[XRCE_ENDPOINTS];
+
+/* The names by which the source knows them: those on the wire. */
+static inline const char * microros_declared_node_name(const microros_declared_node_t * node)
+{
+  return node->name;
+}
+
+static inline const char * microros_declared_node_namespace(const microros_declared_node_t * node)
+{
+  return node->namespace_;
+}
+
+static inline const char * microros_declared_name(const microros_declared_endpoint_t * endpoint)
+{
+  return endpoint->name;
+}
+
+#endif /* MICROROS_PLAN_H */

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Guard conditions, for who waits; internal. */
+#ifndef MICROROS_RCL_GUARD_CONDITION_INTERNAL_H
+#define MICROROS_RCL_GUARD_CONDITION_INTERNAL_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "rcl/guard_condition.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Triggers that came and those that were seen: one is written by who triggers, the other by who waits. */
+struct rcl_guard_condition_impl_s {
+  volatile uint32_t came;
+  uint32_t seen;
+  bool taken;
+};
+
+bool rcl_guard_condition_is_valid(const rcl_guard_condition_t * guard_condition);
+
+/* Of a valid one: whether it was triggered since it was seen. */
+bool rcl_guard_condition_is_ready(const rcl_guard_condition_t * guard_condition);
+
+void rcl_guard_condition_see(const rcl_guard_condition_t * guard_condition);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RCL_GUARD_CONDITION_INTERNAL_H */

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The client behind a context: internal to the middleware layer. */
+#ifndef MICROROS_RMW_CLIENT_H
+#define MICROROS_RMW_CLIENT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "microros/xrce_session.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+extern const char * const rmw_implementation_identifier;
+
+/* Returns the one client of this process, open or not. */
+xrce_client_t * rmw_client_instance(void);
+
+/* Returns the client when it has a session, else NULL. */
+xrce_client_t * rmw_client_connected(void);
+
+/* Waits at most `timeout_ms` until nothing is unacknowledged. */
+bool rmw_client_flush(xrce_client_t * client, uint32_t timeout_ms);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RMW_CLIENT_H */

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What waits for the one client of this process; internal. */
+#ifndef MICROROS_RMW_CLIENT_WAIT_H
+#define MICROROS_RMW_CLIENT_WAIT_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Receives what has come and does what is due, without waiting. */
+void rmw_client_pump(void);
+
+/* Rests at most `timeout_ms`, as xrce_wait does. */
+void rmw_client_wait(uint32_t timeout_ms);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RMW_CLIENT_WAIT_H */

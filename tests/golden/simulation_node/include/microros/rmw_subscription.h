@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Subscriptions of the middleware layer. Internal. */
+#ifndef MICROROS_RMW_SUBSCRIPTION_H
+#define MICROROS_RMW_SUBSCRIPTION_H
+
+#include <stdbool.h>
+
+#include "microros/xrce_objects.h"
+#include "rmw/types.h"
+#include "rosidl_runtime_c/message_type_support_struct.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/*
+ * Takes a subscription's place and waits for its objects. RMW_RET_OK: *subscription is set and belongs to the library;
+ * RMW_RET_UNSUPPORTED, RMW_RET_TIMEOUT, RMW_RET_ERROR with a text otherwise. `topic` is valid and not expanded.
+ */
+rmw_ret_t rmw_subscription_open(
+  const rmw_node_t * node, const rosidl_message_type_support_t * type_support, const char * topic,
+  const rmw_qos_profile_t * qos, rmw_subscription_t ** subscription);
+
+/* The same for the subscription of /clock, whose place no other takes; with the component `clock_ros`. */
+rmw_ret_t rmw_subscription_open_clock(
+  const rmw_node_t * node, const rosidl_message_type_support_t * type_support, const char * topic,
+  const rmw_qos_profile_t * qos, rmw_subscription_t ** subscription);
+
+/* Gives the place back. */
+void rmw_subscription_close(rmw_subscription_t * subscription);
+
+bool rmw_subscription_is_open(const rmw_subscription_t * subscription);
+
+/* --- of an open subscription, without receiving: who waits for several has received before --- */
+
+/* Whether rmw_subscription_take has a sample, or an error to tell. */
+bool rmw_subscription_is_ready(const rmw_subscription_t * subscription);
+
+/* Describes the oldest sample, before it is taken; all zero when there is none. */
+void rmw_subscription_describe(const rmw_subscription_t * subscription, rmw_message_info_t * info);
+
+/* Decodes the oldest sample; *taken is false when there is none, and when the result is an error. */
+rmw_ret_t rmw_subscription_take(const rmw_subscription_t * subscription, void * ros_message, bool * taken);
+
+/* The same as bytes. */
+rmw_ret_t rmw_subscription_take_serialized(
+  const rmw_subscription_t * subscription, rmw_serialized_message_t * serialized_message, bool * taken);
+
+/* Receives what has come, for these. */
+void rmw_subscription_pump(const rmw_subscription_t * subscription);
+
+/*
+ * Binds a message of which no string and no sequence has a buffer to the storage that the subscription's declaration has.
+ * A message with buffers stays as it is, and so does one of a subscription without a declaration.
+ */
+void rmw_subscription_bind(const rmw_subscription_t * subscription, void * ros_message);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RMW_SUBSCRIPTION_H */

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What a service type gives the runtime: its name, and the types of its messages. */
+#ifndef MICROROS_SERVICE_TYPE_H
+#define MICROROS_SERVICE_TYPE_H
+
+#include "microros/message_type.h"
+
+typedef struct microros_service_type_t {
+  const char *
+    dds_type_name; /* "std_srvs::srv::dds_::SetBool_"; with Request_ or Response_ behind, of its messages */
+  const microros_message_type_t * request;
+  const microros_message_type_t * response;
+} microros_service_type_t;
+
+#endif /* MICROROS_SERVICE_TYPE_H */

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The few things that names need, without the C library's fast and large versions. */
+#ifndef MICROROS_TEXT_H
+#define MICROROS_TEXT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Returns the number of bytes before the NUL. */
+size_t microros_text_size(const char * text);
+
+bool microros_text_equals(const char * a, const char * b);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_TEXT_H */

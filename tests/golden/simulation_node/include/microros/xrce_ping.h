@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* GET_INFO and its answer: asked by the application, and when nothing was heard for a while, to find a lost
+ * session. */
+#ifndef MICROROS_XRCE_PING_H
+#define MICROROS_XRCE_PING_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "microros/xrce_session.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { XRCE_PING_SIZE = 16 };
+
+typedef struct xrce_ping_t {
+  uint32_t due_ms;    /* when to ask again */
+  uint8_t unanswered; /* questions since the agent was heard last */
+  bool answered;      /* an INFO came, since this was set to false */
+} xrce_ping_t;
+
+void xrce_ping_reset(xrce_ping_t * ping);
+
+/* Writes GET_INFO into `message`, XRCE_PING_SIZE bytes. */
+void xrce_ping_write(uint8_t * message, uint8_t session);
+
+/* Asks when MICROROS_LIVELINESS_PERIOD_MS went by in silence; after MICROROS_LIVELINESS_ATTEMPTS without an
+ * answer the session is lost. */
+void xrce_ping_step(xrce_client_t * client, uint32_t now);
+
+/* An answer that says "not in a session" loses it, too: the agent has started anew. */
+void xrce_ping_on_info(
+  xrce_client_t * client, const uint8_t * payload, size_t size, bool in_session, uint32_t now);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_XRCE_PING_H */

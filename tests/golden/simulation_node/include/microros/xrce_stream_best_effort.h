@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The best-effort output stream: one message, encoded in place and sent at once. */
+#ifndef MICROROS_XRCE_STREAM_BEST_EFFORT_H
+#define MICROROS_XRCE_STREAM_BEST_EFFORT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "microros/xrce_session.h"
+#include "microros_config.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct xrce_stream_best_effort_t {
+  uint16_t sequence; /* of the next message */
+  uint8_t message[MICROROS_BEST_EFFORT_SIZE];
+} xrce_stream_best_effort_t;
+
+void xrce_stream_best_effort_reset(xrce_stream_best_effort_t * stream);
+
+/* Returns room for MICROROS_BEST_EFFORT_SIZE - XRCE_MESSAGE_HEADER bytes of submessages; never NULL. */
+uint8_t * xrce_stream_best_effort_reserve(xrce_stream_best_effort_t * stream);
+
+/* Sends `size` bytes of submessages. False: the transport did not take them, they are gone. */
+bool xrce_stream_best_effort_commit(
+  xrce_stream_best_effort_t * stream, xrce_session_t * session, size_t size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_XRCE_STREAM_BEST_EFFORT_H */

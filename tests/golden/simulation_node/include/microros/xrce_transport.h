@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The transport of the session: UDP. Each transport component brings this header with the same functions. */
+#ifndef MICROROS_XRCE_TRANSPORT_H
+#define MICROROS_XRCE_TRANSPORT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "microros/port.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How texts name the other end: xrce_transport_name, and xrce_transport_port as %n or %m. */
+#define XRCE_PLACE_N "%s:%n"
+#define XRCE_PLACE_M "%s:%m"
+
+typedef struct xrce_transport_t {
+  port_udp_t udp;
+  const char * host; /* the caller's, or the plan's */
+  uint16_t port;
+} xrce_transport_t;
+
+static inline const char * xrce_transport_name(const xrce_transport_t * transport)
+{
+  return transport->host;
+}
+
+static inline uint16_t xrce_transport_port(const xrce_transport_t * transport)
+{
+  return transport->port;
+}
+
+bool xrce_transport_open(xrce_transport_t * transport);
+
+void xrce_transport_close(xrce_transport_t * transport);
+
+/* Sends one message without blocking. False: it was not taken. */
+bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, size_t size);
+
+/* Takes one message without blocking. Returns its size, 0 when there is none, -1 for one that had to be
+ * thrown away. */
+int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_XRCE_TRANSPORT_H */

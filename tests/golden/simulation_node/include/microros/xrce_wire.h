@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Bytes of DDS-XRCE 1.0 (OMG formal/2020-02-01) as the public agent speaks it. Numbers are little endian;
+ * request ids, object ids and the client key are byte arrays, most significant byte first. Sessions are 0x81:
+ * a message header has four bytes.
+ */
+#ifndef MICROROS_XRCE_WIRE_H
+#define MICROROS_XRCE_WIRE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+  XRCE_MESSAGE_HEADER = 4,
+  XRCE_SUBMESSAGE_HEADER = 4,
+  XRCE_OBJECT_PREFIX = 4,                                         /* request id and object id */
+  XRCE_WRITE_PREFIX = XRCE_SUBMESSAGE_HEADER + XRCE_OBJECT_PREFIX /* before the body of WRITE_DATA */
+};
+
+enum { XRCE_SESSION_ID = 0x81, XRCE_SESSION_NONE = 0x80 };
+
+enum {
+  XRCE_STREAM_NONE = 0x00,
+  XRCE_STREAM_BEST_EFFORT = 0x01,
+  XRCE_STREAM_RELIABLE = 0x80,
+  XRCE_STREAM_READING = 0x81 /* reliable, for READ_DATA alone */
+};
+
+enum {
+  XRCE_CREATE_CLIENT = 0x00,
+  XRCE_CREATE = 0x01,
+  XRCE_GET_INFO = 0x02,
+  XRCE_DELETE = 0x03,
+  XRCE_STATUS_AGENT = 0x04,
+  XRCE_STATUS = 0x05,
+  XRCE_INFO = 0x06,
+  XRCE_WRITE_DATA = 0x07,
+  XRCE_READ_DATA = 0x08,
+  XRCE_DATA = 0x09,
+  XRCE_ACKNACK = 0x0a,
+  XRCE_HEARTBEAT = 0x0b,
+  XRCE_FRAGMENT = 0x0d,
+  XRCE_TIMESTAMP = 0x0e,
+  XRCE_TIMESTAMP_REPLY = 0x0f
+};
+
+/* Payloads of these two. */
+enum { XRCE_ACKNACK_SIZE = 5, XRCE_HEARTBEAT_SIZE = 5 };
+
+enum {
+  XRCE_FLAG_LITTLE_ENDIAN = 0x01,
+  XRCE_FLAG_REUSE = 0x02,        /* of CREATE */
+  XRCE_FLAG_REPLACE = 0x04,      /* of CREATE */
+  XRCE_FLAG_LAST_FRAGMENT = 0x02 /* of FRAGMENT */
+};
+
+enum { XRCE_STATUS_OK = 0x00, XRCE_STATUS_OK_MATCHED = 0x01 };
+
+enum {
+  XRCE_REQUEST_NONE = 0x0000,
+  XRCE_REQUEST_LOGIN = 0x0001,
+  XRCE_REQUEST_LOGOUT = 0x0002,
+  XRCE_REQUEST_PING = 0x000a,
+  XRCE_REQUEST_FIRST = 0x000a
+};
+
+enum {
+  XRCE_KIND_PARTICIPANT = 0x01,
+  XRCE_KIND_TOPIC = 0x02,
+  XRCE_KIND_PUBLISHER = 0x03,
+  XRCE_KIND_SUBSCRIBER = 0x04,
+  XRCE_KIND_DATAWRITER = 0x05,
+  XRCE_KIND_DATAREADER = 0x06,
+  XRCE_KIND_REQUESTER = 0x07,
+  XRCE_KIND_REPLIER = 0x08
+};
+
+enum { XRCE_OBJECT_AGENT = 0xfffd, XRCE_OBJECT_CLIENT = 0xfffe };
+
+enum { XRCE_QOS_RELIABLE = 0x01, XRCE_QOS_KEEP_LAST = 0x02, XRCE_QOS_TRANSIENT_LOCAL = 0x08 };
+
+/* Object ids follow from the place in the table: twelve bits of index, four of kind. */
+static inline uint16_t xrce_object_id(uint16_t index, uint8_t kind)
+{
+  return (uint16_t)(((uint32_t)index << 4) | kind);
+}
+
+static inline void xrce_put_le16(uint8_t * at, uint16_t value)
+{
+  at[0] = (uint8_t)(value & 0xffu);
+  at[1] = (uint8_t)(value >> 8);
+}
+
+static inline void xrce_put_be16(uint8_t * at, uint16_t value)
+{
+  at[0] = (uint8_t)(value >> 8);
+  at[1] = (uint8_t)(value & 0xffu);
+}
+
+static inline uint16_t xrce_get_be16(const uint8_t * at)
+{
+  return (uint16_t)(((uint32_t)at[0] << 8) | at[1]);
+}
+
+static inline uint16_t xrce_get_le16(const uint8_t * at)
+{
+  return (uint16_t)(((uint32_t)at[1] << 8) | at[0]);
+}
+
+/* Reads a number of a payload in the byte order that its submessage's flags give. */
+static inline uint16_t xrce_get_u16(const uint8_t * at, uint8_t flags)
+{
+  return (flags & XRCE_FLAG_LITTLE_ENDIAN) != 0u ? xrce_get_le16(at) : xrce_get_be16(at);
+}
+
+static inline void xrce_put_header(uint8_t * message, uint8_t session, uint8_t stream, uint16_t sequence)
+{
+  message[0] = session;
+  message[1] = stream;
+  xrce_put_le16(&message[2], sequence);
+}
+
+/* `size` is the payload's. */
+static inline void xrce_put_submessage(uint8_t * at, uint8_t id, uint8_t flags, uint16_t size)
+{
+  at[0] = id;
+  at[1] = flags;
+  xrce_put_le16(&at[2], size);
+}
+
+/* Returns how many bytes of a message lie between two places in it; a message has less than 64 KiB. */
+static inline uint16_t xrce_size_between(const uint8_t * begin, const uint8_t * end)
+{
+  return (uint16_t)(end - begin);
+}
+
+/* Whether `deadline` is reached at `now`; both in milliseconds that start again at 0 after 2^32 - 1. */
+static inline bool xrce_is_due(uint32_t now, uint32_t deadline)
+{
+  return now - deadline < 0x80000000u;
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_XRCE_WIRE_H */

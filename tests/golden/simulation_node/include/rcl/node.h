@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Nodes. Each has a participant of its own at the agent. */
+#ifndef MICROROS_RCL_NODE_H
+#define MICROROS_RCL_NODE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "rcl/allocator.h"
+#include "rcl/arguments.h"
+#include "rcl/context.h"
+#include "rcl/macros.h"
+#include "rcl/node_options.h"
+#include "rcl/types.h"
+#include "rcl/visibility_control.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct rmw_node_s rcl_node_impl_t;
+
+typedef struct rcl_node_s {
+  rcl_context_t * context;
+  rcl_node_impl_t * impl; /* the library's; NULL: not initialized */
+} rcl_node_t;
+
+rcl_node_t rcl_get_zero_initialized_node(void);
+
+/*
+ * Waits for the agent, at most MICROROS_CREATE_TIMEOUT_MS. With `nodes:` in the application file the node
+ * must be declared there; else it takes one of `pools: {nodes: N}`. RCL_RET_NODE_INVALID_NAME and _NAMESPACE
+ * for names that ROS 2 refuses, RCL_RET_ALREADY_INIT, RCL_RET_NOT_INIT, RCL_RET_TIMEOUT, else RCL_RET_ERROR
+ * with a text.
+ */
+rcl_ret_t rcl_node_init(
+  rcl_node_t * node, const char * name, const char * namespace_, rcl_context_t * context,
+  const rcl_node_options_t * options);
+
+/* Frees the node's place at once, and those of its publishers; waits for the agent at most
+ * MICROROS_CLOSE_TIMEOUT_MS. */
+rcl_ret_t rcl_node_fini(rcl_node_t * node);
+
+bool rcl_node_is_valid(const rcl_node_t * node);
+
+bool rcl_node_is_valid_except_context(const rcl_node_t * node);
+
+/* Names belong to the node; NULL for an invalid one. */
+const char * rcl_node_get_name(const rcl_node_t * node);
+
+const char * rcl_node_get_namespace(const rcl_node_t * node);
+
+/* Returns the node's name: loggers of nodes without a namespace have that name in ROS 2 too. */
+const char * rcl_node_get_logger_name(const rcl_node_t * node);
+
+rcl_ret_t rcl_node_get_domain_id(const rcl_node_t * node, size_t * domain_id);
+
+rmw_node_t * rcl_node_get_rmw_handle(const rcl_node_t * node);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RCL_NODE_H */

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Sleeping. */
+#ifndef MICROROS_RCLC_SLEEP_H
+#define MICROROS_RCLC_SLEEP_H
+
+#include "rclc/visibility_control.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Sleeps; the session rests meanwhile. */
+void rclc_sleep_ms(unsigned int ms);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RCLC_SLEEP_H */

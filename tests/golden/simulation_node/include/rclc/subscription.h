@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Subscriptions, the short way; codes and waiting are those of rcl_subscription_init. */
+#ifndef MICROROS_RCLC_SUBSCRIPTION_H
+#define MICROROS_RCLC_SUBSCRIPTION_H
+
+#include "rcl/subscription.h"
+#include "rclc/types.h"
+#include "rclc/visibility_control.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Reliable, volatile, the last 10. */
+rcl_ret_t rclc_subscription_init_default(
+  rcl_subscription_t * subscription, rcl_node_t * node, const rosidl_message_type_support_t * type_support,
+  const char * topic_name);
+
+/* Best effort, volatile, the last 5. */
+rcl_ret_t rclc_subscription_init_best_effort(
+  rcl_subscription_t * subscription, rcl_node_t * node, const rosidl_message_type_support_t * type_support,
+  const char * topic_name);
+
+rcl_ret_t rclc_subscription_init(
+  rcl_subscription_t * subscription, rcl_node_t * node, const rosidl_message_type_support_t * type_support,
+  const char * topic_name, const rmw_qos_profile_t * qos_profile);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RCLC_SUBSCRIPTION_H */

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Where DDS may talk to: the agent decides that, the value is carried and has no effect here. */
+#ifndef MICROROS_RMW_LOCALHOST_H
+#define MICROROS_RMW_LOCALHOST_H
+
+typedef enum rmw_localhost_only_e {
+  RMW_LOCALHOST_ONLY_DEFAULT = 0,
+  RMW_LOCALHOST_ONLY_ENABLED = 1,
+  RMW_LOCALHOST_ONLY_DISABLED = 2
+} rmw_localhost_only_t;
+
+#endif /* MICROROS_RMW_LOCALHOST_H */

@@ -1,0 +1,1 @@
+#error "The component 'sleep_cycles' is not selected: add `components: [+sleep_cycles]` to microros.yaml and generate again"

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Functions on sequences of primitive types. `init` takes `size` zeroed elements from the default allocator,
+ * `fini` gives them back; `copy` keeps an output with room enough. False: no memory was left, or an argument
+ * is NULL.
+ */
+#ifndef MICROROS_ROSIDL_RUNTIME_C_PRIMITIVES_SEQUENCE_FUNCTIONS_H
+#define MICROROS_ROSIDL_RUNTIME_C_PRIMITIVES_SEQUENCE_FUNCTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "rosidl_runtime_c/primitives_sequence.h"
+#include "rosidl_runtime_c/visibility_control.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(STRUCT_NAME, SEQUENCE) \
+  bool rosidl_runtime_c__##STRUCT_NAME##__Sequence__init( \
+    rosidl_runtime_c__##SEQUENCE##__Sequence * sequence, size_t size); \
+  void rosidl_runtime_c__##STRUCT_NAME##__Sequence__fini( \
+    rosidl_runtime_c__##SEQUENCE##__Sequence * sequence); \
+  bool rosidl_runtime_c__##STRUCT_NAME##__Sequence__are_equal( \
+    const rosidl_runtime_c__##SEQUENCE##__Sequence * lhs, \
+    const rosidl_runtime_c__##SEQUENCE##__Sequence * rhs); \
+  bool rosidl_runtime_c__##STRUCT_NAME##__Sequence__copy( \
+    const rosidl_runtime_c__##SEQUENCE##__Sequence * input, \
+    rosidl_runtime_c__##SEQUENCE##__Sequence * output);
+
+ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(float, float)
+ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(double, double)
+ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(long_double, long_double)
+ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(char, char)
+ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(wchar, wchar)
+ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(boolean, boolean)
+ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(octet, octet)
+ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(uint8, uint8)
+ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(int8, int8)
+ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(uint16, uint16)
+ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(int16, int16)
+ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(uint32, uint32)
+ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(int32, int32)
+ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(uint64, uint64)
+ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(int64, int64)
+ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(bool, boolean)
+ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(byte, octet)
+ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(float32, float)
+ROSIDL_RUNTIME_C__DECLARE_PRIMITIVE_SEQUENCE_FUNCTIONS(float64, double)
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_ROSIDL_RUNTIME_C_PRIMITIVES_SEQUENCE_FUNCTIONS_H */

@@ -1,0 +1,10 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* For transports that include it without need: encoding is the library's own (microros/cdr.h, rmw_serialize). */
+#ifndef MICROROS_UCDR_MICROCDR_H
+#define MICROROS_UCDR_MICROCDR_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#endif /* MICROROS_UCDR_MICROCDR_H */

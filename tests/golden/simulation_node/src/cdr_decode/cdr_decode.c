@@ -1,0 +1,210 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/cdr_decode.h"
+
+#include <string.h>
+
+/* What every sequence is: rosidl_runtime_c's differ only in what `data` points to. */
+typedef struct sequence_t {
+  void * data;
+  size_t size;
+  size_t capacity;
+} sequence_t;
+
+CDR_STATIC_ASSERT(cdr_assert_pointers_have_one_size, sizeof(void *) == sizeof(double *));
+CDR_STATIC_ASSERT(cdr_assert_bool_has_8_bits, sizeof(bool) == 1U);
+
+bool cdr_decode(
+  const microros_message_type_t * type, const uint8_t * body, uint32_t size, bool swap, void * message,
+  cdr_fault_t * fault)
+{
+  cdr_in_t in = {body, size, 0U, swap, false, fault};
+
+  type->decode(&in, message);
+  return !in.failed;
+}
+
+void cdr_in_refuse(cdr_in_t * in, cdr_fault_kind_t kind, const char * field, uint64_t found, uint32_t fits)
+{
+  if (!in->failed) {
+    in->failed = true;
+    in->fault->field = field;
+    in->fault->within = NULL;
+    in->fault->found = (found > UINT32_MAX) ? UINT32_MAX : (uint32_t)found;
+    in->fault->fits = fits;
+    in->fault->index = CDR_NO_INDEX;
+    in->fault->kind = kind;
+    in->fault->depth = 0U;
+  }
+  in->position = in->size;
+}
+
+void cdr_in_refuse_above(cdr_in_t * in, const char * field, uint32_t found, uint32_t limit, uint32_t bound)
+{
+  cdr_in_refuse(in, (limit < bound) ? CDR_FAULT_CAPACITY : CDR_FAULT_BOUND, field, found, limit);
+}
+
+void cdr_in_within(const cdr_in_t * in, const char * member, size_t index)
+{
+  (void)cdr_refuse_within(in->fault, member, index);
+}
+
+/**
+ * Return the address of `count` values of `width` bytes (1, 2, 4 or 8), behind their padding, and move on; NULL, with
+ * the fault filled, where the body ends before.
+ */
+static inline const uint8_t * take(cdr_in_t * in, size_t count, uint32_t width, const char * field)
+{
+  const uint32_t padding = (0U - in->position) & (width - 1U);
+  const uint32_t left = in->size - in->position;
+  const uint64_t bytes = ((uint64_t)count * width) + padding;
+
+  if (bytes > left) {
+    cdr_in_refuse(in, CDR_FAULT_END, field, bytes, left);
+    return NULL;
+  }
+  const uint8_t * const from = &in->body[in->position + padding];
+  in->position += (uint32_t)bytes;
+  return from;
+}
+
+/** Turn the bytes of each of `count` numbers round. */
+static void turn(uint8_t * numbers, size_t count, uint32_t width)
+{
+  for (size_t i = 0U; i < count; ++i) {
+    uint8_t * const number = &numbers[i * width];
+    for (uint32_t first = 0U; first < (width / 2U); ++first) {
+      const uint32_t last = (width - 1U) - first;
+      const uint8_t byte = number[first];
+      number[first] = number[last];
+      number[last] = byte;
+    }
+  }
+}
+
+static inline void get_numbers(cdr_in_t * in, void * to, size_t count, uint32_t width, const char * field)
+{
+  if (count == 0U) {
+    return;
+  }
+  const uint8_t * const from = take(in, count, width, field);
+  if (from == NULL) {
+    return;
+  }
+  (void)memcpy(to, from, count * width);
+  if (in->swap) {
+    turn((uint8_t *)to, count, width);
+  }
+}
+
+void cdr_get_1(cdr_in_t * in, void * to, size_t count, const char * field)
+{
+  get_numbers(in, to, count, 1U, field);
+}
+
+void cdr_get_2(cdr_in_t * in, void * to, size_t count, const char * field)
+{
+  get_numbers(in, to, count, 2U, field);
+}
+
+void cdr_get_4(cdr_in_t * in, void * to, size_t count, const char * field)
+{
+  get_numbers(in, to, count, 4U, field);
+}
+
+void cdr_get_8(cdr_in_t * in, void * to, size_t count, const char * field)
+{
+  get_numbers(in, to, count, 8U, field);
+}
+
+void cdr_get_bool(cdr_in_t * in, bool * to, size_t count, const char * field)
+{
+  const uint8_t * const from = take(in, count, 1U, field);
+
+  for (size_t i = 0U; (from != NULL) && (i < count); ++i) {
+    to[i] = from[i] != 0U;
+  }
+}
+
+uint32_t cdr_in_length(cdr_in_t * in, uint32_t width, const char * field)
+{
+  const uint8_t * const from = take(in, 1U, sizeof(uint32_t), field);
+  uint8_t bytes[sizeof(uint32_t)];
+  uint32_t length;
+
+  if (from == NULL) {
+    return 0U;
+  }
+  (void)memcpy(bytes, from, sizeof(bytes));
+  if (in->swap) {
+    turn(bytes, 1U, sizeof(bytes));
+  }
+  (void)memcpy((uint8_t *)&length, bytes, sizeof(length));
+  const uint32_t left = in->size - in->position;
+  if (((uint64_t)length * width) > left) {
+    cdr_in_refuse(in, CDR_FAULT_END, field, (uint64_t)length * width, left);
+    return 0U;
+  }
+  return length;
+}
+
+/** Read the length of a sequence of elements of at least `width` bytes; return where they go. */
+static void * get_size(
+  cdr_in_t * in, void * sequence, uint32_t bound, uint32_t width, const char * field, uint32_t * size)
+{
+  sequence_t known;
+  uint32_t length = cdr_in_length(in, width, field);
+
+  (void)memcpy(&known, sequence, sizeof(known));
+  const uint32_t limit = cdr_in_limit((known.data == NULL) ? 0U : known.capacity, bound);
+  if (length > limit) {
+    cdr_in_refuse_above(in, field, length, limit, bound);
+    length = 0U;
+  }
+  known.size = length;
+  (void)memcpy(sequence, &known, sizeof(known));
+  *size = length;
+  return known.data;
+}
+
+void cdr_get_size(cdr_in_t * in, void * sequence, uint32_t bound, const char * field)
+{
+  uint32_t size;
+
+  (void)get_size(in, sequence, bound, 1U, field, &size);
+}
+
+static void get_sequence(cdr_in_t * in, void * sequence, uint32_t bound, uint32_t width, const char * field)
+{
+  uint32_t size;
+  void * const data = get_size(in, sequence, bound, width, field, &size);
+
+  get_numbers(in, data, size, width, field);
+}
+
+void cdr_get_sequence_1(cdr_in_t * in, void * sequence, uint32_t bound, const char * field)
+{
+  get_sequence(in, sequence, bound, 1U, field);
+}
+
+void cdr_get_sequence_2(cdr_in_t * in, void * sequence, uint32_t bound, const char * field)
+{
+  get_sequence(in, sequence, bound, 2U, field);
+}
+
+void cdr_get_sequence_4(cdr_in_t * in, void * sequence, uint32_t bound, const char * field)
+{
+  get_sequence(in, sequence, bound, 4U, field);
+}
+
+void cdr_get_sequence_8(cdr_in_t * in, void * sequence, uint32_t bound, const char * field)
+{
+  get_sequence(in, sequence, bound, 8U, field);
+}
+
+void cdr_get_sequence_bool(cdr_in_t * in, void * sequence, uint32_t bound, const char * field)
+{
+  uint32_t size;
+  bool * const data = (bool *)get_size(in, sequence, bound, 1U, field, &size);
+
+  cdr_get_bool(in, data, size, field);
+}

@@ -1,0 +1,301 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/xrce_creation.h"
+
+#include "microros/lock.h"
+#include "microros/port.h"
+#include "microros/xrce_client.h"
+#include "microros/xrce_wire.h"
+
+#include <string.h>
+
+enum { NO_PLACE = 0xffff, STATUS_SIZE = 6 };
+
+/* Submessage header, request id, object id; then kind, format, padding and the description's length. */
+enum {
+  REQUEST_AT = 4,
+  OBJECT_AT = 6,
+  KIND_AT = 8,
+  FORMAT_AT = 9,
+  LENGTH_AT = 12,
+  BLOB_AT = 16,
+  DELETE_SIZE = 8
+};
+
+static const uint8_t writer_kinds[] = {XRCE_KIND_TOPIC, XRCE_KIND_PUBLISHER, XRCE_KIND_DATAWRITER};
+static const uint8_t reader_kinds[] = {XRCE_KIND_TOPIC, XRCE_KIND_SUBSCRIBER, XRCE_KIND_DATAREADER};
+
+/* Returns what the object of an endpoint is that comes after `level` others. */
+static uint8_t entities_kind(uint16_t place, uint8_t level)
+{
+  if (xrce_place_is_service(place)) {
+    return place < XRCE_REQUESTERS_AT ? (uint8_t)XRCE_KIND_REPLIER : (uint8_t)XRCE_KIND_REQUESTER;
+  }
+  return xrce_place_is_reader(place) ? reader_kinds[level] : writer_kinds[level];
+}
+
+const xrce_endpoint_t * xrce_entities_endpoint(const xrce_client_t * client, uint16_t place)
+{
+  return &client->endpoints[place - MICROROS_NODES_MAX];
+}
+
+uint8_t * xrce_describe_text(uint8_t * at, const char * text)
+{
+  while (*text != '\0') {
+    *at++ = (uint8_t)*text++;
+  }
+  return at;
+}
+
+/* Returns how many objects the place should have at the agent. */
+static uint8_t entities_goal(const xrce_client_t * client, uint16_t place)
+{
+  const xrce_object_state_t * state = &client->states[place];
+
+  if (!state->wanted || state->stale) {
+    return 0;
+  }
+  return xrce_place_complete(place);
+}
+
+/* Whether a place can move on: an endpoint needs its participant, a participant outlives its endpoints. */
+static bool entities_is_free(const xrce_client_t * client, uint16_t place, uint8_t goal)
+{
+  if (!xrce_place_is_participant(place)) {
+    const xrce_object_state_t * parent = &client->states[xrce_entities_endpoint(client, place)->participant];
+
+    return goal == 0u || (parent->level != 0u && !parent->stale);
+  }
+  if (goal == 0u) {
+    for (uint16_t i = 0; i < (uint16_t)XRCE_ENDPOINTS; ++i) {
+      if (client->endpoints[i].participant == place && client->states[MICROROS_NODES_MAX + i].level != 0u) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+static void entities_next_place(xrce_entities_t * entities)
+{
+  const uint16_t next = (uint16_t)(entities->cursor + 1u);
+
+  entities->cursor = next < XRCE_PLACES ? next : 0u;
+}
+
+/* Lets the next step look for work at once. */
+static void entities_wake(xrce_entities_t * entities, uint32_t now)
+{
+  entities->pending = true;
+  if (!entities->outstanding) {
+    entities->due_ms = now;
+  }
+}
+
+void xrce_entities_renew(xrce_client_t * client, uint32_t now)
+{
+  for (size_t place = 0; place < XRCE_PLACES; ++place) {
+    xrce_object_state_t * state = &client->states[place];
+
+    if (state->wanted && (!state->stale || state->level == 0u)) {
+      state->level = 0;
+      state->stale = false;
+    }
+  }
+  client->entities.outstanding = false;
+  entities_wake(&client->entities, now);
+}
+
+bool xrce_entities_settled(const xrce_client_t * client)
+{
+  return !client->entities.pending;
+}
+
+static void entities_refuse(xrce_client_t * client, uint8_t status, uint32_t now)
+{
+  xrce_entities_t * entities = &client->entities;
+
+  ++client->session.statistics.refused;
+  if (!client->states[entities->cursor].stale) {
+    entities->refused_place = entities->cursor;
+    entities->refused_status = status;
+  }
+  entities->due_ms = now + MICROROS_RETRY_FIRST_MS;
+  entities_next_place(entities); /* others first */
+}
+
+/* Behind the description: a participant's domain, at an even place; the parent's id of other objects. */
+static uint8_t * entities_put_owner(
+  const xrce_client_t * client, uint16_t place, uint8_t kind, uint8_t * end, bool odd)
+{
+  uint16_t parent;
+
+  if (kind == XRCE_KIND_PARTICIPANT) {
+    *end = 0;
+    end += odd ? 1 : 0;
+    xrce_put_le16(end, client->participants[place].domain_id);
+    return &end[2];
+  }
+  parent = xrce_object_id(xrce_entities_endpoint(client, place)->participant, XRCE_KIND_PARTICIPANT);
+  if (kind == XRCE_KIND_DATAWRITER) {
+    parent = xrce_object_id((uint16_t)(place - MICROROS_NODES_MAX), XRCE_KIND_PUBLISHER);
+  } else if (xrce_place_is_reader(place) && kind == XRCE_KIND_DATAREADER) {
+    parent = xrce_object_id((uint16_t)(place - MICROROS_NODES_MAX), XRCE_KIND_SUBSCRIBER);
+  }
+  xrce_put_be16(end, parent);
+  return &end[2];
+}
+
+/* Writes what CREATE has behind the object's id; returns its end. */
+static uint8_t * entities_put_object(
+  const xrce_client_t * client, uint16_t place, uint8_t kind, uint8_t * room)
+{
+  uint8_t * const blob = &room[BLOB_AT];
+  uint8_t * end;
+  uint16_t size;
+
+  (void)memset(&room[KIND_AT], 0, BLOB_AT - KIND_AT);
+  room[KIND_AT] = kind;
+  end = xrce_describe(client, place, kind, blob, &room[FORMAT_AT]);
+  size = xrce_size_between(blob, end);
+  xrce_put_le16(&room[LENGTH_AT], size);
+  return entities_put_owner(client, place, kind, end, (size & 1u) != 0u);
+}
+
+/* Sends the outstanding request. There is a session: what does not come was a lost datagram, and a caller waits. So the
+ * pause before it is sent again does not grow. */
+static void entities_send(xrce_client_t * client, uint32_t now)
+{
+  enum { CREATE_FLAGS = XRCE_FLAG_LITTLE_ENDIAN | XRCE_FLAG_REUSE | XRCE_FLAG_REPLACE };
+  xrce_entities_t * entities = &client->entities;
+  const uint16_t place = entities->cursor;
+  const bool participant = xrce_place_is_participant(place);
+  const uint8_t level = (uint8_t)(client->states[place].level - (entities->deleting ? 1u : 0u));
+  const uint8_t kind = participant ? (uint8_t)XRCE_KIND_PARTICIPANT : entities_kind(place, level);
+  const uint16_t index = participant ? place : (uint16_t)(place - MICROROS_NODES_MAX);
+  uint8_t * room = xrce_creation_room(client);
+  uint8_t * end = &room[DELETE_SIZE];
+
+  entities->due_ms = now + MICROROS_RETRY_FIRST_MS;
+  if (!entities->deleting) {
+    end = entities_put_object(client, place, kind, room);
+  }
+  xrce_put_submessage(
+    room, entities->deleting ? XRCE_DELETE : XRCE_CREATE,
+    entities->deleting ? XRCE_FLAG_LITTLE_ENDIAN : CREATE_FLAGS,
+    xrce_size_between(&room[XRCE_SUBMESSAGE_HEADER], end));
+  xrce_put_be16(&room[REQUEST_AT], entities->request);
+  xrce_put_be16(&room[OBJECT_AT], xrce_object_id(index, kind));
+  xrce_creation_send(client, xrce_size_between(room, end));
+}
+
+/* Begins the next request; false: there is nothing to do. */
+static bool entities_begin(xrce_client_t * client, uint32_t now)
+{
+  xrce_entities_t * entities = &client->entities;
+
+  for (size_t i = 0; i < XRCE_PLACES; ++i) {
+    const uint8_t level = client->states[entities->cursor].level;
+    const uint8_t goal = entities_goal(client, entities->cursor);
+
+    if (level != goal && entities_is_free(client, entities->cursor, goal)) {
+      if (!xrce_creation_begin(client, now)) {
+        return true;
+      }
+      entities->deleting = level > goal;
+      entities->outstanding = true;
+      entities->request = xrce_session_next_request(&client->session);
+      entities_send(client, now);
+      return true;
+    }
+    entities_next_place(entities);
+  }
+  return false;
+}
+
+void xrce_entities_step(xrce_client_t * client, uint32_t now)
+{
+  xrce_entities_t * entities = &client->entities;
+
+  if (!entities->pending || client->session.state != XRCE_READY || !xrce_is_due(now, entities->due_ms)) {
+    return;
+  }
+  if (entities->outstanding) {
+    entities_send(client, now);
+  } else {
+    entities->pending = entities_begin(client, now);
+  }
+}
+
+void xrce_entities_on_status(xrce_client_t * client, const uint8_t * payload, size_t size, uint32_t now)
+{
+  xrce_entities_t * entities = &client->entities;
+  xrce_object_state_t * state = &client->states[entities->cursor];
+
+  if (size < STATUS_SIZE) {
+    ++client->session.statistics.malformed;
+    return;
+  }
+  if (!entities->outstanding || xrce_get_be16(&payload[0]) != entities->request) {
+    return; /* the answer to a repetition, or to a request of another part */
+  }
+  xrce_creation_end(client);
+  entities->outstanding = false;
+  entities->due_ms = now;
+  if (entities->deleting) {
+    --state->level; /* whatever the agent says: an unknown object is what we wanted */
+  } else if (payload[4] <= XRCE_STATUS_OK_MATCHED) {
+    ++state->level;
+  } else {
+    entities_refuse(client, payload[4], now);
+  }
+  state->stale = state->stale && state->level != 0u;
+}
+
+void xrce_entities_add(xrce_client_t * client, uint16_t place)
+{
+  const xrce_entities_t * entities = &client->entities;
+  xrce_object_state_t * state = &client->states[place];
+
+  /* Also when the request of a former owner is still out: what comes of it is not what is wanted now. */
+  state->stale = state->level != 0u || (entities->outstanding && entities->cursor == place);
+  state->wanted = true;
+  entities_wake(&client->entities, client->session.now_ms);
+}
+
+void xrce_entities_remove(xrce_client_t * client, uint16_t place)
+{
+  client->states[place].wanted = false;
+  for (uint16_t i = 0; i < (uint16_t)XRCE_ENDPOINTS; ++i) {
+    if (client->endpoints[i].participant == place) {
+      client->states[MICROROS_NODES_MAX + i].wanted = false;
+    }
+  }
+  entities_wake(&client->entities, client->session.now_ms);
+}
+
+static bool entities_is_done(const xrce_client_t * client, uint16_t place)
+{
+  const xrce_object_state_t * state = &client->states[place];
+
+  return !state->stale && state->level == entities_goal(client, place);
+}
+
+uint8_t xrce_entities_await(xrce_client_t * client, uint16_t place, uint32_t timeout_ms)
+{
+  const uint32_t start = port_time_ms();
+
+  client->entities.refused_place = NO_PLACE;
+  for (;;) {
+    xrce_session_pump(client);
+    if (entities_is_done(client, place)) {
+      return XRCE_DONE;
+    }
+    if (client->entities.refused_place == place) {
+      return client->entities.refused_status;
+    }
+    if (port_time_ms() - start >= timeout_ms) {
+      return XRCE_SILENT;
+    }
+    microros_pause();
+  }
+}

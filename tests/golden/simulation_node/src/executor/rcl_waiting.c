@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/rcl_waiting.h"
+
+#include "microros/port.h"
+#include "microros/rcl_clock_source.h"
+#include "microros/rmw_client_wait.h"
+
+/* A millisecond is 15625 units of 64 ns: a divisor that leaves room for 16 more digits in 32 bits. */
+enum { NS_PER_MS = 1000000, UNIT_DIGITS = 6, UNITS_PER_MS = NS_PER_MS >> UNIT_DIGITS, STEP_DIGITS = 16 };
+
+/*
+ * Rounded up; UINT32_MAX for what is longer, and for what is negative. Divides as on paper, 16 binary digits at a time: a
+ * division of 64 bits would bring a function into the image that is larger than all waiting.
+ */
+static uint32_t waiting_ms(int64_t duration_ns)
+{
+  const int64_t longest_ns = (int64_t)(UINT32_MAX - 1u) * NS_PER_MS;
+  uint64_t units;
+  uint32_t rest = 0;
+  uint32_t whole_ms = 0;
+
+  if (duration_ns < 0 || duration_ns > longest_ns) {
+    return UINT32_MAX;
+  }
+  units = ((uint64_t)duration_ns + NS_PER_MS - 1u) >> UNIT_DIGITS; /* below 2^46 */
+  for (uint32_t shift = 3u * STEP_DIGITS; shift != 0u;) {
+    shift -= STEP_DIGITS;
+    rest = rest << STEP_DIGITS | (uint16_t)(units >> shift);
+    whole_ms = whole_ms << STEP_DIGITS | rest / UNITS_PER_MS;
+    rest %= UNITS_PER_MS;
+  }
+  return whole_ms;
+}
+
+rcl_waiting_t rcl_waiting_begin(int64_t timeout_ns)
+{
+  const rcl_waiting_t waiting = {port_time_ms(), waiting_ms(timeout_ns)};
+
+  return waiting;
+}
+
+void rcl_waiting_receive(void)
+{
+  rmw_client_pump();
+  rcl_clock_source_follow();
+}
+
+bool rcl_waiting_is_over(const rcl_waiting_t * waiting)
+{
+  return waiting->timeout_ms != UINT32_MAX && port_time_ms() - waiting->start_ms >= waiting->timeout_ms;
+}
+
+void rcl_waiting_rest(const rcl_waiting_t * waiting, int64_t look_again_ns)
+{
+  const uint32_t passed_ms = port_time_ms() - waiting->start_ms;
+  uint32_t rest_ms = waiting_ms(look_again_ns);
+
+  if (waiting->timeout_ms != UINT32_MAX) {
+    const uint32_t left_ms = passed_ms < waiting->timeout_ms ? waiting->timeout_ms - passed_ms : 0u;
+
+    rest_ms = left_ms < rest_ms ? left_ms : rest_ms;
+  }
+  if (rest_ms != 0u) {
+    rmw_client_wait(rest_ms);
+  }
+}

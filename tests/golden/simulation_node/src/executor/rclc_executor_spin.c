@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/error.h"
+#include "microros/executor_handles.h"
+#include "microros/port.h"
+#include "microros/rcl_waiting.h"
+
+/* Between rounds that end with an error at once. */
+enum { PAUSE_AFTER_ERROR_NS = 1000000 };
+
+/* Looks at all handles; *changed: one is ready that was not before. */
+static rcl_ret_t executor_look(const rclc_executor_t * executor, bool * changed, int64_t * look_again_ns)
+{
+  *changed = false;
+  *look_again_ns = INT64_MAX;
+  for (size_t i = 0; i < executor->index; ++i) {
+    rclc_executor_handle_t * handle = &executor->handles[i];
+    bool is_ready = false;
+    const rcl_ret_t result = handle->kind->look(handle, &is_ready, look_again_ns);
+
+    if (result != RCL_RET_OK) {
+      return result;
+    }
+    *changed = *changed || (is_ready && !handle->data_available);
+    handle->data_available = is_ready;
+  }
+  return RCL_RET_OK;
+}
+
+static rcl_ret_t executor_wait(const rclc_executor_t * executor, int64_t timeout_ns)
+{
+  const rcl_waiting_t waiting = rcl_waiting_begin(timeout_ns);
+
+  for (;;) {
+    bool changed = false;
+    int64_t look_again_ns = INT64_MAX;
+    rcl_ret_t result;
+
+    rcl_waiting_receive();
+    result = executor_look(executor, &changed, &look_again_ns);
+    if (result != RCL_RET_OK || changed || rcl_waiting_is_over(&waiting)) {
+      return result;
+    }
+    rcl_waiting_rest(&waiting, look_again_ns);
+  }
+}
+
+static rcl_ret_t handle_take(rclc_executor_handle_t * handle)
+{
+  const rcl_ret_t result = handle->data_available ? handle->kind->take(handle) : RCL_RET_OK;
+
+  if (result != RCL_RET_OK) {
+    handle->data_available = false;
+  }
+  return result;
+}
+
+static rcl_ret_t handle_call(rclc_executor_handle_t * handle)
+{
+  const bool calls = handle->data_available || handle->invocation == ALWAYS;
+
+  return calls ? handle->kind->call(handle) : RCL_RET_OK;
+}
+
+static void executor_note(rcl_ret_t * first, rcl_ret_t result)
+{
+  if (*first == RCL_RET_OK) {
+    *first = result;
+  }
+}
+
+/* A callback may remove handles, its own too: then the round goes on with the next but one. */
+static rcl_ret_t executor_process(const rclc_executor_t * executor)
+{
+  const bool takes_first = executor->data_comm_semantics == RCLC_SEMANTICS_LOGICAL_EXECUTION_TIME;
+  rcl_ret_t first = RCL_RET_OK;
+
+  for (size_t i = 0; i < executor->index && takes_first; ++i) {
+    executor_note(&first, handle_take(&executor->handles[i]));
+  }
+  for (size_t i = 0; i < executor->index; ++i) {
+    if (!takes_first) {
+      executor_note(&first, handle_take(&executor->handles[i]));
+    }
+    executor_note(&first, handle_call(&executor->handles[i]));
+  }
+  for (size_t i = 0; i < executor->index; ++i) {
+    executor->handles[i].data_available = false;
+  }
+  return first;
+}
+
+rcl_ret_t rclc_executor_spin_some(rclc_executor_t * executor, const uint64_t timeout_ns)
+{
+  rcl_ret_t result;
+
+  if (executor == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "executor");
+  }
+  if (executor->handles == NULL || !rcl_context_is_valid(executor->context)) {
+    return microros_error_refuse(RCL_RET_ERROR, "executor or its context");
+  }
+  result = executor_wait(executor, timeout_ns > (uint64_t)INT64_MAX ? -1 : (int64_t)timeout_ns);
+  if (
+    result == RCL_RET_OK &&
+    executor->trigger_function(
+      executor->handles, (unsigned int)executor->max_handles, executor->trigger_object)) {
+    result = executor_process(executor);
+  }
+  return result;
+}
+
+/* Whether rounds go on after one that gave `result`. */
+static bool executor_goes_on(const rclc_executor_t * executor, rcl_ret_t result)
+{
+  return result == RCL_RET_OK || result == RCL_RET_TIMEOUT ||
+         ((result == RCL_RET_ERROR || result == RCL_RET_BAD_ALLOC || result == RCL_RET_UNSUPPORTED) &&
+          executor->handles != NULL && rcl_context_is_valid(executor->context));
+}
+
+static void executor_rest(int64_t duration_ns)
+{
+  const rcl_waiting_t waiting = rcl_waiting_begin(duration_ns > 0 ? duration_ns : 0);
+
+  while (!rcl_waiting_is_over(&waiting)) {
+    rcl_waiting_rest(&waiting, INT64_MAX);
+    rcl_waiting_receive();
+  }
+}
+
+rcl_ret_t rclc_executor_spin(rclc_executor_t * executor)
+{
+  if (executor == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "executor");
+  }
+  for (;;) {
+    const rcl_ret_t result = rclc_executor_spin_some(executor, executor->timeout_ns);
+
+    if (!executor_goes_on(executor, result)) {
+      return result;
+    }
+    if (result != RCL_RET_OK) {
+      executor_rest(PAUSE_AFTER_ERROR_NS);
+    }
+  }
+}
+
+rcl_ret_t rclc_executor_spin_one_period(rclc_executor_t * executor, const uint64_t period)
+{
+  rcl_ret_t result;
+
+  if (executor == NULL || period > (uint64_t)INT64_MAX) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "executor or period");
+  }
+  if (executor->invocation_time == 0) {
+    executor->invocation_time = port_time_steady_ns();
+  }
+  result = rclc_executor_spin_some(executor, executor->timeout_ns);
+  if (executor_goes_on(executor, result)) {
+    executor->invocation_time += (int64_t)period;
+    executor_rest(executor->invocation_time - port_time_steady_ns());
+  }
+  return result;
+}
+
+rcl_ret_t rclc_executor_spin_period(rclc_executor_t * executor, const uint64_t period)
+{
+  rcl_ret_t result;
+
+  do {
+    result = rclc_executor_spin_one_period(executor, period);
+  } while (executor != NULL && executor_goes_on(executor, result));
+  return result;
+}

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/rmw_names.h"
+
+#include "microros/text.h"
+
+enum { PIECES = 4 };
+
+rmw_name_t rmw_name_of_namespace(const char * namespace_)
+{
+  const rmw_name_t name = {{namespace_[0] == '/' ? "" : "/", namespace_, "", ""}};
+
+  return name;
+}
+
+rmw_name_t rmw_name_of_topic(const char * topic, const char * node, const char * namespace_)
+{
+  rmw_name_t name = {{topic, "", "", ""}};
+
+  if (topic[0] != '/') {
+    name.piece[0] = namespace_[1] == '\0' ? "" : namespace_;
+    name.piece[1] = "/";
+    if (topic[0] == '~') {
+      name.piece[2] = node;
+      name.piece[3] = topic + 1;
+    } else {
+      name.piece[2] = topic;
+    }
+  }
+  return name;
+}
+
+bool rmw_name_equals(const rmw_name_t * name, const char * text)
+{
+  for (size_t i = 0; i < PIECES; ++i) {
+    for (const char * at = name->piece[i]; *at != '\0'; ++at, ++text) {
+      if (*at != *text) {
+        return false;
+      }
+    }
+  }
+  return *text == '\0';
+}
+
+size_t rmw_name_size(const rmw_name_t * name)
+{
+  size_t size = 0;
+
+  for (size_t i = 0; i < PIECES; ++i) {
+    size += microros_text_size(name->piece[i]);
+  }
+  return size;
+}
+
+void rmw_name_copy(const rmw_name_t * name, char * buffer)
+{
+  for (size_t i = 0; i < PIECES; ++i) {
+    for (const char * at = name->piece[i]; *at != '\0'; ++at) {
+      *buffer++ = *at;
+    }
+  }
+  *buffer = '\0';
+}

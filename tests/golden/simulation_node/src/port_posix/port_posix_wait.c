@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A pipe wakes who waits: any thread may write to it, and a signal handler once something has waited. */
+#define _POSIX_C_SOURCE 200809L
+#include "microros/port.h"
+
+#include <fcntl.h>
+#include <limits.h>
+#include <poll.h>
+#include <pthread.h>
+#include <stddef.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+enum { OUT = 0, IN = 1, ENDS = 2 };
+
+static int wake_pipe[ENDS] = {-1, -1};
+
+static bool wake_make_end(int end)
+{
+  const int flags = fcntl(end, F_GETFL);
+
+  return flags >= 0 && fcntl(end, F_SETFL, flags | O_NONBLOCK) >= 0 && fcntl(end, F_SETFD, FD_CLOEXEC) >= 0;
+}
+
+/* Without a pipe, waits end by their time-out. */
+static void wake_open(void)
+{
+  int ends[ENDS];
+
+  if (pipe(ends) != 0) {
+    return;
+  }
+  if (!wake_make_end(ends[OUT]) || !wake_make_end(ends[IN])) {
+    (void)close(ends[OUT]);
+    (void)close(ends[IN]);
+    return;
+  }
+  wake_pipe[OUT] = ends[OUT];
+  wake_pipe[IN] = ends[IN];
+}
+
+/* Returns an end of the one pipe, which is opened by whoever comes first; -1: there is none. */
+static int wake_end(int end)
+{
+  static pthread_once_t once = PTHREAD_ONCE_INIT;
+
+  (void)pthread_once(&once, wake_open);
+  return wake_pipe[end];
+}
+
+static void wake_drain(int end)
+{
+  char bytes[16];
+  ssize_t size;
+
+  do {
+    size = read(end, bytes, sizeof(bytes));
+  } while (size == (ssize_t)sizeof(bytes));
+}
+
+void port_wait(intptr_t handle, uint32_t timeout_ms)
+{
+  const int most_ms = timeout_ms > (uint32_t)INT_MAX ? INT_MAX : (int)timeout_ms;
+  const int wake = wake_end(OUT);
+  struct pollfd ends[] = {{wake, POLLIN, 0}, {(int)handle, POLLIN, 0}}; /* poll leaves out what is negative */
+
+  (void)poll(ends, sizeof(ends) / sizeof(ends[0]), most_ms); /* a signal ends it early, as may be */
+  if (wake >= 0) {
+    wake_drain(wake);
+  }
+}
+
+void port_wake(void)
+{
+  const int wake = wake_end(IN);
+  const char byte = 0;
+
+  if (wake >= 0) {
+    (void)!write(wake, &byte, 1); /* a full pipe wakes as well */
+  }
+}

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/rmw_qos.h"
+#include "microros/xrce_wire.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Nothing is asked for, or an age: RMW_DURATION_INFINITE has more than 2^33 seconds. */
+static bool qos_is_unlimited(const struct rmw_time_s * time)
+{
+  return (time->sec | time->nsec) == 0u || time->sec >> 33 != 0u;
+}
+
+static const char * qos_refuse(const rmw_qos_profile_t * qos)
+{
+  if (qos->reliability > RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT) {
+    return "reliability";
+  }
+  if (qos->durability > RMW_QOS_POLICY_DURABILITY_VOLATILE) {
+    return "durability";
+  }
+  if (qos->history > RMW_QOS_POLICY_HISTORY_KEEP_ALL) {
+    return "history";
+  }
+  if (qos->depth > UINT16_MAX) {
+    return "depth";
+  }
+  if (!qos_is_unlimited(&qos->deadline)) {
+    return "deadline, unless it is declared";
+  }
+  if (!qos_is_unlimited(&qos->lifespan)) {
+    return "lifespan, unless it is declared";
+  }
+  if (
+    qos->liveliness > RMW_QOS_POLICY_LIVELINESS_AUTOMATIC ||
+    !qos_is_unlimited(&qos->liveliness_lease_duration)) {
+    return "liveliness";
+  }
+  return qos->avoid_ros_namespace_conventions ? "avoid_ros_namespace_conventions" : NULL;
+}
+
+const char * rmw_qos_to_xrce(const rmw_qos_profile_t * qos, uint8_t * flags, uint16_t * depth)
+{
+  const char * refused = qos_refuse(qos);
+
+  if (refused != NULL) {
+    return refused;
+  }
+  *flags = 0;
+  if (qos->reliability != RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT) {
+    *flags |= XRCE_QOS_RELIABLE;
+  }
+  if (qos->history != RMW_QOS_POLICY_HISTORY_KEEP_ALL) {
+    *flags |= XRCE_QOS_KEEP_LAST;
+  }
+  if (qos->durability == RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL) {
+    *flags |= XRCE_QOS_TRANSIENT_LOCAL;
+  }
+  *depth = (uint16_t)qos->depth;
+  return NULL;
+}

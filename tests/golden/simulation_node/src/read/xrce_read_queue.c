@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The queues: rings of slots, each of one size. */
+#include "microros/xrce_client.h"
+#include "microros/xrce_read.h"
+
+#include <string.h>
+
+static xrce_receiver_t * queue_of(const xrce_endpoint_t * endpoint)
+{
+  return &endpoint->client->receivers[endpoint->index - MICROROS_PUBLISHERS_MAX];
+}
+
+/* Returns which slot of the ring the i-th sample has. */
+static uint8_t queue_slot(const xrce_receiver_t * receiver, const xrce_queue_t * queue, uint8_t i)
+{
+  const uint32_t slot = (uint32_t)receiver->head + i;
+
+  return (uint8_t)(slot < queue->slots ? slot : slot - queue->slots);
+}
+
+static void queue_drop_oldest(xrce_receiver_t * receiver, const xrce_queue_t * queue)
+{
+  receiver->head = queue_slot(receiver, queue, 1);
+  --receiver->count;
+}
+
+void xrce_read_open(const xrce_endpoint_t * endpoint)
+{
+  xrce_receiver_t * receiver = queue_of(endpoint);
+
+  (void)memset(receiver, 0, sizeof(*receiver));
+  receiver->due_ms = endpoint->client->session.now_ms;
+}
+
+void xrce_read_keep(
+  xrce_client_t * client, xrce_receiver_t * receiver, const xrce_sample_t * sample, bool reliable)
+{
+  const xrce_queue_t * queue = xrce_read_queue(client, receiver);
+  xrce_slot_t * slot;
+  uint8_t place;
+
+  if (receiver->count == queue->slots) {
+    ++receiver->dropped;
+    ++client->session.statistics.dropped;
+    if (reliable) {
+      return;
+    }
+    queue_drop_oldest(receiver, queue);
+  }
+  place = queue_slot(receiver, queue, receiver->count);
+  slot = &client->slots[queue->first + place];
+  slot->arrived_ms = sample->arrived_ms;
+  slot->size = sample->size;
+  slot->big_endian = sample->big_endian;
+  (void)memcpy(
+    &client->queues[queue->offset + (uint32_t)place * queue->slot_size], sample->data, sample->size);
+  ++receiver->count;
+}
+
+bool xrce_read_peek(const xrce_endpoint_t * endpoint, xrce_sample_t * sample)
+{
+  const xrce_client_t * client = endpoint->client;
+  const xrce_receiver_t * receiver = queue_of(endpoint);
+  const xrce_queue_t * queue = xrce_read_queue(client, receiver);
+  const xrce_slot_t * slot = &client->slots[queue->first + receiver->head];
+
+  if (receiver->count == 0u) {
+    return false;
+  }
+  sample->data = &client->queues[queue->offset + (uint32_t)receiver->head * queue->slot_size];
+  sample->arrived_ms = slot->arrived_ms;
+  sample->size = slot->size;
+  sample->big_endian = slot->big_endian;
+  return true;
+}
+
+void xrce_read_pop(const xrce_endpoint_t * endpoint, bool refused)
+{
+  xrce_receiver_t * receiver = queue_of(endpoint);
+
+  if (refused) {
+    ++receiver->refused;
+    ++endpoint->client->session.statistics.dropped;
+  }
+  queue_drop_oldest(receiver, xrce_read_queue(endpoint->client, receiver));
+}
+
+bool xrce_read_is_ready(const xrce_endpoint_t * endpoint)
+{
+  const xrce_receiver_t * receiver = queue_of(endpoint);
+
+  return receiver->count != 0u || receiver->large != 0u || receiver->status != 0u;
+}
+
+uint16_t xrce_read_large(const xrce_endpoint_t * endpoint, uint16_t * fits)
+{
+  xrce_receiver_t * receiver = queue_of(endpoint);
+  const uint16_t large = receiver->large;
+
+  *fits = xrce_read_queue(endpoint->client, receiver)->slot_size;
+  receiver->large = 0;
+  return large;
+}
+
+uint8_t xrce_read_status(const xrce_endpoint_t * endpoint)
+{
+  xrce_receiver_t * receiver = queue_of(endpoint);
+  const uint8_t status = receiver->status;
+
+  receiver->status = 0;
+  return status;
+}
+
+xrce_read_counters_t xrce_read_counters(const xrce_endpoint_t * endpoint)
+{
+  const xrce_receiver_t * receiver = queue_of(endpoint);
+  const xrce_read_counters_t counters = {receiver->dropped, receiver->refused};
+
+  return counters;
+}

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "rosidl_runtime_c/primitives_sequence_functions.h"
+
+#include "rcutils/allocator.h"
+
+#include <string.h>
+
+static void * sequence_allocate(size_t size, size_t element_size)
+{
+  rcutils_allocator_t allocator = rcutils_get_default_allocator();
+
+  return allocator.zero_allocate(size, element_size, allocator.state);
+}
+
+static void sequence_deallocate(void * data)
+{
+  if (data != NULL) {
+    rcutils_allocator_t allocator = rcutils_get_default_allocator();
+
+    allocator.deallocate(data, allocator.state);
+  }
+}
+
+/* One group of functions for each type: C has no other way to say it once. Elements are compared as numbers
+ * are. */
+#define PRIMITIVE_SEQUENCE_FUNCTIONS(NAME, SEQUENCE, TYPE) \
+  bool rosidl_runtime_c__##NAME##__Sequence__init( \
+    rosidl_runtime_c__##SEQUENCE##__Sequence * sequence, size_t size) \
+  { \
+    TYPE * data = NULL; \
+    if (sequence == NULL) { \
+      return false; \
+    } \
+    if (size != 0u) { \
+      data = sequence_allocate(size, sizeof(TYPE)); \
+      if (data == NULL) { \
+        return false; \
+      } \
+    } \
+    sequence->data = data; \
+    sequence->size = size; \
+    sequence->capacity = size; \
+    return true; \
+  } \
+  void rosidl_runtime_c__##NAME##__Sequence__fini(rosidl_runtime_c__##SEQUENCE##__Sequence * sequence) \
+  { \
+    if (sequence == NULL) { \
+      return; \
+    } \
+    sequence_deallocate(sequence->data); \
+    sequence->data = NULL; \
+    sequence->size = 0; \
+    sequence->capacity = 0; \
+  } \
+  bool rosidl_runtime_c__##NAME##__Sequence__are_equal( \
+    const rosidl_runtime_c__##SEQUENCE##__Sequence * lhs, \
+    const rosidl_runtime_c__##SEQUENCE##__Sequence * rhs) \
+  { \
+    if (lhs == NULL || rhs == NULL || lhs->size != rhs->size) { \
+      return false; \
+    } \
+    for (size_t i = 0; i < lhs->size; ++i) { \
+      if (lhs->data[i] != rhs->data[i]) { \
+        return false; \
+      } \
+    } \
+    return true; \
+  } \
+  bool rosidl_runtime_c__##NAME##__Sequence__copy( \
+    const rosidl_runtime_c__##SEQUENCE##__Sequence * input, \
+    rosidl_runtime_c__##SEQUENCE##__Sequence * output) \
+  { \
+    if (input == NULL || output == NULL) { \
+      return false; \
+    } \
+    if (output->capacity < input->size) { \
+      TYPE * data = sequence_allocate(input->size, sizeof(TYPE)); \
+      if (data == NULL) { \
+        return false; \
+      } \
+      sequence_deallocate(output->data); \
+      output->data = data; \
+      output->capacity = input->size; \
+    } \
+    if (input->size != 0u) { \
+      (void)memcpy(output->data, input->data, input->size * sizeof(TYPE)); \
+    } \
+    output->size = input->size; \
+    return true; \
+  }
+
+PRIMITIVE_SEQUENCE_FUNCTIONS(float, float, float)
+PRIMITIVE_SEQUENCE_FUNCTIONS(double, double, double)
+PRIMITIVE_SEQUENCE_FUNCTIONS(long_double, long_double, long double)
+PRIMITIVE_SEQUENCE_FUNCTIONS(char, char, signed char)
+PRIMITIVE_SEQUENCE_FUNCTIONS(wchar, wchar, uint16_t)
+PRIMITIVE_SEQUENCE_FUNCTIONS(boolean, boolean, bool)
+PRIMITIVE_SEQUENCE_FUNCTIONS(octet, octet, uint8_t)
+PRIMITIVE_SEQUENCE_FUNCTIONS(uint8, uint8, uint8_t)
+PRIMITIVE_SEQUENCE_FUNCTIONS(int8, int8, int8_t)
+PRIMITIVE_SEQUENCE_FUNCTIONS(uint16, uint16, uint16_t)
+PRIMITIVE_SEQUENCE_FUNCTIONS(int16, int16, int16_t)
+PRIMITIVE_SEQUENCE_FUNCTIONS(uint32, uint32, uint32_t)
+PRIMITIVE_SEQUENCE_FUNCTIONS(int32, int32, int32_t)
+PRIMITIVE_SEQUENCE_FUNCTIONS(uint64, uint64, uint64_t)
+PRIMITIVE_SEQUENCE_FUNCTIONS(int64, int64, int64_t)
+PRIMITIVE_SEQUENCE_FUNCTIONS(bool, boolean, bool)
+PRIMITIVE_SEQUENCE_FUNCTIONS(byte, octet, uint8_t)
+PRIMITIVE_SEQUENCE_FUNCTIONS(float32, float, float)
+PRIMITIVE_SEQUENCE_FUNCTIONS(float64, double, double)

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "rosidl_runtime_c/string_functions.h"
+
+#include "rcutils/allocator.h"
+
+#include <stdint.h>
+#include <string.h>
+
+static char * string_empty(void)
+{
+  static char nothing = 0; /* what every empty string points to: threads share it, so nobody writes to it */
+
+  return &nothing;
+}
+
+bool rosidl_runtime_c__String__init(rosidl_runtime_c__String * str)
+{
+  if (str == NULL) {
+    return false;
+  }
+  str->data = string_empty();
+  str->size = 0;
+  str->capacity = 1;
+  return true;
+}
+
+static void string_give_back(rosidl_runtime_c__String * str)
+{
+  if (str->data != NULL && str->data != string_empty()) {
+    rcutils_allocator_t allocator = rcutils_get_default_allocator();
+
+    allocator.deallocate(str->data, allocator.state);
+  }
+}
+
+void rosidl_runtime_c__String__fini(rosidl_runtime_c__String * str)
+{
+  if (str == NULL) {
+    return;
+  }
+  string_give_back(str);
+  str->data = NULL;
+  str->size = 0;
+  str->capacity = 0;
+}
+
+/* Makes room for `size` units and the terminator. */
+static bool string_make_room(rosidl_runtime_c__String * str, size_t size)
+{
+  rcutils_allocator_t allocator;
+  char * data;
+
+  if (str->data != NULL && str->capacity > size && (str->data != string_empty() || size == 0u)) {
+    return true;
+  }
+  if (size >= SIZE_MAX) {
+    return false;
+  }
+  allocator = rcutils_get_default_allocator();
+  data = allocator.allocate(size + 1u, allocator.state);
+  if (data == NULL) {
+    return false;
+  }
+  string_give_back(str);
+  str->data = data;
+  str->capacity = size + 1u;
+  return true;
+}
+
+bool rosidl_runtime_c__String__assignn(rosidl_runtime_c__String * str, const char * value, size_t n)
+{
+  if (str == NULL || value == NULL || !string_make_room(str, n)) {
+    return false;
+  }
+  if (str->data != string_empty()) {
+    (void)memmove(str->data, value, n);
+    str->data[n] = '\0';
+  }
+  str->size = n;
+  return true;
+}
+
+bool rosidl_runtime_c__String__assign(rosidl_runtime_c__String * str, const char * value)
+{
+  return value != NULL && rosidl_runtime_c__String__assignn(str, value, strlen(value));
+}
+
+bool rosidl_runtime_c__String__copy(const rosidl_runtime_c__String * input, rosidl_runtime_c__String * output)
+{
+  return input != NULL && rosidl_runtime_c__String__assignn(output, input->data, input->size);
+}
+
+bool rosidl_runtime_c__String__are_equal(
+  const rosidl_runtime_c__String * lhs, const rosidl_runtime_c__String * rhs)
+{
+  if (lhs == NULL || rhs == NULL || lhs->size != rhs->size) {
+    return false;
+  }
+  return lhs->size == 0u || memcmp(lhs->data, rhs->data, lhs->size) == 0;
+}

@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* errors: text. The words of the library are here, but for those of a component that brings its own. */
+#include "microros/error.h"
+#include "microros/error_state.h"
+#include "microros/lock.h"
+#include "microros/xrce_transport.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/*
+ * %s name, %d detail, %n found, %m fits; %t name is a DDS type, written as ROS does, %D detail is one; %a
+ * found is a status of the agent; %y where to change that.
+ */
+const char microros_error_argument[] = "%s: NULL or not initialized";
+const char microros_error_context_in_use[] = "a context is open already: there is one session";
+const char microros_error_transport[] = "no transport to " XRCE_PLACE_N;
+const char microros_error_agent_silent[] = "no agent answers at " XRCE_PLACE_N " within %m ms";
+const char microros_error_agent_refused[] = "the agent at " XRCE_PLACE_M " refuses the session: %a";
+const char microros_error_address[] = "address %s or port %d is not valid (host: up to %m bytes)";
+const char microros_error_name[] = "name '%s': %d";
+const char microros_error_name_long[] = "name '%s' takes %n bytes: set pools: {name_size: %m}%y";
+const char microros_error_node_undeclared[] = "node not declared: add to nodes:%y: {name: %s, namespace: %d}";
+const char microros_error_node_open[] = "node %s is open already";
+const char microros_error_nodes_full[] = "all %n nodes are open: set pools: {nodes: %m}%y";
+const char microros_error_publisher_undeclared[] =
+  "publisher not declared: add to its node's publishers:%y: {topic: %s, type: %D}";
+const char microros_error_publisher_open[] = "publisher %s is open already";
+const char microros_error_publishers_full[] = "all %n publishers are open: set pools: {publishers: %m}%y";
+const char microros_error_stream_small[] =
+  "%t takes %n bytes and its stream holds %m: declare the publisher with its qos%y";
+const char microros_error_qos[] = "publisher %s: XRCE carries no such QoS: %d";
+const char microros_error_entity_silent[] = "%d %s: no answer of the agent within %m ms";
+const char microros_error_entity_refused[] = "%d %s: the agent refuses it: %a (entities%y)";
+const char microros_error_field[] = "%t.%d: %n, limit %m: raise limits%y";
+const char microros_error_field_bound[] = "%t.%d: %n, and its interface file allows %m";
+const char microros_error_field_capacity[] =
+  "%t.%d: %n, capacity for %m: raise limits%y, or that of your buffer";
+const char microros_error_field_data[] = "%t.%d has a size, %n, and no data: NULL";
+const char microros_error_no_session[] = "publisher %s: no session with the agent";
+const char microros_error_not_sent[] = "publisher %s: the transport takes nothing";
+const char microros_error_arena[] = "no memory for %n bytes: raise memory: {arena: %m}%y";
+const char microros_error_serialized[] = "serialized message: not little endian CDR, or %n bytes above %m";
+const char microros_error_domain[] = "domain %n is above %m";
+const char microros_error_device[] = "serial device %s: more than %m bytes, or none";
+const char microros_error_custom_unset[] =
+  "rmw_uros_set_custom_transport was not called before, or refused its arguments";
+const char microros_error_encapsulation[] = "%t: representation %n is not plain CDR (0 or %m)";
+const char microros_error_not_received[] = "%t has no decoder: no profile that receives it";
+const char microros_error_body_end[] = "%t.%d: the message ends: %n bytes needed, %m left";
+const char microros_error_value[] = "%t.%d: %n is above %m";
+const char microros_error_memory_rule[] = "memory rule '%d' names no string or sequence of %t";
+const char microros_error_memory_given[] = "the allocator gives no memory for %n bytes";
+const char microros_error_pool_full[] = "%n %s are all there are: set pools: {%s: %m}%y";
+const char microros_error_memory_buffer[] = "the buffer has %n bytes and the message takes %m";
+const char microros_error_framing[] = "custom transport: set transport: {framing: %d}%y";
+
+/* From status 0x80 on (OMG DDS-XRCE 1.0, 7.7.2). */
+static const char * const statuses[] = {"DDS_ERROR",         "MISMATCH",     "ALREADY_EXISTS", "DENIED",
+                                        "UNKNOWN_REFERENCE", "INVALID_DATA", "INCOMPATIBLE",   "RESOURCES"};
+
+enum { STATUS_FIRST = 0x80, STATUS_LAST = 0x87 };
+
+typedef struct text_t {
+  char * at;
+  char * end; /* where the NUL goes at the latest */
+} text_t;
+
+static void text_put(text_t * text, char c)
+{
+  if (text->at != text->end) {
+    *text->at++ = c;
+  }
+}
+
+static void text_put_string(text_t * text, const char * words)
+{
+  while (words != NULL && *words != '\0') {
+    text_put(text, *words++);
+  }
+}
+
+static void text_put_number(text_t * text, uint32_t number)
+{
+  char digits[10];
+  size_t first = sizeof(digits);
+
+  do {
+    digits[--first] = (char)('0' + (char)(number % 10u));
+    number /= 10u;
+  } while (number != 0u);
+  while (first < sizeof(digits)) {
+    text_put(text, digits[first++]);
+  }
+}
+
+/* "std_msgs::msg::dds_::Int32_" becomes "std_msgs/msg/Int32". */
+static void text_put_type(text_t * text, const char * dds_type)
+{
+  uint32_t part = 0;
+
+  for (const char * at = dds_type; *at != '\0'; ++at) {
+    if (at[0] == ':') {
+      ++at;
+      if (part != 2u) {
+        text_put(text, '/');
+      }
+      ++part;
+    } else if (part != 2u && (at[0] != '_' || at[1] != '\0')) {
+      text_put(text, *at);
+    }
+  }
+}
+
+static void text_put_status(text_t * text, uint32_t status)
+{
+  if (status >= STATUS_FIRST && status <= STATUS_LAST) {
+    text_put_string(text, statuses[status - STATUS_FIRST]);
+  } else {
+    text_put_number(text, status);
+  }
+}
+
+static text_t error_begin(const char * file, size_t line_number)
+{
+  rcutils_error_state_t * state = microros_error_state();
+  const text_t text = {state->message, &state->message[sizeof(state->message) - 1u]};
+
+  state->file = file;
+  state->line_number = line_number;
+  return text;
+}
+
+void microros_error_set(
+  microros_error_t error, const char * name, const char * detail, uint32_t found, uint32_t fits)
+{
+  text_t text;
+
+  microros_lock();
+  text = error_begin(NULL, 0);
+  for (const char * at = error; *at != '\0'; ++at) {
+    if (*at != '%') {
+      text_put(&text, *at);
+      continue;
+    }
+    ++at;
+    switch (*at) {
+      case 's':
+        text_put_string(&text, name);
+        break;
+      case 'd':
+        text_put_string(&text, detail);
+        break;
+      case 't':
+        text_put_type(&text, name);
+        break;
+      case 'D':
+        text_put_type(&text, detail);
+        break;
+      case 'n':
+        text_put_number(&text, found);
+        break;
+      case 'm':
+        text_put_number(&text, fits);
+        break;
+      case 'a':
+        text_put_status(&text, found);
+        break;
+      default:
+        text_put_string(&text, " in microros.yaml");
+        break;
+    }
+  }
+  *text.at = '\0';
+  microros_unlock();
+}
+
+void rcutils_set_error_state(const char * error_string, const char * file, size_t line_number)
+{
+  text_t text;
+
+  microros_lock();
+  text = error_begin(file, line_number);
+  text_put_string(&text, error_string);
+  *text.at = '\0';
+  microros_unlock();
+}
+
+int32_t microros_error_named(int32_t result, microros_error_t error, const char * name)
+{
+  microros_error_set(error, name, NULL, 0, 0);
+  return result;
+}
+
+int32_t microros_error_refuse(int32_t result, const char * argument)
+{
+  return microros_error_named(result, microros_error_argument, argument);
+}

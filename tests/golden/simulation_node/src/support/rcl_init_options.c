@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "rcl/init_options.h"
+
+#include "microros/error.h"
+#include "rcl/domain_id.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+/* Ports of higher domains would pass 65535 (RTPS 2.5, 9.6.1.1). */
+enum { DOMAIN_MOST = 232 };
+
+static bool options_are_valid(const rcl_init_options_t * init_options)
+{
+  if (init_options == NULL || init_options->rmw.implementation_identifier == NULL) {
+    microros_error_set(microros_error_argument, "init_options", NULL, 0, 0);
+    return false;
+  }
+  return true;
+}
+
+rcl_init_options_t rcl_get_zero_initialized_init_options(void)
+{
+  rcl_init_options_t options;
+
+  (void)memset(&options, 0, sizeof(options));
+  return options;
+}
+
+rcl_ret_t rcl_init_options_init(rcl_init_options_t * init_options, rcl_allocator_t allocator)
+{
+  if (init_options != NULL && init_options->rmw.implementation_identifier != NULL) {
+    return microros_error_refuse(RCL_RET_ALREADY_INIT, "init_options");
+  }
+  return rmw_init_options_init(init_options != NULL ? &init_options->rmw : NULL, allocator);
+}
+
+rcl_ret_t rcl_init_options_copy(const rcl_init_options_t * src, rcl_init_options_t * dst)
+{
+  if (dst == NULL || !options_are_valid(src)) {
+    return RCL_RET_INVALID_ARGUMENT;
+  }
+  return rmw_init_options_copy(&src->rmw, &dst->rmw);
+}
+
+rcl_ret_t rcl_init_options_fini(rcl_init_options_t * init_options)
+{
+  if (!options_are_valid(init_options)) {
+    return RCL_RET_INVALID_ARGUMENT;
+  }
+  return rmw_init_options_fini(&init_options->rmw);
+}
+
+rcl_ret_t rcl_init_options_get_domain_id(const rcl_init_options_t * init_options, size_t * domain_id)
+{
+  if (domain_id == NULL || !options_are_valid(init_options)) {
+    return RCL_RET_INVALID_ARGUMENT;
+  }
+  *domain_id = init_options->rmw.domain_id;
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_init_options_set_domain_id(rcl_init_options_t * init_options, size_t domain_id)
+{
+  if (!options_are_valid(init_options)) {
+    return RCL_RET_INVALID_ARGUMENT;
+  }
+  if (domain_id != RCL_DEFAULT_DOMAIN_ID && domain_id > DOMAIN_MOST) {
+    microros_error_set(microros_error_domain, NULL, NULL, (uint32_t)domain_id, DOMAIN_MOST);
+    return RCL_RET_INVALID_ARGUMENT;
+  }
+  init_options->rmw.domain_id = domain_id;
+  return RCL_RET_OK;
+}
+
+rmw_init_options_t * rcl_init_options_get_rmw_init_options(rcl_init_options_t * init_options)
+{
+  return options_are_valid(init_options) ? &init_options->rmw : NULL;
+}
+
+const rcl_allocator_t * rcl_init_options_get_allocator(const rcl_init_options_t * init_options)
+{
+  return options_are_valid(init_options) ? &init_options->rmw.allocator : NULL;
+}

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/rmw_address.h"
+#include "microros/rmw_transport.h"
+#include "microros_config.h"
+
+bool rmw_transport_prepare(xrce_transport_t * transport, const rmw_uxrce_transport_params_t * params)
+{
+  transport->host = params->agent_address[0] != '\0' ? params->agent_address : MICROROS_AGENT_HOST;
+  transport->port = rmw_address_port(params->agent_port);
+  return true;
+}
