@@ -10,6 +10,7 @@
 
 #include <rcl/rcl.h>
 #include <rclc/rclc.h>
+#include <rclc/sleep.h>
 #include <rmw_microros/rmw_microros.h>
 #include <std_msgs/msg/int32.h>
 #include <uxr/client/transport.h>

@@ -4,6 +4,7 @@
 
 #include <rcl/rcl.h>
 #include <rclc/rclc.h>
+#include <rclc/sleep.h>
 #include <rmw_microros/rmw_microros.h>
 
 #include <time.h>

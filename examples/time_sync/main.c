@@ -7,6 +7,7 @@
 
 #include <rcl/rcl.h>
 #include <rclc/rclc.h>
+#include <rclc/sleep.h>
 #include <rmw_microros/rmw_microros.h>
 #include <std_msgs/msg/header.h>
 

@@ -127,7 +127,8 @@ def _nodes(project: Project) -> tuple[NodeView, ...]:
             NodeView(f"node_{n.index}" if n.index else "node", n.source_name, _namespace(n.source_namespace))
             for n in project.runtime.nodes
         )
-    return (NodeView("node", example_node(project.name), ""),) if project.runtime.nodes_max else ()
+    has_node = project.runtime.nodes_max and project.selection.has("node")
+    return (NodeView("node", example_node(project.name), ""),) if has_node else ()
 
 
 def _publishers(

@@ -11,6 +11,9 @@
 {"do": "call", "service": "/s", "type": "rcl_interfaces/srv/GetParameterTypes", "names": [["a"], ["b", "c"]]}
                    calls at once, one call a list of names, when the service is there
 {"do": "replies"}  what the calls gave: null, or types, in the order of the calls
+{"do": "add", "service": "/sum"}                   serves example_interfaces/srv/AddTwoInts; with "ends": no more
+{"do": "ask_sums", "service": "/sum", "pairs": [[1, 2]]}   calls it at once, when it is there
+{"do": "sums"}     what these calls gave, or null
 {"do": "graph"}    nodes, topics with types, and publishers with their QoS
 {"do": "endpoints", "topic": "/a"}                publishers and subscriptions with QoS and type hash
 {"do": "node", "node": "n", "namespace": "/"}     services and clients of a node
@@ -143,6 +146,7 @@ class _Peer:
         self._services: list[tuple[Any, Any, int, list[Any]]] = []
         self._clients: dict[str, Any] = {}
         self._calls: list[Any] = []
+        self._adder: Any = None
 
     def poll(self) -> None:
         for topic, handle in self._raw:
@@ -237,6 +241,29 @@ class _Peer:
 
     def replies(self) -> list[Any]:
         return [list(call.result().types) if call.done() else None for call in self._calls]
+
+    def add(self, service: str, ends: bool = False) -> bool:
+        from agent.add_two_ints import AddTwoInts
+
+        def answer(request: Any, response: Any) -> Any:
+            response.sum = request.a + request.b
+            return response
+
+        if ends:
+            return bool(self._node.destroy_service(self._adder))
+        self._adder = self._node.create_service(AddTwoInts, service, answer)
+        return True
+
+    def ask_sums(self, service: str, pairs: list[list[int]]) -> bool:
+        from agent.add_two_ints import AddTwoInts
+
+        client = self._node.create_client(AddTwoInts, service)
+        assert client.wait_for_service(30)
+        self._calls = [client.call_async(AddTwoInts.Request(a=a, b=b)) for a, b in pairs]
+        return True
+
+    def sums(self) -> list[Any]:
+        return [call.result().sum if call.done() else None for call in self._calls]
 
     def endpoints(self, topic: str) -> list[dict[str, Any]]:
         found = [

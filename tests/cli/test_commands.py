@@ -171,3 +171,14 @@ def test_interfaces_of_services_and_actions(run: Runner) -> None:
     one = data_of(run, "interfaces", "std_srvs/SetBool", "--interface-path", IDL)
     assert one["description"]["type_description"]["type_name"] == "std_srvs/srv/SetBool"
     assert "  request" in table_of(run, "interfaces", "std_srvs/SetBool")
+
+
+def test_components_without_a_profile_make_an_application(run: Runner, folder: Path) -> None:
+    """A node alone, which has no type of a message: it has a name and a folder (tests/e2e compiles such a one)."""
+    text = "version: 1\ncomponents: [+node]\nnodes: [{name: alone}]\n"
+    (folder / "microros.yaml").write_text(text, encoding="utf-8")
+    outcome = run("generate")
+    assert (outcome.status, outcome.err) == (0, "")
+    assert outcome.out.startswith("profile    application for host: node ")
+    assert (folder / "build/application/examples/application/main.c").is_file()
+    assert (folder / "build/application/include/microros/message_type.h").is_file()

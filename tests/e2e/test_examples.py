@@ -189,15 +189,25 @@ def check_epoch(epoch: Example, begin: float) -> None:
     assert begin - SLACK_S < times[0].timestamp() < times[1].timestamp() < time.time() + SLACK_S
 
 
-def test_services(examples: Examples, agent: AgentProcess) -> None:
-    """The client asks before it knows whether the server is there, gets its three sums, and ends."""
-    sums = ["1 + 10 = 11", "2 + 20 = 22", "3 + 30 = 33"]
-    with examples.running("add_two_ints_client", "add_two_ints_server") as (client, server):
-        client.process.wait(timeout=30)
-        for _ in sums:
+def test_services(examples: Examples, agent: AgentProcess, observer: Observer) -> None:
+    """rclpy asks the server; then the client asks rclpy, gets its three sums, and ends by itself."""
+    examples.build_all(["add_two_ints_server", "add_two_ints_client"])
+    pairs = [(2, 3), (-7, 7), (2**62, 2**62 - 1), (-(2**63), 1)]
+    with examples.running("add_two_ints_server") as (server,):
+        observer.ask(do="ask_sums", service="/add_two_ints", pairs=pairs)
+        for _ in pairs:
             server.wait_for("=")
-        assert sorted(server.log) == sums
-    assert sorted(client.log) == sums
+        end = time.monotonic() + 30
+        while None in (sums := observer.ask(do="sums")):
+            assert time.monotonic() < end, sums
+            time.sleep(0.02)
+    assert sums == [a + b for a, b in pairs]
+    assert server.log == [f"{a} + {b} = {a + b}" for a, b in pairs]
+    observer.ask(do="add", service="/add_two_ints")
+    with examples.running("add_two_ints_client") as (client,):
+        client.process.wait(timeout=30)
+    observer.ask(do="add", service="/add_two_ints", ends=True)
+    assert sorted(client.log) == ["1 + 10 = 11", "2 + 20 = 22", "3 + 30 = 33"]
 
 
 def test_reconnection(

@@ -115,7 +115,8 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "reference": _BOTH + "entities: reference\n",
         "preconfigured": _BOTH + "entities: preconfigured\nliveliness: ping\n",
         "serial": _INT32 + _SERIAL,
-        "tcp": _INT32 + "transport: {type: tcp, agent: '[::1]:8888'}\ncomponents: [+time_sync, +clock]\n",
+        "tcp": _INT32
+        + "transport: {type: tcp, agent: '[::1]:8888'}\ncomponents: [+time_sync, +clock, +session_state]\n",
         "discovery": "version: 1\nprofiles: [ad_hoc_discoverable_sender]\ninterfaces: [std_msgs/msg/Int32]\n",
         "custom": _INT32 + "transport: {type: custom}\n",
         "cortex_m": _BOTH + "target: {name: qemu-microbit}\nsession: {key: device}\n",

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import struct
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,8 +12,9 @@ import pytest
 from microros_gen.plan.runtime import QueuePlan, RuntimePlan, SubscriptionPlan
 from runtime.conftest import Bench
 from runtime.driver import Client
-from runtime.harness import DECLARED, INT32, READER
+from runtime.harness import DECLARED, INT32, READER, SERVER
 from runtime.reading_agent import ReadingAgent
+from runtime.serving_agent import ServingAgent, identity
 
 PLAN = replace(READER, has_session_state=True, has_sleep=True)
 DECLARED_PLAN = replace(
@@ -26,6 +28,7 @@ DECLARED_PLAN = replace(
     reliable_input_slot_size=64,
 )
 CREATE_CLIENT, CREATE, DELETE = 0x00, 0x01, 0x03
+REPLIER = bytes.fromhex("0018")
 
 
 class Device:
@@ -234,3 +237,36 @@ def test_no_sleep_without_a_session(bench: Bench, memory: Path) -> None:
     assert device.agent.values() == [1]
     device.client.ok("fini")
     assert device.client.call(f"extra_sleep {memory} 50").code == 11
+
+
+def test_services_go_on(bench: Bench, memory: Path) -> None:
+    """A request that waits for its reply gets it after the sleep; one that was not taken is taken then."""
+    plan = replace(SERVER, has_session_state=True, has_sleep=True)
+    agent = ServingAgent()
+
+    def start() -> Client:
+        client = bench.start(plan, agent=agent)
+        client.wait(5000)
+        return client
+
+    def open_all(client: Client) -> None:
+        for call in ("init", "node 0 server -", "serve_init 0 0 set", "serve_client 0 0 /far/ask"):
+            client.ok(call)
+
+    client = start()
+    open_all(client)
+    client.spin(3)
+    first = client.ok("serve_ask 0 11").lines[0].split()[1]
+    client.queued += agent.give(REPLIER, identity(5) + struct.pack("<i", 7))
+    client.spin(2)
+    client.ok(f"extra_sleep {memory} 300")
+    client = start()
+    assert client.call(f"extra_wake {memory}").code == 1
+    open_all(client)
+    assert not {datagram[4] for datagram in client.sent} & {CREATE_CLIENT, CREATE, DELETE}
+    assert client.ok("serve_take 0 0").lines[0].split()[1:3] == ["7", "5"]
+    client.queued += agent.reply(0, 12)
+    client.spin(2)
+    _, value, sequence = client.ok("serve_reply 0").lines[0].split()
+    assert (value, sequence) == ("12", first)
+    assert int(client.ok("serve_ask 0 13").lines[0].split()[1]) == int(first) + 1

@@ -153,6 +153,19 @@ def test_a_closed_connection_is_opened_again(
     assert values[-1] == 99
 
 
+def test_a_connection_that_breaks_is_told_as_such(tmp_path: Path) -> None:
+    plan = replace(PLAN, on_full="block", on_full_block_ms=50, has_session_state=True)
+    with serving(TcpAgent()) as agent:
+        agent.before = lambda count: count != 30
+        plan = replace(plan, agent_port=agent.port)
+        tree = render(tmp_path, plan, components(plan))
+        program = build(tree, ["types.c", "watched.c"], "watched")
+        done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    connecting, connected, lost, reconnecting, closed = "1 0", "2 0", "3 4", "4 0", "0 0"
+    assert done.stdout.splitlines() == [connecting, connected, lost, reconnecting, connected, closed]
+
+
 def test_a_slow_peer_blocks_nobody(tmp_path: Path) -> None:
     """It reads a few bytes at a time, with pauses; nothing is lost and nothing is cut."""
     with serving(TcpAgent(read=16, pause_s=0.002)) as agent:

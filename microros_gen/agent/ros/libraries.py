@@ -110,6 +110,7 @@ class Libraries:
         self.notify_service = _function(rcl, "rcl_service_set_on_new_request_callback", *notify)
         self.notify_client = _function(rcl, "rcl_client_set_on_new_response_callback", *notify)
         self.notify_event = _function(rcl, "rcl_event_set_callback", *notify)
+        self.trim_heap = _function(ctypes.PyDLL(None), "malloc_trim", c_int, c_size_t)
         self._buffer_offset = 0
         self.cdr_skip = _function(self._cdr, "_ZN8eprosima7fastcdr3Cdr4jumpEm", c_bool, c_void_p, c_size_t)
 

@@ -10,7 +10,9 @@ from __future__ import annotations
 
 import importlib
 import os
+import time
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from microros_gen.agent.ros.bridge import Bridge, BridgeError, GraphReport, HashOf, HashUnknown, Node, Source
@@ -31,6 +33,9 @@ DOMAIN_OF_AGENT = 255
 """Clients that ask for this domain (a convention of the public client) get the agent's own, ROS_DOMAIN_ID."""
 OWN_NODE = "_microros_agent"
 """Begin of the name of the agent's own node in a domain; `ros2 node list` leaves out names with an underscore."""
+TRIM_AFTER, TRIM_EVERY_S = 64, 30.0
+"""Nodes that have left since free memory was given back to the system, and the least time in between: it takes some
+milliseconds. What Fast DDS frees lies between what it has in use, and glibc keeps it."""
 RMW = "rmw_fastrtps_cpp"
 """The one RMW implementation whose type supports are made here."""
 
@@ -106,6 +111,8 @@ class RclpyBridge:
         self._maximum_domains = maximum_domains
         self._contexts: dict[int, _Context] = {}
         self._without_hash: set[str] = set()
+        self._left = 0
+        self._trimmed_at = time.monotonic()
 
     def create_node(self, name: str, domain: int, hash_of: HashOf | None = None) -> Node:
         """See Bridge."""
@@ -130,7 +137,7 @@ class RclpyBridge:
             self._comparison,
             self._patience,
             context.topics,
-            context.leave,
+            partial(self._leave, context),
         )
 
     def fileno(self) -> int:
@@ -153,6 +160,13 @@ class RclpyBridge:
             context.close()
         self._contexts = {}
         self._ros.close()
+
+    def _leave(self, context: _Context) -> None:
+        context.nodes -= 1
+        self._left += 1
+        if self._left >= TRIM_AFTER and time.monotonic() >= self._trimmed_at + TRIM_EVERY_S:
+            self._left, self._trimmed_at = 0, time.monotonic()
+            self._ros.libraries.trim_heap(0)
 
     def _known_hash(self, type_name: str, hash_of: HashOf | None) -> str | None:
         """Return a type's hash: by the client's manifest, else by the interface files; None is told once."""
@@ -201,10 +215,6 @@ class _Context:
             self._own = handles.Node(f"{OWN_NODE}_{os.getpid()}", "/", self.handle, None, False, False)
         except FAILURES as error:
             raise BridgeError(f"domain {domain}: {first_line(error)}") from error
-
-    def leave(self) -> None:
-        """One node less."""
-        self.nodes -= 1
 
     def close(self) -> None:
         self._own.destroy_when_not_in_use()
