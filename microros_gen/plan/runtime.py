@@ -131,16 +131,14 @@ class RuntimePlan:
     `entities` is preconfigured, reference, xml or binary; `creation` the stream of CREATE (best_effort, reliable).
     `transport` is udp, tcp, serial or custom; `framing` of a custom one on, off or either (chosen at run time).
     `fragments`: some reliable message is larger than the MTU, `reliable_slot_size` holds it whole.
-    `reliable_input_slots`: messages of the agent's reliable stream that the client holds at a time, the one that is
-    being handled among them; 0: there is no such stream.
-    `subscriptions_max`: places, at least one where subscriptions are selected; `services_max`, `clients_max`: places, 0
-    where `nodes:` declares none; `queues` has one entry for each of the three, in this order. `reassembly_size`: the
-    largest DATA that comes in fragments, with its header; 0: none does.
-    `timers_max`, `executors_max` with `handles_max` each, `guard_conditions_max`, `wait_sets_max`, `ros_clocks_max`,
-    `jump_callbacks_max`: places of each; 0 timers, executors or clocks: the component is not selected.
+    `reliable_input_slots`: messages of the agent's reliable stream that the client holds at a time; 0: no such stream.
+    `subscriptions_max`: places, at least one where they are selected; `services_max`, `clients_max`: 0 where `nodes:`
+    declares none; `queues` has one entry for each of the three, in this order. `reassembly_size`: the largest DATA
+    that comes in fragments, with its header; 0: none does.
+    `timers_max` to `jump_callbacks_max`: places of each; 0 timers, executors or clocks: the component is not selected.
     `has_ros_time`: the first subscription is that of /clock, which the library opens itself.
     `fixed_messages`: no message that is sent has a string or sequence. `timed_qos`: one has a deadline or lifespan.
-    `hard_liveliness_ms`: after so long without a message of the client its agent gives it up; 0: as the agent likes.
+    `hard_liveliness_ms`: after so long a silence the agent gives the client up; 0: as it likes.
     `error_text_size` 0: codes only. `best_effort_size` 0 or `reliable_slots` 0: there is no such stream.
     """
 

@@ -4,18 +4,13 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_wire.h"
 
-enum { QUESTION_SIZE = 16, MASK_ACTIVITY = 2, SHARE = 3 };
+enum { SHARE = 3 };
 
 static void hard_show_life(xrce_session_t * session)
 {
-  uint8_t message[QUESTION_SIZE];
+  uint8_t message[XRCE_GET_INFO_SIZE];
 
-  xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_NONE, 0);
-  xrce_put_submessage(&message[4], XRCE_GET_INFO, XRCE_FLAG_LITTLE_ENDIAN, QUESTION_SIZE - 8);
-  xrce_put_be16(&message[8], XRCE_REQUEST_PING);
-  xrce_put_be16(&message[10], XRCE_OBJECT_AGENT);
-  xrce_put_le16(&message[12], MASK_ACTIVITY);
-  xrce_put_le16(&message[14], 0);
+  xrce_put_get_info(message, XRCE_SESSION_ID);
   (void)xrce_session_send(session, message, sizeof(message)); /* there are two more before it is too late */
 }
 

@@ -133,6 +133,19 @@ static inline void xrce_put_submessage(uint8_t * at, uint8_t id, uint8_t flags, 
   xrce_put_le16(&at[2], size);
 }
 
+enum { XRCE_GET_INFO_SIZE = 16, XRCE_INFO_ACTIVITY = 2 };
+
+/* Writes a message that asks the agent whether it is there (XRCE_GET_INFO_SIZE bytes). */
+static inline void xrce_put_get_info(uint8_t * message, uint8_t session)
+{
+  xrce_put_header(message, session, XRCE_STREAM_NONE, 0);
+  xrce_put_submessage(&message[4], XRCE_GET_INFO, XRCE_FLAG_LITTLE_ENDIAN, XRCE_GET_INFO_SIZE - 8);
+  xrce_put_be16(&message[8], XRCE_REQUEST_PING);
+  xrce_put_be16(&message[10], XRCE_OBJECT_AGENT);
+  xrce_put_le16(&message[12], XRCE_INFO_ACTIVITY);
+  xrce_put_le16(&message[14], 0);
+}
+
 /* Returns how many bytes of a message lie between two places in it; a message has less than 64 KiB. */
 static inline uint16_t xrce_size_between(const uint8_t * begin, const uint8_t * end)
 {

@@ -9,12 +9,13 @@
 #include <stdint.h>
 
 #include "microros/xrce_session.h"
+#include "microros/xrce_wire.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-enum { XRCE_PING_SIZE = 16 };
+enum { XRCE_PING_SIZE = XRCE_GET_INFO_SIZE };
 
 typedef struct xrce_ping_t {
   uint32_t due_ms;    /* when to ask again */

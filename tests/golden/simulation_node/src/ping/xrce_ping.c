@@ -4,7 +4,7 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_wire.h"
 
-enum { INFO_SIZE = 6, MASK_ACTIVITY = 2, IMPLEMENTATION_OUT_OF_SESSION = 0 };
+enum { INFO_SIZE = 6, IMPLEMENTATION_OUT_OF_SESSION = 0 };
 
 void xrce_ping_reset(xrce_ping_t * ping)
 {
@@ -13,12 +13,7 @@ void xrce_ping_reset(xrce_ping_t * ping)
 
 void xrce_ping_write(uint8_t * message, uint8_t session)
 {
-  xrce_put_header(message, session, XRCE_STREAM_NONE, 0);
-  xrce_put_submessage(&message[4], XRCE_GET_INFO, XRCE_FLAG_LITTLE_ENDIAN, XRCE_PING_SIZE - 8);
-  xrce_put_be16(&message[8], XRCE_REQUEST_PING);
-  xrce_put_be16(&message[10], XRCE_OBJECT_AGENT);
-  xrce_put_le16(&message[12], MASK_ACTIVITY);
-  xrce_put_le16(&message[14], 0);
+  xrce_put_get_info(message, session);
 }
 
 void xrce_ping_step(xrce_client_t * client, uint32_t now)
