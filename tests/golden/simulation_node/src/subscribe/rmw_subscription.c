@@ -35,7 +35,8 @@ static rmw_ret_t subscription_open_in(
                                  microros_error_subscriptions_full,
                                  type->dds_type_name};
   const rmw_name_t name = rmw_name_of_topic(topic, node->name, node->namespace_);
-  xrce_endpoint_t wanted = {.client = node->context->impl, .type = type, .participant = rmw_node_index(node)};
+  xrce_endpoint_t wanted = {
+    .client = node->context->impl, .type = type, .participant = rmw_node_index(node)};
   const char * refused = rmw_qos_to_xrce(qos, &wanted.qos, &wanted.depth);
   xrce_endpoint_t * endpoint = NULL;
   rmw_ret_t result;
