@@ -39,6 +39,9 @@ PATIENCE_S = 180.0
 TRIES = 36
 """How often something is said again, each time after `AGAIN_S` seconds."""
 AGAIN_S = 5.0
+NEW_S = 15.0
+"""A reader of DDS that is new may hear samples before their writer has found it, which on a busy machine takes some
+seconds: what comes in between is not promised to it (it is volatile)."""
 ENDS = ("leave", "again", "replaced", "vanish", "sleep", "move")
 Step = Generator["Callable[[], object] | float", None, None]
 """A course of action: gives what it waits for, or for how many seconds."""
@@ -57,7 +60,7 @@ class Place:
         self.replies: dict[int, list[int]] = {}
         self.heard: int | None = None
         self.heard_count = 0
-        self.connected_at = 0.0
+        self.connected_at = self.new_until = 0.0
         self.gap_allowed = False
         self.served = 0
         self.client = self._fresh()
@@ -115,6 +118,7 @@ class Place:
         client.link = self.world.link(self.number, client.hear)
         self.heard, self.gap_allowed = None, False
         self.heard_count, self.connected_at = 0, time.monotonic()
+        self.new_until = self.connected_at + NEW_S
         self.replies.clear()
 
     def _create(self, client: SoakClient) -> Step:
@@ -196,6 +200,7 @@ class Place:
         yield self.world.agent.timeout_s * self.chance.uniform(1.3, 2)
         client.deaf = False
         self.gap_allowed = True
+        self.new_until = time.monotonic() + NEW_S
         yield from self._account(client, (yield from self._publish(client, 5, written)))
 
     def _move(self, client: SoakClient, written: int) -> Step:
@@ -238,8 +243,9 @@ class Place:
         if self.heard is not None and int(number) != self.heard + 1:
             assert int(number) > self.heard, f"{number} after {self.heard}"
             seen = f"{self.heard_count} before, in {time.monotonic() - self.connected_at:.1f} s"
-            assert self.gap_allowed, f"samples between {self.heard} and {number} are lost ({seen})"
-            self.gap_allowed = False
+            new = time.monotonic() < self.new_until
+            assert self.gap_allowed or new, f"samples between {self.heard} and {number} are lost ({seen})"
+            self.gap_allowed = self.gap_allowed and new
         self.heard = int(number)
         self.heard_count += 1
         self.world.count["samples down"] += 1

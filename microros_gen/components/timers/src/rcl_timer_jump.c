@@ -3,9 +3,6 @@
 #include "microros/port.h"
 #include "microros/rcl_timer.h"
 
-/* What was left until the next call, while the clock changes from one time to another. */
-static int64_t jump_credit[MICROROS_TIMERS_MAX];
-
 static bool jump_changes_time(const rcl_time_jump_t * jump)
 {
   return jump->clock_change == RCL_ROS_TIME_ACTIVATED || jump->clock_change == RCL_ROS_TIME_DEACTIVATED;
@@ -15,9 +12,11 @@ static bool jump_changes_time(const rcl_time_jump_t * jump)
  * As Jazzy's rcl: in the new time, as much of the period is over as was left of it in the old one. A time of 0 is not set,
  * and tells nothing.
  */
-static void jump_carry_over(rcl_timer_impl_t * timer, int64_t now, bool before_jump)
+static void jump_carry_over(size_t index, int64_t now, bool before_jump)
 {
-  int64_t * credit = &jump_credit[timer - rcl_timers];
+  static int64_t credits[MICROROS_TIMERS_MAX]; /* what was left until the next call */
+  rcl_timer_impl_t * timer = &rcl_timers[index];
+  int64_t * credit = &credits[index];
 
   if (before_jump) {
     *credit = now != 0 ? timer->next_call_time - now : 0;
@@ -47,7 +46,7 @@ void rcl_timer_on_jump(
     rcl_timer_impl_t * timer = &rcl_timers[i];
 
     if (timer->clock == clock && changes_time) {
-      jump_carry_over(timer, now, before_jump);
+      jump_carry_over(i, now, before_jump);
     } else if (timer->clock == clock && !before_jump) {
       jump_settle(timer, now);
     } else {

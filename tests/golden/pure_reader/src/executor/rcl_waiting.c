@@ -5,7 +5,8 @@
 #include "microros/rmw_client_wait.h"
 
 /* A millisecond is 15625 units of 64 ns: a divisor that leaves room for 16 more digits in 32 bits. */
-enum { NS_PER_MS = 1000000, UNIT_DIGITS = 6, UNITS_PER_MS = NS_PER_MS >> UNIT_DIGITS, STEP_DIGITS = 16 };
+static const int64_t waiting_ns_per_ms = 1000000;
+static const uint32_t waiting_units_per_ms = 15625;
 
 /*
  * Rounded up; UINT32_MAX for what is longer, and for what is negative. Divides as on paper, 16 binary digits at a time: a
@@ -13,7 +14,7 @@ enum { NS_PER_MS = 1000000, UNIT_DIGITS = 6, UNITS_PER_MS = NS_PER_MS >> UNIT_DI
  */
 static uint32_t waiting_ms(int64_t duration_ns)
 {
-  const int64_t longest_ns = (int64_t)(UINT32_MAX - 1u) * NS_PER_MS;
+  const int64_t longest_ns = (int64_t)(UINT32_MAX - 1u) * waiting_ns_per_ms;
   uint64_t units;
   uint32_t rest = 0;
   uint32_t whole_ms = 0;
@@ -21,12 +22,12 @@ static uint32_t waiting_ms(int64_t duration_ns)
   if (duration_ns < 0 || duration_ns > longest_ns) {
     return UINT32_MAX;
   }
-  units = ((uint64_t)duration_ns + NS_PER_MS - 1u) >> UNIT_DIGITS; /* below 2^46 */
-  for (uint32_t shift = 3u * STEP_DIGITS; shift != 0u;) {
-    shift -= STEP_DIGITS;
-    rest = rest << STEP_DIGITS | (uint16_t)(units >> shift);
-    whole_ms = whole_ms << STEP_DIGITS | rest / UNITS_PER_MS;
-    rest %= UNITS_PER_MS;
+  units = (uint64_t)(duration_ns + waiting_ns_per_ms - 1) >> 6; /* below 2^48: three times 16 digits */
+  for (uint32_t i = 0; i < 3u; ++i) {
+    rest = rest << 16 | (uint16_t)(units >> 32);
+    units <<= 16;
+    whole_ms = whole_ms << 16 | rest / waiting_units_per_ms;
+    rest %= waiting_units_per_ms;
   }
   return whole_ms;
 }
