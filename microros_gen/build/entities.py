@@ -39,7 +39,7 @@ class Share:
 
 @dataclass(frozen=True)
 class Entity:
-    """A node, publisher or subscription. `ram`: its own places in the library; `flash`: of its type's support, used by
+    """A node or an endpoint. `ram`: its own places in the library; `flash`: of its type's support, used by
     `type_users` entities; `message`: messages of its type (with their storage) that the application keeps.
     """
 
@@ -56,8 +56,13 @@ class Entity:
 _INDEXED = (
     (re.compile(r"(?:^|\.)(?:participants|nodes)\[(\d+)\]"), "node"),
     (re.compile(r"(?:^|\.)(?:publishers|topics)\[(\d+)\]"), "publisher"),
-    (re.compile(r"(?:^|\.)(?:receivers|subscriptions)\[(\d+)\]"), "subscription"),
+    (re.compile(r"(?:^|\.)subscriptions\[(\d+)\]"), "subscription"),
+    (re.compile(r"(?:^|\.)(?:clients|requesters)\[(\d+)\]"), "client"),
 )
+_RECEIVING = {"subscription": "subscriptions", "service": "services", "client": "clients"}
+"""What receives and where the manifest has it, in the order of the places."""
+_RECEIVERS = re.compile(r"(?:^|\.)receivers\[(\d+)\]")
+_SERVICES = re.compile(r"(?:^|\.)services\[(\d+)\]")
 _ENDPOINTS = re.compile(r"(?:^|\.)endpoints\[(\d+)\]")
 _STATES = re.compile(r"(?:^|\.)states\[(\d+)\]")
 _SLOT = re.compile(r"^\.(?:reliable|reliable_output)\.\w+\[(\d+)\]")
@@ -70,6 +75,7 @@ _MEMBERS = {
     "input": "input buffer",
     "slots": "queues",
     "queues": "queues",
+    "requests": "requests under way",
 }
 
 
@@ -90,7 +96,7 @@ def entities(folder: Folder, pieces: Iterable[Piece], parts: Iterable[RamPart]) 
     return (
         *_nodes(folder.manifest, by_use),
         *_publishers(folder.manifest, by_use, flash),
-        *_subscriptions(folder.manifest, by_use, flash),
+        *(e for kind in _RECEIVING for e in _receivers(folder.manifest, kind, by_use, flash)),
     )
 
 
@@ -130,9 +136,14 @@ def _use(manifest: Mapping[str, Any], piece: Piece, kind: str, path: str) -> str
         if match:
             place, nodes = int(match[1]), int(manifest["pools"]["nodes"])
             return f"node {place}" if place < nodes else _endpoint(manifest, place - nodes)
-        match = _ENDPOINTS.search(text)
-        if match:
-            return _endpoint(manifest, int(match[1]))
+        for pattern, name in (
+            (_RECEIVERS, "subscription"),
+            (_SERVICES, "service"),
+            (_ENDPOINTS, "publisher"),
+        ):
+            match = pattern.search(text)
+            if match:
+                return _endpoint(manifest, int(match[1]), name)
     if kind == _CLIENT or (piece.owner.name == "support" and path.startswith(".session")):
         slot = _SLOT.match(path)
         if slot:
@@ -146,12 +157,17 @@ def _use(manifest: Mapping[str, Any], piece: Piece, kind: str, path: str) -> str
     return piece.owner.name if piece.owner.group == "start-up" else piece.owner.group
 
 
-def _endpoint(manifest: Mapping[str, Any], index: int) -> str:
-    """Return whose place this is: those of publishers come first."""
+def _endpoint(manifest: Mapping[str, Any], index: int, first: str = "publisher") -> str:
+    """Return whose place this is, in a table that begins with those of `first`."""
     pools = manifest["pools"]
-    subscriptions = int(pools.get("subscriptions", 0))
-    publishers = max(int(pools["publishers"]), 0 if subscriptions else 1)
-    return f"publisher {index}" if index < publishers else f"subscription {index - publishers}"
+    counts = {kind: int(pools.get(key, 0)) for kind, key in _RECEIVING.items()}
+    counts = {"publisher": max(int(pools["publishers"]), 0 if any(counts.values()) else 1), **counts}
+    kinds = list(counts)
+    for kind in kinds[kinds.index(first) :]:
+        if index < counts[kind]:
+            return f"{kind} {index}"
+        index -= counts[kind]
+    return "client"
 
 
 def _of_application(folder: Folder, kind: str) -> str:
@@ -196,27 +212,36 @@ def _publishers(
         )
 
 
-def _subscriptions(
-    manifest: Mapping[str, Any], by_use: Mapping[str, int], flash: Mapping[str, int]
+def _receivers(
+    manifest: Mapping[str, Any], kind: str, by_use: Mapping[str, int], flash: Mapping[str, int]
 ) -> Iterator[Entity]:
-    """Yield the subscriptions; the bytes of its queue are its own."""
-    declared = manifest["entities"].get("subscriptions", [])
-    count = int(manifest["pools"].get("subscriptions", 0))
+    """Yield what receives, of one kind; the bytes of its queue are its own."""
+    key = _RECEIVING[kind]
+    declared = manifest["entities"].get(key, [])
+    count = int(manifest["pools"].get(key, 0))
+    places = sum(int(manifest["pools"].get(other, 0)) for other in _RECEIVING.values())
     for index in range(count):
         known = declared[index] if index < len(declared) else None
-        kinds = {known["type"]} if known else set(manifest["types"])
-        parts = {part for kind in kinds for part in manifest["types"][kind]["parts"]} | kinds
-        queue = known["queue"] * known["slot_size"] if known else by_use.get("queues", 0) // count
+        kinds = _messages(known["type"], manifest) if known else set(manifest["types"])
+        parts = {part for name in kinds for part in manifest["types"][name]["parts"]} | kinds
+        queue = known["queue"] * known["slot_size"] if known else by_use.get("queues", 0) // places
         yield Entity(
-            "subscription",
-            known["topic"] if known else f"subscription {index} of the pool",
+            kind,
+            (known["topic"] if kind == "subscription" else known["name"])
+            if known
+            else f"{kind} {index} of the pool",
             known["type"] if known else None,
-            by_use.get(f"subscription {index}", 0) + queue,
+            by_use.get(f"{kind} {index}", 0) + queue,
             sum(flash.get(part, 0) for part in parts),
-            sum(1 for s in declared if s["type"] == known["type"]) if known else count,
-            sum(by_use.get(f"message of {kind}", 0) for kind in kinds),
+            sum(1 for other in declared if other["type"] == known["type"]) if known else count,
+            sum(by_use.get(f"message of {name}", 0) for name in kinds),
             (),
         )
+
+
+def _messages(type_: str, manifest: Mapping[str, Any]) -> set[str]:
+    """Return the messages of a type: itself, or what a service exchanges."""
+    return {name for name in (type_, f"{type_}_Request", f"{type_}_Response") if name in manifest["types"]}
 
 
 def _stream(by_use: Mapping[str, int], reliable: bool) -> tuple[str, int]:

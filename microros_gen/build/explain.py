@@ -235,8 +235,26 @@ class Explainer:
             }.get(owner, owner == kind or owner in types[kind]["parts"])
             if fits:
                 yield f"publisher {publisher['topic']} ({kind})"
+        yield from self._receiving(owner)
         if owner == "node":
             yield from (f"node {n['name']}" for n in manifest["entities"]["nodes"])
+
+    def _receiving(self, owner: str) -> Iterator[str]:
+        manifest = self._folder.manifest
+        for kind, key, component in (
+            ("subscription", "subscriptions", "subscribe"),
+            ("service", "services", "services"),
+            ("client", "clients", "services"),
+        ):
+            for entity in manifest["entities"].get(key, ()):
+                names = {entity["type"], f"{entity['type']}_Request", f"{entity['type']}_Response"}
+                parts = {
+                    part
+                    for name in names & set(manifest["types"])
+                    for part in manifest["types"][name]["parts"]
+                }
+                if owner == component or owner in names | parts:
+                    yield f"{kind} {entity.get('topic') or entity['name']} ({entity['type']})"
 
     def _removes(self, owner: str, seen: frozenset[str] = frozenset()) -> Iterator[str]:
         reasons = self._folder.manifest["selection"]["reasons"]

@@ -130,7 +130,9 @@ def plan_agent_files(project: Project) -> AgentFiles:
     """Return what the agent must hold. Without `nodes:` it is what the example creates."""
     runtime = project.runtime
     if not runtime.declared:
-        return AgentFiles(runtime.client_key, *_of_the_example(project), complete=False)
+        nodes, found = _of_the_example(project)
+        named = tuple(_services_of_the_example(project))
+        return AgentFiles(runtime.client_key, nodes, found, complete=False, services=named)
     written = [endpoint.qos for _, _, endpoint in declarations(project.application, "publisher")]
     read = [endpoint.qos for _, _, endpoint in declarations(project.application, "subscription")]
     nodes = tuple(
@@ -221,6 +223,17 @@ def _of_the_example(project: Project) -> tuple[tuple[AgentNode, ...], tuple[Agen
         )
     ]
     return (node,), tuple(endpoints)
+
+
+def _services_of_the_example(project: Project) -> Iterator[AgentService]:
+    runtime = project.runtime
+    places = runtime.publisher_places + runtime.subscriptions_max
+    for most, first, calls in (
+        (runtime.services_max, places, False),
+        (runtime.clients_max, places + runtime.services_max, True),
+    ):
+        for index, (service, name) in enumerate(example_topics(project.services[:most]), first):
+            yield AgentService(index, 0, f"/{name}", dds_type(service), calls)
 
 
 def _endpoint(

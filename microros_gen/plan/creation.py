@@ -23,7 +23,9 @@ _XML_WRITER = len(
 )
 _XML_SERVICE = len(
     '<dds><requester profile_name="" service_name="" request_type="Request_" reply_type="Response_">'
-    "<request_topic_name>rqRequest</request_topic_name><reply_topic_name>rrReply</reply_topic_name></requester></dds>"
+    "<request_topic_name>rqRequest</request_topic_name><reply_topic_name>rrReply</reply_topic_name>"
+    "<publisher><topic><historyQos><depth>10</depth></historyQos></topic></publisher>"
+    "<subscriber><topic><historyQos><depth>10</depth></historyQos></topic></subscriber></requester></dds>"
 )
 _NUL = 1
 

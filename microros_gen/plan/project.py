@@ -37,7 +37,10 @@ _FRAMING = {True: "on", False: "off", None: "either"}
 
 @dataclass(frozen=True)
 class Project:
-    """Everything that the renderer prints. `name` names the image: the profiles joined by `+`."""
+    """Everything that the renderer prints. `name` names the image: the profiles joined by `+`.
+
+    `roots` and `services` as of plan_project.
+    """
 
     name: str
     application: Application
@@ -48,6 +51,7 @@ class Project:
     streams: StreamPlan
     runtime: RuntimePlan
     board: BoardPlan
+    services: tuple[TypeName, ...] = ()
 
     @cached_property
     def messages(self) -> Mapping[TypeName, Message]:
@@ -185,7 +189,7 @@ def plan_project(
     _check_budget(application, streams, runtime.queues_size, diagnostics)
     board = plan_board(application, target, runtime, diagnostics)
     runtime = replace(runtime, plan_id=_plan_id(runtime, selection, types))
-    return Project(name, application, selection, target, types, roots, streams, runtime, board)
+    return Project(name, application, selection, target, types, roots, streams, runtime, board, services)
 
 
 def _declared(

@@ -28,6 +28,10 @@ def render_agent_files(project: Project) -> dict[str, bytes]:
     return {}
 
 
+# That of ROS 2's services; the public agent's own is 1, which leaves the last of several requests or replies at once.
+_SERVICE_DEPTH = "<topic><historyQos><depth>10</depth></historyQos></topic>"
+
+
 def references_xml(files: AgentFiles) -> str:
     """Return the profiles that the client names, as the public agent reads them with `-r`."""
     blocks = {n.reference: _participant(n.reference, n.name) for n in files.nodes}
@@ -91,7 +95,9 @@ def _service(service: AgentService) -> str:
         f'  <{service.kind} profile_name="{escape(service.reference)}" service_name="{escape(service.name)}"'
         f' request_type="{escape(request)}" reply_type="{escape(reply)}">\n'
         f"    <request_topic_name>{escape(requests)}</request_topic_name>\n"
-        f"    <reply_topic_name>{escape(replies)}</reply_topic_name>\n  </{service.kind}>\n"
+        f"    <reply_topic_name>{escape(replies)}</reply_topic_name>\n"
+        f"    <publisher>{_SERVICE_DEPTH}</publisher>\n    <subscriber>{_SERVICE_DEPTH}</subscriber>\n"
+        f"  </{service.kind}>\n"
     )
 
 

@@ -13,6 +13,7 @@ from microros_gen.plan.example import MemberValue, example_node, example_topics,
 from microros_gen.plan.project import Project
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_names import include_path, snake_case
+from microros_gen.render.example_services import ServiceView, service_views
 
 
 @dataclass(frozen=True)
@@ -77,6 +78,7 @@ class ExampleView:
     nodes: tuple[NodeView, ...]
     publishers: tuple[PublisherView, ...]
     subscriptions: tuple[SubscriptionView, ...]
+    services: tuple[ServiceView, ...]
     uses_time: bool
     hosted: bool
     ros_time: bool
@@ -93,17 +95,20 @@ def example_view(project: Project) -> ExampleView:
     includes = {include_path(types[name].files.header) for name in used}
     includes |= {include_path(types[name].files.storage) for name in used if types[name].storage}
     views = tuple(p.view for p in publishers)
-    shows_time = project.runtime.has_ros_time and not views and not subscriptions
-    if any(view.texts for view in views):
+    shows_time = project.runtime.has_ros_time and not (views or subscriptions or project.runtime.serves)
+    services = service_views(project, tuple(node.variable for node in nodes))
+    includes |= {include for service in services for include in service.includes}
+    if any(view.texts for view in views) or any(service.filling.texts for service in services):
         includes.add("rosidl_runtime_c/string_functions.h")
     return ExampleView(
         title=project.name,
-        summary=_summary(views, [view for _, view in subscriptions], shows_time),
+        summary=_summary(views, [view for _, view in subscriptions], services, shows_time),
         includes=tuple(sorted(includes)),
         nodes=nodes,
         publishers=views,
         subscriptions=tuple(view for _, view in subscriptions),
-        uses_time=any(view.stamps for view in views),
+        services=services,
+        uses_time=any(view.stamps for view in views) or any(s.filling.stamps for s in services),
         hosted=project.target.hosted,
         ros_time=project.runtime.has_ros_time,
         shows_time=shows_time,
@@ -152,17 +157,26 @@ def _publishers(
 
 
 def _summary(
-    publishers: Sequence[PublisherView], subscriptions: Sequence[SubscriptionView], shows_time: bool
+    publishers: Sequence[PublisherView],
+    subscriptions: Sequence[SubscriptionView],
+    services: Sequence[ServiceView],
+    shows_time: bool,
 ) -> str:
     """Return what the example does, as a sentence without its end."""
     every = "every EXAMPLE_PERIOD_MS milliseconds"
     if shows_time:
         return f"looks {every} what time it is on /clock"
-    written = ", ".join(f"{p.package}/msg/{p.type} on {p.topic}" for p in publishers) or "nothing"
-    if not subscriptions:
-        return f"publishes {written} {every}"
-    read = ", ".join(f"{s.package}/msg/{s.type} on {s.topic}" for s in subscriptions)
-    return f"publishes {written} and looks {every} for {read}" if publishers else f"looks {every} for {read}"
+    said = []
+    if publishers or not (subscriptions or services):
+        written = ", ".join(f"{p.package}/msg/{p.type} on {p.topic}" for p in publishers) or "nothing"
+        said.append(f"publishes {written}" + ("" if subscriptions else f" {every}"))
+    if subscriptions:
+        read = ", ".join(f"{s.package}/msg/{s.type} on {s.topic}" for s in subscriptions)
+        said.append(f"looks {every} for {read}")
+    for kind, does in (("service", "answers what it is asked as"), ("client", f"asks {every}")):
+        named = ", ".join(f"{s.name} ({s.package}/srv/{s.type})" for s in services if s.kind == kind)
+        said += [f"{does} {named}"] if named else []
+    return " and ".join(said)
 
 
 def _subscriptions(

@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -126,3 +128,56 @@ def test_the_agent_holds_them(
         relay.connect(agent.port)
         for program, act in programs:
             act(program, observer)
+
+
+EXAMPLE = """\
+version: 1
+profiles: [pure_sender]
+components: [+services]
+nodes:
+  - name: arm
+    namespace: /left
+    publishers: [{topic: count, type: std_msgs/msg/Int32}]
+    services:
+      - {name: grip, type: std_srvs/srv/SetBool}
+      - {name: empty, type: std_srvs/srv/Empty}
+    clients: [{name: grip, type: std_srvs/srv/SetBool, queue: 2, limits: {message: 9}}]
+limits: {"*": {string: 16}}
+"""
+
+
+def test_the_example_asks_itself(images: Images, image_port: Relay, agent: AgentProcess) -> None:
+    """Its server and its client are two DDS endpoints; `size` and `explain` know both, with their queues."""
+    image = images.build(image_port.port, EXAMPLE, "gcc", QUICK)
+    with started(image.program) as process:
+        assert process.stdout is not None
+        heard: set[str] = set()
+        wanted = {"request of grip: 0", "request of grip: 1", "reply"}
+        for _ in range(100):
+            line = process.stdout.readline().rstrip()
+            heard.add("reply" if line.startswith("reply of grip: ") else line)
+            if heard == wanted:
+                break
+    assert heard == wanted
+    found = tool("size", image.out, "--format", "json")
+    entities = {(e["kind"], e["name"]): e for e in json.loads(found)["entities"]}
+    queues = {
+        ("service", "/left/grip"): 4 * 28,
+        ("service", "/left/empty"): 4 * 28,
+        ("client", "/left/grip"): 2 * 24,
+    }
+    for entity, queue in queues.items():
+        assert queue < entities[entity]["ram"] < queue + 250
+        assert entities[entity]["type_flash"] > 0
+    said = tool("explain", image.out, "std_srvs/srv/SetBool_Response")
+    assert "service /left/grip (std_srvs/srv/SetBool)" in said
+    assert "client /left/grip (std_srvs/srv/SetBool)" in said
+    assert "/left/empty" not in said
+
+
+def tool(command: str, out: Path, *arguments: str) -> str:
+    done = subprocess.run(
+        [sys.executable, "-m", "microros_gen", command, str(out), *arguments], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout

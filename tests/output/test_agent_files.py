@@ -130,6 +130,7 @@ def test_services_have_their_topics_and_types(tmp_path: Path) -> None:
     assert replier.attrib["service_name"] == "/left/grip"
     assert replier.attrib["reply_type"] == "std_srvs::srv::dds_::SetBool_Response_"
     assert replier.findtext("request_topic_name") == "rq/left/gripRequest"
+    assert replier.findtext("subscriber/topic/historyQos/depth") == "10"
     requester = found["requester", "left/arm/ask__rq"]
     assert requester.attrib["request_type"] == "std_srvs::srv::dds_::Empty_Request_"
     assert requester.findtext("reply_topic_name") == "rr/left/arm/askReply"

@@ -298,6 +298,8 @@ def test_other_ways_to_describe(bench: Bench, entities: str) -> None:
     assert replier[8:-2] == (
         b'<dds><replier profile_name="/set" service_name="/set" request_type="test::srv::dds_::Ask_Request_"'
         b' reply_type="test::srv::dds_::Ask_Response_"><request_topic_name>rq/setRequest</request_topic_name>'
-        b"<reply_topic_name>rr/setReply</reply_topic_name></replier></dds>\0"
+        b"<reply_topic_name>rr/setReply</reply_topic_name>"
+        b"<publisher><topic><historyQos><depth>10</depth></historyQos></topic></publisher>"
+        b"<subscriber><topic><historyQos><depth>10</depth></historyQos></topic></subscriber></replier></dds>\0"
     )
     assert requester[8:].startswith(b'<dds><requester profile_name="/far/ask"')

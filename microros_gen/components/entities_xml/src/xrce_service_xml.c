@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Repliers and requesters in XML, as the public agent reads them. */
+/* Repliers and requesters in XML, as the public agent reads them; with the depth of ROS 2's services, since its own is 1. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"
 
@@ -8,6 +8,7 @@
 uint8_t * xrce_describe_service(
   const xrce_client_t * client, uint16_t place, uint8_t * blob, uint8_t * format)
 {
+  static const char depth[] = "<topic><historyQos><depth>10</depth></historyQos></topic>";
   const char * name = client->endpoints[place - MICROROS_NODES_MAX].name;
   const char * type = client->services[place - XRCE_REPLIERS_AT].type->dds_type_name;
   const char * kind = place < XRCE_REQUESTERS_AT ? "replier" : "requester";
@@ -26,7 +27,11 @@ uint8_t * xrce_describe_service(
     name,
     "Request</request_topic_name><reply_topic_name>rr",
     name,
-    "Reply</reply_topic_name></",
+    "Reply</reply_topic_name><publisher>",
+    depth,
+    "</publisher><subscriber>",
+    depth,
+    "</subscriber></",
     kind,
     "></dds>",
     NULL};
