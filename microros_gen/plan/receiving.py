@@ -95,14 +95,19 @@ def _with_storage(plan: SubscriptionPlan, types: Mapping[TypeName, TypePlan]) ->
 
 
 def buffers_of(message: Message, messages: Mapping[TypeName, Message], prefix: str = "") -> Iterator[str]:
-    """Yield the strings and sequences that are there in a message without elements: `header.frame_id`."""
+    """Yield what holds of each string and sequence without a buffer of the application: `frame_id.capacity <= 1u`.
+
+    A message that was only initialized (`__init`) has none: its strings share one NUL, which is a capacity of 1.
+    """
     for field in message.fields:
         element = element_of(field.type)
         indices = range(field.type.size) if isinstance(field.type, ArrayType) else (None,)
         for index in indices:
             member = f"{prefix}{field.name}" + ("" if index is None else f"[{index}]")
-            if isinstance(field.type, SequenceType) or isinstance(element, StringType):
-                yield member
+            if isinstance(field.type, SequenceType):
+                yield f"{member}.data == NULL"
+            elif isinstance(element, StringType):
+                yield f"{member}.capacity <= 1u"
             elif isinstance(element, NamedType):
                 yield from buffers_of(messages[element.name], messages, f"{member}.")
 

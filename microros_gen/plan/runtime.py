@@ -75,8 +75,8 @@ class SubscriptionPlan:
     """A declared subscription, as PublisherPlan.
 
     `index` counts subscriptions alone. For a message of variable length, `storage` is what the names of its storage
-    begin with in C, `header` declares it, `c_type` is its struct and `buffers` are the members that have memory of
-    their own.
+    begin with in C, `header` declares it, `c_type` is its struct and `buffers`: what holds while none of its
+    members has memory of the application's.
     """
 
     index: int

@@ -10,9 +10,10 @@ import time
 from pathlib import Path
 
 import pytest
+from agent.process import AgentProcess
 from runtime.fake_agent import FakeAgent
 
-from e2e.images import Images
+from e2e.images import C_FILES, Images, ends_well, started
 from e2e.udp_agent import serving
 
 TICKER = Path(__file__).parents[1] / "firmware" / "c" / "ticker.c"
@@ -45,3 +46,28 @@ def test_a_timer_publishes_under_the_executor(images: Images, kind: str, tmp_pat
     assert agent.values()[:SAMPLES] == list(range(SAMPLES))
     assert took > 0.02 * (SAMPLES - 1)
     assert used.ru_utime + used.ru_stime < took / 3, "it rests between the ticks"
+
+
+PARROT = """\
+version: 1
+profiles: [pure_sender, pure_reader]
+nodes:
+  - name: parrot
+    domain_id: DOMAIN
+    publishers: [{topic: words, type: std_msgs/msg/String}]
+    subscriptions: [{topic: words, type: std_msgs/msg/String}]
+limits: {"*": {string: 8}}
+"""
+
+
+@pytest.mark.ros
+def test_a_message_that_was_only_initialized_gets_storage(
+    images: Images, shared_agent: AgentProcess, domain: int, tmp_path: Path
+) -> None:
+    """`__init` gives a string a shared NUL and no buffer: what its declaration has is bound to it all the same."""
+    image = images.build(shared_agent.port, PARROT.replace("DOMAIN", str(domain)))
+    program = image.application(
+        C_FILES / "initialized.c", tmp_path / "parrot", "-std=c99", "-Wall", "-Werror"
+    )
+    with started(program) as process:
+        ends_well(process, 30)

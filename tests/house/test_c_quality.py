@@ -64,6 +64,7 @@ CLANG = (
     "-Wno-declaration-after-statement",  # C99: a variable is declared where its value is known
     "-Wno-unsafe-buffer-usage",  # newer versions: wants C++'s containers
     "-Wno-switch-default",  # newer versions: contradicts -Wcovered-switch-default
+    "-Wno-format-nonliteral",  # rcutils_vsnprintf hands its format on; the attribute that says so is an extension
     "-Wno-float-equal",  # are_equal of messages compares as ROS 2's does
     "-Wno-reserved-identifier",  # ROS 2's names have a double underscore between package and type
     "-Wno-reserved-macro-identifier",  # _POSIX_C_SOURCE, for POSIX to read

@@ -53,7 +53,7 @@ rcl_ret_t rcl_client_init(
 rcl_ret_t rcl_client_fini(rcl_client_t * client, rcl_node_t * node)
 {
   if (client == NULL) {
-    return microros_error_refuse(RCL_RET_CLIENT_INVALID, "client");
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "client");
   }
   if (!rcl_node_is_valid_except_context(node)) {
     return microros_error_refuse(RCL_RET_NODE_INVALID, "node");

@@ -57,6 +57,9 @@ rcl_ret_t rcl_publisher_init(
   if (publisher != NULL && publisher->impl != NULL) {
     return microros_error_named(RCL_RET_ALREADY_INIT, microros_error_publisher_open, topic_name);
   }
+  if (publisher != NULL && !rcl_node_is_valid(node)) {
+    return microros_error_refuse(RCL_RET_NODE_INVALID, "node"); /* before what else may be missing, as rcl */
+  }
   return rcl_publisher_open(publisher, node, type_support, topic_name, &options->qos);
 }
 

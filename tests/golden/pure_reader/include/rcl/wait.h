@@ -22,9 +22,21 @@
 extern "C" {
 #endif
 
-typedef struct rcl_timer_s rcl_timer_t; /* not selected */
-typedef struct rcl_client_s rcl_client_t; /* not selected */
-typedef struct rcl_service_s rcl_service_t; /* not selected */
+/* Not selected: sources may have one, and nothing takes it. */
+typedef struct rcl_timer_s {
+  void * impl;
+} rcl_timer_t;
+
+/* Not selected: sources may have one, and nothing takes it. */
+typedef struct rcl_client_s {
+  void * impl;
+} rcl_client_t;
+
+/* Not selected: sources may have one, and nothing takes it. */
+typedef struct rcl_service_s {
+  void * impl;
+} rcl_service_t;
+
 typedef struct rcl_event_s rcl_event_t; /* XRCE has none */
 
 typedef struct rcl_wait_set_impl_s rcl_wait_set_impl_t;

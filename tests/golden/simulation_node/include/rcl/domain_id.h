@@ -14,7 +14,8 @@ extern "C" {
 
 #define RCL_DEFAULT_DOMAIN_ID RMW_DEFAULT_DOMAIN_ID
 
-/* Gives RCL_DEFAULT_DOMAIN_ID: a microcontroller has no environment. RCL_RET_INVALID_ARGUMENT for NULL. */
+/* Leaves *domain_id as it is, as ROS 2 does without ROS_DOMAIN_ID: a microcontroller has no environment.
+ * RCL_RET_INVALID_ARGUMENT for NULL. */
 rcl_ret_t rcl_get_default_domain_id(size_t * domain_id);
 
 #ifdef __cplusplus

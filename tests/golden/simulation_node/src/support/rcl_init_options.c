@@ -40,6 +40,9 @@ rcl_ret_t rcl_init_options_copy(const rcl_init_options_t * src, rcl_init_options
   if (dst == NULL || !options_are_valid(src)) {
     return RCL_RET_INVALID_ARGUMENT;
   }
+  if (dst->rmw.implementation_identifier != NULL) {
+    return microros_error_refuse(RCL_RET_ALREADY_INIT, "dst");
+  }
   return rmw_init_options_copy(&src->rmw, &dst->rmw);
 }
 
