@@ -197,5 +197,5 @@ def test_a_message_that_nobody_sends_is_refused(run: Runner, folder: Path) -> No
     text = "version: 1\ncomponents: [+ping]\ninterfaces: [std_msgs/msg/String]\n"
     (folder / "microros.yaml").write_text(text, encoding="utf-8")
     outcome = run("generate")
-    assert outcome.status == 1
+    assert outcome.status == 2
     assert "microros.yaml:3:14: error: nothing that is selected sends or receives messages" in outcome.err

@@ -57,8 +57,7 @@ static void open_all(void)
   check(rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK, "init");
   check(rclc_node_init_default(&node, "sleeper", "", &support) == RCL_RET_OK, "node");
   check(rclc_publisher_init(&publisher, &node, type, "sleep_out", &qos) == RCL_RET_OK, "publisher");
-  check(
-    rclc_subscription_init(&subscription, &node, type, "sleep_in", &qos) == RCL_RET_OK, "subscription");
+  check(rclc_subscription_init(&subscription, &node, type, "sleep_in", &qos) == RCL_RET_OK, "subscription");
 }
 
 int main(int argc, char ** argv)

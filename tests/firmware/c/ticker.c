@@ -59,8 +59,8 @@ int main(void)
   CHECK(rclc_executor_init(&executor, &support.context, 2, &allocator));
   CHECK(rclc_executor_add_timer(&executor, &timer));
 #ifdef TICKER_LISTENS
-  CHECK(rclc_executor_add_subscription(
-    &executor, &subscription, &received, subscription_callback, ON_NEW_DATA));
+  CHECK(
+    rclc_executor_add_subscription(&executor, &subscription, &received, subscription_callback, ON_NEW_DATA));
 #endif
   CHECK(rclc_executor_spin(&executor));
 #ifdef TICKER_LISTENS
