@@ -122,12 +122,28 @@ def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
     diagnostics.check()
     own = tuple(p for p in profiles.profiles.values() if not p.builtin)
     application = request.application
-    if selection.serves_only("subscribe", CLOCK_ROS) and not selection.has("publish"):
+    clock_alone = selection.serves_only("subscribe", CLOCK_ROS) and not selection.has("publish")
+    if clock_alone or not selection.has("cdr"):
         application = replace(
             application, interfaces=tuple(i for i in application.interfaces if i != Named(DEFAULT_INTERFACE))
         )
+    _check_interfaces_have_a_use(application, selection, diagnostics)
+    diagnostics.check()
     request = replace(request, application=with_clock(application, selection))
     return Resolved(request, own, catalogue, selection)
+
+
+def _check_interfaces_have_a_use(
+    application: Application, selection: Selection, diagnostics: Diagnostics
+) -> None:
+    if selection.has("cdr"):
+        return
+    for named in application.interfaces:
+        diagnostics.error(
+            f"nothing that is selected sends or receives messages, and '{named.name}' is one",
+            named.span,
+            "Select a profile or component that does (publish, subscribe, services), or `cdr` for encoders alone",
+        )
 
 
 def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Diagnostics) -> Planned:

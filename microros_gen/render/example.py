@@ -26,8 +26,8 @@ class NodeView:
 
 
 @dataclass(frozen=True)
-class PublisherView:
-    """A publisher of the example, with its message."""
+class EndpointView:
+    """A publisher or subscription of the example: its variable, its function, and its message with its storage."""
 
     variable: str
     node: str
@@ -40,6 +40,12 @@ class PublisherView:
     c_type: str
     topic: str
     storage: str
+
+
+@dataclass(frozen=True)
+class PublisherView(EndpointView):
+    """A publisher of the example, and what it fills its message with."""
+
     stamps: tuple[str, ...]
     values: tuple[MemberValue, ...]
     texts: tuple[MemberValue, ...]
@@ -47,23 +53,12 @@ class PublisherView:
 
 
 @dataclass(frozen=True)
-class SubscriptionView:
-    """A subscription of the example, with its message and the first thing in it that can be printed.
+class SubscriptionView(EndpointView):
+    """A subscription of the example, and the first thing in its message that can be printed.
 
     `format` is what printf takes for `value`, both empty where the message has no plain member.
     """
 
-    variable: str
-    node: str
-    message: str
-    function: str
-    init: str
-    qos: tuple[str, ...]
-    package: str
-    type: str
-    c_type: str
-    topic: str
-    storage: str
     format: str
     value: str
 

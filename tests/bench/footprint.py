@@ -13,9 +13,11 @@ from firmware.footprint import (
     LIKE_FOR_LIKE,
     MODES,
     RELIABILITIES,
+    SERVES,
     Sender,
     bounded_stack,
     buffers,
+    image_sections,
     painted_stack,
     sections,
     work,
@@ -29,6 +31,10 @@ EXISTING = (
     ("existing bare XRCE client, no ROS API", 18072, 0, 4968, 1544, 19800, 2930),
     ("goal, planned", 9000, 0, 1500, 700, 12000, 600),
 )
+
+
+SERVICES = (("server of SetBool, executor, errors: code", SERVES, "setbool.c"),)
+"""Label, application file, C source below tests/firmware/c; the goal is 15,000 and 3,000."""
 
 
 def bench_footprint(folder: Path) -> None:
@@ -50,6 +56,9 @@ def bench_footprint(folder: Path) -> None:
     print(
         f"  like for like: of its RAM {buffers(builds.build(CORTEX_M4, LIKE_FOR_LIKE.application))} are buffers"
     )
+    for label, application, source in SERVICES:
+        size = image_sections(builds.build(CORTEX_M4, application), _image(builds, application, source))
+        print(f"  {label:<44} {size.text:6} {size.data:5} {size.bss:6}")
     print("  static_configured_sender with the same `entities:` is the same image: shown for the Cortex-M4")
     for name in BOARDS:
         print(name)
@@ -58,6 +67,10 @@ def bench_footprint(folder: Path) -> None:
                 for reliability in RELIABILITIES:
                     row(builds, name, Sender(mode, reliability, profile=profile))
     print()
+
+
+def _image(builds: Builds, application: str, source: str) -> Path:
+    return builds.application(builds.build(CORTEX_M4, application), source)
 
 
 def row(builds: Builds, name: str, sender: Sender) -> None:

@@ -182,3 +182,20 @@ def test_components_without_a_profile_make_an_application(run: Runner, folder: P
     assert outcome.out.startswith("profile    application for host: node ")
     assert (folder / "build/application/examples/application/main.c").is_file()
     assert (folder / "build/application/include/microros/message_type.h").is_file()
+
+
+@pytest.mark.parametrize("component", ["time_sync", "executor"])
+def test_what_needs_no_message_gets_none(run: Runner, folder: Path, component: str) -> None:
+    """The default type is for who sends or receives; type support without an encoder does not compile."""
+    (folder / "microros.yaml").write_text(f"version: 1\ncomponents: [+{component}]\n", encoding="utf-8")
+    outcome = run("generate")
+    assert (outcome.status, outcome.err) == (0, "")
+    assert not list((folder / "build/application").rglob("*__type_support.c"))
+
+
+def test_a_message_that_nobody_sends_is_refused(run: Runner, folder: Path) -> None:
+    text = "version: 1\ncomponents: [+ping]\ninterfaces: [std_msgs/msg/String]\n"
+    (folder / "microros.yaml").write_text(text, encoding="utf-8")
+    outcome = run("generate")
+    assert outcome.status == 1
+    assert "microros.yaml:3:14: error: nothing that is selected sends or receives messages" in outcome.err

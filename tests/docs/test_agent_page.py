@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import ast
+import inspect
 import json
 import os
 import re
@@ -18,6 +19,7 @@ from pathlib import Path
 import click
 import pytest
 
+from microros_gen.agent.core import Agent
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.ros import reports
@@ -150,6 +152,8 @@ def test_every_kind_of_fault_is_there() -> None:
         first = node.args[0] if node.args else None
         if name in ("count", "MalformedError", "_fault", "_fail") and isinstance(first, ast.Constant):
             found.add(str(first.value))
+        if name == "_stop" and isinstance(node.args[-1], ast.Constant):
+            found.add(str(node.args[-1].value))
         if name == "_fail" and len(node.args) > 1:
             found |= {
                 n.value
@@ -158,6 +162,7 @@ def test_every_kind_of_fault_is_there() -> None:
             }
     found = {kind for kind in found if re.fullmatch(r"[a-z]+(_[a-z]+)*", kind)}
     found |= {"frame_too_large", "frame_empty", "log_lost", "client_STATUS", "internal_ERROR"}
+    found |= {"no_server", "no_client", str(inspect.signature(Agent._stop).parameters["kind"].default)}
     assert found == kinds
 
 

@@ -17,7 +17,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
-from e2e.images import SANITIZE, run
+from e2e.images import BUILD_S, SANITIZE, run
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 NAMES = tuple(sorted(path.parent.name for path in EXAMPLES.glob("*/main.c")))
@@ -55,7 +55,7 @@ class Examples:
             assert (build[0], compile_[0]) == ("microros-gen", "cc")
             tool = [sys.executable, "-m", "microros_gen"]
             for command in ([*tool, *build[1:], *agent], [*compile_, *STRICT, *SANITIZE]):
-                done = run(command, cwd=home, env=environment)
+                done = run(command, home, environment, BUILD_S)
                 assert done.returncode == 0, done.stdout + done.stderr
         return home / program
 

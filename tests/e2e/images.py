@@ -18,6 +18,8 @@ from pathlib import Path
 C_FILES = Path(__file__).parent / "c"
 SANITIZE = ("-O1", "-g0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 QUICK = ("-O0",)
+BUILD_S = 300.0
+"""Time-out of a build, which takes some seconds where nobody else needs the machine."""
 
 # What an application without `nodes:` declares for live.c.
 POOLS = """\
@@ -124,16 +126,19 @@ class Images:
         environment = {k: v for k, v in os.environ.items() if k not in ("AR", "AMENT_PREFIX_PATH")}
         environment |= {"CC": image.compiler, "CFLAGS": " ".join(image.flags)}
         environment["XDG_CACHE_HOME"] = str(self._folder / "cache")
-        done = run([sys.executable, "-m", "microros_gen", "build", *arguments], cwd=home, env=environment)
+        done = run([sys.executable, "-m", "microros_gen", "build", *arguments], home, environment, BUILD_S)
         assert done.returncode == 0, done.stdout + done.stderr
 
 
 def run(
-    command: Sequence[str], cwd: Path | None = None, env: dict[str, str] | None = None
+    command: Sequence[str],
+    cwd: Path | None = None,
+    env: dict[str, str] | None = None,
+    timeout_s: float = 60.0,
 ) -> subprocess.CompletedProcess[str]:
-    """Run a command to its end, at most a minute."""
+    """Run a command to its end, at most a minute unless told otherwise."""
     return subprocess.run(
-        list(command), cwd=cwd, env=env, text=True, capture_output=True, timeout=60, check=False
+        list(command), cwd=cwd, env=env, text=True, capture_output=True, timeout=timeout_s, check=False
     )
 
 

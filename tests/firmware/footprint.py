@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from runtime.fake_agent import FakeAgent
 
@@ -92,6 +93,18 @@ LIKE_FOR_LIKE = Sender(
 """The buffers of the existing stack's tightest build."""
 
 
+SERVES = """\
+version: 1
+profiles: [pure_reader]
+components: [-subscribe, +services, +executor]
+errors: code
+nodes:
+  - name: server
+    services: [{name: set_bool, type: std_srvs/srv/SetBool, limits: {message: 20}}]
+"""
+"""A server of std_srvs/srv/SetBool, the application of c/setbool.c."""
+
+
 @dataclass(frozen=True)
 class Sections:
     """Bytes of a linked image; `bss` has everything that is zero at the start and no stack."""
@@ -120,10 +133,15 @@ class Work:
 
 def sections(built: Built) -> Sections:
     """Return what the tool chain's own `size` counts, less the section that holds the stack."""
-    command = [built.tool("size"), "-A", str(built.image)]
+    return image_sections(built, built.image)
+
+
+def image_sections(built: Built, image: Path) -> Sections:
+    """Return the same of any image that was linked with the library of `built`."""
+    command = [built.tool("size"), "-A", str(image)]
     found = subprocess.run(command, capture_output=True, text=True, check=True).stdout
     sizes = {name: int(size) for name, size in re.findall(r"^(\.\S+)\s+(\d+)", found, re.MULTILINE)}
-    command = [built.tool("size"), str(built.image)]
+    command = [built.tool("size"), str(image)]
     total = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()[1].split()
     return Sections(int(total[0]), int(total[1]), int(total[2]) - sizes.get(".stack", 0))
 

@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-import re
 import time
+from pathlib import Path
 
 import pytest
 from runtime.fake_agent import FakeAgent
 
-from firmware.board import Builds, board, check, need
+from firmware.board import Builds, Built, board, need
+from firmware.footprint import SERVES, image_sections
 from firmware.line import scripted_agent
 
 APPLICATION = """\
@@ -52,9 +53,17 @@ def test_its_size(builds: Builds, listens: bool, text: int, ram: int) -> None:
     application = APPLICATION % "" + (LISTENS if listens else "")
     built = builds.build(NAME, application.replace("[pure_sender]", "[pure_sender, pure_reader]", listens))
     image = builds.application(built, "ticker.c", *(["-DTICKER_LISTENS"] if listens else []))
-    found = re.findall(
-        r"^\.(text|data|bss|noinit)\s+(\d+)", check([built.tool("size"), "-A", str(image)]), re.M
-    )
-    sizes = {name: int(size) for name, size in found}
-    assert sizes["text"] + sizes["data"] <= text
-    assert sizes["data"] + sizes["bss"] + sizes["noinit"] <= ram
+    assert within(built, image, text, ram)
+
+
+def test_the_size_of_a_server(builds: Builds) -> None:
+    """A server of SetBool and executor (the goal of image 3: 15,000 and 3,000); `errors: code`."""
+    need(NAME)
+    built = builds.build(NAME, SERVES)
+    assert within(built, builds.application(built, "setbool.c"), 13750, 1950)
+
+
+def within(built: Built, image: Path, text: int, ram: int) -> bool:
+    """Whether an image has no more code and constants, and no more static memory, the stack left out."""
+    size = image_sections(built, image)
+    return size.text + size.data <= text and size.ram <= ram

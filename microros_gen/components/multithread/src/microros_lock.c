@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/lock.h"
 
-void microros_pause(void)
+void microros_lock_rest(void)
 {
   port_unlock();
   port_sleep_ms(1);

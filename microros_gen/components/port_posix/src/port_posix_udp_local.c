@@ -7,11 +7,11 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
-typedef union address_t {
+typedef union local_address_t {
   struct sockaddr any;
   struct sockaddr_in v4;
   struct sockaddr_in6 v6;
-} address_t;
+} local_address_t;
 
 bool port_udp_open_local(port_udp_t * udp, const char * host, uint16_t port, uint16_t local)
 {
@@ -23,7 +23,7 @@ bool port_udp_open_local(port_udp_t * udp, const char * host, uint16_t port, uin
 
 uint16_t port_udp_local(const port_udp_t * udp)
 {
-  address_t address;
+  local_address_t address;
   socklen_t size = sizeof(address);
 
   if (getsockname((int)udp->handle, &address.any, &size) != 0) {

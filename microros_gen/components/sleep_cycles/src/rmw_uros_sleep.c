@@ -11,6 +11,19 @@
 /* "XRCE" and the version of this layout. */
 static const uint32_t retained_magic = 0x58520001u;
 
+/* What must be the same in both. */
+static const char retained_plan[] = MICROROS_PLAN_ID;
+
+static bool retained_is_ours(const rmw_uros_retained_t * retained)
+{
+  bool same = retained->size == (uint32_t)sizeof(*retained);
+
+  for (size_t i = 0; i < sizeof(retained_plan); ++i) {
+    same = same && retained->plan[i] == retained_plan[i];
+  }
+  return same;
+}
+
 static uint32_t retained_check(const rmw_uros_retained_t * retained)
 {
   const size_t begin = offsetof(rmw_uros_retained_t, size);
@@ -39,8 +52,8 @@ static void sleep_write(rmw_uros_retained_t * retained, const xrce_client_t * cl
 {
   (void)memset(retained, 0, sizeof(*retained));
   retained->size = (uint32_t)sizeof(*retained);
-  (void)memcpy(retained->plan, MICROROS_PLAN_ID, sizeof(retained->plan));
-  (void)memcpy(retained->client, client, sizeof(retained->client));
+  (void)memcpy(retained->plan, retained_plan, sizeof(retained->plan));
+  (void)memcpy(retained->client, (const uint8_t *)client, sizeof(retained->client));
   retained->check = retained_check(retained);
   retained->magic = retained_magic; /* last: before it, the memory is worth nothing */
 }
@@ -74,12 +87,11 @@ bool rmw_uros_wake(rmw_uros_retained_t * retained)
   if (retained == NULL || client->session.state != (uint8_t)XRCE_CLOSED) {
     return false;
   }
-  good = retained->magic == retained_magic && retained->size == (uint32_t)sizeof(*retained) &&
-         memcmp(retained->plan, MICROROS_PLAN_ID, sizeof(retained->plan)) == 0 &&
+  good = retained->magic == retained_magic && retained_is_ours(retained) &&
          retained->check == retained_check(retained);
   retained->magic = 0; /* the numbers in it are used from now on */
   if (good) {
-    (void)memcpy(client, retained->client, sizeof(retained->client));
+    (void)memcpy((uint8_t *)client, retained->client, sizeof(retained->client));
     client->session.state = (uint8_t)XRCE_CLOSED; /* until rcl_init */
     client->session.transport_open = false;
   }

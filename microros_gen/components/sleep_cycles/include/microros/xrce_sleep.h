@@ -51,8 +51,8 @@ bool xrce_sleep_took_up(const xrce_client_t * client, uint16_t place);
 /* A session is new: what was kept for the one before is no more. */
 void xrce_sleep_forget(xrce_client_t * client);
 
-/* Returns CRC-32 (IEEE 802.3) of some more bytes; begin with 0. */
-uint32_t xrce_sleep_check(uint32_t check, const void * bytes, size_t size);
+/* Returns CRC-32 (IEEE 802.3) of some more bytes; `before` is that of those before, 0 at first. */
+uint32_t xrce_sleep_check(uint32_t before, const uint8_t * bytes, size_t size);
 
 /* --- one of xrce_sleep_<transport>.c --- */
 
