@@ -35,11 +35,21 @@ AHEAD = 500
 """Samples that are published and have not come back: less than the depth of each reader in DDS."""
 
 
+def begin(observer: Observer) -> None:
+    """Subscribe once for all tests, and wait until the device of another one is gone."""
+    if not any(end["kind"] == "SUBSCRIPTION" for end in observer.ask(do="endpoints", topic="/echo_out")):
+        observer.subscribe("/echo_out", "std_msgs/msg/Int32")
+    observer.ask(do="publish", topic="/echo_in", type="std_msgs/msg/Int32", values=[])
+    end = time.monotonic() + 30
+    while observer.ask(do="matched", topic="/echo_in"):
+        assert time.monotonic() < end, "another device is still there"
+        time.sleep(0.1)
+    observer.ask(do="samples")
+
+
 def echo(observer: Observer, program: Path, count: int, timeout_s: float) -> dict[str, int]:
     """Send `count` samples through the device; return what it counted. AssertionError unless all come back in order."""
-    observer.subscribe("/echo_out", "std_msgs/msg/Int32")
-    observer.ask(do="publish", topic="/echo_in", type="std_msgs/msg/Int32", values=[])
-    observer.ask(do="samples")
+    begin(observer)
     came: list[int] = []
     sent, end, began = 0, time.monotonic() + timeout_s, time.monotonic()
     with started(program, str(count - 1)) as process:

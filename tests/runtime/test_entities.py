@@ -193,8 +193,8 @@ def test_a_node_takes_its_publishers_with_it(bench: Bench) -> None:
 @pytest.mark.parametrize(
     ("qos", "policy"),
     [
-        ("deadline", "deadline, unless it is declared"),
-        ("lifespan", "lifespan, unless it is declared"),
+        ("deadline", "deadline"),
+        ("lifespan", "lifespan"),
         ("liveliness", "liveliness"),
         ("best_available", "reliability"),
         ("depth", "depth"),

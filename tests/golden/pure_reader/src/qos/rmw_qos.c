@@ -26,10 +26,10 @@ static const char * qos_refuse(const rmw_qos_profile_t * qos)
     return "depth";
   }
   if (!qos_is_unlimited(&qos->deadline)) {
-    return "deadline, unless it is declared";
+    return "deadline";
   }
   if (!qos_is_unlimited(&qos->lifespan)) {
-    return "lifespan, unless it is declared";
+    return "lifespan";
   }
   if (
     qos->liveliness > RMW_QOS_POLICY_LIVELINESS_AUTOMATIC ||
