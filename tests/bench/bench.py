@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """`make bench`: generate and build, encode and decode beside Fast CDR, instructions, flash of types, firmware,
-the client, the agent.
+whole images, the client, the agent.
 
 Times depend on the machine; so each stands beside a peer that ran in the same minutes. Instruction counts come
 from callgrind and repeat exactly with one compiler.
@@ -20,10 +20,11 @@ from client import bench_client
 from codec import bench_codec
 from footprint import bench_footprint
 from generation import Seconds, bench_generate, median, row, timed, tool
+from images import bench_images
 from instructions import bench_instructions
 from type_flash import bench_type_flash
 
-PARTS = ("generate", "build", "instructions", "codec", "types", "footprint", "client", "agent")
+PARTS = ("generate", "build", "instructions", "codec", "types", "footprint", "images", "client", "agent")
 
 
 def main() -> int:
@@ -52,6 +53,8 @@ def main() -> int:
             bench_type_flash(work)
         if "footprint" in options.parts:
             bench_footprint(work / "footprint")
+        if "images" in options.parts:
+            bench_images(work / "images")
         if "client" in options.parts:
             bench_client(work / "client")
         if "agent" in options.parts:
