@@ -91,7 +91,7 @@ def test_nothing_is_lost_to_a_reader_that_takes_nothing_for_long(
         if sender.acknowledged != before:
             stuck_since, before = time.monotonic(), sender.acknowledged
     assert 0 < sender.acknowledged < MESSAGES, "the client was not held back"
-    assert sender.log.counters == {"publish_waits": 1}
+    assert set(sender.log.counters) == {"publish_waits"}
     other = Sender(bridged, "00 00 00 0b", "b", sender.agent)
     while other.acknowledged < 5:  # who has no such reader is not held back
         other.write()

@@ -120,6 +120,14 @@ def test_timers_follow_the_clock(
         # Further back: the period begins anew.
         assert [simulated.at(ms) for ms in (20_000, 20_099)] == [["jump -70200"], []]
         assert simulated.at(20_100) == ["tick 20100"]
-        assert [value for _, value in observer.got(23)] == [{"data": i} for i in range(1, 24)]
+        assert _ticks(observer, 23) == [{"data": i} for i in range(1, 24)]
         simulated.publish(1000 * END_S)
         ends_well(process)
+
+
+def _ticks(observer: Observer, count: int) -> list[dict[str, int]]:
+    """Return `count` samples of /ticks; what tests before have left on other topics does not count."""
+    found: list[dict[str, int]] = []
+    while len(found) < count:
+        found += [value for topic, value in observer.got(1) if topic == "/ticks"]
+    return found

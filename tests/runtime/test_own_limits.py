@@ -53,6 +53,7 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
             "client.c",
             "client_ping.c",
             "client_no_read.c",
+            "client_no_serve.c",
             "client_no_time.c",
             "client_no_extra.c",
         ],

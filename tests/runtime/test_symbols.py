@@ -209,7 +209,7 @@ def test_no_symbol_that_is_not_selected(plan: RuntimePlan, liveliness: str, tmp_
     pieces = {"stream_flow", "stream_send_place", "stream_send_of", "stream_send_piece"}
     assert bool(pieces & _local(objects)) == plan.fragments
     _creates_as_the_plan_says(plan, names, b"".join(o.read_bytes() for o in objects))
-    prefixes = ("rcl", "rclc", "rmw", "rcutils", "rosidl", "xrce", "cdr", "port", "microros")
+    prefixes = ("rcl", "rclc", "rmw", "rcutils", "rosidl", "uxr", "xrce", "cdr", "port", "microros")
     assert all(name.startswith(prefixes) for name in names), "no name of ours can meet an application's"
 
 

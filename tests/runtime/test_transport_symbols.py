@@ -25,7 +25,7 @@ PLANS = {
 OWN = {
     "udp": re.compile("udp"),
     "serial": re.compile("serial(?!iz)|framing"),
-    "custom": re.compile("custom|framing|uxr_"),
+    "custom": re.compile("custom|framing"),
 }
 
 

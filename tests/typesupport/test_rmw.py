@@ -81,7 +81,7 @@ def compiled(out: Path) -> ctypes.CDLL:
     unity.write_text("".join(f'#include "{path}"\n' for path in types))
     others = [path for name in FOLDERS for path in sorted((out / "src" / name).glob("*.c"))]
     others += [out / "src/publish/rmw_serialize.c", *sorted((out / "src/support").glob("error_*.c"))]
-    others += [*sorted((out / "src/cdr").glob("*.c")), *sorted((out / "src/publish").glob("rmw_encode_*.c"))]
+    others += [*sorted((out / "src/cdr").glob("*.c")), *sorted((out / "src/write").glob("rmw_encode_*.c"))]
     library = out / "types.so"
     options = ["-std=c99", "-O0", "-fPIC", "-shared", "-Wl,-Bsymbolic", "-Wl,-z,defs", f"-I{out / 'include'}"]
     run(["gcc", *options, unity, *others, "-o", library])
