@@ -3,7 +3,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import pytest
+from _pytest.mark import ParameterSet
 
 from firmware.board import Builds, need
 from firmware.ceilings import CORTEX_M4, OTHER_COMPILER, cases, compiler_of, load, measure
@@ -12,7 +15,22 @@ from firmware.footprint import LIKE_FOR_LIKE, Sender, bounded_stack, buffers, pa
 CEILINGS = load()
 
 
-@pytest.mark.parametrize(("name", "sender"), [pytest.param(n, s, id=f"{n} {s.label}") for n, s in cases()])
+SLICE = (
+    f"{CORTEX_M4} pure_sender binary reliable code",
+    f"{CORTEX_M4} pure_sender binary best_effort code",
+    "qemu-microbit pure_sender binary reliable code",
+    "qemu-riscv32-virt pure_sender binary reliable code",
+)
+"""What the default suite measures; the long run has them all."""
+
+
+def _params() -> Iterator[ParameterSet]:
+    for name, sender in cases():
+        label = f"{name} {sender.label}"
+        yield pytest.param(name, sender, id=label, marks=[] if label in SLICE else [pytest.mark.long])
+
+
+@pytest.mark.parametrize(("name", "sender"), _params())
 def test_nothing_grows_unseen(builds: Builds, name: str, sender: Sender) -> None:
     """A figure above its ceiling, or far below: then `make footprint` shall write the new one down."""
     need(name, emulator=True)

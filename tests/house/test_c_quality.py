@@ -148,7 +148,7 @@ def test_gcc_warnings(all_units: list[Unit]) -> None:
 
 
 @pytest.mark.skipif(not shutil.which("gcc"), reason="no gcc")
-@pytest.mark.parametrize("level", ["-O0", "-Os", "-O3"])
+@pytest.mark.parametrize("level", ["-O0", "-Os", pytest.param("-O3", marks=pytest.mark.long)])
 def test_gcc_optimizing(all_units: list[Unit], level: str) -> None:
     """Warnings that need the flow of data, at several levels; the analyzer once."""
     flags = ("-std=c99", "-Iinclude", *GCC, level, "-c", "-o", "/dev/null")

@@ -33,8 +33,11 @@ UNITS = {
 @pytest.mark.parametrize("unit", UNITS)
 @pytest.mark.parametrize(
     ("compiler", "flags"),
-    [("gcc", SANITIZE), ("gcc", ("-m32", "-Os")), ("clang", SANITIZE)],
-    ids=["gcc-sanitized", "gcc-m32", "clang-sanitized"],
+    [
+        pytest.param("gcc", SANITIZE, id="gcc-sanitized"),
+        pytest.param("gcc", ("-m32", "-Os"), id="gcc-m32"),
+        pytest.param("clang", SANITIZE, id="clang-sanitized", marks=pytest.mark.long),
+    ],
 )
 def test_unit(unit: str, compiler: str, flags: tuple[str, ...], tmp_path: Path) -> None:
     if compiler not in compilers():

@@ -39,6 +39,11 @@ def build(generated: Generated, name: str, command: list[str]) -> Path:
     return output
 
 
+BOTH_LIMITS = pytest.mark.parametrize(
+    "limits_case", ["same", pytest.param("differing", marks=pytest.mark.long)], indirect=True
+)
+
+
 @pytest.fixture(scope="session")
 def baseline(limits_case: Generated) -> str:
     """What gcc on this host prints. Its bytes are held against ROS 2 in test_bytes.py."""
@@ -48,11 +53,13 @@ def baseline(limits_case: Generated) -> str:
     return printed
 
 
+@BOTH_LIMITS
 def test_portable_path_writes_the_same(limits_case: Generated, baseline: str) -> None:
     """Byte by byte, as on a big endian target: no run is copied as it lies in memory."""
     assert run([build(limits_case, "portable", ["gcc", "-O0", "-DCDR_HOST_IS_LITTLE_ENDIAN=0"])]) == baseline
 
 
+@BOTH_LIMITS
 def test_clang_with_sanitizers_writes_the_same(limits_case: Generated, baseline: str) -> None:
     """Storage and body are blocks of exactly their size, so a byte too far is seen."""
     needs("clang")
@@ -65,6 +72,7 @@ def test_clang_with_sanitizers_writes_the_same(limits_case: Generated, baseline:
     assert result.stdout == baseline
 
 
+@BOTH_LIMITS
 def test_32_bit_writes_the_same(limits_case: Generated, baseline: str, tmp_path: Path) -> None:
     probe = tmp_path / "probe.c"
     probe.write_text("#include <stdio.h>\nint main(void) { return 0; }\n")
@@ -74,6 +82,7 @@ def test_32_bit_writes_the_same(limits_case: Generated, baseline: str, tmp_path:
     assert run([build(limits_case, "m32", ["gcc", "-m32", "-O0"])]) == baseline
 
 
+@BOTH_LIMITS
 def test_cortex_m_compiles(limits_case: Generated) -> None:
     """Sizes of structs and storage under the Arm EABI are those of the plan (asserted in the code)."""
     needs("arm-none-eabi-gcc")
@@ -83,6 +92,7 @@ def test_cortex_m_compiles(limits_case: Generated) -> None:
 
 
 @pytest.mark.parametrize("compiler", ["g++", "clang++"])
+@BOTH_LIMITS
 def test_headers_are_usable_from_cpp(limits_case: Generated, compiler: str, tmp_path: Path) -> None:
     """All of them in one C++ file, in both orders; and each by itself in C."""
     needs(compiler)
