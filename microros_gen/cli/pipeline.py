@@ -96,8 +96,6 @@ def read_request(options: SelectionOptions, diagnostics: Diagnostics) -> Request
     near = options.config.parent if options.config else Path()
     profiles_near = Path() if options.profiles else near
     target = read_target(application.target.name, near, application.target.span, diagnostics)
-    if not application.nodes and not application.interfaces:
-        application = replace(application, interfaces=(Named(DEFAULT_INTERFACE),))
     diagnostics.check()
     assert target is not None
     inputs = {"microros.yaml": source.text.encode()} if source else {}
@@ -105,7 +103,7 @@ def read_request(options: SelectionOptions, diagnostics: Diagnostics) -> Request
 
 
 def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
-    """Resolve profiles and components."""
+    """Resolve profiles and components; what sends or receives and names no type gets the default one."""
     catalogue = load_catalogue()
     profiles = load_profiles(request.application.profiles, request.profiles_near, diagnostics)
     resolved = resolve_profiles(profiles, diagnostics)
@@ -124,10 +122,9 @@ def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
     own = tuple(p for p in profiles.profiles.values() if not p.builtin)
     application = request.application
     clock_alone = selection.serves_only("subscribe", CLOCK_ROS) and not selection.has("publish")
-    if clock_alone or not selection.has("cdr"):
-        application = replace(
-            application, interfaces=tuple(i for i in application.interfaces if i != Named(DEFAULT_INTERFACE))
-        )
+    names_none = not application.nodes and not application.interfaces
+    if names_none and selection.has("cdr") and not clock_alone:
+        application = replace(application, interfaces=(Named(DEFAULT_INTERFACE),))
     _check_interfaces_have_a_use(application, selection, diagnostics)
     diagnostics.check()
     request = replace(request, application=with_clock(application, selection))
