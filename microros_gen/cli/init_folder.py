@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
@@ -157,8 +158,8 @@ def _view(wish: Wish, planned: Planned | None, toolchain: bool, undecided: int) 
         include_folders=tuple(sorted({_relative(path.parent, wish.folder) for path in sources})),
         own_sources=bool(sources),
         code=f"`{_relative(wish.sources, wish.folder)}`" if wish.sources is not None else "`main.c`",
-        interface_paths=f" INTERFACE_PATHS {' '.join(paths)}" if paths else "",
-        check_options="".join(f" --interface-path {path}" for path in paths),
+        interface_paths="".join(f' "{path}"' for path in paths),
+        check_options="".join(f" --interface-path {shlex.quote(path)}" for path in paths),
         agent="udp4 --port 8888" + (" --discovery" if discovery else ""),
         undecided=undecided,
         golden=planned is not None,

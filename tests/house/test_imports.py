@@ -72,7 +72,7 @@ def test_the_check_finds_a_wrong_import(tmp_path: Path) -> None:
 
 
 def test_only_reading_writing_and_building_touch_the_disk() -> None:
-    """`parse`, `resolve`, `adopt`, `plan`, `model` and `diagnostics` compute; they open no file and start no process."""
+    """`parse`, `resolve`, `adopt`, `plan`, `model` and `diagnostics` compute: no file is opened, no process started."""
     forbidden = {"subprocess", "socket", "tempfile", "shutil"}
     for folder in ("diagnostics", "model", "parse", "resolve", "adopt", "plan"):
         for path in sorted((PACKAGE / folder).rglob("*.py")):
