@@ -77,7 +77,7 @@ rcl_ret_t rcl_expand_topic_name(
   return RCL_RET_OK;
 }
 
-/* cppcheck-suppress constParameterPointer ; the signature is that of ROS 2 */
+/* cppcheck-suppress constParameter ; the signature is that of ROS 2 */
 rcl_ret_t rcl_get_default_topic_name_substitutions(rcutils_string_map_t * string_map)
 {
   if (string_map == NULL) {
