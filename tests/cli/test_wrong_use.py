@@ -86,6 +86,11 @@ IN_THE_FILE = {
         "[pure_sender, managed_service]",
         r"microros\.yaml:2:25: error: .*managed_service.*lifecycle.*does not have yet",
     ),
+    "an RTOS without a port": (
+        "profiles: [pure_sender]",
+        "profiles: [pure_sender]\ntarget: {name: cortex-m4, rtos: freertos}",
+        r"microros\.yaml:3:\d+: error: no port for the RTOS 'freertos'.*leave `rtos` out",
+    ),
     "contradictory components": (
         "profiles: [pure_sender]",
         "profiles: [pure_sender]\ncomponents: [+timers, -timers]",
