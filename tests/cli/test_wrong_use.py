@@ -56,6 +56,14 @@ def test_a_wrong_name_on_the_command_line(run: Runner, folder: Path, command: st
     assert left_behind(folder) == []
 
 
+@pytest.mark.parametrize("profile", ["pure_sender", "pure_reader"])
+def test_a_message_that_does_not_fit_shows_the_option_that_named_it(run: Runner, profile: str) -> None:
+    outcome = run("generate", "--profile", profile, "--interface", "sensor_msgs/msg/MultiDOFJointState")
+    assert outcome.status == 2
+    place = r"^<command line>:1:13: error: sensor_msgs/msg/MultiDOFJointState takes up to \d+ bytes"
+    assert re.match(place, outcome.err), outcome.err
+
+
 IN_THE_FILE = {
     "broken YAML": ("nodes:\n", "nodes: [\n", r"microros\.yaml:\d+:\d+: error: "),
     "a key": ("limits:", "limit:", r"microros\.yaml:7:1: error: .*limit.*Did you mean 'limits'\?"),
