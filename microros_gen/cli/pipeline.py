@@ -17,6 +17,7 @@ from microros_gen.model.selection import Selection
 from microros_gen.model.target import Target
 from microros_gen.model.types import TypeName
 from microros_gen.parse.application import parse_agent_address, parse_application, parse_discover
+from microros_gen.parse.tree_read import component_change
 from microros_gen.plan.agent_files import check_entities
 from microros_gen.plan.capacity import Capacities, Defaults, Entity, Root, plan_capacities
 from microros_gen.plan.declared import declarations, full_name, node_name, service_parts, type_name
@@ -234,6 +235,10 @@ def _with_options(
     if options.interfaces:
         added = _named(options.interfaces, "--interface")
         application = replace(application, interfaces=application.interfaces + added)
+    if options.components:
+        named_components = _named(options.components, "--component")
+        changes = tuple(component_change(c.name, c.span) for c in named_components)
+        application = replace(application, components=application.components + changes)
     if options.target:
         (named,) = _named((options.target,), "--target")
         target = replace(application.target, name=named.name, span=named.span)
