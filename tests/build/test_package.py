@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
@@ -27,7 +28,7 @@ COMMANDS = (
     "agent udp4",
 )
 # What the wheel is made from, and what a fresh clone has; folders that git does not know are not in it.
-SOURCES = ("pyproject.toml", "README.md", "LICENSE", "microros_gen", "profiles")
+SOURCES = ("pyproject.toml", "README.md", "LICENSE", "microros_gen", "profiles", "cmake")
 DATA = ("profiles", "components", "templates", "idl", "targets")
 
 
@@ -101,6 +102,29 @@ def test_it_builds_from_another_folder_without_ros(installed: Installed, tmp_pat
     golden = ["check", "--profile", "pure_sender", "--golden", str(ROOT / "tests/golden/pure_sender")]
     compared = installed.run(*golden, folder=tmp_path)
     assert compared.returncode == 0, compared.stdout[:2000] + compared.stderr
+
+
+def test_cmake_finds_it_where_its_program_is_on_the_path(installed: Installed, tmp_path: Path) -> None:
+    text = "cmake_minimum_required(VERSION 3.16)\nproject(found NONE)\nfind_package(microros_gen REQUIRED)\n"
+    (tmp_path / "CMakeLists.txt").write_text(text + "microros_add_library(robot PROFILES pure_sendr)\n")
+    environment = clean_environ(PATH=f"{installed.program.parent}{os.pathsep}{os.environ['PATH']}")
+    configure = ["cmake", "-S", ".", "-B", "build"]
+    done = subprocess.run(
+        configure, cwd=tmp_path, env=environment, text=True, capture_output=True, check=False
+    )
+    assert "there is no profile 'pure_sendr'" in done.stderr
+    cache = (tmp_path / "build/CMakeCache.txt").read_text()
+    assert f"MICROROS_GEN_PROGRAM:FILEPATH={installed.program}\n" in cache
+
+
+@pytest.mark.long
+def test_an_editable_installation_has_the_files_of_cmake(tmp_path: Path) -> None:
+    _new_environment(tmp_path / "environment")
+    options = ["--no-deps", "--editable", str(ROOT)]
+    subprocess.run(install(tmp_path / "environment", options), env=clean_environ(), check=True)
+    installed = tmp_path / "environment/share/cmake/microros_gen"
+    files = {path.name: path.read_bytes() for path in installed.iterdir()}
+    assert files == {path.name: path.read_bytes() for path in (ROOT / "cmake").glob("*.cmake")}
 
 
 @pytest.mark.parametrize("command", ["", *COMMANDS])
