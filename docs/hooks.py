@@ -20,7 +20,7 @@ from mkdocs.structure.pages import Page
 from pygments.formatters import HtmlFormatter
 
 ROOT = Path(__file__).resolve().parents[1]
-OUTSIDE = {"examples/README.md": "examples.md"}
+OUTSIDE = {"README.md": "overview.md", "examples/README.md": "examples.md"}
 """Markdown outside of docs/ that is part of the site, and its page."""
 
 _LINK = re.compile(r"(?<=\]\()(?!https?:|#|mailto:)([^)#\s]+)(#[^)\s]*)?(?=\))")

@@ -4,7 +4,8 @@
 In a block marked `console` a line `$ command` is run by a shell; the lines below it are what it prints: `...` alone
 stands for any lines, `…` for any part of a line, and sizes that a compiler gives are not compared. Without such lines
 only the status counts. A command with `&` at its end runs on until the page ends; its lines are waited for. A block
-with `title="path"` is a file that the page has the reader write. What stands in an admonition `not-run` is left out.
+marked `sh` has commands alone, one a line. A block with `title="path"` is a file that the page has the reader write.
+What stands in an admonition `not-run` is left out.
 """
 
 from __future__ import annotations
@@ -23,7 +24,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-SHELL = ("console", "sh", "bash", "shell", "shell-session")
+SHELL = ("console", "sh")
+"""Languages of blocks with commands; no other name for them is taken."""
 _FENCE = re.compile(
     r"^( *)```(?:(\w[\w-]*))?[^\S\n]*([^\n]*)\n(.*?)^\1```[^\S\n]*$", re.MULTILINE | re.DOTALL
 )
@@ -42,7 +44,10 @@ class Block:
 
     @property
     def commands(self) -> list[tuple[str, list[str]]]:
-        """Each command of a console block, with the lines that it shows."""
+        """Each command of the block, with the lines that it shows."""
+        if self.language != "console":
+            lines = re.sub(r"\s+#\s.*|\\\n", " ", self.text).splitlines()
+            return [(line.strip(), []) for line in lines if line.strip()]
         found: list[tuple[str, list[str]]] = []
         for line in self.text.splitlines():
             if line.startswith("$ "):
@@ -100,6 +105,7 @@ class Terminal:
             "PYTHONPATH": str(ROOT),
             "PYTHONUNBUFFERED": "1",
             "XDG_CACHE_HOME": str(folder / ".cache"),
+            "microros_gen_DIR": str(ROOT / "cmake"),
             "ROS_DOMAIN_ID": domain,
             "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
         }
@@ -192,5 +198,5 @@ def _collect(process: subprocess.Popen[str], said: list[str]) -> None:
 def steps(page: str) -> Iterator[Block]:
     """Yield what a reader does on a page: files to write, console blocks to run."""
     for block in blocks(page):
-        if not block.not_run and (block.title or block.language == "console"):
+        if not block.not_run and (block.title or block.language in SHELL):
             yield block
