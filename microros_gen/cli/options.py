@@ -23,6 +23,7 @@ class SelectionOptions:
     interface_paths: tuple[Path, ...]
     target: str | None
     agent: str | None
+    components: tuple[str, ...] = ()
 
 
 def selection_options(function: F) -> F:
@@ -41,6 +42,13 @@ def selection_options(function: F) -> F:
                 multiple=True,
                 metavar="NAME",
                 help="Profile, built-in or a file; several combine. Replaces `profiles` of the file.",
+            ),
+            click.option(
+                "--component",
+                "components",
+                multiple=True,
+                metavar="[+-]NAME",
+                help="Component to add, or with - to leave out. Adds to `components` of the file.",
             ),
             click.option(
                 "--interface",

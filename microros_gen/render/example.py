@@ -65,9 +65,10 @@ class SubscriptionView(EndpointView):
 
 @dataclass(frozen=True)
 class ExampleView:
-    """The whole example."""
+    """The whole example; `heading` is what its comment says of it."""
 
     title: str
+    heading: str
     summary: str
     includes: tuple[str, ...]
     nodes: tuple[NodeView, ...]
@@ -98,6 +99,7 @@ def example_view(project: Project) -> ExampleView:
         includes.add("rosidl_runtime_c/string_functions.h")
     return ExampleView(
         title=project.name,
+        heading=f"An application for {project.name}, to start from: copy it out of this folder and change it.",
         summary=_summary(views, [view for _, view in subscriptions], services, shows_time),
         includes=tuple(sorted(includes)),
         nodes=nodes,

@@ -47,7 +47,7 @@ def test_each_suppression_has_its_reason() -> None:
         previous = line
 
 
-@pytest.mark.parametrize("folder", ["microros_gen", "profiles", "tests", "examples"])
+@pytest.mark.parametrize("folder", ["microros_gen", "profiles", "tests", "examples", "cmake"])
 def test_every_source_carries_the_licence(folder: str) -> None:
     endings = {".py", ".c", ".h", ".yaml", ".lark", ".cmake"}
     for path in sorted((ROOT / folder).rglob("*")):

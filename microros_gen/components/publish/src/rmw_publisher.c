@@ -6,7 +6,7 @@
 #include "microros/rmw_client.h"
 #include "microros/rmw_node.h"
 #include "microros/rmw_qos.h"
-#include "microros/xrce_client.h"
+#include "microros/xrce_drops.h"
 #include "microros/xrce_routes.h"
 #include "microros/xrce_wire.h"
 
@@ -61,6 +61,7 @@ rmw_ret_t rmw_publisher_open(
     xrce_endpoint_t * writer = &wanted.client->endpoints[wanted.index];
 
     *writer = wanted;
+    xrce_drops_clear(writer->client, writer->index);
     result = rmw_place_open(writer->client, publisher_place(writer), writer->name);
     if (result == RMW_RET_OK) {
       *publisher = publisher_hand_out(writer);
