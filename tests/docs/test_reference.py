@@ -92,6 +92,14 @@ def test_what_the_suite_knows_of_the_api_is_there() -> None:
     assert not [name for name in constants if not re.search(rf"\b{name}\b", text)]
 
 
+def test_each_anchor_is_there_once() -> None:
+    for name, text in generated().items():
+        anchors = [first or other for first, other in re.findall(r'\{: #(\S+) \}|<a id="(\w+)">', text)]
+        assert len(anchors) == len(set(anchors)), name
+        assert "{{" not in text
+        assert "{%" not in text
+
+
 def test_a_header_is_read_as_the_house_writes_it() -> None:
     text = """/* SPDX-License-Identifier: Apache-2.0 */
 /* Of the file. */
