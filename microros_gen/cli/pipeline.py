@@ -89,11 +89,19 @@ class Planned:
 def read_request(options: SelectionOptions, diagnostics: Diagnostics) -> Request:
     """Read the application file where there is one and let the options win over it."""
     source = read_application(options.config, Path.cwd(), diagnostics)
+    diagnostics.check()
+    near = options.config.parent if options.config else Path()
+    return request_of(source, near, options, diagnostics)
+
+
+def request_of(
+    source: Source | None, near: Path, options: SelectionOptions, diagnostics: Diagnostics
+) -> Request:
+    """Return the request of an application file in the folder `near`, or of the options alone."""
     application = parse_application(source, diagnostics) if source else Application()
     diagnostics.check()
     assert application is not None
     application = _with_options(application, options, diagnostics)
-    near = options.config.parent if options.config else Path()
     profiles_near = Path() if options.profiles else near
     _refuse_rtos(application.target, diagnostics)
     target = read_target(application.target.name, near, application.target.span, diagnostics)
