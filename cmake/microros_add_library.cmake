@@ -50,6 +50,7 @@ function(microros_add_library target)
   set(MICROROS_LIBRARY "${target}")
   set(MICROROS_EXAMPLE OFF)
   add_subdirectory("${output}" "${build}")
+  set_target_properties("${target}" PROPERTIES MICROROS_OUTPUT "${output}")
 endfunction()
 
 # Appends to the list `result` the option and a value, for each value: a FOLDER, a FILE or the NAME of something. Paths
