@@ -10,7 +10,7 @@ from pathlib import Path
 
 from microros_gen.cli.options import SelectionOptions
 from microros_gen.diagnostics import Diagnostics, Source, Span
-from microros_gen.model.application import Application, EndpointDecl, Named, Transport
+from microros_gen.model.application import Application, EndpointDecl, Named, TargetRef, Transport
 from microros_gen.model.component import Catalogue, Profile
 from microros_gen.model.derived import declaring_name, derived_name
 from microros_gen.model.selection import Selection
@@ -89,17 +89,36 @@ class Planned:
 def read_request(options: SelectionOptions, diagnostics: Diagnostics) -> Request:
     """Read the application file where there is one and let the options win over it."""
     source = read_application(options.config, Path.cwd(), diagnostics)
+    diagnostics.check()
+    near = options.config.parent if options.config else Path()
+    return request_of(source, near, options, diagnostics)
+
+
+def request_of(
+    source: Source | None, near: Path, options: SelectionOptions, diagnostics: Diagnostics
+) -> Request:
+    """Return the request of an application file in the folder `near`, or of the options alone."""
     application = parse_application(source, diagnostics) if source else Application()
     diagnostics.check()
     assert application is not None
     application = _with_options(application, options, diagnostics)
-    near = options.config.parent if options.config else Path()
     profiles_near = Path() if options.profiles else near
+    _refuse_rtos(application.target, diagnostics)
     target = read_target(application.target.name, near, application.target.span, diagnostics)
     diagnostics.check()
     assert target is not None
     inputs = {"microros.yaml": source.text.encode()} if source else {}
     return Request(application, source is not None, options.config, near, profiles_near, target, inputs)
+
+
+def _refuse_rtos(target: TargetRef, diagnostics: Diagnostics) -> None:
+    if target.rtos is not None:
+        diagnostics.error(
+            f"no port for the RTOS {target.rtos!r} is here yet",
+            target.rtos_span,
+            "leave `rtos` out and define port_time_ms, port_sleep_ms and what else the library's port gives "
+            "over your RTOS: your functions win over the archive's (microros/port.h)",
+        )
 
 
 def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:

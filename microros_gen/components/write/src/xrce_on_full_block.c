@@ -2,7 +2,7 @@
 /* on_full: block up to MICROROS_ON_FULL_BLOCK_MS, then refuse. */
 #include "microros/lock.h"
 #include "microros/port.h"
-#include "microros/xrce_client.h"
+#include "microros/xrce_drops.h"
 #include "microros/xrce_write.h"
 
 xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room)
@@ -17,6 +17,6 @@ xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room)
       return XRCE_WRITTEN;
     }
   }
-  ++writer->client->session.statistics.dropped;
+  xrce_drops_add(writer->client, writer->index);
   return xrce_write_obstacle(writer);
 }

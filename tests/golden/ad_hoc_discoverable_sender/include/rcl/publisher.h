@@ -68,8 +68,17 @@ rcl_ret_t rcl_publish_serialized_message(
  * as it takes. RCL_RET_TIMEOUT otherwise. */
 rcl_ret_t rcl_publisher_wait_for_all_acked(const rcl_publisher_t * publisher, rcl_duration_value_t timeout);
 
+/* Succeeds and sends nothing: liveliness is automatic, the only kind that XRCE has a place for. */
+rcl_ret_t rcl_publisher_assert_liveliness(const rcl_publisher_t * publisher);
+
 /* Returns the fully qualified name, which belongs to the publisher; NULL for an invalid one. */
 const char * rcl_publisher_get_topic_name(const rcl_publisher_t * publisher);
+
+/* Returns what the agent was asked for, each default as what it means; NULL for an invalid one. Belongs to the publisher. */
+const rmw_qos_profile_t * rcl_publisher_get_actual_qos(const rcl_publisher_t * publisher);
+
+/* The same as options: the QoS is the actual one, the allocator the default one, since none is called. */
+const rcl_publisher_options_t * rcl_publisher_get_options(const rcl_publisher_t * publisher);
 
 rmw_publisher_t * rcl_publisher_get_rmw_handle(const rcl_publisher_t * publisher);
 

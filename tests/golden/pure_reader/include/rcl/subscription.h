@@ -72,6 +72,12 @@ rcl_ret_t rcl_take_serialized_message(
 /* Returns the fully qualified name, which belongs to the subscription; NULL for an invalid one. */
 const char * rcl_subscription_get_topic_name(const rcl_subscription_t * subscription);
 
+/* Returns what the agent was asked for, each default as what it means; NULL for an invalid one. Belongs to the subscription. */
+const rmw_qos_profile_t * rcl_subscription_get_actual_qos(const rcl_subscription_t * subscription);
+
+/* The same as options: the QoS is the actual one, the allocator the default one, since none is called. */
+const rcl_subscription_options_t * rcl_subscription_get_options(const rcl_subscription_t * subscription);
+
 rmw_subscription_t * rcl_subscription_get_rmw_handle(const rcl_subscription_t * subscription);
 
 bool rcl_subscription_is_valid(const rcl_subscription_t * subscription);

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`init --from` on the applications of examples/: it proposes what their own microros.yaml declares."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from proposals import Init, application_in, entities_of, undecided_in
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+APPLICATIONS = sorted(path.parent.name for path in EXAMPLES.glob("*/main.c"))
+
+
+def test_there_are_examples() -> None:
+    assert len(APPLICATIONS) >= 11
+
+
+@pytest.mark.parametrize("name", APPLICATIONS)
+def test_the_proposal_is_what_the_example_declares(name: str, init: Init, tmp_path: Path) -> None:
+    status, _, err = init("app", "--from", str(EXAMPLES / name))
+    assert (status, err) == (0, "")
+    assert undecided_in(tmp_path / "app/microros.yaml") == []
+    proposed = application_in(tmp_path / "app/microros.yaml")
+    declared = application_in(EXAMPLES / name / "microros.yaml")
+    assert entities_of(proposed) == entities_of(declared)
+    assert proposed.transport.type == declared.transport.type
+    assert proposed.transport.framing == declared.transport.framing
+    assert {c.name for c in proposed.components} <= {c.name for c in declared.components}
+    assert {p.name for p in proposed.profiles} == {p.name for p in declared.profiles}
+    # It was planned and rendered: the golden copy is there, and the sources stay where they are.
+    assert (tmp_path / "app/golden/manifest.json").is_file()
+    assert not (tmp_path / "app/main.c").exists()
+
+
+def test_limits_come_from_the_buffers_of_the_sources(init: Init, tmp_path: Path) -> None:
+    """ping_pong gives a frame_id 32 bytes, static_types describes its message by rules, time_sync by a text."""
+    limits = {}
+    for name in ("ping_pong", "static_types", "time_sync"):
+        assert init(name, "--from", str(EXAMPLES / name))[0] == 0
+        rules = application_in(tmp_path / name / "microros.yaml").limits
+        limits[name] = {rule.path: (rule.string, rule.sequence) for rule in rules}
+    assert limits["ping_pong"] == {("std_msgs/msg/Header", "frame_id"): (31, 31)}
+    assert limits["time_sync"] == {("std_msgs/msg/Header", "frame_id"): (5, 5)}
+    joints = "sensor_msgs/msg/JointState"
+    assert limits["static_types"] == {
+        (joints, "header", "frame_id"): (16, 16),
+        (joints, "name"): (16, 6),
+        (joints, "position"): (6, 6),
+        (joints, "velocity"): (1, 1),
+        (joints, "effort"): (1, 1),
+    }
+
+
+def test_all_examples_at_once_are_several_applications(init: Init, tmp_path: Path) -> None:
+    status, _, err = init("app", "--from", str(EXAMPLES))
+    assert status == 2
+    first = err.splitlines()[0]
+    assert "error: there are several applications here: main() stands also in" in first
+    assert first.endswith("Give the folder or file of one of them")
+    assert not (tmp_path / "app").exists()
