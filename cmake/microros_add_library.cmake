@@ -13,7 +13,7 @@
 # The sources are generated when CMake configures. A change of anything that they were made from, the tool among it,
 # configures again, and an unchanged file keeps its time; so only what depends on the change is compiled.
 #
-# An absolute path is handed to the tool as it is, any other as relative to the current source folder.
+# Paths are relative to the current source folder, OUTPUT to the current binary folder.
 
 function(microros_add_library target)
   set(single CONFIG TARGET AGENT OUTPUT)

@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 
-from cli.environments import ENVIRONMENTS, ROOT, clean_environ, new_environment
+from cli.environments import ENVIRONMENTS, ROOT, clean_environ, dependencies, new_environment
 
 WORKSPACE = Path(__file__).resolve().parent / "workspace"
 # What an interface package and colcon need; some of the wheels do not name all that they need themselves.
@@ -46,17 +46,18 @@ rosidl() { python -c 'import sys; from rosidl_cli.cli import main; sys.exit(main
 
 
 def ros_environment() -> Path:
-    """Return the folder of a virtual environment with REQUIREMENTS, made once.
+    """Return the folder of a virtual environment with REQUIREMENTS and the tool's dependencies, made once.
 
     Raises OSError where it cannot be made: there is no network, or no wheel for this Python.
     """
-    key = hashlib.sha256(f"{sys.executable} {REQUIREMENTS}".encode()).hexdigest()[:8]
+    wanted = [*REQUIREMENTS, *dependencies()]
+    key = hashlib.sha256(f"{sys.executable} {wanted}".encode()).hexdigest()[:8]
     folder = ENVIRONMENTS / f"ros-build-{key}"
     if not folder.is_dir():
         ENVIRONMENTS.mkdir(parents=True, exist_ok=True)
         fresh = ENVIRONMENTS / f".{folder.name}.{os.getpid()}"
         try:
-            new_environment(sys.executable, fresh, REQUIREMENTS)
+            new_environment(sys.executable, fresh, wanted)
             _mend(fresh, folder)
             with suppress(OSError):  # another process was first
                 fresh.rename(folder)
