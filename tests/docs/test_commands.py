@@ -13,7 +13,11 @@ import pytest
 from docs.console import ROOT, SHELL, Terminal, blocks, shows, steps
 
 PAGES = {str(path.relative_to(ROOT / "docs")): path for path in sorted((ROOT / "docs").rglob("*.md"))}
-ELSEWHERE = {"agent.md": "tests/docs/test_agent_page.py", "cmake.md": "tests/cmake_build/test_example.py"}
+ELSEWHERE = {
+    "agent.md": "tests/docs/test_agent_page.py",
+    "cmake.md": "tests/cmake_build/test_example.py",
+    "ros_build.md": "tests/ros_build/test_colcon.py",
+}
 """Pages whose commands another test runs, which reads the page."""
 
 _APPLICATION = "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\n"
