@@ -14,7 +14,7 @@ import click
 import pytest
 import yaml
 from click.testing import CliRunner
-from docs.conftest import ROOT
+from docs.console import ROOT
 from generators import c_api, command_line
 from generators.c_headers import read_header
 from hooks import generated
