@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from microros_gen.adopt.c_program import Call, CFile, read_program
@@ -44,6 +45,9 @@ _GIVEN = (("publish", "pure_sender"), ("subscribe", "pure_reader"))
 _PROFILES = (("pure_sender", "publisher"), ("pure_reader", "subscription"))
 
 
+_Groups = dict[str, dict[str, DraftValue]]
+
+
 @dataclass(frozen=True)
 class Adopted:
     """The proposal, and the capacities that the sources give to members of messages."""
@@ -77,6 +81,7 @@ def rclc_draft(
     draft = Draft(
         profiles=profiles,
         components=_components(called, declared, catalogue, profiles),
+        interfaces=_types_without_entity(nodes),
         nodes=nodes,
         groups=groups,
         remarks=(*remarks, *more),
@@ -87,6 +92,13 @@ def rclc_draft(
             hint="Give the folder of one application: it calls rclc_node_init_default",
         )
     return Adopted(draft, tuple(find_capacities(files, calls, values)))
+
+
+def _types_without_entity(nodes: Iterable[DraftNode]) -> tuple[str, ...]:
+    """Return the types of endpoints whose name is not known: the sources include their headers all the same."""
+    endpoints = [endpoint for node in nodes for endpoint in node.endpoints]
+    named = {endpoint.type for endpoint in endpoints if endpoint.name}
+    return tuple(sorted({endpoint.type for endpoint in endpoints if endpoint.type} - named))
 
 
 def _check_one(files: Iterable[CFile], diagnostics: Diagnostics) -> None:
@@ -219,8 +231,26 @@ def _below(name: str, catalogue: Catalogue) -> set[str]:
     return found
 
 
+# What hands memory out, which comes from the arena (design.md, 7); its contract is to return memory.
+_TAKES_MEMORY = re.compile(
+    r"micro_ros_utilities_create_message_memory|micro_ros_string_utilities_init\w*|\w+__(create|Sequence__init)"
+)
+_ARENA = 4096
+
+
+def _arena(calls: Iterable[Call], groups: _Groups, remarks: list[Remark]) -> None:
+    for call in calls:
+        if _TAKES_MEMORY.fullmatch(call.name):
+            groups["memory"] = {"arena": DraftValue(_ARENA, f"{call.name} ({place(call.span)})")}
+            text = (
+                f"{call.name} takes memory from `memory.arena`: {_ARENA} is a guess, it depends on the calls"
+            )
+            remarks.append(Remark(text, call.span))
+            return
+
+
 def _groups(
-    calls: Iterable[Call], values: Values
+    calls: Sequence[Call], values: Values
 ) -> tuple[Mapping[str, Mapping[str, DraftValue]], list[Remark]]:
     """Return what the sources say of transport and session."""
     groups: dict[str, dict[str, DraftValue]] = {"transport": {}, "session": {}}
@@ -233,10 +263,8 @@ def _groups(
             _set(groups["transport"], "type", "custom", call)
             text = f"{call.name}() is of another library: here rmw_uros_set_custom_transport takes your four functions"
             remarks.append(Remark(text, call.span))
+    _arena(calls, groups, remarks)
     return {name: keys for name, keys in groups.items() if keys}, remarks
-
-
-_Groups = dict[str, dict[str, DraftValue]]
 
 
 def _custom(call: Call, values: Values, groups: _Groups, remarks: list[Remark]) -> None:

@@ -12,6 +12,21 @@ EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 APPLICATIONS = sorted(path.parent.name for path in EXAMPLES.glob("*/main.c"))
 
 
+JOINTS = "sensor_msgs/msg/JointState"
+# ping_pong gives a frame_id 32 bytes, static_types describes its message by rules, time_sync by a text.
+LIMITS = {
+    "ping_pong": {("std_msgs/msg/Header", "frame_id"): (31, 31)},
+    "time_sync": {("std_msgs/msg/Header", "frame_id"): (5, 5)},
+    "static_types": {
+        (JOINTS, "header", "frame_id"): (16, 16),
+        (JOINTS, "name"): (16, 6),
+        (JOINTS, "position"): (6, 6),
+        (JOINTS, "velocity"): (1, 1),
+        (JOINTS, "effort"): (1, 1),
+    },
+}
+
+
 def test_there_are_examples() -> None:
     assert len(APPLICATIONS) >= 11
 
@@ -28,28 +43,11 @@ def test_the_proposal_is_what_the_example_declares(name: str, init: Init, tmp_pa
     assert proposed.transport.framing == declared.transport.framing
     assert {c.name for c in proposed.components} <= {c.name for c in declared.components}
     assert {p.name for p in proposed.profiles} == {p.name for p in declared.profiles}
+    limits = {rule.path: (rule.string, rule.sequence) for rule in proposed.limits}
+    assert limits == LIMITS.get(name, {})
     # It was planned and rendered: the golden copy is there, and the sources stay where they are.
     assert (tmp_path / "app/golden/manifest.json").is_file()
     assert not (tmp_path / "app/main.c").exists()
-
-
-def test_limits_come_from_the_buffers_of_the_sources(init: Init, tmp_path: Path) -> None:
-    """ping_pong gives a frame_id 32 bytes, static_types describes its message by rules, time_sync by a text."""
-    limits = {}
-    for name in ("ping_pong", "static_types", "time_sync"):
-        assert init(name, "--from", str(EXAMPLES / name))[0] == 0
-        rules = application_in(tmp_path / name / "microros.yaml").limits
-        limits[name] = {rule.path: (rule.string, rule.sequence) for rule in rules}
-    assert limits["ping_pong"] == {("std_msgs/msg/Header", "frame_id"): (31, 31)}
-    assert limits["time_sync"] == {("std_msgs/msg/Header", "frame_id"): (5, 5)}
-    joints = "sensor_msgs/msg/JointState"
-    assert limits["static_types"] == {
-        (joints, "header", "frame_id"): (16, 16),
-        (joints, "name"): (16, 6),
-        (joints, "position"): (6, 6),
-        (joints, "velocity"): (1, 1),
-        (joints, "effort"): (1, 1),
-    }
 
 
 def test_all_examples_at_once_are_several_applications(init: Init, tmp_path: Path) -> None:
