@@ -130,16 +130,11 @@ def _functions(tokens: Sequence[Token], ends: Mapping[int, int]) -> Iterator[Fun
             head = _head(tokens, starts, index)
             if head is not None:
                 name, begin = head
-                parameters = tokens[begin + 1 : starts_end(ends, begin)]
+                parameters = tokens[begin + 1 : ends[begin]]
                 names = frozenset(token.text for token in parameters if token.kind == "name")
                 yield Function(tokens[name].text, names, index, ends[index], tokens[name].span)
                 index = ends[index]
         index += 1
-
-
-def starts_end(ends: Mapping[int, int], begin: int) -> int:
-    """Return where the bracket at `begin` ends."""
-    return ends.get(begin, begin)
 
 
 def _head(tokens: Sequence[Token], starts: Mapping[int, int], body: int) -> tuple[int, int] | None:

@@ -66,7 +66,6 @@ class Values:
         self._macros = {m.name: m for f in self._files for m in f.macros if not m.has_arguments and m.body}
         self._enumerators = {name: value for f in self._files for name, value in f.enumerators.items()}
         self._arrays = {name: size for f in self._files for name, size in f.arrays.items()}
-        self._functions = {function.name for f in self._files for function in f.functions}
 
     def text(self, tokens: Tokens, call: Call, depth: int = 0) -> str | Unknown:
         """Return the string that an expression is."""
@@ -164,11 +163,9 @@ class Values:
             return Unknown(f"`{shown(tokens)}` is a parameter of {call.function.name}()")
         if len({shown(assignment.value) for assignment in others}) == 1:
             return others[0].value
-        return (
-            self._ambiguous(name)
-            if others
-            else Unknown(f"the value of `{shown(tokens)}` is not in these sources")
-        )
+        if others:
+            return self._ambiguous(name)
+        return Unknown(f"the value of `{shown(tokens)}` is not in these sources")
 
     def _ambiguous(self, name: str) -> Unknown:
         return Unknown(f"`{name}` gets more than one value")

@@ -155,7 +155,8 @@ def _with_defaults(wish: Wish, draft: Draft) -> Draft:
     groups = dict(draft.groups)
     transport = groups.pop("transport", {})
     if "type" not in transport and wish.target in (None, "host"):
-        transport = {"type": DraftValue("udp"), "agent": DraftValue(AGENT), **transport}
+        agent = "discover" if "+discovery" in draft.components else AGENT
+        transport = {"type": DraftValue("udp"), "agent": DraftValue(agent), **transport}
     if transport:
         groups = {"transport": transport, **groups}
     target = DraftValue(wish.seen_from_folder(wish.target or "host"), "`microros-gen targets` lists them")
