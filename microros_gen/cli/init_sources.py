@@ -104,7 +104,7 @@ def _joined(wish: Wish, meta: Draft, adopted: Adopted) -> Draft:
 
 def _limits(wish: Wish, adopted: Adopted) -> Mapping[str, DraftValue]:
     """Return the limits; where a type is not found, that is told when the proposal is planned."""
-    types = [e.type for node in adopted.draft.nodes for e in node.endpoints if e.type and e.name]
+    types = [e.type for node in adopted.draft.nodes for e in node.endpoints if e.type]
     finder = InterfaceFinder.from_environment(wish.interface_paths)
     try:
         interfaces = resolve_interfaces(tuple(Named(t) for t in dict.fromkeys(types)), finder, Diagnostics())

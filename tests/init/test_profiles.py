@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from proposals import Init, application_in, entities_of
 
+from microros_gen.build.toolchain import WARNINGS
 from microros_gen.cli import main as cli
 from microros_gen.cli.init_sources import Wish
 from microros_gen.diagnostics import Diagnostics
@@ -22,16 +23,6 @@ READY = (
     "simulation_node",
 )
 PLANNED = ("configurable_sender_with_diagnostics", "managed_service")
-WARNINGS = (
-    "-std=c99",
-    "-Wall",
-    "-Wextra",
-    "-Wpedantic",
-    "-Wconversion",
-    "-Wsign-conversion",
-    "-Wshadow",
-    "-Werror",
-)
 FILES = {
     "microros.yaml",
     "main.c",
