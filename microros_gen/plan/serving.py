@@ -53,6 +53,8 @@ def plan_serving(
     """Plan services and clients; without `nodes:` each place can have any of `roots`, which are services."""
     if not selection.has("services"):
         return Serving()
+    if not roots and not any(declarations(application, *KINDS)) and not selection.has("subscribe"):
+        _report_nothing(application, diagnostics)
     if not application.nodes:
         return _pooled(application, types, roots, diagnostics)
     _check_names(application, diagnostics)
@@ -76,6 +78,14 @@ def plan_serving(
     return Serving(
         services, clients, len(services), len(clients), tuple(queues), tuple(received), tuple(written)
     )
+
+
+def _report_nothing(application: Application, diagnostics: Diagnostics) -> None:
+    """Report that there is no service at all: what receives would have no queue."""
+    declares = "of a node" if application.nodes else "in `interfaces:`"
+    span = None if application.nodes else application.spans.get("interfaces")
+    hint = f"Add a service {declares}, or leave `services` out of `components:`"
+    diagnostics.error("'services' is selected, and there is no service", span, hint)
 
 
 def _check_names(application: Application, diagnostics: Diagnostics) -> None:

@@ -78,6 +78,7 @@ class ExampleView:
     uses_time: bool
     hosted: bool
     ros_time: bool
+    has_epoch: bool
     shows_time: bool
 
 
@@ -108,6 +109,7 @@ def example_view(project: Project) -> ExampleView:
         uses_time=any(view.stamps for view in views) or any(s.filling.stamps for s in services),
         hosted=project.target.hosted,
         ros_time=project.runtime.has_ros_time,
+        has_epoch=project.target.hosted or project.selection.has("time_sync"),
         shows_time=shows_time,
     )
 

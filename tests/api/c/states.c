@@ -309,6 +309,25 @@ static void on_time(rcl_timer_t * timer, int64_t since)
   (void)since;
 }
 
+/* What nobody finalized before the context was shut down is no handle in the next one. */
+static void old_handles(void)
+{
+  const rosidl_message_type_support_t * type = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
+  rcl_publisher_options_t sends = rcl_publisher_get_default_options();
+  rcl_publisher_t publisher = rcl_get_zero_initialized_publisher();
+  std_msgs__msg__Int32 message;
+
+  memset(&message, 0, sizeof(message));
+  TELL(rcl_publisher_init(&publisher, &node, type, "/a", &sends));
+  TELL(rcl_shutdown(&context));
+  TELL(rcl_publish(&publisher, &message, NULL));
+  TELL(rcl_publisher_is_valid(&publisher));
+  TELL(rcl_publisher_fini(&publisher, &node));
+  TELL(rcl_publisher_fini(&publisher, &node));
+  TELL(rcl_node_fini(&node));
+  TELL(rcl_context_fini(&context));
+}
+
 static void timers(void)
 {
   rcl_timer_t timer = rcl_get_zero_initialized_timer();
@@ -503,6 +522,8 @@ int main(void)
   wait_sets();
   shut_down();
   start(); /* everything again */
+  old_handles();
+  start();
   guards();
   publishers();
   shut_down();

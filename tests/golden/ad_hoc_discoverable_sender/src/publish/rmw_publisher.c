@@ -80,13 +80,17 @@ void rmw_publisher_close(rmw_publisher_t * publisher)
   microros_unlock();
 }
 
+/* A client that was ended has forgotten its endpoints. */
 bool rmw_publisher_is_open(const rmw_publisher_t * publisher)
 {
   const xrce_endpoint_t * writer;
 
-  if (publisher == NULL || publisher->data == NULL) {
+  if (publisher == NULL) {
     return false;
   }
-  writer = publisher->data;
+  writer = publisher->data; /* every handle that was given out has one */
+  if (writer->client == NULL) {
+    return false;
+  }
   return writer->client->states[publisher_place(writer)].wanted;
 }

@@ -5,10 +5,10 @@
 
 #include <string.h>
 
-static const struct rmw_time_s unlimited = RMW_DURATION_INFINITE;
 
 static void qos_actual(const xrce_endpoint_t * endpoint, rmw_qos_profile_t * qos)
 {
+  static const struct rmw_time_s unlimited = RMW_DURATION_INFINITE;
   const uint8_t flags = endpoint->qos;
 
   (void)memset(qos, 0, sizeof(*qos));

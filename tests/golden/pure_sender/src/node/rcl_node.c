@@ -81,12 +81,12 @@ rcl_ret_t rcl_node_fini(rcl_node_t * node)
 
 bool rcl_node_is_valid_except_context(const rcl_node_t * node)
 {
-  return node != NULL && rmw_node_is_open(node->impl);
+  return node != NULL && node->impl != NULL;
 }
 
 bool rcl_node_is_valid(const rcl_node_t * node)
 {
-  return rcl_node_is_valid_except_context(node) && rcl_context_is_valid(node->context);
+  return node != NULL && rmw_node_is_open(node->impl); /* which needs the session, and so the context */
 }
 
 const char * rcl_node_get_name(const rcl_node_t * node)

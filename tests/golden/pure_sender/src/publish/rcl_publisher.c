@@ -139,7 +139,7 @@ rmw_publisher_t * rcl_publisher_get_rmw_handle(const rcl_publisher_t * publisher
 
 bool rcl_publisher_is_valid_except_context(const rcl_publisher_t * publisher)
 {
-  return rcl_publisher_is_valid(publisher);
+  return publisher != NULL && publisher->impl != NULL;
 }
 
 bool rcl_publisher_can_loan_messages(const rcl_publisher_t * publisher)
