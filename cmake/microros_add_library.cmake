@@ -13,7 +13,7 @@
 # The sources are generated when CMake configures. A change of anything that they were made from, the tool among it,
 # configures again, and an unchanged file keeps its time; so only what depends on the change is compiled.
 #
-# An absolute path is handed to the tool as it is, any other as relative to the current source folder.
+# Paths are relative to the current source folder, OUTPUT to the current binary folder.
 
 function(microros_add_library target)
   set(single CONFIG TARGET AGENT OUTPUT)
@@ -50,6 +50,7 @@ function(microros_add_library target)
   set(MICROROS_LIBRARY "${target}")
   set(MICROROS_EXAMPLE OFF)
   add_subdirectory("${output}" "${build}")
+  set_target_properties("${target}" PROPERTIES MICROROS_OUTPUT "${output}")
 endfunction()
 
 # Appends to the list `result` the option and a value, for each value: a FOLDER, a FILE or the NAME of something. Paths
