@@ -31,6 +31,7 @@ _ENTITY_POOLS = (*tuple(f"RMW_UXRCE_MAX_{entity.upper()}" for entity in _ENTITIE
 _NAME_LENGTHS = ("RMW_UXRCE_NODE_NAME_MAX_LENGTH", "RMW_UXRCE_TOPIC_NAME_MAX_LENGTH")
 _LEAST_NAME, _MOST_NAME = 8, 256
 _OTHERS = ("RMW_UXRCE_TRANSPORT", "RMW_UXRCE_CREATION_MODE", "RMW_UXRCE_PUBLISH_RELIABLE_TIMEOUT")
+_OURS = ("RMW_UXRCE_", "UCLIENT_")
 _HANDLED = ("RMW_UXRCE_DEFAULT_", "UCLIENT_HARD_LIVELINESS_CHECK")
 
 
@@ -99,7 +100,8 @@ class _Reader:
         elif not name or name.startswith(PREFIXES_OF_BUILDS):
             self._without(setting, OF_A_BUILD)
         else:
-            hint = nearest(name, (*_POOLS, *_NAME_LENGTHS, *NOT_NEEDED, *NOT_HERE_WHEN_ON, *_OTHERS))
+            known = (*_POOLS, *_NAME_LENGTHS, *NOT_NEEDED, *NOT_HERE_WHEN_ON, *_OTHERS)
+            hint = nearest(name, known) if name.startswith(_OURS) else None
             self._without(
                 setting, f"not known here. {hint or 'Look whether it matters to you'}", undecided=True
             )

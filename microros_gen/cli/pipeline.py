@@ -146,7 +146,8 @@ def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
         application = replace(application, interfaces=(Named(DEFAULT_INTERFACE),))
     _check_interfaces_have_a_use(application, selection, diagnostics)
     diagnostics.check()
-    request = replace(request, application=with_clock(application, selection))
+    request = replace(request, application=with_clock(application, selection, diagnostics))
+    diagnostics.check()
     return Resolved(request, own, catalogue, selection)
 
 

@@ -7,6 +7,7 @@ import re
 import shutil
 import socket
 from pathlib import Path
+from typing import Any
 
 import pytest
 from docs.console import ROOT, SHELL, Terminal, blocks, shows, steps
@@ -32,9 +33,17 @@ OTHER_PROGRAMS = {
 NEEDS = {
     "tutorial/qemu.md": ("arm-none-eabi-gcc", "qemu-system-arm"),
     "tutorial/nucleo_f446re.md": ("arm-none-eabi-gcc", "cmake"),
-    "howto/port.md": ("arm-none-eabi-gcc",),
     "init.md": ("cmake",),
 }
+
+
+LONG = ("init.md", "tutorial/nucleo_f446re.md")
+"""Pages that compile the library by CMake; tests/cmake_build and test_boards.py have their slices."""
+
+
+def pages_that_run() -> list[Any]:
+    names = [name for name in PAGES if name not in ELSEWHERE and runs(name)]
+    return [pytest.param(name, marks=pytest.mark.long if name in LONG else ()) for name in names]
 
 
 def runs(name: str) -> bool:
@@ -42,7 +51,7 @@ def runs(name: str) -> bool:
 
 
 @pytest.mark.ros
-@pytest.mark.parametrize("name", [name for name in PAGES if name not in ELSEWHERE and runs(name)])
+@pytest.mark.parametrize("name", pages_that_run())
 def test_the_commands_of_a_page_run_and_print_what_it_shows(name: str, tmp_path: Path) -> None:
     for program in NEEDS.get(name, ()):
         if shutil.which(program) is None:
@@ -90,7 +99,7 @@ def test_what_is_not_run_says_why(name: str) -> None:
     text = PAGES[name].read_text(encoding="utf-8")
     for title in re.findall(r"^!!! not-run(.*)$", text, re.MULTILINE):
         assert re.fullmatch(r' "Not run here: \S.{8,}"', title), title
-    assert "not-run" not in re.sub(r"^!!! not-run .*$", "", text, flags=re.MULTILINE)
+    assert "not-run" not in re.sub(r"^!!! not-run .*$|`[^`\n]+`", "", text, flags=re.MULTILINE)
 
 
 @pytest.mark.parametrize("name", PAGES)

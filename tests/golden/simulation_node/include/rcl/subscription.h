@@ -35,7 +35,7 @@ rcl_subscription_t rcl_get_zero_initialized_subscription(void);
  * Waits for the agent, at most MICROROS_CREATE_TIMEOUT_MS. With `nodes:` in the application file the subscription must
  * be declared there; else it takes one of `pools: {subscriptions: N}`. From then on samples are kept while any function
  * of the library runs, as many as `queue:` says; a subscription goes on by itself after a lost session.
- * RCL_RET_TOPIC_NAME_INVALID for a name that ROS 2 refuses, RCL_RET_UNSUPPORTED for a QoS that XRCE cannot carry,
+ * RCL_RET_TOPIC_NAME_INVALID as rcl_publisher_init, RCL_RET_UNSUPPORTED for a QoS that XRCE cannot carry,
  * RCL_RET_TIMEOUT, else RCL_RET_ERROR with a text.
  */
 rcl_ret_t rcl_subscription_init(

@@ -35,7 +35,8 @@ rcl_publisher_t rcl_get_zero_initialized_publisher(void);
 /*
  * Waits for the agent, at most MICROROS_CREATE_TIMEOUT_MS. With `nodes:` in the application file the
  * publisher must be declared there; else it takes one of `pools: {publishers: N}`. RCL_RET_TOPIC_NAME_INVALID
- * for a name that ROS 2 refuses, RCL_RET_UNSUPPORTED for a QoS that XRCE cannot carry, RCL_RET_TIMEOUT, else
+ * for a name that ROS 2 refuses, and without the component `name_substitutions` for one with {node} or {ns};
+ * RCL_RET_UNSUPPORTED for a QoS that XRCE cannot carry, RCL_RET_TIMEOUT, else
  * RCL_RET_ERROR with a text.
  */
 rcl_ret_t rcl_publisher_init(
