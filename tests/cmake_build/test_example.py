@@ -53,7 +53,7 @@ def follow_page(folder: Path, build: str) -> Project:
 
 @pytest.mark.skipif(shutil.which("arm-none-eabi-gcc") is None, reason="no arm-none-eabi-gcc")
 def test_for_a_board_it_becomes_its_image(tmp_path: Path) -> None:
-    """Flags, start-up and memory map are the board's. Here make is the generator, and it has nothing left to do, too."""
+    """Flags, start-up and memory map are the board's. make is the generator here; it, too, has nothing left to do."""
     environment = follow_page(tmp_path, "build/app_m4").environment
     folder = tmp_path / "build/app_m4"
     assert not (folder / "build.ninja").exists()
