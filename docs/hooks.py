@@ -77,9 +77,9 @@ def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Fil
     return _LINK.sub(moved, markdown)
 
 
-def on_env(env: Any, config: MkDocsConfig, files: Files) -> None:
+def on_page_context(context: dict[str, Any], page: Page, config: MkDocsConfig, nav: Any) -> None:
     """Leave out the time of the build, which would make two builds differ."""
-    env.globals["build_date_utc"] = None
+    context["build_date_utc"] = "left out"
 
 
 def _origin(path: str) -> str:

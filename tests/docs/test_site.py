@@ -69,6 +69,10 @@ def test_every_link_inside_leads_to_a_page_and_a_place_of_it(
     assert wrong == []
 
 
+def test_the_site_has_no_time_of_its_build(site: Path) -> None:
+    assert not re.search(r"Build Date UTC : \d", (site / "index.html").read_text(encoding="utf-8"))
+
+
 def test_the_site_has_the_four_kinds_of_pages(site: Path) -> None:
     text = (site / "index.html").read_text(encoding="utf-8")
     for kind in ("Tutorial", "How-to", "Reference", "Explanation"):
