@@ -56,9 +56,9 @@ def _help(command: click.Command) -> Iterator[str]:
 
 
 def _spelling(option: click.Option, context: click.Context) -> str:
-    metavar = "" if option.is_flag or option.count else f" {option.make_metavar(context)}"
-    names = [*option.opts, *option.secondary_opts]
-    return ", ".join(f"`{name}{metavar}`" for name in names)
+    record = option.get_help_record(context)
+    assert record is not None
+    return f"`{record[0]}`"
 
 
 def _meaning(option: click.Option, context: click.Context) -> str:

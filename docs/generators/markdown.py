@@ -9,6 +9,8 @@ from collections.abc import Iterable, Sequence
 _CODE = re.compile(r"(`[^`\n]+`)")
 _IDENTIFIER = re.compile(r"(?<![\w/.:-])(--[a-z][a-z-]*|[A-Za-z][\w/.]*_[\w/.]*\w(?:\(\))?)(?!\w)")
 
+_ENTITIES = str.maketrans({"<": "&lt;", ">": "&gt;", "|": "&#124;"})
+
 
 def cell(text: str) -> str:
     """Return `text` on one line, with identifiers as code and what Markdown would read as marks escaped."""
@@ -19,7 +21,7 @@ def cell(text: str) -> str:
 def _plain(text: str) -> str:
     pieces = _IDENTIFIER.split(text)
     for i, piece in enumerate(pieces):
-        pieces[i] = f"`{piece}`" if i % 2 else re.sub(r"([\\*_<>\[\]|])", r"\\\1", piece)
+        pieces[i] = f"`{piece}`" if i % 2 else re.sub(r"([\\*_\[\]])", r"\\\1", piece).translate(_ENTITIES)
     return "".join(pieces)
 
 

@@ -40,7 +40,8 @@ def test_every_option_of_the_help_is_there(call: tuple[str, ...]) -> None:
     told = CliRunner().invoke(cli, [*call, "--help"], prog_name="microros-gen").output
     (section,) = re.findall(rf"(?ms)^##+ {' '.join(call)}$(.*?)(?=^#|\Z)", command_line.page())
     options = set(re.findall(r"^  (?:-\w, )?(--[\w-]+|-v+)\b", told, re.MULTILINE)) - {"--help"}
-    assert options <= set(re.findall(r"`(--[\w-]+|-\w+)", section))
+    cells = re.findall(r"(?m)^\| `([^`]+)` \|", section)
+    assert options <= set(re.findall(r"(?:^|, )(-[\w-]+)", "\n".join(cells), re.MULTILINE))
     usage = " ".join(told.split("\n\n")[0].removeprefix("Usage: ").split())
     assert usage in section
 
