@@ -10,6 +10,10 @@ from urllib.parse import unquote, urlsplit
 
 import pytest
 
+_TAGS = frozenset(
+    "html head meta title link script body nav div section article main header footer form label input button a p span"
+    " ul ol li h1 h2 h3 h4 h5 table thead tbody tr th td pre code em strong br hr img blockquote noscript dl dt dd i".split()
+)
 _LOADS = {"script": "src", "img": "src", "iframe": "src", "source": "src", "object": "data", "link": "href"}
 
 
@@ -19,11 +23,13 @@ class Document(HTMLParser):
     def __init__(self, path: Path) -> None:
         super().__init__()
         self.anchors: set[str] = set()
+        self.tags: set[str] = set()
         self.links: list[str] = []
         self.loaded: list[str] = []
         self.feed(path.read_text(encoding="utf-8"))
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.add(tag)
         given = {name: value or "" for name, value in attrs}
         self.anchors |= {given[name] for name in ("id", "name") if name in given}
         if tag == "a" and "href" in given:
@@ -67,6 +73,12 @@ def test_every_link_inside_leads_to_a_page_and_a_place_of_it(
             if not target.is_file() or (parts.fragment and known is not None and parts.fragment not in known):
                 wrong.append(f"{path.relative_to(site)}: {link}")
     assert wrong == []
+
+
+def test_nothing_in_angle_brackets_is_lost(site: Path, documents: dict[Path, Document]) -> None:
+    """Markdown takes `<component>` outside of code as a tag, and a browser shows nothing."""
+    for path, document in documents.items():
+        assert document.tags <= _TAGS, f"{path.relative_to(site)}: {document.tags - _TAGS}"
 
 
 def test_the_site_has_no_time_of_its_build(site: Path) -> None:
