@@ -3,22 +3,21 @@
 
 from __future__ import annotations
 
-import re
 import shlex
 from pathlib import Path
 
 import pytest
 import yaml
+from docs.console import ROOT, blocks
 
 from microros_gen.cli import main as cli
 
-ROOT = Path(__file__).resolve().parents[2]
 PAGES = {name: (ROOT / f"docs/{name}.md").read_text(encoding="utf-8") for name in ("init", "check", "idl")}
 META = '{"names": {"rmw_microxrcedds": {"cmake-args": ["-DRMW_UXRCE_MAX_PUBLISHERS=2"]}}}'
 
 
-def blocks(page: str, kind: str) -> list[str]:
-    return re.findall(rf"^```{kind}\n(.*?)^```$", PAGES[page], re.MULTILINE | re.DOTALL)
+def texts(page: str, kind: str) -> list[str]:
+    return [block.text for block in blocks(PAGES[page]) if block.language == kind]
 
 
 @pytest.fixture
@@ -38,7 +37,7 @@ def call(line: str) -> int:
 
 
 def test_the_commands_of_init(folder: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    lines = [line for block in blocks("init", "sh") for line in block.splitlines()]
+    lines = [line for block in texts("init", "sh") for line in block.splitlines()]
     own = [line for line in lines if line.startswith("microros-gen ")]
     assert len(own) == 3
     for line in own:
@@ -53,14 +52,14 @@ def test_the_commands_of_init(folder: Path, capfd: pytest.CaptureFixture[str]) -
 def test_the_commands_of_check(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert call("microros-gen init app") == 0
     monkeypatch.chdir(folder / "app")
-    (lines,) = (block.splitlines() for block in blocks("check", "sh"))
+    (lines,) = (block.splitlines() for block in texts("check", "sh"))
     (folder / "app/golden/sources.txt").write_text("")
     assert [call(line) for line in reversed(lines)] == [1, 0]
     assert call(lines[1]) == 0
 
 
 def test_what_check_says_of_the_action_and_the_hook() -> None:
-    workflow, hooks = (yaml.safe_load(block) for block in blocks("check", "yaml"))
+    workflow, hooks = (yaml.safe_load(block) for block in texts("check", "yaml"))
     action = yaml.safe_load((ROOT / "action.yml").read_text(encoding="utf-8"))
     (used,) = (step for step in workflow["steps"] if "microros_gen" in step["uses"])
     assert set(used["with"]) <= set(action["inputs"])
@@ -72,7 +71,7 @@ def test_what_check_says_of_the_action_and_the_hook() -> None:
 
 
 def test_the_commands_of_idl(folder: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    (lines,) = (block.splitlines() for block in blocks("idl", "sh"))
+    (lines,) = (block.splitlines() for block in texts("idl", "sh"))
     assert [call(line) for line in lines] == [0, 0, 0, 0]
     assert "struct Imu {" in capfd.readouterr().out
     for path in (
