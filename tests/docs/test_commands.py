@@ -15,14 +15,15 @@ from docs.console import ROOT, SHELL, Terminal, blocks, shows, steps
 PAGES = {str(path.relative_to(ROOT / "docs")): path for path in sorted((ROOT / "docs").rglob("*.md"))}
 ELSEWHERE = {
     "agent.md": "tests/docs/test_agent_page.py",
+    "check.md": "tests/docs/test_init_pages.py",
     "cmake.md": "tests/cmake_build/test_example.py",
+    "idl.md": "tests/docs/test_init_pages.py",
     "ros_build.md": "tests/ros_build/test_colcon.py",
 }
 """Pages whose commands another test runs, which reads the page."""
 
-_APPLICATION = "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\n"
 _META = '{"names": {"rmw_microxrcedds": {"cmake-args": ["-DRMW_UXRCE_MAX_NODES=1"]}}}'
-GIVEN = {"check.md": {"microros.yaml": _APPLICATION}, "init.md": {"app-colcon.meta": _META}}
+GIVEN = {"init.md": {"app-colcon.meta": _META}}
 """Files that the reader of a page has already."""
 
 OTHER_PROGRAMS = {
