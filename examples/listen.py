@@ -26,7 +26,7 @@ def main() -> int:
     parser.add_argument("topic", help="/count")
     parser.add_argument("type", help="std_msgs/msg/Int32")
     parser.add_argument("--samples", type=int, help="end after so many")
-    parser.add_argument("--timeout", type=float, default=30.0, help="seconds to wait for each sample")
+    parser.add_argument("--timeout", type=float, default=60.0, help="seconds to wait for each sample")
     options = parser.parse_args()
     rclpy.init()
     node = rclpy.create_node("listener")

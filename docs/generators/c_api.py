@@ -24,11 +24,14 @@ PORT_HEADERS = {
 CONFIG = "microros_config.h"
 _CLIENT = "existing_client"
 _TITLES = {
-    "microros": "Ports and configuration (microros/…)",
-    _CLIENT: "Names of the existing client (uxr/…, ucdr/…)",
+    "microros": "Ports and configuration",
+    _CLIENT: "Names of the existing client",
 }
 _FOLDERS = {"uxr": _CLIENT, "ucdr": _CLIENT, "rmw_microxrcedds_c": _CLIENT}
 _TRANSPORTS = ("udp", "tcp", "serial", "custom")
+_REFUSAL = re.compile(r"^#define (\w+) \1__\w+\n", re.MULTILINE)
+"""Stands for a function of another transport: who calls it is told by that name what to set."""
+
 _MANY = 6
 _WORD = re.compile(r"`(\w+)(\(\))?`")
 
@@ -72,24 +75,21 @@ def _sections(component: str, name: str, everything: frozenset[str]) -> list[Sec
             "selection": SimpleNamespace(has=lambda _name: True),
             "plan": SimpleNamespace(transport=transport, serial_device="/dev/ttyUSB0"),
         }
-        text = environment.get_template(f"{name}.j2").render(view)
+        text = _REFUSAL.sub("", environment.get_template(f"{name}.j2").render(view))
         seen[text] = read_header(text)
     return _joined(list(seen.values()))
 
 
 def _joined(variants: list[list[Section]]) -> list[Section]:
-    """Return one header that has what each of its variants declares; functions win over macros that refuse a call."""
+    """Return one header that has what each of its variants declares, and says what all of them say."""
     first, *others = variants
     if not others:
         return first
-    items: dict[str, Item] = {}
-    for variant in variants:
-        for item in (item for section in variant for item in section.items):
-            for name in item.names:
-                if name not in items or items[name].text.startswith("#define"):
-                    items[name] = item
-    unique = tuple(dict.fromkeys(item for item in items.values()))
-    return [Section(first[0].title, "", unique)]
+    items = dict.fromkeys(item for variant in variants for section in variant for item in section.items)
+    remarks = [variant[0].remark.split("\n\n") for variant in variants]
+    common = [part for part in remarks[0] if all(part in other for other in remarks)]
+    common.append("Which of these functions are there follows from `transport:`.")
+    return [Section(first[0].title, "\n\n".join(common), tuple(items))]
 
 
 def pages() -> Mapping[str, str]:
@@ -104,7 +104,7 @@ def pages() -> Mapping[str, str]:
     }
     texts: dict[str, list[str]] = {}
     for header in known:
-        parts = texts.setdefault(header.page, [f"# {cell(_TITLES.get(header.page, header.page + '/…'))}"])
+        parts = texts.setdefault(header.page, [f"# {_TITLES.get(header.page, f'`{header.page}/`')}"])
         parts += _header(header, where)
     texts["microros"] += _configuration()
     return {page: "\n\n".join(parts) + "\n" for page, parts in sorted(texts.items())}

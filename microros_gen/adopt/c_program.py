@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -129,16 +130,11 @@ def _functions(tokens: Sequence[Token], ends: Mapping[int, int]) -> Iterator[Fun
             head = _head(tokens, starts, index)
             if head is not None:
                 name, begin = head
-                parameters = tokens[begin + 1 : starts_end(ends, begin)]
+                parameters = tokens[begin + 1 : ends[begin]]
                 names = frozenset(token.text for token in parameters if token.kind == "name")
                 yield Function(tokens[name].text, names, index, ends[index], tokens[name].span)
                 index = ends[index]
         index += 1
-
-
-def starts_end(ends: Mapping[int, int], begin: int) -> int:
-    """Return where the bracket at `begin` ends."""
-    return ends.get(begin, begin)
 
 
 def _head(tokens: Sequence[Token], starts: Mapping[int, int], body: int) -> tuple[int, int] | None:
@@ -164,12 +160,14 @@ def _calls(tokens: Sequence[Token], ends: Mapping[int, int], functions: Sequence
 
 
 def _assignments(tokens: Sequence[Token], functions: Sequence[Function]) -> Iterator[Assignment]:
+    bodies = [function.first for function in functions]
     for index, token in enumerate(tokens):
         if token.text != "=" or token.kind != "punct" or not index:
             continue
         target, begin = _target(tokens, index)
         if target:
-            function = next((f for f in functions if f.first < index < f.last), None)
+            before = bisect_left(bodies, index) - 1
+            function = functions[before] if before >= 0 and index < functions[before].last else None
             value = tuple(_value(tokens, index + 1))
             yield Assignment(target, value, function, index, tokens[begin].span)
 

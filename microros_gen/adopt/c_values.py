@@ -8,6 +8,7 @@ import operator
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import pairwise
 
 from microros_gen.adopt.c_program import Assignment, Call, CFile, Tokens, matching, split_arguments
 from microros_gen.adopt.c_tokens import Token
@@ -65,7 +66,6 @@ class Values:
         self._macros = {m.name: m for f in self._files for m in f.macros if not m.has_arguments and m.body}
         self._enumerators = {name: value for f in self._files for name, value in f.enumerators.items()}
         self._arrays = {name: size for f in self._files for name, size in f.arrays.items()}
-        self._functions = {function.name for f in self._files for function in f.functions}
 
     def text(self, tokens: Tokens, call: Call, depth: int = 0) -> str | Unknown:
         """Return the string that an expression is."""
@@ -153,23 +153,19 @@ class Values:
 
     def _variable(self, tokens: Tokens, call: Call) -> Tokens | Unknown:
         name = handle_of(tokens)
-        if not name or any(
-            t.text == "[" and tokens[i + 1].kind != "number" for i, t in enumerate(tokens[:-1])
-        ):
+        if not name or _is_worked_out(tokens):
             return Unknown(f"`{shown(tokens)}` is worked out when the program runs")
         local, others = self._assigned(name, call)
         if local:
             same = {shown(assignment.value) for assignment in local}
             return local[-1].value if len(same) == 1 or self._straight(local, call) else self._ambiguous(name)
         if name.split(".")[0].split("[")[0] in call.function.parameters:
-            return Unknown(f"`{name}` is a parameter of {call.function.name}()")
+            return Unknown(f"`{shown(tokens)}` is a parameter of {call.function.name}()")
         if len({shown(assignment.value) for assignment in others}) == 1:
             return others[0].value
-        return (
-            self._ambiguous(name)
-            if others
-            else Unknown(f"the value of `{shown(tokens)}` is not in these sources")
-        )
+        if others:
+            return self._ambiguous(name)
+        return Unknown(f"the value of `{shown(tokens)}` is not in these sources")
 
     def _ambiguous(self, name: str) -> Unknown:
         return Unknown(f"`{name}` gets more than one value")
@@ -193,9 +189,9 @@ class Values:
         """Return an expression with numbers in place of its names."""
         if depth > _DEEPEST:
             return Unknown("its macros go round")
-        if any(token.text == "?" for token in tokens):
-            return Unknown(f"`{shown(tokens)}` is worked out when the program runs")
         tokens = _without_casts(tokens)
+        if _is_worked_out(tokens):
+            return Unknown(f"`{shown(tokens)}` is worked out when the program runs")
         parts: list[str] = []
         index = 0
         while index < len(tokens):
@@ -229,6 +225,19 @@ class Values:
         value = known or self._variable((token,), call)
         inner = value if isinstance(value, Unknown) else self._expanded(value, call, depth + 1)
         return inner if isinstance(inner, Unknown) else f"({inner})"
+
+
+def _is_worked_out(tokens: Tokens) -> bool:
+    """Whether an expression has a condition, an index that is no number, or a call."""
+    pairs = list(pairwise(tokens))
+    return (
+        any(token.text == "?" for token in tokens)
+        or any(first.text == "[" and second.kind != "number" for first, second in pairs)
+        or any(
+            first.kind == "name" and second.text == "(" and first.text not in (*_SCALES, "sizeof")
+            for first, second in pairs
+        )
+    )
 
 
 def _without_casts(tokens: Tokens) -> Tokens:

@@ -17,10 +17,11 @@ _ON = ("ON", "TRUE", "YES", "Y", "1")
 _TRANSPORTS = ("udp", "tcp", "serial", "custom")
 _CREATION = {"bin": "binary", "refs": "reference"}
 _ENTITIES = ("nodes", "publishers", "subscriptions", "services", "clients")
+_QUEUE = "RMW_UXRCE_MAX_HISTORY"
 # Setting → key of `pools`, least and most.
 _POOLS = {
     **{f"RMW_UXRCE_MAX_{entity.upper()}": (entity, 0, MOST_ENTITIES) for entity in _ENTITIES},
-    "RMW_UXRCE_MAX_HISTORY": ("queue", 1, MOST_ENTITIES),
+    _QUEUE: ("queue", 1, MOST_ENTITIES),
     "RMW_UXRCE_MAX_WAIT_SETS": ("wait_sets", 1, MOST_ENTITIES),
     "RMW_UXRCE_MAX_GUARD_CONDITION": ("guard_conditions", 0, MOST_ENTITIES),
     "RMW_UXRCE_STREAM_HISTORY": ("history", 1, MOST_HISTORY),
@@ -31,6 +32,7 @@ _ENTITY_POOLS = (*tuple(f"RMW_UXRCE_MAX_{entity.upper()}" for entity in _ENTITIE
 _NAME_LENGTHS = ("RMW_UXRCE_NODE_NAME_MAX_LENGTH", "RMW_UXRCE_TOPIC_NAME_MAX_LENGTH")
 _LEAST_NAME, _MOST_NAME = 8, 256
 _OTHERS = ("RMW_UXRCE_TRANSPORT", "RMW_UXRCE_CREATION_MODE", "RMW_UXRCE_PUBLISH_RELIABLE_TIMEOUT")
+_OURS = ("RMW_UXRCE_", "UCLIENT_")
 _HANDLED = ("RMW_UXRCE_DEFAULT_", "UCLIENT_HARD_LIVELINESS_CHECK")
 
 
@@ -76,7 +78,10 @@ class _Reader:
     def _take(self, setting: MetaSetting) -> None:
         name = setting.name
         if self._declared and name in _ENTITY_POOLS:
-            self._without(setting, "`nodes` declares what there is")
+            is_queue = name == _QUEUE
+            self._without(
+                setting, "each endpoint has its `queue`" if is_queue else "`nodes` declares what there is"
+            )
         elif name in _POOLS:
             key, least, most = _POOLS[name]
             self._number("pools", key, setting, least, most)
@@ -99,7 +104,8 @@ class _Reader:
         elif not name or name.startswith(PREFIXES_OF_BUILDS):
             self._without(setting, OF_A_BUILD)
         else:
-            hint = nearest(name, (*_POOLS, *_NAME_LENGTHS, *NOT_NEEDED, *NOT_HERE_WHEN_ON, *_OTHERS))
+            known = (*_POOLS, *_NAME_LENGTHS, *NOT_NEEDED, *NOT_HERE_WHEN_ON, *_OTHERS)
+            hint = nearest(name, known) if name.startswith(_OURS) else None
             self._without(
                 setting, f"not known here. {hint or 'Look whether it matters to you'}", undecided=True
             )

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from microros_gen.adopt.c_program import Call, Tokens
 from microros_gen.adopt.c_values import TypeSupport, Unknown, Values, handle_of, shown
@@ -209,8 +209,3 @@ def _policy_value(policy: str, value: Tokens, call: Call, values: Values) -> Set
     name = value[0].text if len(value) == 1 else ""
     word = name.removeprefix(f"RMW_QOS_POLICY_{policy.upper()}_").lower()
     return word if word in _POLICIES.get(policy, ()) else None
-
-
-def with_remark(node: DraftNode, remark: Remark) -> DraftNode:
-    """Return `node` with one more remark."""
-    return replace(node, remarks=(*node.remarks, remark))

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from microros_gen.adopt.c_program import Call, CFile, read_program
 from microros_gen.adopt.c_tokens import read_c
-from microros_gen.adopt.c_values import Unknown, Values
+from microros_gen.adopt.c_values import Values
 from microros_gen.adopt.capacities import Fact, find_capacities
 from microros_gen.adopt.rclc_calls import (
     ENDPOINT_CALLS,
@@ -20,9 +20,10 @@ from microros_gen.adopt.rclc_calls import (
     find_nodes,
     find_timers,
 )
+from microros_gen.adopt.rclc_settings import find_settings
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.model.component import Catalogue
-from microros_gen.model.draft import Draft, DraftEndpoint, DraftNode, DraftValue, Remark, Setting, place
+from microros_gen.model.draft import Draft, DraftEndpoint, DraftNode, Remark, place
 
 _STARTS = ("main", "appMain", "app_main", "setup")
 _PREFIXES = ("rcl_", "rclc_", "rmw_", "rcutils_", "rosidl_runtime_c__", "micro_ros_", "uxr_")
@@ -42,6 +43,7 @@ _LATER = {
 _AXES = ("transport_", "entities_", "port_", "liveliness_", "clock_ros", "ping", "stream_")
 _GIVEN = (("publish", "pure_sender"), ("subscribe", "pure_reader"))
 _PROFILES = (("pure_sender", "publisher"), ("pure_reader", "subscription"))
+_KNOWN_BUT_NOT_DECLARED = ("rosidl_runtime_c__", "rmw_uros_set_custom_transport")
 
 
 @dataclass(frozen=True)
@@ -73,10 +75,11 @@ def rclc_draft(
     called = [call for call in calls if call.name not in own and call.name.startswith(_PREFIXES)]
     remarks += _missing(called, declared)
     remarks += _macros(files)
-    groups, more = _groups(calls, values)
+    groups, more = find_settings(calls, values)
     draft = Draft(
         profiles=profiles,
         components=_components(called, declared, catalogue, profiles),
+        interfaces=_types_without_entity(nodes),
         nodes=nodes,
         groups=groups,
         remarks=(*remarks, *more),
@@ -87,6 +90,13 @@ def rclc_draft(
             hint="Give the folder of one application: it calls rclc_node_init_default",
         )
     return Adopted(draft, tuple(find_capacities(files, calls, values)))
+
+
+def _types_without_entity(nodes: Iterable[DraftNode]) -> tuple[str, ...]:
+    """Return the types of endpoints whose name is not known: the sources include their headers all the same."""
+    endpoints = [endpoint for node in nodes for endpoint in node.endpoints]
+    named = {endpoint.type for endpoint in endpoints if endpoint.name}
+    return tuple(sorted({endpoint.type for endpoint in endpoints if endpoint.type} - named))
 
 
 def _check_one(files: Iterable[CFile], diagnostics: Diagnostics) -> None:
@@ -166,19 +176,16 @@ def _missing(called: Iterable[Call], declared: Mapping[str, str]) -> list[Remark
     """Return a remark for the first call of each function that this library does not have."""
     first: dict[str, Remark] = {}
     for call in called:
-        later = next((what for prefix, what in _LATER.items() if call.name.startswith(prefix)), "")
+        later = next((name for prefix, name in _LATER.items() if call.name.startswith(prefix)), "")
         if call.name in declared or call.name.startswith(_KNOWN_BUT_NOT_DECLARED):
             continue
-        text = (
+        what = (
             f"{later} are not in this version ({call.name})"
             if later
             else f"{call.name} is not in this version"
         )
-        first.setdefault(later or call.name, Remark(text, call.span))
+        first.setdefault(later or call.name, Remark(what, call.span))
     return list(first.values())
-
-
-_KNOWN_BUT_NOT_DECLARED = ("rosidl_runtime_c__", "rmw_uros_set_custom_transport")
 
 
 def _macros(files: Iterable[CFile]) -> list[Remark]:
@@ -201,9 +208,8 @@ def _components(
     wanted = {declared[call.name] for call in called if call.name in declared}
     wanted |= {"node"}
     wanted = {name for name in wanted if catalogue[name].ready and not name.startswith(_AXES)}
-    given = {component for component, profile in _GIVEN if profile in profiles} | (
-        {"node"} if profiles else set()
-    )
+    given = {component for component, profile in _GIVEN if profile in profiles}
+    given |= {"node"} if profiles else set()
     brought = {below for name in wanted | given for below in _below(name, catalogue)}
     return tuple(f"+{name}" for name in sorted(wanted - brought - given))
 
@@ -217,59 +223,3 @@ def _below(name: str, catalogue: Catalogue) -> set[str]:
             found.add(needed)
             pending += catalogue[needed].needs
     return found
-
-
-def _groups(
-    calls: Iterable[Call], values: Values
-) -> tuple[Mapping[str, Mapping[str, DraftValue]], list[Remark]]:
-    """Return what the sources say of transport and session."""
-    groups: dict[str, dict[str, DraftValue]] = {"transport": {}, "session": {}}
-    remarks: list[Remark] = []
-    for call in calls:
-        reader = _SETTINGS.get(call.name)
-        if reader:
-            reader(call, values, groups, remarks)
-        elif call.name.startswith("set_microros_"):
-            _set(groups["transport"], "type", "custom", call)
-            text = f"{call.name}() is of another library: here rmw_uros_set_custom_transport takes your four functions"
-            remarks.append(Remark(text, call.span))
-    return {name: keys for name, keys in groups.items() if keys}, remarks
-
-
-_Groups = dict[str, dict[str, DraftValue]]
-
-
-def _custom(call: Call, values: Values, groups: _Groups, remarks: list[Remark]) -> None:
-    _set(groups["transport"], "type", "custom", call)
-    framing = call.arguments[0][0].text if call.arguments and len(call.arguments[0]) == 1 else ""
-    if framing in ("true", "false"):
-        _set(groups["transport"], "framing", framing == "true", call)
-
-
-def _address(call: Call, values: Values, groups: _Groups, remarks: list[Remark]) -> None:
-    host, port = (values.text(argument, call) for argument in call.arguments[:2])
-    if isinstance(host, str) and isinstance(port, str):
-        _set(groups["transport"], "type", "udp", call)
-        _set(groups["transport"], "agent", f"[{host}]:{port}" if ":" in host else f"{host}:{port}", call)
-    else:
-        reason = (
-            host.reason if isinstance(host, Unknown) else port.reason if isinstance(port, Unknown) else ""
-        )
-        remarks.append(Remark(f"the address of the agent: {reason}", call.span, undecided=False))
-
-
-def _key(call: Call, values: Values, groups: _Groups, remarks: list[Remark]) -> None:
-    key = values.number(call.arguments[0], call) if call.arguments else Unknown("")
-    if isinstance(key, int):
-        _set(groups["session"], "key", key, call)
-
-
-_SETTINGS: Mapping[str, Callable[[Call, Values, _Groups, list[Remark]], None]] = {
-    "rmw_uros_set_custom_transport": _custom,
-    "rmw_uros_options_set_udp_address": _address,
-    "rmw_uros_options_set_client_key": _key,
-}
-
-
-def _set(group: dict[str, DraftValue], key: str, value: Setting, call: Call) -> None:
-    group.setdefault(key, DraftValue(value, place(call.span)))

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import click
 
+from microros_gen.cli.options import interface_path_option
+
 
 @click.command()
 @click.argument("folder", type=click.Path(path_type=Path), metavar="DIR")
@@ -33,14 +35,7 @@ import click
     metavar="FILE",
     help="Read the settings of a colcon.meta (RMW_UXRCE_*, UCLIENT_*, …); of several the last one wins.",
 )
-@click.option(
-    "--interface-path",
-    "interface_paths",
-    multiple=True,
-    type=click.Path(path_type=Path),
-    metavar="DIR",
-    help="Package, folder of packages or colcon workspace; searched before ament, pip and the shipped set.",
-)
+@interface_path_option
 def command(
     folder: Path,
     profiles: tuple[str, ...],

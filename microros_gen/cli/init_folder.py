@@ -56,7 +56,7 @@ class _View:
 
 
 def write_folder(wish: Wish, draft: Draft) -> int:
-    """Write the folder of `draft` and tell what it holds; return the exit status.
+    """Write the folder of `draft` and tell what it holds; return the exit status, 2 where it does not plan.
 
     Raises UserError, and writes nothing, where a file is in the way or where a profile alone does not plan.
     """
@@ -75,7 +75,7 @@ def write_folder(wish: Wish, draft: Draft) -> int:
     for diagnostic in found:
         click.echo(diagnostic.render(), err=True)
     _tell(wish, files, len(undecided), planned is not None)
-    return 0 if planned is not None or undecided else 2
+    return 0 if planned is not None else 2
 
 
 @contextmanager
@@ -98,13 +98,10 @@ def _made(folder: Path) -> Iterator[None]:
 
 
 def _heading(wish: Wish) -> list[str]:
-    lines = [
-        f"What {wish.name} has. `microros-gen resolve` says what follows from it; an editor that knows the JSON schema"
-    ]
-    lines += ["of application files completes its keys."]
+    lines = [f"What {wish.name} has; `microros-gen resolve` says what follows from it."]
     read = [str(path) for path in (wish.sources, *wish.metas) if path is not None]
     if read:
-        lines += [f"Proposed by `microros-gen init` from {' and '.join(read)}."]
+        lines += [f"Proposed by `microros-gen init` from {', '.join(read)}."]
     return lines
 
 

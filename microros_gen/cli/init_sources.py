@@ -30,6 +30,7 @@ from microros_gen.sources.components import declared_functions, load_catalogue
 from microros_gen.sources.interfaces import InterfaceFinder
 
 DEFAULT_PROFILE = "pure_sender"
+DEFAULT_SERVICE = "example_interfaces/srv/AddTwoInts"
 
 
 @dataclass(frozen=True)
@@ -142,20 +143,18 @@ def _with_defaults(wish: Wish, draft: Draft) -> Draft:
         )
     interfaces = draft.interfaces
     if not draft.nodes:
-        interfaces = (DEFAULT_INTERFACE,)
-        remarks.append(
-            Remark(
-                f"which types it uses is not said anywhere: `interfaces` has {DEFAULT_INTERFACE}. With `nodes`, as"
-                " `init --from SRC_DIR` proposes them, everything has its exact size"
-            )
-        )
+        interfaces = (DEFAULT_INTERFACE, *((DEFAULT_SERVICE,) if "+services" in draft.components else ()))
+        text = f"which types it uses is not said anywhere: `interfaces` has {' and '.join(interfaces)}"
+        more = "With `nodes`, as `init --from SRC_DIR` proposes them, everything has its exact size"
+        remarks.append(Remark(f"{text}. {more}"))
     settings = dict(draft.settings)
     if any(endpoint.kind != "subscription" for node in draft.nodes for endpoint in node.endpoints):
         settings.setdefault("on_full", DraftValue(Flow("block 1 s"), "as rmw_microxrcedds does by itself"))
     groups = dict(draft.groups)
     transport = groups.pop("transport", {})
     if "type" not in transport and wish.target in (None, "host"):
-        transport = {"type": DraftValue("udp"), "agent": DraftValue(AGENT), **transport}
+        agent = "discover" if "+discovery" in draft.components else AGENT
+        transport = {"type": DraftValue("udp"), "agent": DraftValue(agent), **transport}
     if transport:
         groups = {"transport": transport, **groups}
     target = DraftValue(wish.seen_from_folder(wish.target or "host"), "`microros-gen targets` lists them")

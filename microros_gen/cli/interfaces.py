@@ -11,6 +11,7 @@ from typing import Any
 import click
 
 from microros_gen.cli.interface_files import one_idl, write_descriptions, write_idl
+from microros_gen.cli.options import interface_path_option
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Severity, UserError
 from microros_gen.model.application import Named
 from microros_gen.model.derived import declaring_name, parts_of
@@ -22,14 +23,7 @@ from microros_gen.sources.interfaces import InterfaceFinder, types_in
 
 @click.command()
 @click.argument("name", required=False)
-@click.option(
-    "--interface-path",
-    "interface_paths",
-    multiple=True,
-    type=click.Path(path_type=Path),
-    metavar="DIR",
-    help="Package, folder of packages or colcon workspace; searched before the ament index, pip and the shipped set.",
-)
+@interface_path_option
 @click.option(
     "--format",
     "form",

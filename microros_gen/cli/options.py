@@ -26,6 +26,16 @@ class SelectionOptions:
     components: tuple[str, ...] = ()
 
 
+interface_path_option = click.option(
+    "--interface-path",
+    "interface_paths",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Package, folder of packages or colcon workspace; searched before ament, pip and the shipped set.",
+)
+
+
 def selection_options(function: F) -> F:
     """Add the options; the command gets them as keyword arguments of `SelectionOptions`."""
     for option in reversed(
@@ -57,14 +67,7 @@ def selection_options(function: F) -> F:
                 metavar="PKG[/Type]",
                 help="Message, service, action or all of a package. Adds to the file's. Default: std_msgs/msg/Int32.",
             ),
-            click.option(
-                "--interface-path",
-                "interface_paths",
-                multiple=True,
-                type=click.Path(path_type=Path),
-                metavar="DIR",
-                help="Package, folder of packages or colcon workspace; searched before ament, pip and the shipped set.",
-            ),
+            interface_path_option,
             click.option(
                 "--target", metavar="NAME", help="Target, see `microros-gen targets`. Default: host."
             ),

@@ -10,11 +10,11 @@ from types import MappingProxyType
 from microros_gen.diagnostics import Span
 
 Setting = str | int | bool
-"""A value of the application file; a text that stands for a mapping or list is written as it is (`Flow`)."""
+"""A value of the application file. A text is quoted where YAML needs it, unless it is a `Flow`."""
 
 
 class Flow(str):
-    """YAML text that is written as it is, not quoted: `{type: udp}`, `block 1 s`."""
+    """YAML that is written as it is: `{type: udp}`, `block 1 s`."""
 
 
 @dataclass(frozen=True)

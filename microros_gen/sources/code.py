@@ -7,13 +7,14 @@ from pathlib import Path
 
 from microros_gen.diagnostics import Diagnostics, Source
 
-COMPILED = (".c", ".cc", ".cpp", ".cxx")
-"""What a compiler is given."""
+COMPILED = (".c", ".cc", ".cpp", ".cxx", ".ino")
+"""What a compiler is given; .ino are sketches, which Arduino makes into C++."""
 
-READ = (*COMPILED, ".ino", ".h", ".hh", ".hpp")
-"""What says something about the application; .ino are sketches, which Arduino makes into C++."""
+READ = (*COMPILED, ".h", ".hh", ".hpp")
+"""What says something about the application."""
 
 _LARGEST = 1 << 20
+_MANIFEST = "manifest.json"  # in every folder that this tool wrote
 _LEFT_OUT = ("build", "install", "log", "managed_components", "node_modules")
 
 
@@ -47,7 +48,12 @@ def _paths(folder: Path) -> list[Path]:
     if folder.is_file():
         return [folder]
     found = (path for path in folder.rglob("*") if path.suffix in READ and path.is_file())
-    return sorted(path for path in found if not _is_left_out(path.relative_to(folder)))
+    generated = {path.parent for path in folder.rglob(_MANIFEST)}
+    return sorted(
+        path
+        for path in found
+        if not _is_left_out(path.relative_to(folder)) and not generated.intersection(path.parents)
+    )
 
 
 def _is_left_out(path: Path) -> bool:

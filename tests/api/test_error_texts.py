@@ -102,7 +102,7 @@ def test_the_schema_has_the_numbers_that_advice_stops_at() -> None:
     )
     assert schema["properties"]["pools"]["properties"]["history"]["maximum"] == MOST_HISTORY
     template = (components_folder() / "support/include/microros/error.h.j2").read_text(encoding="utf-8")
-    most = re.search(r"MICROROS_POOL_MOST = (\d+)", template)
+    most = re.search(r"MICROROS_POOL_MOST (\d+)u", template)
     assert most
     assert int(most[1]) == LARGEST_POOL
     assert schema["properties"]["pools"]["properties"]["nodes"]["maximum"] == LARGEST_POOL

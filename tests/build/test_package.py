@@ -36,6 +36,11 @@ def test_the_wheel_holds_every_file_of_data(installed: Installed) -> None:
         files = [p.relative_to(origin).as_posix() for p in origin.rglob("*") if p.is_file()]
         assert files, folder
         assert {f"microros_gen/{folder}/{name}" for name in files} <= there
+    shared = {name.partition(".data/data/share/")[2] for name in there}
+    assert "cmake/microros_gen/microros_genConfig.cmake" in shared
+    prefix = ROOT / "cmake" / "ament" / "prefix"
+    ament = {path.relative_to(prefix).as_posix() for path in prefix.glob("*/cmake/*.cmake")}
+    assert ament | {name.replace("Config.", "-extras.") for name in ament} <= shared
     for name in ("application.schema.json", "profile.schema.json", "msg.lark"):
         assert f"microros_gen/parse/{name}" in there
     assert not [name for name in there if name.startswith(("tests/", "examples/", "docs/"))]

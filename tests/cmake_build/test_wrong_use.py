@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 
 import pytest
+from cli.environments import ROOT, dependencies
 from cmake_build.projects import EXAMPLE, Project, run
 
 from microros_gen import __version__
@@ -69,6 +71,15 @@ def test_a_python_without_the_dependencies(project: Project) -> None:
         f"MICROROS_GEN_PYTHON ({bare}) cannot run microros_gen: ModuleNotFoundError: No module named" in said
     )
     assert "-m pip install" in said
+
+
+def test_every_dependency_is_looked_for() -> None:
+    """The probe of microros_genConfig.cmake imports what pyproject.toml asks for."""
+    config = (ROOT / "cmake" / "microros_genConfig.cmake").read_text(encoding="utf-8")
+    (probed,) = re.findall(r'-c "import microros_gen, ([^"]*)"', config)
+    modules = {"pyelftools": "elftools", "pyyaml": "yaml"}
+    names = [re.split(r"[<>=~!\[ ]", wanted)[0].lower() for wanted in dependencies()]
+    assert probed.split(", ") == sorted(modules.get(name, name) for name in names)
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,8 @@ import sys
 from pathlib import Path
 
 import pytest
+from docs.console import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "docs"))  # as mkdocs does for docs/hooks.py
 
 

@@ -76,6 +76,21 @@ def test_application_and_port_compile_for_the_processor(board: str, tmp_path: Pa
         run(*compiler, *STRICT, *include, "-c", BOARDS / board / source, "-o", tmp_path / "object.o")
 
 
+def test_the_project_for_esp_idf_has_every_function_once(tmp_path: Path) -> None:
+    """Its sources become one archive, so what port.c has must be nowhere else."""
+    board = BOARDS / "esp32c3"
+    tool("generate", "-c", board / "microros.yaml", "-o", tmp_path)
+    (left_out,) = re.findall(
+        r'EXCLUDE REGEX "(.*)"', (board / "main/CMakeLists.txt").read_text(encoding="utf-8")
+    )
+    names = re.compile(r"^[a-z]\w* \**(port_\w+)\([^;]*$", re.MULTILINE)
+    own = set(names.findall((board / "main/port.c").read_text(encoding="utf-8")))
+    assert {"port_time_ms", "port_sleep_ms", "port_udp_open", "port_udp_receive"} <= own
+    for source in (tmp_path / "sources.txt").read_text(encoding="utf-8").split():
+        found = own & set(names.findall((tmp_path / source).read_text(encoding="utf-8")))
+        assert bool(found) is bool(re.search(left_out.replace("\\\\", "\\"), source)), source
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("board", ["pico", "esp32c3"])
 def test_the_library_compiles_for_the_processor(board: str, tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ import re
 import shutil
 import socket
 from pathlib import Path
+from typing import Any
 
 import pytest
 from docs.console import ROOT, SHELL, Terminal, blocks, shows, steps
@@ -14,14 +15,15 @@ from docs.console import ROOT, SHELL, Terminal, blocks, shows, steps
 PAGES = {str(path.relative_to(ROOT / "docs")): path for path in sorted((ROOT / "docs").rglob("*.md"))}
 ELSEWHERE = {
     "agent.md": "tests/docs/test_agent_page.py",
+    "check.md": "tests/docs/test_init_pages.py",
     "cmake.md": "tests/cmake_build/test_example.py",
+    "idl.md": "tests/docs/test_init_pages.py",
     "ros_build.md": "tests/ros_build/test_colcon.py",
 }
 """Pages whose commands another test runs, which reads the page."""
 
-_APPLICATION = "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\n"
 _META = '{"names": {"rmw_microxrcedds": {"cmake-args": ["-DRMW_UXRCE_MAX_NODES=1"]}}}'
-GIVEN = {"check.md": {"microros.yaml": _APPLICATION}, "init.md": {"app-colcon.meta": _META}}
+GIVEN = {"init.md": {"app-colcon.meta": _META}}
 """Files that the reader of a page has already."""
 
 OTHER_PROGRAMS = {
@@ -32,9 +34,17 @@ OTHER_PROGRAMS = {
 NEEDS = {
     "tutorial/qemu.md": ("arm-none-eabi-gcc", "qemu-system-arm"),
     "tutorial/nucleo_f446re.md": ("arm-none-eabi-gcc", "cmake"),
-    "howto/port.md": ("arm-none-eabi-gcc",),
     "init.md": ("cmake",),
 }
+
+
+LONG = ("init.md", "tutorial/nucleo_f446re.md")
+"""Pages that compile the library by CMake; tests/cmake_build and test_boards.py have their slices."""
+
+
+def pages_that_run() -> list[Any]:
+    names = [name for name in PAGES if name not in ELSEWHERE and runs(name)]
+    return [pytest.param(name, marks=pytest.mark.long if name in LONG else ()) for name in names]
 
 
 def runs(name: str) -> bool:
@@ -42,7 +52,7 @@ def runs(name: str) -> bool:
 
 
 @pytest.mark.ros
-@pytest.mark.parametrize("name", [name for name in PAGES if name not in ELSEWHERE and runs(name)])
+@pytest.mark.parametrize("name", pages_that_run())
 def test_the_commands_of_a_page_run_and_print_what_it_shows(name: str, tmp_path: Path) -> None:
     for program in NEEDS.get(name, ()):
         if shutil.which(program) is None:
@@ -90,7 +100,7 @@ def test_what_is_not_run_says_why(name: str) -> None:
     text = PAGES[name].read_text(encoding="utf-8")
     for title in re.findall(r"^!!! not-run(.*)$", text, re.MULTILINE):
         assert re.fullmatch(r' "Not run here: \S.{8,}"', title), title
-    assert "not-run" not in re.sub(r"^!!! not-run .*$", "", text, flags=re.MULTILINE)
+    assert "not-run" not in re.sub(r"^!!! not-run .*$|`[^`\n]+`", "", text, flags=re.MULTILINE)
 
 
 @pytest.mark.parametrize("name", PAGES)

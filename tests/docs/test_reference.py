@@ -14,7 +14,7 @@ import click
 import pytest
 import yaml
 from click.testing import CliRunner
-from docs.conftest import ROOT
+from docs.console import ROOT
 from generators import c_api, command_line
 from generators.c_headers import read_header
 from hooks import generated
@@ -90,6 +90,14 @@ def test_what_the_suite_knows_of_the_api_is_there() -> None:
     constants = {re.findall(r"\w+", line)[0] for line in SURFACE["constants"]}
     text = "\n".join(c_api.pages().values())
     assert not [name for name in constants if not re.search(rf"\b{name}\b", text)]
+
+
+def test_each_anchor_is_there_once() -> None:
+    for name, text in generated().items():
+        anchors = [first or other for first, other in re.findall(r'\{: #(\S+) \}|<a id="(\w+)">', text)]
+        assert len(anchors) == len(set(anchors)), name
+        assert "{{" not in text
+        assert "{%" not in text
 
 
 def test_a_header_is_read_as_the_house_writes_it() -> None:

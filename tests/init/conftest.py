@@ -11,11 +11,19 @@ from proposals import Init
 from microros_gen.cli import main as cli
 
 
+@pytest.fixture(scope="session")
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A cache of compiled templates for all tests of a process."""
+    return tmp_path_factory.mktemp("cache")
+
+
 @pytest.fixture
-def init(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> Init:
+def init(
+    tmp_path: Path, cache: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> Init:
     """Run `microros-gen` in a folder of its own: exit status, standard output, standard error."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(cache))
     monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
 
     def call(*arguments: str) -> tuple[int, str, str]:

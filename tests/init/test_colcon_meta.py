@@ -5,22 +5,39 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 from proposals import Init, application_in, undecided_in
+
+from microros_gen.adopt.colcon_meta import read_settings
+from microros_gen.adopt.meta_draft import meta_draft
+from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.model.draft import Draft
 
 RMW = "rmw_microxrcedds"
 CLIENT = "microxrcedds_client"
 ALWAYS = 2  # remarks of every proposal without nodes: the types, and what it does
 
 
-def write(path: Path, **packages: list[str]) -> Path:
+def text_of(packages: Mapping[str, list[str]]) -> str:
     names = {
         name: {"cmake-args": [f"-D{argument}" for argument in given]} for name, given in packages.items()
     }
-    path.write_text(json.dumps({"names": names}, indent=4), encoding="utf-8")
-    return path
+    return json.dumps({"names": names}, indent=4)
+
+
+def write(path: Path, **packages: list[str]) -> None:
+    path.write_text(text_of(packages), encoding="utf-8")
+
+
+def draft(**packages: list[str]) -> Draft:
+    """Return what `init` proposes, without the defaults of every proposal."""
+    diagnostics = Diagnostics()
+    settings = read_settings(Source("a.meta", text_of(packages)), diagnostics)
+    diagnostics.check()
+    return meta_draft(settings, declared=False)
 
 
 def test_settings_that_have_keys(init: Init, tmp_path: Path) -> None:
@@ -69,26 +86,18 @@ def test_settings_that_have_keys(init: Init, tmp_path: Path) -> None:
     assert "  history: 8 # RMW_UXRCE_STREAM_HISTORY (app-colcon.meta:" in text
 
 
-@pytest.mark.parametrize(
-    ("setting", "transport"),
-    [
-        ("udp", {"RMW_UXRCE_DEFAULT_UDP_IP=10.0.0.7", "RMW_UXRCE_DEFAULT_UDP_PORT=9999"}),
-        ("tcp", {"RMW_UXRCE_DEFAULT_TCP_IP=10.0.0.7", "RMW_UXRCE_DEFAULT_TCP_PORT=9999"}),
-    ],
-)
-def test_the_agents_address(setting: str, transport: set[str], init: Init, tmp_path: Path) -> None:
-    write(tmp_path / "a.meta", rmw_microxrcedds=[f"RMW_UXRCE_TRANSPORT={setting}", *sorted(transport)])
-    assert init("app", "--from-colcon-meta", "a.meta")[0] == 0
-    found = application_in(tmp_path / "app/microros.yaml").transport
-    assert (found.type, found.host, found.port) == (setting, "10.0.0.7", 9999)
+@pytest.mark.parametrize("kind", ["udp", "tcp"])
+def test_the_agents_address(kind: str) -> None:
+    name = f"RMW_UXRCE_DEFAULT_{kind.upper()}"
+    settings = [f"RMW_UXRCE_TRANSPORT={kind}", f"{name}_IP=10.0.0.7", f"{name}_PORT=9999"]
+    transport = draft(rmw_microxrcedds=settings).groups["transport"]
+    assert {key: value.value for key, value in transport.items()} == {"type": kind, "agent": "10.0.0.7:9999"}
 
 
-def test_a_custom_transport_without_framing(init: Init, tmp_path: Path) -> None:
+def test_a_custom_transport_without_framing() -> None:
     settings = {RMW: ["RMW_UXRCE_TRANSPORT=custom"], CLIENT: ["UCLIENT_PROFILE_STREAM_FRAMING=OFF"]}
-    write(tmp_path / "a.meta", **settings)
-    assert init("app", "--from-colcon-meta", "a.meta")[0] == 0
-    found = application_in(tmp_path / "app/microros.yaml").transport
-    assert (found.type, found.framing) == ("custom", False)
+    transport = draft(**settings).groups["transport"]
+    assert {key: value.value for key, value in transport.items()} == {"type": "custom", "framing": False}
 
 
 def test_what_is_not_needed_is_named_with_its_reason_and_line(init: Init, tmp_path: Path) -> None:
@@ -133,15 +142,24 @@ def test_what_is_not_needed_is_named_with_its_reason_and_line(init: Init, tmp_pa
         ("RMW_UXRCE_MAX_SUBSCRIPTIOS=2", "not known here. Did you mean 'RMW_UXRCE_MAX_SUBSCRIPTIONS'?"),
     ],
 )
-def test_what_could_not_be_decided_is_marked(setting: str, said: str, init: Init, tmp_path: Path) -> None:
-    write(tmp_path / "a.meta", rmw_microxrcedds=[setting])
-    status, _, err = init("app", "--from-colcon-meta", "a.meta")
+def test_what_could_not_be_decided_is_told(setting: str, said: str) -> None:
+    (remark,) = draft(rmw_microxrcedds=[setting]).remarks
+    assert remark.undecided
+    assert str(remark.span) == "a.meta:5:17"
+    assert remark.text.startswith(f"rmw_microxrcedds {setting}: {said}")
+
+
+def test_what_could_not_be_decided_is_marked(init: Init, tmp_path: Path) -> None:
+    write(tmp_path / "a.meta", rmw_microxrcedds=["RMW_UXRCE_GRAPH=ON"])
+    status, out, err = init("app", "--from-colcon-meta", "a.meta")
     assert status == 0
-    assert f"a.meta:5:17: warning: rmw_microxrcedds {setting}: {said}" in err
-    assert f'"-D{setting}"\n' in err
-    marked = (tmp_path / "app/microros.yaml").read_text().replace("\n#  ", "")
+    assert "a.meta:5:17: warning: rmw_microxrcedds RMW_UXRCE_GRAPH=ON: questions about" in err
+    assert '"-DRMW_UXRCE_GRAPH=ON"\n' in err
+    assert f"{1 + ALWAYS} to be decided by you: look for UNDECIDED in app/microros.yaml" in out
     assert undecided_in(tmp_path / "app/microros.yaml") == ["UNDECIDED: to be decided by you."]
-    assert f"# - a.meta:5: rmw_microxrcedds {setting}: {said}" in marked
+    assert (
+        "# - a.meta:5: rmw_microxrcedds RMW_UXRCE_GRAPH=ON: " in (tmp_path / "app/microros.yaml").read_text()
+    )
 
 
 def test_several_files_the_last_one_wins_and_yaml_is_taken(init: Init, tmp_path: Path) -> None:

@@ -29,7 +29,8 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Callable[[RuntimePlan],
     def compiled(plan: RuntimePlan) -> Path:
         names = [name for name in components(plan) if name != "port_posix"] + ["publish_statistics"]
         tree = render(tmp_path_factory.mktemp("client"), plan, names)
-        return build(tree, [*FIXTURES, "client_no_serve.c", "client_drops.c", "types.c"], "client")
+        extra = "client_drops_sleep.c" if plan.has_sleep else "client_drops.c"
+        return build(tree, [*FIXTURES, "client_no_serve.c", extra, "types.c"], "client")
 
     return compiled
 
@@ -107,6 +108,35 @@ def test_no_session_and_a_new_owner(connect: Callable[..., Client]) -> None:
     assert (result.code, result.error) == (11, "publisher or statistics: NULL or not initialized")
     client.ok("publisher 1 0 Int32 b best_effort")
     assert client.ok("extra_dropped 1").lines == ("0",)
+
+
+def test_it_outlives_a_sleep(program: Callable[[RuntimePlan], Path], tmp_path: Path) -> None:
+    """A publisher that is opened again as it was goes on counting; one that is another begins at 0."""
+    plan = replace(POOL, has_sleep=True, has_session_state=True)
+    agent = FakeAgent()
+    with Client(program(plan), agent) as client:
+        for call in (
+            "init",
+            "node 0 talker -",
+            "publisher 0 0 Int32 a reliable",
+            "publisher 1 0 Int32 b reliable",
+        ):
+            client.ok(call)
+        agent.silent = True
+        for value in range(plan.reliable_slots + 2):
+            client.call(f"publish 0 {value}")
+        client.call("publish 1 9")
+        assert dropped(client) == [2, 1]
+        agent.silent = False
+        client.ok(f"extra_sleep {tmp_path / 'memory'} 300")
+    with Client(program(plan), agent) as client:
+        client.wait(5000)
+        assert client.call(f"extra_wake {tmp_path / 'memory'}").code == 1
+        for call in ("init", "node 0 talker -", "publisher 0 0 Int32 a reliable"):
+            client.ok(call)
+        assert client.ok("extra_dropped 0").lines == ("2",)
+        client.ok("publisher 1 0 Int32 other reliable")
+        assert client.ok("extra_dropped 1").lines == ("0",)
 
 
 def test_without_it_there_is_no_counter(tmp_path: Path) -> None:

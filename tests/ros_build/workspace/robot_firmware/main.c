@@ -13,10 +13,11 @@ int main(void)
 {
   rcl_allocator_t allocator = rcl_get_default_allocator();
 
-  if (rclc_support_init(&support, 0, NULL, &allocator) != RCL_RET_OK ||
-      rclc_node_init_default(&node, "robot", "", &support) != RCL_RET_OK ||
-      rclc_publisher_init_default(
-        &publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(robot_interfaces, msg, Robot), "robot") != RCL_RET_OK) {
+  if (
+    rclc_support_init(&support, 0, NULL, &allocator) != RCL_RET_OK ||
+    rclc_node_init_default(&node, "robot", "", &support) != RCL_RET_OK ||
+    rclc_publisher_init_default(
+      &publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(robot_interfaces, msg, Robot), "robot") != RCL_RET_OK) {
     return 1;
   }
   robot.wheels[0].speed = 6.25f;

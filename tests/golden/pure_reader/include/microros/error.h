@@ -88,12 +88,12 @@ int32_t microros_error_refuse(int32_t result, const char * argument);
 int32_t microros_error_named(int32_t result, microros_error_t error, const char * name);
 
 /* A session holds no more places of one kind. */
-enum { MICROROS_POOL_MOST = 250 };
+#define MICROROS_POOL_MOST 250u
 
 /* Returns what a full pool of this many places says: `error` advises one more, where one more can be. */
 static inline microros_error_t microros_error_of_pool(microros_error_t error, uint32_t places)
 {
-  return places < (uint32_t)MICROROS_POOL_MOST ? error : (microros_error_t)microros_error_pool_most;
+  return places < MICROROS_POOL_MOST ? error : (microros_error_t)microros_error_pool_most;
 }
 
 #ifdef __cplusplus
