@@ -17,10 +17,11 @@ _ON = ("ON", "TRUE", "YES", "Y", "1")
 _TRANSPORTS = ("udp", "tcp", "serial", "custom")
 _CREATION = {"bin": "binary", "refs": "reference"}
 _ENTITIES = ("nodes", "publishers", "subscriptions", "services", "clients")
+_QUEUE = "RMW_UXRCE_MAX_HISTORY"
 # Setting → key of `pools`, least and most.
 _POOLS = {
     **{f"RMW_UXRCE_MAX_{entity.upper()}": (entity, 0, MOST_ENTITIES) for entity in _ENTITIES},
-    "RMW_UXRCE_MAX_HISTORY": ("queue", 1, MOST_ENTITIES),
+    _QUEUE: ("queue", 1, MOST_ENTITIES),
     "RMW_UXRCE_MAX_WAIT_SETS": ("wait_sets", 1, MOST_ENTITIES),
     "RMW_UXRCE_MAX_GUARD_CONDITION": ("guard_conditions", 0, MOST_ENTITIES),
     "RMW_UXRCE_STREAM_HISTORY": ("history", 1, MOST_HISTORY),
@@ -77,7 +78,10 @@ class _Reader:
     def _take(self, setting: MetaSetting) -> None:
         name = setting.name
         if self._declared and name in _ENTITY_POOLS:
-            self._without(setting, "`nodes` declares what there is")
+            is_queue = name == _QUEUE
+            self._without(
+                setting, "each endpoint has its `queue`" if is_queue else "`nodes` declares what there is"
+            )
         elif name in _POOLS:
             key, least, most = _POOLS[name]
             self._number("pools", key, setting, least, most)

@@ -101,7 +101,7 @@ def _heading(wish: Wish) -> list[str]:
     lines = [f"What {wish.name} has; `microros-gen resolve` says what follows from it."]
     read = [str(path) for path in (wish.sources, *wish.metas) if path is not None]
     if read:
-        lines += [f"Proposed by `microros-gen init` from {' and '.join(read)}."]
+        lines += [f"Proposed by `microros-gen init` from {', '.join(read)}."]
     return lines
 
 

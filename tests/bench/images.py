@@ -73,10 +73,10 @@ IMAGES = (
     ),
     Image("3 server of SetBool, executor", SERVES, "setbool.c", (), "66,624 + 4,616 / 14,464, 1,560"),
     Image("client of SetBool", ASKS),
-    Image("6 publisher of JointState, 6 joints", JOINTS, existing="54,340 + 3,604 / 13,048, ?"),
+    Image("6 publisher of JointState, 6 joints", JOINTS, existing="54,340 + 3,604 / 13,048"),
     Image("the same with a history of two", f"{JOINTS}pools: {{history: 2}}\n"),
     Image(
-        "two publishers, subscription, server, client, timer",
+        "two publishers, subscription, server, client, timer on ROS time",
         f"{EVERYTHING}errors: code\n",
         "everything.c",
     ),

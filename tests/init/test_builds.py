@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -33,6 +35,34 @@ def test_a_profile_for_this_machine(profile: str, init: Init, tmp_path: Path) ->
     assert init("app", "--profile", profile)[0] == 0
     build(tmp_path / "app")
     assert (tmp_path / "app/build/app").is_file()
+
+
+def test_the_commands_of_its_readme(init: Init, tmp_path: Path) -> None:
+    """All but those that go on until somebody ends them; what they start is in tests/e2e."""
+    assert init("app")[0] == 0
+    lines = re.findall(r"(?m)^    (.*?)(?: +#.*)?$", (tmp_path / "app/README.md").read_text())
+    endless = ("microros-gen agent udp4 --port 8888", "build/app")
+    assert [line for line in lines if line in endless] == list(endless)
+    tool = tmp_path / "microros-gen"
+    tool.write_text(f'#!/bin/sh\nPYTHONPATH={ROOT} exec {sys.executable} -m microros_gen "$@"\n')
+    tool.chmod(0o755)
+    path = f"{tmp_path}{os.pathsep}{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    cache = str(tmp_path / "cache")
+    environment = clean_environ(PATH=path, XDG_CACHE_HOME=cache, microros_gen_DIR=str(ROOT / "cmake"))
+    for line in lines:
+        if line not in endless:
+            done = subprocess.run(
+                line,
+                shell=True,
+                cwd=tmp_path / "app",
+                env=environment,
+                capture_output=True,
+                text=True,
+                check=False,
+            )
+            assert done.returncode == 0, f"{line}\n{done.stdout}{done.stderr}"
+    assert (tmp_path / "app/build/app").is_file()
+    assert (tmp_path / "app/build/out/bin/pure_sender").is_file()
 
 
 @pytest.mark.parametrize("board", BOARDS)

@@ -138,8 +138,7 @@ static void test_what_is_not_for_it(void)
   CHECK(acknacks == 0u && client.reliable_input.next == 0u);
   client.session.state = XRCE_READY;
   CHECK(
-    xrce_stream_reliable_input_on_heartbeat(&client, payload, 5, 0) &&
-    expected == 0x0900u); /* big endian */
+    xrce_stream_reliable_input_on_heartbeat(&client, payload, 5, 0) && expected == 0x0900u); /* big endian */
 }
 
 static void test_what_was_cut_has_not_come(void)
