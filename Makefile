@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-# make demo | test | lint | misra | proof | bench | golden | footprint. Each sets up its own virtual environment in .venv first.
+# make demo | test | lint | misra | proof | bench | golden | footprint | docs. Each sets up its own virtual environment in .venv first.
 
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint misra proof bench golden footprint clean
+.PHONY: demo test lint misra proof bench golden footprint docs clean
 
 demo: $(VENV)/ros.stamp
 	@$(BIN)/python examples/demo/demo.py
@@ -33,6 +33,10 @@ golden: $(VENV)/dev.stamp
 
 footprint: $(VENV)/dev.stamp
 	@$(BIN)/python tests/tools/update_footprint.py
+
+docs: $(VENV)/dev.stamp
+	@$(BIN)/python -m mkdocs build --strict
+	@echo "build/site/index.html"
 
 $(VENV)/bin/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10))' \

@@ -36,7 +36,7 @@ from microros_gen.agent.wire.constants import (
 )
 from microros_gen.agent.wire.data_messages import DATA_PREFIX
 from microros_gen.agent.wire.errors import MalformedError
-from microros_gen.agent.wire.message import SUBMESSAGE_HEADER, header_size, split
+from microros_gen.agent.wire.message import SUBMESSAGE_HEADER, header_size, is_cut, split
 from microros_gen.agent.wire.submessages import decode
 
 WRITE_DATA = int(SubmessageId.WRITE_DATA)
@@ -186,6 +186,8 @@ class Agent:
         if client.asleep:
             self._lobby.wake(client, now)
         stream = data[1]
+        if stream >= STREAM_RELIABLE and is_cut(data, start):
+            raise MalformedError("cut_message", f"{len(data)} bytes are not the whole message")
         for message in client.session.incoming(stream, data[2] | data[3] << 8, data):
             client.ready.append((message, start, stream, False, 0))
         if stream >= STREAM_RELIABLE:

@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from microros_gen.build.compile import LIBRARY, object_name
+from microros_gen.build.compile import LIBRARY
 from microros_gen.build.elf import Elf, Section, Symbol
 from microros_gen.build.folder import Folder
 from microros_gen.build.linker_map import Placed, parse_map
@@ -38,6 +38,7 @@ _LINKER_MADE = re.compile(
 )
 _MERGED_TEXT = re.compile(r"\.str1\.\d+$|^\.rodata$")
 _SHOWN_TEXT = 40
+_LIBRARY_NAME = LIBRARY.rsplit("/", 1)[-1]
 
 
 @dataclass(frozen=True)
@@ -89,13 +90,7 @@ def attribute(folder: Folder, image: Elf) -> tuple[Piece, ...]:
     """Return the pieces of a linked image, by section and address. UserError where the linker left no map."""
     placed = parse_map(folder.map_text)
     if not placed:
-        raise UserError(
-            [
-                Diagnostic(
-                    f"{folder.path} holds no map of its image", hint="Build it again: microros-gen build"
-                )
-            ]
-        )
+        raise _no_map(folder)
     owners = Owners(folder)
     texts = _texts(folder, placed)
     by_output: dict[str, list[Placed]] = {}
@@ -110,6 +105,15 @@ def attribute(folder: Folder, image: Elf) -> tuple[Piece, ...]:
     return tuple(pieces)
 
 
+def _no_map(folder: Folder) -> UserError:
+    what, hint = f"{folder.path} holds no map of its image", "Build it again: microros-gen build"
+    if folder.outside is not None:
+        image, path = folder.outside
+        what = f"{path} is no map of {image}"
+        hint = f"Link the image with -Wl,-Map={path}, or give its map with --map"
+    return UserError([Diagnostic(what, hint=hint)])
+
+
 def attribute_library(folder: Folder) -> tuple[Piece, ...]:
     """Return the pieces of every object of the library: what there is before a linker drops what is not used.
 
@@ -119,7 +123,7 @@ def attribute_library(folder: Folder) -> tuple[Piece, ...]:
     pieces: list[Piece] = []
     base = 0
     for source in folder.sources:
-        item = Elf(folder.path / object_name(source))
+        item = Elf(folder.object_path(source))
         owner, name = owners.of_source(source), source
         for section in item.loaded:
             symbols = _sized(s for s in item.symbols if s.section == section.index)
@@ -152,7 +156,7 @@ class Owners:
         match = _MEMBER.match(placed.object)
         if match:
             archive, member = match["archive"], match["member"]
-            if archive.endswith(LIBRARY) and member in self._folder.objects:
+            if archive.rsplit("/", 1)[-1] == _LIBRARY_NAME and member in self._folder.objects:
                 source = self._folder.objects[member]
                 return self.of_source(source), source
             group = "compiler" if _COMPILER.search(archive) else "C library"
@@ -163,7 +167,7 @@ class Owners:
         if placed.object.startswith(".build/"):
             source = placed.object.removeprefix(".build/").removesuffix(".o") + ".c"
             return Owner("application", source), source
-        return Owner("application", short), short
+        return Owner("application", short), placed.object
 
 
 def _cover(section: Section, placed: Iterable[Placed], owners: Owners) -> Iterator[Piece]:
@@ -249,10 +253,9 @@ def _texts(folder: Folder, placed: Iterable[Placed]) -> Mapping[bytes, Piece]:
         {p.object: p for p in placed if p.section.startswith(".text")}.values(), key=lambda p: p.object
     ):
         owner, source = owners.of(item)
-        path = folder.path / (object_name(source) if source else "")
-        if source is None or not path.is_file():
+        if source is None or not folder.object_path(source).is_file():
             continue
-        elf = Elf(path)
+        elf = Elf(folder.object_path(source))
         for section in elf.sections:
             if section.strings and section.kind:
                 for text in elf.content(section).split(b"\0"):

@@ -2,22 +2,22 @@
 """The call graph of an image, with the stack that each function needs.
 
 Frames come from gcc (`-fcallgraph-info=su`, its manual, "Developer Options") where it compiled the function, else from
-the disassembly; calls come from both. Calls through pointers are resolved where the member that they go through says
-to what: the type support's encode, encoded_size and decode.
+the disassembly; calls come from both. Calls through pointers go to what the member that they go through can hold: the
+type support's encode, encoded_size and decode, else what `pointers` finds.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
 from microros_gen.build.attribution import Piece
-from microros_gen.build.compile import object_name
 from microros_gen.build.disassembly import Code, parse_disassembly
 from microros_gen.build.elf import THUMB, Elf
 from microros_gen.build.folder import Folder
+from microros_gen.build.pointers import Pointers, read_pointers
 from microros_gen.build.toolchain import run, sibling
 
 INDIRECT = "__indirect_call"
@@ -96,14 +96,15 @@ def build_call_graph(folder: Folder, image: Elf, pieces: Iterable[Piece]) -> Cal
     nodes = {address: _node(piece, frames) for address, piece in functions.items()}
     for code in _disassembled(folder, image):
         _add_code(nodes, code, _is_external(image, code))
-    _add_compiled(folder, nodes, functions, frames, _constructors(image))
+    pointers = read_pointers(folder, image, functions)
+    _add_compiled(folder, nodes, functions, frames, _constructors(image), pointers)
     return CallGraph(nodes, image.machine, bool(frames))
 
 
 def _frames(folder: Folder, functions: Iterable[Piece]) -> Mapping[tuple[str, str], Frame]:
     found: dict[tuple[str, str], Frame] = {}
-    for source in sorted({p.source for p in functions if p.source and p.source.endswith(".c")}):
-        path = (folder.path / object_name(source)).with_suffix(".ci")
+    for source in sorted({p.source for p in functions if p.source and p.source.endswith((".c", ".o"))}):
+        path = folder.object_path(source).with_suffix(".ci")
         if path.is_file():
             known = parse_call_graph(path.read_text(encoding="utf-8", errors="replace"))
             found.update({(source, name): frame for name, frame in known.items()})
@@ -161,6 +162,7 @@ def _add_compiled(
     functions: Mapping[int, Piece],
     frames: Mapping[tuple[str, str], Frame],
     constructors: frozenset[int],
+    pointers: Pointers,
 ) -> None:
     """Add what the compiler knows of calls: those through pointers; the others where there is no disassembly."""
     exported = {p.symbol: a for a, p in functions.items()}
@@ -174,13 +176,15 @@ def _add_compiled(
             if to is not None:
                 nodes[address].calls.add(to)
         for place in frame.pointers:
-            member = _member(folder, place)
-            targets = _targets(member, functions)
+            member = _member(folder, place, pointers.members)
+            targets: frozenset[int] | None = _targets(member, functions)
+            if member and not targets:
+                targets = pointers.targets(member)
             if member is None and (piece.source or "").startswith("src/port_"):
                 nodes[address].calls |= constructors
                 continue
-            nodes[address].calls |= targets
-            if not targets:
+            nodes[address].calls |= targets or frozenset()
+            if targets is None or not member:
                 what = f"the callback {member}" if member else "a call through a pointer"
                 nodes[address].open.add(f"{piece.symbol}: {what} ({place.rpartition(':')[0]})")
 
@@ -194,18 +198,18 @@ def _constructors(image: Elf) -> frozenset[int]:
     return frozenset(word & ~THUMB if image.arm else word for word in words)
 
 
-def _targets(member: str | None, functions: Mapping[int, Piece]) -> set[int]:
+def _targets(member: str | None, functions: Mapping[int, Piece]) -> frozenset[int]:
     """Return where a call through a member can go: the type support, or what backs the default allocator."""
     if member in TYPE_MEMBERS:
         found = (a for a, p in functions.items() if p.owner.group == "type support")
-        return {a for a in found if str(functions[a].symbol).endswith(f"__{member}")}
+        return frozenset(a for a in found if str(functions[a].symbol).endswith(f"__{member}"))
     if member in ALLOCATOR_MEMBERS:
-        return {a for a, p in functions.items() if p.symbol == f"microros_arena_{member}"}
-    return set()
+        return frozenset(a for a, p in functions.items() if p.symbol == f"microros_arena_{member}")
+    return frozenset()
 
 
-def _member(folder: Folder, place: str) -> str | None:
-    """Return the member that a call at `file:line:column` goes through."""
+def _member(folder: Folder, place: str, pointers: Container[str]) -> str | None:
+    """Return the member, or the variable among `pointers`, that a call at `file:line:column` goes through."""
     name, line, _ = place.rsplit(":", 2)
     try:
         lines = (folder.path / name).read_text(encoding="utf-8", errors="replace").splitlines()
@@ -214,6 +218,8 @@ def _member(folder: Folder, place: str) -> str | None:
     text = lines[int(line) - 1] if int(line) <= len(lines) else ""
     found = re.findall(r"(?:->|\.)(\w+)\s*\(", text)
     known = [m for m in found if m in (*TYPE_MEMBERS, *ALLOCATOR_MEMBERS)]
+    if not found:
+        found = [name for name in re.findall(r"(\w+)\s*\(", text) if name in pointers]
     return known[0] if known else found[0] if found else None
 
 

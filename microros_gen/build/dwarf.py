@@ -60,11 +60,11 @@ def read_facts(image: Elf) -> Facts:
             address = _address(image, die)
             if address is None:
                 continue
-            origin = _origin(die)
+            origin = origin_of(die)
             places.setdefault(address, _place(origin, files))
             if die.tag == "DW_TAG_variable" and "DW_AT_type" in origin.attributes:
                 kind = origin.get_DIE_from_attribute("DW_AT_type")
-                types.setdefault(address, _type_name(kind))
+                types.setdefault(address, type_name(kind))
                 parts.setdefault(address, tuple(_parts(kind, "", 0, 0)))
     return Facts(types, parts, places)
 
@@ -79,19 +79,26 @@ def read_variables(item: Elf) -> Mapping[str, tuple[str, tuple[Part, ...]]]:
         for unit in item.dwarf.iter_CUs() if item.dwarf else ():
             for die in unit.iter_DIEs():
                 if die.tag == "DW_TAG_variable" and _address(item, die) is not None:
-                    origin = _origin(die)
-                    kind = _target(origin)
+                    origin = origin_of(die)
+                    kind = type_of(origin)
                     if kind is not None:
-                        found.setdefault(_name(origin), (_type_name(kind), tuple(_parts(kind, "", 0, 0))))
+                        found.setdefault(_name(origin), (type_name(kind), tuple(_parts(kind, "", 0, 0))))
     except (ELFError, DWARFError):
         return {}
     return found
 
 
+def function_address(image: Elf, die: Any) -> int | None:
+    """Return where a function begins, or None for what is none, or has no code."""
+    if die.tag != "DW_TAG_subprogram" or "DW_AT_low_pc" not in die.attributes:
+        return None
+    address = int(die.attributes["DW_AT_low_pc"].value)
+    return address & ~THUMB if image.arm else address
+
+
 def _address(image: Elf, die: Any) -> int | None:
-    if die.tag == "DW_TAG_subprogram" and "DW_AT_low_pc" in die.attributes:
-        address = int(die.attributes["DW_AT_low_pc"].value)
-        return address & ~THUMB if image.arm else address
+    if die.tag == "DW_TAG_subprogram":
+        return function_address(image, die)
     if die.tag == "DW_TAG_variable" and "DW_AT_location" in die.attributes:
         location = die.attributes["DW_AT_location"].value
         if isinstance(location, list) and location and location[0] == _OP_ADDR:
@@ -101,11 +108,11 @@ def _address(image: Elf, die: Any) -> int | None:
     return None
 
 
-def _origin(die: Any) -> Any:
+def origin_of(die: Any) -> Any:
     """Return the DIE that has name, type and place: an instance of an inlined function only points to it."""
     for attribute in ("DW_AT_abstract_origin", "DW_AT_specification"):
         if attribute in die.attributes:
-            return _origin(die.get_DIE_from_attribute(attribute))
+            return origin_of(die.get_DIE_from_attribute(attribute))
     return die
 
 
@@ -134,29 +141,31 @@ def _name(die: Any) -> str:
     return attribute.value.decode() if attribute else ""
 
 
-def _target(die: Any) -> Any | None:
+def type_of(die: Any) -> Any | None:
+    """Return the type of a DIE, or None for void."""
     return die.get_DIE_from_attribute("DW_AT_type") if "DW_AT_type" in die.attributes else None
 
 
-def _type_name(die: Any | None) -> str:
+def type_name(die: Any | None) -> str:
     """Return the outermost name: a typedef's, or what an array or a qualified type is made of."""
     while die is not None and not _name(die):
-        die = _target(die)
+        die = type_of(die)
     return _name(die) if die is not None else ""
 
 
-def _plain(die: Any | None) -> Any | None:
+def plain_type(die: Any | None) -> Any | None:
+    """Return a type without typedefs and qualifiers."""
     while die is not None and die.tag in _QUALIFIERS:
-        die = _target(die)
+        die = type_of(die)
     return die
 
 
 def _size(die: Any | None, word: int) -> int:
-    die = _plain(die)
+    die = plain_type(die)
     if die is None:
         return 0
     if die.tag == "DW_TAG_array_type":
-        total = _size(_target(die), word)
+        total = _size(type_of(die), word)
         for count in _counts(die):
             total *= count
         return total
@@ -176,14 +185,14 @@ def _counts(die: Any) -> list[int]:
 def _parts(die: Any, path: str, offset: int, depth: int) -> Iterator[Part]:
     """Yield the parts of a type: members of structs; elements of arrays whose elements have parts themselves."""
     word = die.cu.header["address_size"]
-    kind = _plain(die)
+    kind = plain_type(die)
     if kind is None or depth > DEEPEST:
         yield Part(path, offset, _size(die, word))
     elif kind.tag == "DW_TAG_structure_type":
         for member in kind.iter_children():
             if member.tag == "DW_TAG_member" and "DW_AT_data_member_location" in member.attributes:
                 at = offset + int(member.attributes["DW_AT_data_member_location"].value)
-                yield from _parts(_target(member), f"{path}.{_name(member)}", at, depth + 1)
+                yield from _parts(type_of(member), f"{path}.{_name(member)}", at, depth + 1)
     elif kind.tag == "DW_TAG_array_type":
         yield from _elements(kind, path, offset, depth)
     else:
@@ -192,8 +201,8 @@ def _parts(die: Any, path: str, offset: int, depth: int) -> Iterator[Part]:
 
 def _elements(die: Any, path: str, offset: int, depth: int) -> Iterator[Part]:
     word = die.cu.header["address_size"]
-    element, counts = _target(die), _counts(die)
-    plain = _plain(element)
+    element, counts = type_of(die), _counts(die)
+    plain = plain_type(element)
     is_struct = plain is not None and plain.tag == "DW_TAG_structure_type"
     if not counts or (not is_struct and len(counts) < 2):
         yield Part(path, offset, _size(die, word))

@@ -59,7 +59,7 @@ _INDEXED = (
     (re.compile(r"(?:^|\.)subscriptions\[(\d+)\]"), "subscription"),
     (re.compile(r"(?:^|\.)(?:clients|requesters)\[(\d+)\]"), "client"),
 )
-_RECEIVING = {"subscription": "subscriptions", "service": "services", "client": "clients"}
+RECEIVING = {"subscription": "subscriptions", "service": "services", "client": "clients"}
 """What receives and where the manifest has it, in the order of the places."""
 _RECEIVERS = re.compile(r"(?:^|\.)receivers\[(\d+)\]")
 _SERVICES = re.compile(r"(?:^|\.)services\[(\d+)\]")
@@ -96,7 +96,7 @@ def entities(folder: Folder, pieces: Iterable[Piece], parts: Iterable[RamPart]) 
     return (
         *_nodes(folder.manifest, by_use),
         *_publishers(folder.manifest, by_use, flash),
-        *(e for kind in _RECEIVING for e in _receivers(folder.manifest, kind, by_use, flash)),
+        *(e for kind in RECEIVING for e in _receivers(folder.manifest, kind, by_use, flash)),
     )
 
 
@@ -160,7 +160,7 @@ def _use(manifest: Mapping[str, Any], piece: Piece, kind: str, path: str) -> str
 def _endpoint(manifest: Mapping[str, Any], index: int, first: str = "publisher") -> str:
     """Return whose place this is, in a table that begins with those of `first`."""
     pools = manifest["pools"]
-    counts = {kind: int(pools.get(key, 0)) for kind, key in _RECEIVING.items()}
+    counts = {kind: int(pools.get(key, 0)) for kind, key in RECEIVING.items()}
     counts = {"publisher": max(int(pools["publishers"]), 0 if any(counts.values()) else 1), **counts}
     kinds = list(counts)
     for kind in kinds[kinds.index(first) :]:
@@ -216,20 +216,18 @@ def _receivers(
     manifest: Mapping[str, Any], kind: str, by_use: Mapping[str, int], flash: Mapping[str, int]
 ) -> Iterator[Entity]:
     """Yield what receives, of one kind; the bytes of its queue are its own."""
-    key = _RECEIVING[kind]
+    key = RECEIVING[kind]
     declared = manifest["entities"].get(key, [])
     count = int(manifest["pools"].get(key, 0))
-    places = sum(int(manifest["pools"].get(other, 0)) for other in _RECEIVING.values())
+    places = sum(int(manifest["pools"].get(other, 0)) for other in RECEIVING.values())
     for index in range(count):
         known = declared[index] if index < len(declared) else None
-        kinds = _messages(known["type"], manifest) if known else set(manifest["types"])
-        parts = {part for name in kinds for part in manifest["types"][name]["parts"]} | kinds
+        kinds = messages_of(known["type"], manifest) if known else set(manifest["types"])
+        parts = with_parts(kinds, manifest)
         queue = known["queue"] * known["slot_size"] if known else by_use.get("queues", 0) // places
         yield Entity(
             kind,
-            (known["topic"] if kind == "subscription" else known["name"])
-            if known
-            else f"{kind} {index} of the pool",
+            shown_endpoint(known) if known else f"{kind} {index} of the pool",
             known["type"] if known else None,
             by_use.get(f"{kind} {index}", 0) + queue,
             sum(flash.get(part, 0) for part in parts),
@@ -239,9 +237,19 @@ def _receivers(
         )
 
 
-def _messages(type_: str, manifest: Mapping[str, Any]) -> set[str]:
+def messages_of(type_: str, manifest: Mapping[str, Any]) -> set[str]:
     """Return the messages of a type: itself, or what a service exchanges."""
     return {name for name in (type_, f"{type_}_Request", f"{type_}_Response") if name in manifest["types"]}
+
+
+def with_parts(names: set[str], manifest: Mapping[str, Any]) -> set[str]:
+    """Return messages with all that they are made of."""
+    return names | {part for name in names for part in manifest["types"][name]["parts"]}
+
+
+def shown_endpoint(entity: Mapping[str, Any]) -> str:
+    """Return the topic of an entity of the manifest, or the name of its service."""
+    return str(entity.get("topic") or entity["name"])
 
 
 def _stream(by_use: Mapping[str, int], reliable: bool) -> tuple[str, int]:

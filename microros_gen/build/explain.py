@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from microros_gen.build.attribution import Piece, attribute_library
+from microros_gen.build.entities import RECEIVING, messages_of, shown_endpoint, with_parts
 from microros_gen.build.folder import Folder
 from microros_gen.build.references import References, read_references
 from microros_gen.build.report import SizeReport
@@ -241,20 +242,11 @@ class Explainer:
 
     def _receiving(self, owner: str) -> Iterator[str]:
         manifest = self._folder.manifest
-        for kind, key, component in (
-            ("subscription", "subscriptions", "subscribe"),
-            ("service", "services", "services"),
-            ("client", "clients", "services"),
-        ):
+        for kind, key in RECEIVING.items():
+            component = "subscribe" if kind == "subscription" else "services"
             for entity in manifest["entities"].get(key, ()):
-                names = {entity["type"], f"{entity['type']}_Request", f"{entity['type']}_Response"}
-                parts = {
-                    part
-                    for name in names & set(manifest["types"])
-                    for part in manifest["types"][name]["parts"]
-                }
-                if owner == component or owner in names | parts:
-                    yield f"{kind} {entity.get('topic') or entity['name']} ({entity['type']})"
+                if owner == component or owner in with_parts(messages_of(entity["type"], manifest), manifest):
+                    yield f"{kind} {shown_endpoint(entity)} ({entity['type']})"
 
     def _removes(self, owner: str, seen: frozenset[str] = frozenset()) -> Iterator[str]:
         reasons = self._folder.manifest["selection"]["reasons"]

@@ -19,18 +19,29 @@ from microros_gen.resolve.interfaces import split_type_name
 
 @dataclass(frozen=True)
 class Folder:
-    """An output folder that was built. `tools` names compiler and archiver; `manifest` is manifest.json."""
+    """An output folder that was built. `tools` names compiler and archiver; `manifest` is manifest.json.
+
+    `outside` is an image that somebody else linked with the library, and its map; None: the example.
+    """
 
     path: Path
     manifest: Mapping[str, Any]
     sources: tuple[str, ...]
     tools: Mapping[str, Any]
+    outside: tuple[Path, Path] | None = None
 
     @property
     def image(self) -> Path | None:
         """The linked image, or None for a target that has the library alone."""
+        if self.outside is not None:
+            return self.outside[0]
         path = self.path / "bin" / str(self.manifest["image"])
         return path if path.is_file() else None
+
+    @property
+    def image_name(self) -> str:
+        """The image as people know it."""
+        return str(self.outside[0]) if self.outside is not None else f"bin/{self.manifest['image']}"
 
     @property
     def components(self) -> tuple[str, ...]:
@@ -41,9 +52,18 @@ class Folder:
     def map_text(self) -> str:
         """What the linker says of the image."""
         try:
-            return (self.path / MAP).read_text(encoding="utf-8", errors="replace")
+            path = self.outside[1] if self.outside is not None else self.path / MAP
+            return path.read_text(encoding="utf-8", errors="replace")
         except OSError:
             return ""
+
+    def object_path(self, source: str) -> Path:
+        """Return the object of a source of this folder; of an outside image's, what its map calls it."""
+        if source.endswith((".c", ".S")):
+            return self.path / object_name(source)
+        around = self.outside[0].parent if self.outside is not None else self.path
+        path = Path(source)
+        return path if path.is_file() else around / path
 
     @cached_property
     def objects(self) -> Mapping[str, str]:

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from elftools.elf.relocation import RelocationSection
 
 from microros_gen.build.attribution import Piece
-from microros_gen.build.compile import object_name
 from microros_gen.build.elf import Elf
 from microros_gen.build.folder import Folder
 
@@ -54,7 +53,7 @@ def read_references(folder: Folder, pieces: Iterable[Piece]) -> References:
         exported.setdefault(key[1], key)
     found: dict[Key, set[Key]] = {}
     for source in sorted({source for source, _ in mine}):
-        for name, to in _edges(Elf(folder.path / object_name(source))):
+        for name, to in _edges(Elf(folder.object_path(source))):
             target = (source, to) if (source, to) in mine else exported.get(to)
             if target and (source, name) in mine and target != (source, name):
                 found.setdefault(target, set()).add((source, name))

@@ -5,13 +5,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from microros_gen.build.attribution import Piece, attribute, attribute_library
 from microros_gen.build.budget import BudgetLine, advice_text, budget_lines, exceeded_message
 from microros_gen.build.callgraph import CallGraph, build_call_graph
-from microros_gen.build.compile import object_name
 from microros_gen.build.dwarf import Facts, Part, read_facts, read_variables
 from microros_gen.build.elf import Elf
 from microros_gen.build.entities import Entity, RamPart, entities, ram_parts
@@ -43,12 +42,17 @@ class SizeReport:
         return {kind: sum(p.size for p in self.pieces if p.kind == kind) for kind in ("text", "data", "bss")}
 
 
-def measure(path: Path) -> SizeReport:
-    """Measure an output folder. UserError where it was not built, or holds no ELF files."""
-    folder = read_folder(path)
+def measure(path: Path, outside: tuple[Path, Path] | None = None) -> SizeReport:
+    """Measure an output folder, or with `outside` an image that was linked with its library, and that image's map.
+
+    UserError where the folder was not built, or files are not what they should be.
+    """
+    folder = replace(read_folder(path), outside=outside)
     if folder.image is None:
         return _measure_library(folder)
     image = Elf(folder.image)
+    if outside is not None:
+        _check_plan(folder, image)
     pieces = attribute(folder, image)
     facts = read_facts(image)
     parts = ram_parts(folder, pieces, facts)
@@ -56,6 +60,14 @@ def measure(path: Path) -> SizeReport:
     stack = stack_report(graph, image, public_functions(folder, pieces))
     budgets = budget_lines(folder, pieces, parts, stack)
     return SizeReport(folder, pieces, facts, parts, entities(folder, pieces, parts), graph, stack, budgets)
+
+
+def _check_plan(folder: Folder, image: Elf) -> None:
+    """Refuse an image of another plan: each library and each application refer to the symbol of theirs."""
+    suffix = f"__plan_{folder.manifest['plan']}"
+    if not any(symbol.name.endswith(suffix) for symbol in image.symbols):
+        what = f"{image.path} was not linked with the library of {folder.path} as it is now"
+        raise UserError([Diagnostic(what, hint="Link it again, or give the folder of its library")])
 
 
 def public_functions(folder: Folder, pieces: Iterable[Piece]) -> frozenset[str]:
@@ -100,7 +112,7 @@ def _library_facts(folder: Folder, pieces: Iterable[Piece]) -> Facts:
     for piece in pieces:
         if piece.ram and piece.symbol and piece.source:
             if piece.source not in known:
-                known[piece.source] = read_variables(Elf(folder.path / object_name(piece.source)))
+                known[piece.source] = read_variables(Elf(folder.object_path(piece.source)))
             found = known[piece.source].get(piece.symbol.partition(".")[0])
             if found:
                 types[piece.address], parts[piece.address] = found

@@ -21,7 +21,13 @@ if TYPE_CHECKING:
 @click.command()
 @selection_options
 @output_option
-def command(output: Path | None, **options: Any) -> None:
+@click.option(
+    "--depfile",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Write what the output was made from, as a dependency file for make, Ninja and CMake.",
+)
+def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
     """Write the C sources of a selection to OUT, without compiling.
 
     Only files whose content changes are touched; files that are no longer selected are removed.
@@ -29,7 +35,7 @@ def command(output: Path | None, **options: Any) -> None:
     \b
     microros-gen generate --profile pure_sender --interface sensor_msgs/msg/Imu
     """
-    call = {"command": "generate", "output": output, **options}
+    call = {"command": "generate", "output": output, "depfile": depfile, **options}
     last = find_run(call, os.environ)
     if last is not None:
         click.echo(last.warnings, nl=False, err=True)
@@ -37,7 +43,8 @@ def command(output: Path | None, **options: Any) -> None:
         return
     from microros_gen.cli.pipeline import read_paths
     from microros_gen.cli.summary import plan_summary
-    from microros_gen.output.tree import JOURNAL
+    from microros_gen.output.depfile import write_depfile
+    from microros_gen.output.tree import JOURNAL, MANIFEST
 
     begun = time.time_ns()
     planned, out = plan(SelectionOptions(**options), output)
@@ -45,8 +52,12 @@ def command(output: Path | None, **options: Any) -> None:
     summary = plan_summary(planned)
     files = report.written + report.unchanged
     run = Run(out, summary, len(files), planned.warnings)
-    inputs = (*read_paths(planned), out / JOURNAL)
-    record_run(call, os.environ, run, inputs, (out / name for name in files), begun)
+    inputs = tuple(read_paths(planned))
+    outputs = [out / name for name in files]
+    if depfile is not None:
+        write_depfile(depfile, out / MANIFEST, inputs)
+        outputs.append(depfile)
+    record_run(call, os.environ, run, (*inputs, out / JOURNAL), outputs, begun)
     click.echo(summary + files_line(out, report), nl=False)
 
 

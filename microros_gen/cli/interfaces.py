@@ -10,6 +10,8 @@ from typing import Any
 
 import click
 
+from microros_gen.cli.interface_files import one_idl, write_descriptions, write_idl
+from microros_gen.cli.options import interface_path_option
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Severity, UserError
 from microros_gen.model.application import Named
 from microros_gen.model.derived import declaring_name, parts_of
@@ -21,23 +23,30 @@ from microros_gen.sources.interfaces import InterfaceFinder, types_in
 
 @click.command()
 @click.argument("name", required=False)
-@click.option(
-    "--interface-path",
-    "interface_paths",
-    multiple=True,
-    type=click.Path(path_type=Path),
-    metavar="DIR",
-    help="Package, folder of packages or colcon workspace; searched before the ament index, pip and the shipped set.",
-)
+@interface_path_option
 @click.option(
     "--format",
     "form",
-    type=click.Choice(["table", "json"]),
+    type=click.Choice(["table", "json", "idl"]),
     default="table",
     show_default=True,
-    help="Tables for people, or JSON for programs.",
+    help="Tables for people, JSON for programs (of one type with its type description), OMG IDL for DDS tools.",
 )
-def command(name: str | None, interface_paths: tuple[Path, ...], form: str) -> None:
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Write files DIR/<pkg>/<kind>/<Type>.idl (or .json); of IDL with all that they include.",
+)
+@click.option(
+    "--portable",
+    is_flag=True,
+    help="IDL for compilers of DDS vendors: include guards, keywords escaped. ROS 2's own reader takes neither.",
+)
+def command(
+    name: str | None, interface_paths: tuple[Path, ...], form: str, output: Path | None, portable: bool
+) -> None:
     """List interface packages; with NAME = pkg its types, with NAME = pkg/Type that message, service or action.
 
     Packages are looked for in --interface-path, AMENT_PREFIX_PATH, packages installed by pip, and the
@@ -48,11 +57,20 @@ def command(name: str | None, interface_paths: tuple[Path, ...], form: str) -> N
     microros-gen interfaces sensor_msgs
     microros-gen interfaces sensor_msgs/msg/Imu
     microros-gen interfaces std_srvs/srv/SetBool --format json
+    microros-gen interfaces sensor_msgs/msg/Imu --format idl
+    microros-gen interfaces sensor_msgs --format idl --portable -o idl
     """
+    if form == "table" and output is not None:
+        raise click.UsageError("-o writes files of IDL or JSON: add --format idl or --format json")
+    if form != "idl" and portable:
+        raise click.UsageError("--portable is about IDL: add --format idl")
     finder = InterfaceFinder.from_environment(interface_paths)
     diagnostics = Diagnostics()
     finder.check_paths(diagnostics)
     diagnostics.check()
+    if form == "idl" or output is not None:
+        _files(_asked(finder, name, diagnostics), form, output, portable, diagnostics)
+        return
     if name is None:
         data, lines = _packages(finder)
     elif "/" not in name.strip("/"):
@@ -64,6 +82,35 @@ def command(name: str | None, interface_paths: tuple[Path, ...], form: str) -> N
         click.echo(json.dumps(data, indent=2, ensure_ascii=False))
     else:
         click.echo("\n".join(lines))
+
+
+def _files(
+    interfaces: InterfaceSet, form: str, output: Path | None, portable: bool, diagnostics: Diagnostics
+) -> None:
+    """Print one .idl file, or write files."""
+    if output is None:
+        text = one_idl(interfaces, portable, diagnostics)
+        _warn(diagnostics)
+        click.echo(text, nl=False)
+        return
+    idl = form == "idl"
+    made, changed = (
+        write_idl(interfaces, output, portable, diagnostics)
+        if idl
+        else write_descriptions(interfaces, output)
+    )
+    _warn(diagnostics)
+    click.echo(f"{output}: {changed} files written, {made - changed} unchanged")
+
+
+def _asked(finder: InterfaceFinder, name: str | None, diagnostics: Diagnostics) -> InterfaceSet:
+    """Return the type, the package, or with no name every package."""
+    if name is not None:
+        return _resolved(finder, name.strip("/"), diagnostics)
+    packages = tuple(Named(place.name) for place in finder.packages() if types_in(place))
+    interfaces = resolve_interfaces(packages, finder, diagnostics)
+    diagnostics.check()
+    return interfaces
 
 
 def _packages(finder: InterfaceFinder) -> tuple[Any, list[str]]:
@@ -109,7 +156,7 @@ def _type(finder: InterfaceFinder, name: str, diagnostics: Diagnostics) -> tuple
         "comment": list(declaration.comment),
         **_contents(declaration, interfaces),
         "dependencies": [str(needed) for needed in interfaces.closure(root)],
-        "description": interfaces.type_description(root),
+        **interfaces.hashed_description(root),
     }
     lines = [str(root), *(f"  {line}".rstrip() for line in declaration.comment)]
     lines += ["", f"  hash    {data['hash']}", f"  origin  {data['origin']}: {data['file']}"]

@@ -23,6 +23,17 @@ class SelectionOptions:
     interface_paths: tuple[Path, ...]
     target: str | None
     agent: str | None
+    components: tuple[str, ...] = ()
+
+
+interface_path_option = click.option(
+    "--interface-path",
+    "interface_paths",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Package, folder of packages or colcon workspace; searched before ament, pip and the shipped set.",
+)
 
 
 def selection_options(function: F) -> F:
@@ -43,20 +54,20 @@ def selection_options(function: F) -> F:
                 help="Profile, built-in or a file; several combine. Replaces `profiles` of the file.",
             ),
             click.option(
+                "--component",
+                "components",
+                multiple=True,
+                metavar="[+-]NAME",
+                help="Component to add, or with - to leave out. Adds to `components` of the file.",
+            ),
+            click.option(
                 "--interface",
                 "interfaces",
                 multiple=True,
                 metavar="PKG[/Type]",
                 help="Message, service, action or all of a package. Adds to the file's. Default: std_msgs/msg/Int32.",
             ),
-            click.option(
-                "--interface-path",
-                "interface_paths",
-                multiple=True,
-                type=click.Path(path_type=Path),
-                metavar="DIR",
-                help="Package, folder of packages or colcon workspace; searched before ament, pip and the shipped set.",
-            ),
+            interface_path_option,
             click.option(
                 "--target", metavar="NAME", help="Target, see `microros-gen targets`. Default: host."
             ),

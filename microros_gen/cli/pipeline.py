@@ -10,13 +10,14 @@ from pathlib import Path
 
 from microros_gen.cli.options import SelectionOptions
 from microros_gen.diagnostics import Diagnostics, Source, Span
-from microros_gen.model.application import Application, EndpointDecl, Named, Transport
+from microros_gen.model.application import Application, EndpointDecl, Named, TargetRef, Transport
 from microros_gen.model.component import Catalogue, Profile
 from microros_gen.model.derived import declaring_name, derived_name
 from microros_gen.model.selection import Selection
 from microros_gen.model.target import Target
 from microros_gen.model.types import TypeName
 from microros_gen.parse.application import parse_agent_address, parse_application, parse_discover
+from microros_gen.parse.tree_read import component_change
 from microros_gen.plan.agent_files import check_entities
 from microros_gen.plan.capacity import Capacities, Defaults, Entity, Root, plan_capacities
 from microros_gen.plan.declared import declarations, full_name, node_name, service_parts, type_name
@@ -88,23 +89,40 @@ class Planned:
 def read_request(options: SelectionOptions, diagnostics: Diagnostics) -> Request:
     """Read the application file where there is one and let the options win over it."""
     source = read_application(options.config, Path.cwd(), diagnostics)
+    diagnostics.check()
+    near = options.config.parent if options.config else Path()
+    return request_of(source, near, options, diagnostics)
+
+
+def request_of(
+    source: Source | None, near: Path, options: SelectionOptions, diagnostics: Diagnostics
+) -> Request:
+    """Return the request of an application file in the folder `near`, or of the options alone."""
     application = parse_application(source, diagnostics) if source else Application()
     diagnostics.check()
     assert application is not None
     application = _with_options(application, options, diagnostics)
-    near = options.config.parent if options.config else Path()
     profiles_near = Path() if options.profiles else near
+    _refuse_rtos(application.target, diagnostics)
     target = read_target(application.target.name, near, application.target.span, diagnostics)
-    if not application.nodes and not application.interfaces:
-        application = replace(application, interfaces=(Named(DEFAULT_INTERFACE),))
     diagnostics.check()
     assert target is not None
     inputs = {"microros.yaml": source.text.encode()} if source else {}
     return Request(application, source is not None, options.config, near, profiles_near, target, inputs)
 
 
+def _refuse_rtos(target: TargetRef, diagnostics: Diagnostics) -> None:
+    if target.rtos is not None:
+        diagnostics.error(
+            f"no port for the RTOS {target.rtos!r} is here yet",
+            target.rtos_span,
+            "leave `rtos` out and define port_time_ms, port_sleep_ms and what else the library's port gives "
+            "over your RTOS: your functions win over the archive's (microros/port.h)",
+        )
+
+
 def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
-    """Resolve profiles and components."""
+    """Resolve profiles and components; what sends or receives and names no type gets the default one."""
     catalogue = load_catalogue()
     profiles = load_profiles(request.application.profiles, request.profiles_near, diagnostics)
     resolved = resolve_profiles(profiles, diagnostics)
@@ -123,13 +141,13 @@ def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
     own = tuple(p for p in profiles.profiles.values() if not p.builtin)
     application = request.application
     clock_alone = selection.serves_only("subscribe", CLOCK_ROS) and not selection.has("publish")
-    if clock_alone or not selection.has("cdr"):
-        application = replace(
-            application, interfaces=tuple(i for i in application.interfaces if i != Named(DEFAULT_INTERFACE))
-        )
+    names_none = not application.nodes and not application.interfaces
+    if names_none and selection.has("cdr") and not clock_alone:
+        application = replace(application, interfaces=(Named(DEFAULT_INTERFACE),))
     _check_interfaces_have_a_use(application, selection, diagnostics)
     diagnostics.check()
-    request = replace(request, application=with_clock(application, selection))
+    request = replace(request, application=with_clock(application, selection, diagnostics))
+    diagnostics.check()
     return Resolved(request, own, catalogue, selection)
 
 
@@ -226,6 +244,10 @@ def _with_options(
     if options.interfaces:
         added = _named(options.interfaces, "--interface")
         application = replace(application, interfaces=application.interfaces + added)
+    if options.components:
+        named_components = _named(options.components, "--component")
+        changes = tuple(component_change(c.name, c.span) for c in named_components)
+        application = replace(application, components=application.components + changes)
     if options.target:
         (named,) = _named((options.target,), "--target")
         target = replace(application.target, name=named.name, span=named.span)

@@ -14,6 +14,19 @@ from microros_gen.cli.size_format import size_json, size_table
 @click.command()
 @click.argument("out", type=click.Path(path_type=Path))
 @click.option(
+    "--image",
+    type=click.Path(path_type=Path, dir_okay=False, exists=True),
+    metavar="FILE.elf",
+    help="Measure this image, which an application was linked to with OUT's library, not the example.",
+)
+@click.option(
+    "--map",
+    "linker_map",
+    type=click.Path(path_type=Path, dir_okay=False, exists=True),
+    metavar="FILE.map",
+    help="What the linker wrote of it with -Wl,-Map=FILE.map; by default it lies beside the image.",
+)
+@click.option(
     "--format",
     "kind",
     type=click.Choice(("table", "json", "html")),
@@ -29,7 +42,9 @@ from microros_gen.cli.size_format import size_json, size_table
     metavar="FILE",
     help="Write to FILE instead of the standard output.",
 )
-def command(out: Path, kind: str, every: bool, output: Path | None) -> None:
+def command(
+    out: Path, image: Path | None, linker_map: Path | None, kind: str, every: bool, output: Path | None
+) -> None:
     """Show what OUT (made by `build`) takes: flash and RAM per component, entity and symbol, and the worst stack.
 
     The figures are those of the linked image, and add up to what `size` of the tool chain says. For a target without
@@ -39,10 +54,13 @@ def command(out: Path, kind: str, every: bool, output: Path | None) -> None:
     \b
     microros-gen size build/pure_sender
     microros-gen size build/pure_sender --all
+    microros-gen size build/pure_sender --image robot.elf
     microros-gen size build/pure_sender --format html -o size.html
     microros-gen size build/pure_sender --format json | jq .totals
     """
-    report = measure(out)
+    if linker_map is not None and image is None:
+        raise click.UsageError("--map is the map of an --image, which is not given.")
+    report = measure(out, (image, linker_map or image.with_suffix(".map")) if image else None)
     if kind == "html":
         from microros_gen.cli.size_html import size_html
 

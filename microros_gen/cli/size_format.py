@@ -124,7 +124,7 @@ def budget_data(line: BudgetLine) -> dict[str, Any]:
 
 def _headline(report: SizeReport) -> str:
     manifest, totals = report.folder.manifest, report.totals
-    what = f"Image bin/{manifest['image']} for {manifest['target']}"
+    what = f"Image {report.folder.image_name} for {manifest['target']}"
     if not report.folder.image:
         what = f"Library for {manifest['target']}, before unused parts are dropped (the target has no image)"
     flash, ram = totals["text"] + totals["data"], totals["data"] + totals["bss"]

@@ -12,7 +12,7 @@ from typing import Any
 import click
 
 from microros_gen.cli.resolve_format import format_table
-from microros_gen.diagnostics import Diagnostics
+from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
 from microros_gen.model.target import Emulator, Region, Target, Uart, UniqueId
 from microros_gen.sources.targets import builtin_targets, read_target
 
@@ -24,10 +24,10 @@ _COLUMNS = ("target", "what", "image", "needs")
 @click.option(
     "--format",
     "kind",
-    type=click.Choice(("table", "json")),
+    type=click.Choice(("table", "json", "cmake")),
     default="table",
     show_default=True,
-    help="Tables for people, or JSON for programs.",
+    help="Tables for people, JSON for programs, or the tool-chain file of NAME for CMake.",
 )
 def command(name: str | None, kind: str) -> None:
     """List the targets, or show target NAME (built-in, or the path of a target file).
@@ -39,18 +39,38 @@ def command(name: str | None, kind: str) -> None:
     microros-gen targets
     microros-gen targets qemu-mps2-an386
     microros-gen targets boards/mine.yaml
+    microros-gen targets cortex-m4f --format cmake > toolchain.cmake
     """
     diagnostics = Diagnostics()
     names = builtin_targets() if name is None else (name,)
     found = [read_target(n, Path(), None, diagnostics) for n in names]
     diagnostics.check()
     targets = [f.target for f in found if f is not None]
-    if kind == "json":
+    if kind == "cmake":
+        click.echo(_toolchain(targets[0] if name else None), nl=False)
+    elif kind == "json":
         click.echo(json.dumps([_data(t) for t in targets], indent=2, sort_keys=True))
     elif name is None:
         click.echo(format_table(_COLUMNS, [_line(t) for t in targets]), nl=False)
     else:
         click.echo(format_table(("key", "value"), _rows(targets[0])), nl=False)
+
+
+def _toolchain(target: Target | None) -> bytes:
+    hint = "For example: microros-gen targets cortex-m4f --format cmake"
+    if target is None:
+        raise UserError(
+            [Diagnostic("a tool-chain file is that of one target, and no NAME is given", hint=hint)]
+        )
+    if target.hosted:
+        what = (
+            f"target {target.name} has no tool-chain file: CMake finds the compiler of this machine by itself"
+        )
+        raise UserError([Diagnostic(what, hint=hint)])
+    from microros_gen.render.board import render_toolchain
+    from microros_gen.render.environment import shared_environment
+
+    return render_toolchain(target, shared_environment())
 
 
 def missing_packages(target: Target) -> tuple[str, ...]:

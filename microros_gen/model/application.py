@@ -96,6 +96,10 @@ class LimitRule:
     single: bool = False
 
 
+CLOCK_TOPIC = "/clock"
+"""The source of ROS time (design.ros2.org, "Clock and Time")."""
+
+
 @dataclass(frozen=True)
 class EndpointDecl:
     """A publisher, subscription, service or client of a node.
@@ -180,7 +184,10 @@ class TaskDecl:
 
 @dataclass(frozen=True)
 class NodeDecl:
-    """A node and what it owns. `given_name`, `given_namespace`: what the source has, where `remap:` changes them."""
+    """A node and what it owns. `given_name`, `given_namespace`: what the source has, where `remap:` changes them.
+
+    `clock_topic`: where a rule of `remap:` puts /clock, to which a node subscribes by itself; empty: no rule.
+    """
 
     name: str
     namespace: str = "/"
@@ -193,6 +200,8 @@ class NodeDecl:
     name_span: Span | None = None
     given_name: str = ""
     given_namespace: str = ""
+    clock_topic: str = ""
+    clock_span: Span | None = None
 
 
 @dataclass(frozen=True)

@@ -1,14 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
 """Prints interface types as the text of .idl files, with the content of those that ROS 2 Jazzy installs.
 
-Reading the text again gives the same model, but for units: as in ROS 2 they become annotations.
+Reading the text again gives the same model, but for units: as in ROS 2 those of fields become annotations, and what
+looks like one in the comment of a message or constant is left out.
+
+Two forms: that of ROS 2, whose reader takes no directives but `#include`, takes keywords of IDL as names and keeps an
+underscore as part of a name; and a portable one for other compilers, which need include guards and an underscore before
+a name that is a keyword (IDL 4.2, 7.2.3.2.1).
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
+from dataclasses import replace
 
+from microros_gen.model.idl_keywords import is_keyword
 from microros_gen.model.type_description import EMPTY_MEMBER
 from microros_gen.model.types import (
     Action,
@@ -25,6 +32,7 @@ from microros_gen.model.types import (
     SequenceType,
     Service,
     StringType,
+    TypeName,
     Value,
     element_of,
 )
@@ -43,18 +51,33 @@ _UNIT = re.compile(r"(\s*\[([^,\]]+)\])")
 _INDENT = "  "
 
 
-def idl_text(declaration: Declaration) -> str:
+def idl_text(declaration: Declaration, portable: bool = False) -> str:
     """Return the .idl file of `declaration`; of a service or action its own structs, not the derived ones."""
     messages = _structs(declaration)
     name = declaration.name
-    lines = [f'#include "{path}"' for path in _includes(messages)]
+    lines = [f'#include "{included}.idl"' for included in included_types(declaration)]
     lines += [""] if lines else []
     lines += [f"module {name.package} {{", f"{_INDENT}module {name.kind} {{"]
     known: set[str] = set()
     for message in messages:
-        lines.extend(2 * _INDENT + line if line else "" for line in _struct(message, known))
+        struct = _struct(_escaped(message), known, f"{name.name}__") if portable else _struct(message, known)
+        lines.extend(2 * _INDENT + line if line else "" for line in struct)
     lines += [f"{_INDENT}}};", "};", ""]
-    return "\n".join(lines)
+    text = "\n".join(lines)
+    return _guarded(text, name) if portable else text
+
+
+def included_types(declaration: Declaration) -> tuple[TypeName, ...]:
+    """Return the types whose .idl files that of `declaration` includes, sorted."""
+    elements = (element_of(field.type) for message in _structs(declaration) for field in message.fields)
+    return tuple(sorted({element.name for element in elements if isinstance(element, NamedType)}))
+
+
+def names_to_escape(declaration: Declaration) -> tuple[str, ...]:
+    """Return the constants and members whose names are keywords of IDL."""
+    messages = _structs(declaration)
+    names = [c.name for m in messages for c in m.constants] + [f.name for m in messages for f in m.fields]
+    return tuple(dict.fromkeys(name for name in names if is_keyword(name)))
 
 
 def idl_type_text(field_type: ElementType | SequenceType) -> str:
@@ -88,15 +111,29 @@ def _structs(declaration: Declaration) -> tuple[Message, ...]:
     return (declaration,)
 
 
-def _includes(messages: Iterable[Message]) -> list[str]:
-    elements = (element_of(field.type) for message in messages for field in message.fields)
-    return sorted({f"{element.name}.idl" for element in elements if isinstance(element, NamedType)})
+def _guarded(text: str, name: TypeName) -> str:
+    guard = str(name).replace("/", "__").upper() + "_IDL"
+    return f"#ifndef {guard}\n#define {guard}\n\n{text}\n#endif\n"
 
 
-def _struct(message: Message, known: set[str]) -> Iterator[str]:
+def _escaped(message: Message) -> Message:
+    """Return `message` with an underscore before each name that is a keyword."""
+
+    def fitting(name: str) -> str:
+        return f"_{name}" if is_keyword(name) else name
+
+    return replace(
+        message,
+        constants=tuple(replace(constant, name=fitting(constant.name)) for constant in message.constants),
+        fields=tuple(replace(field, name=fitting(field.name)) for field in message.fields),
+    )
+
+
+def _struct(message: Message, known: set[str], prefix: str = "") -> Iterator[str]:
+    """Yield the lines of one struct; `prefix` makes the names of its typedefs differ from those of other files."""
     for field in message.fields:
         if isinstance(field.type, ArrayType):
-            new = [line for line in _typedefs(field.type) if line not in known]
+            new = [line for line in _typedefs(field.type, prefix) if line not in known]
             known.update(new)
             yield from new
     if message.constants:
@@ -104,22 +141,23 @@ def _struct(message: Message, known: set[str]) -> Iterator[str]:
         for constant in message.constants:
             yield from (_INDENT + line for line in _constant(constant))
         yield "};"
-    yield from _comment(message.comment)
+    yield from _comment(_without_unit(message.comment)[0])
     yield f"struct {message.name.name} {{"
     for index, field in enumerate(message.fields):
         if index:
             yield ""
-        yield from (_INDENT + line for line in _member(field))
+        yield from (_INDENT + line for line in _member(field, prefix))
     if not message.fields:
         yield f"{_INDENT}uint8 {EMPTY_MEMBER};"
     yield "};"
 
 
-def _typedefs(array: ArrayType) -> list[str]:
+def _typedefs(array: ArrayType, prefix: str) -> list[str]:
     element = idl_type_text(array.element)
     alias = element.replace("::", "__")
-    lines = [] if alias == element else [f"typedef {element} {alias};"]
-    return [*lines, f"typedef {alias} {_array_name(array)}[{array.size}];"]
+    lines = [] if alias == element else [f"typedef {element} {prefix}{alias};"]
+    alias = element if alias == element else prefix + alias
+    return [*lines, f"typedef {alias} {prefix}{_array_name(array)}[{array.size}];"]
 
 
 def _array_name(array: ArrayType) -> str:
@@ -128,19 +166,20 @@ def _array_name(array: ArrayType) -> str:
 
 
 def _constant(constant: Constant) -> Iterator[str]:
-    yield from _comment(constant.comment)
+    yield from _comment(_without_unit(constant.comment)[0])
     kind = StringType(constant.type.wide) if isinstance(constant.type, StringType) else constant.type
     yield f"const {idl_type_text(kind)} {constant.name} = {_scalar_text(constant.value)};"
 
 
-def _member(field: Field) -> Iterator[str]:
+def _member(field: Field, prefix: str) -> Iterator[str]:
     comment, unit = _without_unit(field.comment)
     yield from _comment(comment)
     if field.default is not None:
         yield f"@default (value={idl_value_text(field.default)})"
     if unit is not None:
         yield f"@unit (value={idl_string_text(unit)})"
-    yield f"{_member_type(field.type)} {field.name};"
+    is_array = isinstance(field.type, ArrayType)
+    yield f"{prefix if is_array else ''}{_member_type(field.type)} {field.name};"
 
 
 def _member_type(field_type: FieldType) -> str:

@@ -13,7 +13,7 @@ import hashlib
 import json
 import os
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -46,7 +46,7 @@ def find_run(command: Mapping[str, object], environ: Mapping[str, str]) -> Run |
         watched = {**data["inputs"], **data["outputs"]}
         if data["tool"] != _tool_state() or any(_state(Path(p)) != s for p, s in watched.items()):
             return None
-        return Run(Path(data["out"]), str(data["summary"]), len(data["outputs"]), str(data["warnings"]))
+        return Run(Path(data["out"]), str(data["summary"]), int(data["files"]), str(data["warnings"]))
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return None
 
@@ -72,6 +72,7 @@ def record_run(
         "inputs": states,
         "outputs": {str(p.absolute()): _state(p) for p in outputs},
         "out": str(run.out),
+        "files": run.files,
         "summary": run.summary,
         "warnings": run.warnings,
     }
@@ -123,21 +124,34 @@ def _state(path: Path) -> list[int]:
     return [found.st_size, found.st_mtime_ns, found.st_ctime_ns]
 
 
+def tool_files() -> Iterator[Path]:
+    """Yield the tool's own files: templates, components, profiles and modules; first the folder of its package.
+
+    An installation makes that folder anew, even where it gives the files older times.
+    """
+    yield Path(microros_gen.__file__).parent
+    yield from (Path(entry.path) for entry in _tool_entries())
+
+
 def _tool_state() -> str:
-    """Return a digest of the state of the tool's own files: templates, components, profiles and modules."""
-    package = Path(microros_gen.__file__).parent
+    """Return a digest of the state of the tool's own files."""
     digest = hashlib.sha256(microros_gen.__version__.encode())
     digest.update(str([_state(folder) for folder in _package_folders()]).encode())
+    for entry in _tool_entries():
+        found = entry.stat()
+        digest.update(f"{entry.path} {found.st_size} {found.st_mtime_ns}\n".encode())
+    return digest.hexdigest()
+
+
+def _tool_entries() -> Iterator[os.DirEntry[str]]:
+    package = Path(microros_gen.__file__).parent
     pending = [str(package), *(str(package.parent / name) for name in _TOOL_BESIDE)]
     while pending:
         for entry in _entries(pending.pop()):
-            if entry.is_dir(follow_symlinks=False):
-                if entry.name not in ("__pycache__", "idl", "agent"):
-                    pending.append(entry.path)
-            else:
-                found = entry.stat()
-                digest.update(f"{entry.path} {found.st_size} {found.st_mtime_ns}\n".encode())
-    return digest.hexdigest()
+            if not entry.is_dir(follow_symlinks=False):
+                yield entry
+            elif entry.name not in ("__pycache__", "idl", "agent"):
+                pending.append(entry.path)
 
 
 def _entries(folder: str) -> list[os.DirEntry[str]]:

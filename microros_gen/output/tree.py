@@ -49,6 +49,19 @@ def write_tree(out: Path, files: Mapping[str, bytes]) -> WriteReport:
     return WriteReport(changed, unchanged, stale)
 
 
+def write_files(folder: Path, files: Mapping[str, bytes]) -> tuple[str, ...]:
+    """Write `files` (relative POSIX path → bytes) into a folder of the user's; return those that changed, sorted.
+
+    Nothing is removed. Raises UserError when the folder cannot be written.
+    """
+    with _told_as_user_error(folder):
+        changed = tuple(sorted(name for name in files if _differs(folder / name, files[name])))
+        for name in changed:
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            _replace(folder / name, files[name])
+    return changed
+
+
 def check_owned(out: Path) -> None:
     """Raise UserError when `out` exists and holds something that this tool did not write."""
     with _told_as_user_error(out):

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from microros_gen.diagnostics import Diagnostics, Span, nearest
-from microros_gen.model.application import EndpointDecl, NodeDecl
+from microros_gen.model.application import CLOCK_TOPIC, EndpointDecl, NodeDecl
 from microros_gen.model.names import (
     NameFault,
     absolute,
@@ -50,11 +50,16 @@ def rename_node(node: NodeDecl, tree: YamlNode | None, diagnostics: Diagnostics)
 
 
 def rename_endpoints(node: NodeDecl, tree: YamlNode | None, diagnostics: Diagnostics) -> NodeDecl:
-    """Return the node with the topics and services that its rules give; a rule without effect is an error."""
+    """Return the node with the topics and services that its rules give; a rule without effect is an error.
+
+    One for /clock is kept: whether a node subscribes to it is not known yet.
+    """
     rules = _rules(node, tree, diagnostics)
     known = {expand_topic_name(e.topic, node.name, node.namespace): e.topic for e in node.endpoints}
     for rule in rules.values():
-        if rule.given not in known:
+        if rule.given == CLOCK_TOPIC and rule.given not in known:
+            node = replace(node, clock_topic=rule.wire, clock_span=rule.span)
+        elif rule.given not in known:
             hint = nearest(rule.key, known.values()) or (
                 f"There are {', '.join(known.values())}" if known else "Declare it first"
             )

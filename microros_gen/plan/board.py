@@ -87,14 +87,14 @@ def plan_board(
 
 
 def ring_size(runtime: RuntimePlan) -> int:
-    """Return the bytes that can arrive while the application does not read: a power of two, at most 32 KiB.
+    """Return the bytes that can arrive while the application does not read, and one to spare, at most 32 KiB.
 
     What an agent sends by itself answers what was sent to it: one message of the longest kind, and an ACKNACK for
     each slot of the reliable stream. Each is framed, and every byte may be stuffed.
     """
     frames = [runtime.input_size, *([_ACKNACK] * runtime.reliable_slots)]
     needed = sum(1 + 2 * (size + _FRAME) for size in frames)
-    return min(1 << (needed - 1).bit_length(), 1 << 15)
+    return min((needed + 4) & ~3, 1 << 15)
 
 
 # port → entry, what lies first in flash, its section, the UART's handler, what stands for an unused interrupt

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from microros_gen.diagnostics import Diagnostics
+from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.model.application import Application, EndpointDecl, NodeDecl
 from microros_gen.model.names import expand_topic_name
 from microros_gen.model.types import TypeName
@@ -78,3 +78,9 @@ def pool(application: Application, key: str, default: int, diagnostics: Diagnost
             f"`pools: {{{key}: N}}` in the application file",
         )
     return value
+
+
+def named_at(application: Application, root: TypeName) -> Span | None:
+    """Return where `interfaces:` or the command line names a type or its package; None: the application names none."""
+    spans = {named.name: named.span for named in application.interfaces}
+    return spans.get(str(root)) or spans.get(root.package)

@@ -16,7 +16,7 @@ from microros_gen.model.target import Target
 from microros_gen.model.types import Message, TypeName
 from microros_gen.plan.board import BoardPlan, plan_board
 from microros_gen.plan.creation import CreateNames, create_size, participant_reference
-from microros_gen.plan.declared import pool, publisher_declarations, timed_qos, type_name
+from microros_gen.plan.declared import named_at, pool, publisher_declarations, timed_qos, type_name
 from microros_gen.plan.names import dds_topic, dds_type, participant_name
 from microros_gen.plan.receiving import plan_receiving
 from microros_gen.plan.running import plan_running
@@ -237,10 +237,8 @@ def _written_by_publishers(
     if not selection.has("publish"):
         return ()
     if not application.nodes:
-        spans = {named.name: named.span for named in application.interfaces}
         return tuple(
-            Written(str(r), types[r].max_encoded_size, True, True, spans.get(str(r)) or spans.get(r.package))
-            for r in roots
+            Written(str(r), types[r].max_encoded_size, True, True, named_at(application, r)) for r in roots
         )
     declared = enumerate(publisher_declarations(application))
     return tuple(_written(index, node, endpoint, types) for index, (_, node, endpoint) in declared)

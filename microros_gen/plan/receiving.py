@@ -18,7 +18,7 @@ from microros_gen.model.types import (
     TypeName,
     element_of,
 )
-from microros_gen.plan.declared import full_name, pool, subscription_declarations, type_name
+from microros_gen.plan.declared import full_name, named_at, pool, subscription_declarations, type_name
 from microros_gen.plan.names import dds_topic
 from microros_gen.plan.runtime import QueuePlan, SubscriptionPlan
 from microros_gen.plan.streams import Received
@@ -127,7 +127,11 @@ def _pooled(
     """Return `places` for the application's subscriptions, behind those of the library itself."""
     slots = application.pools.get("queue", LARGEST_DEFAULT_QUEUE)
     largest = max((types[root].max_encoded_size for root in roots), default=0)
-    received = [Received(str(r), types[r].max_encoded_size, True, True) for r in roots if places]
+    received = [
+        Received(str(r), types[r].max_encoded_size, True, True, named_at(application, r))
+        for r in roots
+        if places
+    ]
     queues = [_queue(e, types[type_name(e.type)].max_encoded_size) for e in application.implied]
     received += [
         Received(f"{e.type} on {e.topic}", types[type_name(e.type)].max_encoded_size, False, True, e.span)

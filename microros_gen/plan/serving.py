@@ -15,7 +15,7 @@ from microros_gen.model.application import Application, EndpointDecl
 from microros_gen.model.derived import derived_name
 from microros_gen.model.selection import Selection
 from microros_gen.model.types import TypeName
-from microros_gen.plan.declared import declarations, full_name, pool, service_parts, type_name
+from microros_gen.plan.declared import declarations, full_name, named_at, pool, service_parts, type_name
 from microros_gen.plan.receiving import LARGEST_DEFAULT_QUEUE, buffers_of, slot_of
 from microros_gen.plan.runtime import QueuePlan
 from microros_gen.plan.services import ServicePlan, StoredMessage
@@ -53,6 +53,8 @@ def plan_serving(
     """Plan services and clients; without `nodes:` each place can have any of `roots`, which are services."""
     if not selection.has("services"):
         return Serving()
+    if not roots and not any(declarations(application, *KINDS)) and not selection.has("subscribe"):
+        _report_nothing(application, diagnostics)
     if not application.nodes:
         return _pooled(application, types, roots, diagnostics)
     _check_names(application, diagnostics)
@@ -76,6 +78,14 @@ def plan_serving(
     return Serving(
         services, clients, len(services), len(clients), tuple(queues), tuple(received), tuple(written)
     )
+
+
+def _report_nothing(application: Application, diagnostics: Diagnostics) -> None:
+    """Report that there is no service at all: what receives would have no queue."""
+    declares = "of a node" if application.nodes else "in `interfaces:`"
+    span = None if application.nodes else application.spans.get("interfaces")
+    hint = f"Add a service {declares}, or leave `services` out of `components:`"
+    diagnostics.error("'services' is selected, and there is no service", span, hint)
 
 
 def _check_names(application: Application, diagnostics: Diagnostics) -> None:
@@ -150,15 +160,18 @@ def _pooled(
     replies = [(root, types[derived_name(root, "Response")].max_encoded_size) for root in roots]
     of_service = QueuePlan(slots, slot_of(max((size for _, size in requests), default=0)) + IDENTITY_SIZE)
     of_client = QueuePlan(slots, slot_of(max((size for _, size in replies), default=0)) + RELATED_SIZE)
+    at = {root: named_at(application, root) for root in roots}
     received = [
-        Received(f"the request of {root}", slot_of(size) + IDENTITY_SIZE, True, False)
-        for root, size in requests
+        *(
+            Received(f"the request of {r}", slot_of(n) + IDENTITY_SIZE, True, False, at[r])
+            for r, n in requests
+        ),
+        *(Received(f"the reply of {r}", slot_of(n) + RELATED_SIZE, True, False, at[r]) for r, n in replies),
     ]
-    received += [
-        Received(f"the reply of {root}", slot_of(size) + RELATED_SIZE, True, False) for root, size in replies
+    written = [
+        *(Written(f"the request of {r}", n, True, False, at[r]) for r, n in requests),
+        *(Written(f"the reply of {r}", n + IDENTITY_SIZE, True, False, at[r]) for r, n in replies),
     ]
-    written = [Written(f"the request of {root}", size, True, False) for root, size in requests]
-    written += [Written(f"the reply of {root}", size + IDENTITY_SIZE, True, False) for root, size in replies]
     return Serving(
         services_max=services,
         clients_max=clients,

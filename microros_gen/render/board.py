@@ -5,6 +5,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from jinja2 import Environment
+
+from microros_gen.model.target import Target
 from microros_gen.plan.project import Project
 
 
@@ -17,13 +20,24 @@ class BoardView:
 
     target: str
     suffix: str
-    compiler: str
-    c_flags: str
     link_flags: str
     script: str
     stack: int
     functions: str
     is_arm: bool
+
+
+@dataclass(frozen=True)
+class _ToolchainView:
+    target: str
+    compiler: str
+    c_flags: str
+
+
+def render_toolchain(target: Target, environment: Environment) -> bytes:
+    """Return the CMake tool-chain file of a target without an operating system."""
+    view = _ToolchainView(target.name, target.compilers[0], " ".join(target.c_flags))
+    return environment.get_template("project/toolchain.cmake.j2").render(view=view).encode()
 
 
 def board_view(project: Project) -> BoardView | None:
@@ -34,8 +48,6 @@ def board_view(project: Project) -> BoardView | None:
     return BoardView(
         target=target.name,
         suffix=target.image_suffix,
-        compiler=target.compilers[0],
-        c_flags=" ".join(target.c_flags),
         link_flags=" ".join((*target.link_flags, *target.libraries)),
         script=project.linker_script or "",
         stack=project.board.stack_size,

@@ -65,9 +65,10 @@ class SubscriptionView(EndpointView):
 
 @dataclass(frozen=True)
 class ExampleView:
-    """The whole example."""
+    """The whole example; `heading` is what its comment says of it."""
 
     title: str
+    heading: str
     summary: str
     includes: tuple[str, ...]
     nodes: tuple[NodeView, ...]
@@ -77,6 +78,7 @@ class ExampleView:
     uses_time: bool
     hosted: bool
     ros_time: bool
+    has_epoch: bool
     shows_time: bool
 
 
@@ -97,6 +99,7 @@ def example_view(project: Project) -> ExampleView:
         includes.add("rosidl_runtime_c/string_functions.h")
     return ExampleView(
         title=project.name,
+        heading=f"An application for {project.name}, to start from: copy it out of this folder and change it.",
         summary=_summary(views, [view for _, view in subscriptions], services, shows_time),
         includes=tuple(sorted(includes)),
         nodes=nodes,
@@ -106,6 +109,7 @@ def example_view(project: Project) -> ExampleView:
         uses_time=any(view.stamps for view in views) or any(s.filling.stamps for s in services),
         hosted=project.target.hosted,
         ros_time=project.runtime.has_ros_time,
+        has_epoch=project.target.hosted or project.selection.has("time_sync"),
         shows_time=shows_time,
     )
 

@@ -13,7 +13,7 @@ from microros_gen.model.component import Component
 from microros_gen.plan.project import Project
 from microros_gen.plan.runtime import PublisherPlan
 from microros_gen.render.agent_files import render_agent_files
-from microros_gen.render.board import BoardView, board_view
+from microros_gen.render.board import BoardView, board_view, render_toolchain
 from microros_gen.render.example import example_view
 from microros_gen.render.types import render_types
 from microros_gen.render.types_decode import render_decoders
@@ -79,8 +79,7 @@ def render_project(
     for name in ("CMakeLists.txt", "sources.txt", "README.md"):
         rendered[name] = environment.get_template(f"project/{name}.j2").render(view=view).encode()
     if view.board is not None:
-        toolchain = environment.get_template("project/toolchain.cmake.j2")
-        rendered["toolchain.cmake"] = toolchain.render(board=view.board).encode()
+        rendered["toolchain.cmake"] = render_toolchain(project.target, environment)
     return rendered
 
 

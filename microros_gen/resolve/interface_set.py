@@ -115,3 +115,13 @@ class InterfaceSet:
     def type_description(self, name: TypeName) -> dict[str, Any]:
         """Return the type description of `name` as data (REP-2016)."""
         return type_description(self.described[name], self.described)
+
+    def hashed_description(self, name: TypeName) -> dict[str, Any]:
+        """Return the description with the hashes of all its types, in the form of the .json files of ROS 2."""
+        return {
+            "type_description_msg": self.type_description(name),
+            "type_hashes": [
+                {"type_name": str(described), "hash_string": self.type_hash(described)}
+                for described in (name, *self.closure(name))
+            ],
+        }

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
 
@@ -11,6 +13,9 @@ from microros_gen.model.component import Catalogue, Component
 from microros_gen.parse.component import parse_component
 
 COMPONENT_FILE = "component.yaml"
+_FUNCTION = re.compile(
+    r"(?:\b|#define )((?:rclc?|rmw|rcutils|rosidl|micro_ros|uxr)_\w+)(?=\(| \w+$)", re.MULTILINE
+)
 
 
 def components_folder() -> Path:
@@ -34,6 +39,20 @@ def load_catalogue(folder: Path | None = None) -> Catalogue:
     for component in found.values():
         _check_needs(component, found, diagnostics)
     diagnostics.check()
+    return MappingProxyType(found)
+
+
+def declared_functions(catalogue: Catalogue) -> Mapping[str, str]:
+    """Return which ready component declares each function of the C API, from the public headers below its include/."""
+    found: dict[str, str] = {}
+    for component in catalogue.values():
+        folder = components_folder() / component.name / "include"
+        for header in component.headers if component.ready else ():
+            path = folder / header
+            path = path if path.exists() else path.with_name(f"{path.name}.j2")
+            if path.exists():
+                for name in _FUNCTION.findall(path.read_text(encoding="utf-8")):
+                    found.setdefault(name, component.name)
     return MappingProxyType(found)
 
 

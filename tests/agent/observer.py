@@ -100,15 +100,19 @@ def observing(domain: int) -> Iterator[Observer]:
 def main() -> None:
     """Serve commands from stdin."""
     import rclpy
+    from rclpy.executors import SingleThreadedExecutor
 
     rclpy.init()
     node = rclpy.create_node("observer")
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
     arrived: list[tuple[str, Any]] = []
     commands: queue.Queue[str] = queue.Queue()
-    threading.Thread(target=lambda: [commands.put(line) for line in sys.stdin], daemon=True).start()
+    woken = node.create_guard_condition(lambda: None)
+    threading.Thread(target=_read, args=(commands, woken.trigger), daemon=True).start()
     peer = _Peer(node, arrived)
     while True:
-        rclpy.spin_once(node, timeout_sec=0.002)
+        executor.spin_once(timeout_sec=0.02)  # a command wakes it; what is polled waits so long at most
         peer.poll()
         try:
             command = json.loads(commands.get_nowait())
@@ -124,6 +128,12 @@ def main() -> None:
         else:
             answer = getattr(peer, command.pop("do"))(**command)
         print(json.dumps(answer), flush=True)
+
+
+def _read(commands: queue.Queue[str], wake: Callable[[], None]) -> None:
+    for line in sys.stdin:
+        commands.put(line)
+        wake()
 
 
 def _filled(message: Any, value: dict[str, Any]) -> Any:

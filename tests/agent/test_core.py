@@ -367,13 +367,25 @@ def test_reliable_samples_out_of_order_are_put_in_order() -> None:
 
 def test_a_malformed_message_does_not_take_its_successors_along() -> None:
     bench = publishing()
-    good = message(WriteData(1, 0x15, b"1234"), stream=0x80, sequence=2)
-    bad = bytes.fromhex("81 80 01 00 07 01 ff 00")
-    bench.say(good)
+    good = [message(WriteData(1, 0x15, b"1234"), stream=0x80, sequence=n) for n in (0, 2)]
+    bad = bytes.fromhex("81 80 01 00 07 01 02 00 00 01")
+    bench.say(good[1])
     bench.say(bad)
-    bench.say(message(stream=0x80, sequence=0))
+    bench.say(good[0])
+    assert len(bench.bridge.published) == 2
+    assert sum(bench.log.counters.values()) == 1
+
+
+def test_a_message_whose_end_is_lost_has_not_come() -> None:
+    """On a reliable stream it is not acknowledged, whatever is left of it, and comes again."""
+    bench = publishing()
+    whole = message(WriteData(1, 0x15, b"1234"), stream=0x80, sequence=0)
+    for size in range(4, len(whole)):
+        assert bench.say(whole[:size]) == []
+    assert bench.bridge.published == []
+    assert bench.log.counters == {"cut_message": len(whole) - 4}
+    assert bench.say(whole) == ["81 00 00 00 0a 01 05 00 01 00 00 00 80"]
     assert len(bench.bridge.published) == 1
-    assert bench.log.counters == {"submessage_length": 1}
 
 
 def test_a_heartbeat_is_answered_and_skips_a_gap() -> None:

@@ -13,6 +13,7 @@ from runtime.harness import POOL
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.model.application import MOST_HISTORY
 from microros_gen.parse.application import parse_application
+from microros_gen.plan.declared import LARGEST_POOL
 from microros_gen.plan.runtime import RuntimePlan
 from microros_gen.plan.streams import LARGEST_MTU
 from microros_gen.render.environment import make_environment
@@ -100,4 +101,9 @@ def test_the_schema_has_the_numbers_that_advice_stops_at() -> None:
         (components_folder().parent / "parse/application.schema.json").read_text(encoding="utf-8")
     )
     assert schema["properties"]["pools"]["properties"]["history"]["maximum"] == MOST_HISTORY
+    template = (components_folder() / "support/include/microros/error.h.j2").read_text(encoding="utf-8")
+    most = re.search(r"MICROROS_POOL_MOST (\d+)u", template)
+    assert most
+    assert int(most[1]) == LARGEST_POOL
+    assert schema["properties"]["pools"]["properties"]["nodes"]["maximum"] == LARGEST_POOL
     assert schema["properties"]["transport"]["properties"]["mtu"]["maximum"] == LARGEST_MTU

@@ -98,11 +98,16 @@ def known(members: bool, headers: Iterable[str]) -> str:
 
 def generate(folder: Path, transport: str) -> Tree:
     """Write an application that has every component that is ready, over one transport."""
-    folder.mkdir()
     more = (", +services", ", example_interfaces/srv/AddTwoInts") if SERVICES else ("", "")
     text = EVERYTHING.format(more=more[0], types=more[1], transport=transport)
     if transport != "udp":
         text = text.replace(", +discovery", "")
+    return write_application(folder, text)
+
+
+def write_application(folder: Path, text: str) -> Tree:
+    """Write what an application file selects."""
+    folder.mkdir()
     (folder / "microros.yaml").write_text(text, encoding="utf-8")
     options = SelectionOptions(folder / "microros.yaml", (), (), (shipped_folder(),), None, None)
     planned, out = plan(options, folder / "out")

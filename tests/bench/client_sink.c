@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The agent's side for the bench of the client, over UDP on loopback: grants sessions and entities, acknowledges every reliable
- * message, and returns each sample through the reader that asked last (how many it wants is not looked at). One thread, no DDS: what is measured is the client.
+ * The agent's side for the bench of the client, over UDP on loopback: grants sessions and entities, acknowledges reliable
+ * messages, and returns each sample through the reader that asked last (how many it wants is not looked at). One thread, no DDS:
+ * what is measured is the client.
  *
  * client_sink
- * Prints `port N`; a datagram `?` is answered with `bytes datagrams samples` since the last one, in text.
+ * Prints `port N`; a datagram `?` is answered with `bytes datagrams samples` since the last one, in text. A datagram of one digit says
+ * that from now on each so-many-th reliable message is acknowledged; what is left is, when nothing comes for a millisecond.
  */
 #include <arpa/inet.h>
 #include <stdbool.h>
@@ -12,6 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 
 enum {
   CREATE_CLIENT = 0x00,
@@ -36,6 +39,8 @@ static uint16_t sent[256];  /* next number of each stream to the client */
 static uint16_t awaited;    /* next number of the client's reliable stream */
 static uint8_t reader[IDS]; /* request and object of the last READ_DATA */
 static uint8_t reader_stream;
+static unsigned acknowledge_each = 1;
+static unsigned unacknowledged;
 static unsigned long long bytes;
 static unsigned long long datagrams;
 static unsigned long long samples;
@@ -89,6 +94,7 @@ static void acknowledge(void)
   payload[1] = (uint8_t)(awaited >> 8);
   payload[4] = RELIABLE;
   reply(message, sizeof(message));
+  unacknowledged = 0;
 }
 
 static void give_back(const uint8_t * sample, size_t size)
@@ -146,7 +152,7 @@ static void take_message(const uint8_t * message, size_t size)
     take(stream, message[at], &message[at + HEADER], payload);
     at = (at + HEADER + payload + 3u) & ~(size_t)3u;
   }
-  if (stream >= RELIABLE) {
+  if (stream >= RELIABLE && ++unacknowledged >= acknowledge_each) {
     acknowledge();
   }
 }
@@ -166,6 +172,7 @@ int main(void)
 {
   struct sockaddr_in here = {.sin_family = AF_INET, .sin_addr = {htonl(INADDR_LOOPBACK)}};
   socklen_t length = sizeof(here);
+  const struct timeval patience = {0, 1000};
   static uint8_t message[65536];
 
   descriptor = socket(AF_INET, SOCK_DGRAM, 0);
@@ -175,14 +182,22 @@ int main(void)
     perror("client_sink");
     return 1;
   }
+  (void)setsockopt(descriptor, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
   (void)printf("port %u\n", (unsigned)ntohs(here.sin_port));
   (void)fflush(stdout);
   for (;;) {
-    socklen_t from = sizeof(client);
-    const ssize_t size = recvfrom(descriptor, message, sizeof(message), 0, (struct sockaddr *)&client, &from);
+    struct sockaddr_in asker;
+    socklen_t from = sizeof(asker);
+    const ssize_t size = recvfrom(descriptor, message, sizeof(message), 0, (struct sockaddr *)&asker, &from);
 
-    if (size == 1) {
+    client = size > 0 ? asker : client;
+
+    if (size == 1 && message[0] == '?') {
       tell();
+    } else if (size == 1) {
+      acknowledge_each = message[0] - (unsigned)'0';
+    } else if (size < 0 && unacknowledged != 0u) {
+      acknowledge();
     } else if (size >= HEADER) {
       bytes += (unsigned long long)size;
       ++datagrams;

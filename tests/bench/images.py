@@ -7,15 +7,17 @@ import json
 import subprocess
 import sys
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from firmware.board import Builds, Built
-from firmware.footprint import SERVES, Sections, Sender, image_sections
+from firmware.footprint import SERVES, Sender, bounded_stack, image_sections
 from firmware.test_everything import APPLICATION as EVERYTHING
 from firmware.test_executor import APPLICATION as TICKS
 from firmware.test_executor import LISTENS
+from selections import bench_selections
 
 PROCESSORS = {"qemu-microbit": "Cortex-M0", "qemu-mps2-an386": "Cortex-M4", "qemu-mps2-an505": "Cortex-M33"}
 READER = """\
@@ -39,55 +41,69 @@ limits:
     {header: {frame_id: 16}, name: {sequence: 6, string: 16}, position: 6, velocity: 6, effort: 6}
 """
 BOTH = TICKS.replace("[pure_sender]", "[pure_sender, pure_reader]") % "" + LISTENS
+
+
+@dataclass(frozen=True)
+class Image:
+    """An application file with a source below tests/firmware/c (none: the example), its flags, and what the existing
+    stack takes for the same: flash, static RAM with heap, painted stack (recorded).
+    """
+
+    label: str
+    application: str
+    source: str = ""
+    flags: tuple[str, ...] = ()
+    existing: str = ""
+
+    def linked(self, builds: Builds, built: Built) -> Path:
+        """Return the example, or the source linked with the library of `built`."""
+        return builds.application(built, self.source, *self.flags) if self.source else built.image
+
+
 IMAGES = (
-    ("1 publisher of Int32", Sender().application, "", "48,164 + 700 / 9,860"),
-    ("subscription of Int32", READER, "", ""),
-    ("publisher, timer, executor", TICKS % "", "ticker.c", ""),
-    ("2 publisher, subscription, timer, executor", BOTH, "ticker.c", "64,600 + 700 / 10,240"),
-    ("3 server of SetBool, executor", SERVES, "setbool.c", "66,624 + 4,616 / 14,464"),
-    ("client of SetBool", ASKS, "", ""),
-    ("6 publisher of JointState, 6 joints", JOINTS, "", "54,340 + 3,604 / 13,048"),
-    (
-        "two publishers, subscription, server, client, timer",
+    Image("1 publisher of Int32", Sender().application, existing="48,164 + 700 / 9,860, 1,848"),
+    Image("subscription of Int32", READER),
+    Image("publisher, timer, executor", TICKS % "", "ticker.c"),
+    Image(
+        "2 publisher, subscription, timer, executor",
+        BOTH,
+        "ticker.c",
+        ("-DTICKER_LISTENS",),
+        "64,600 + 700 / 10,240, 2,024",
+    ),
+    Image("3 server of SetBool, executor", SERVES, "setbool.c", (), "66,624 + 4,616 / 14,464, 1,560"),
+    Image("client of SetBool", ASKS),
+    Image("6 publisher of JointState, 6 joints", JOINTS, existing="54,340 + 3,604 / 13,048"),
+    Image("the same with a history of two", f"{JOINTS}pools: {{history: 2}}\n"),
+    Image(
+        "two publishers, subscription, server, client, timer on ROS time",
         f"{EVERYTHING}errors: code\n",
         "everything.c",
-        "",
     ),
 )
-"""Label, application file, source below tests/firmware/c (none: the example), figures of the existing stack."""
 
 
 def bench_images(folder: Path) -> None:
-    """Print one line an image, and the components of the last one's library on the Cortex-M4."""
+    """Print one line an image, the components of the last one's library, and what profiles and components take."""
     builds = Builds(folder)
-    print(
-        "images: linked, serial line, storage, start-up and driver included, `errors: code`; text + data / RAM, bytes"
-    )
-    print(
-        f"  {'':52}"
-        + "".join(f"{name:>16}" for name in PROCESSORS.values())
-        + "   existing stack, M4 (recorded)"
-    )
-    for label, application, source, existing in IMAGES:
+    print("images: linked, serial line, start-up, driver and all storage included, `errors: code`; bytes:")
+    print("  text + data / RAM without the stack / worst stack that `size` proves, every interrupt on top")
+    head = "".join(f"{name:>24}" for name in PROCESSORS.values())
+    print(f"  {'':52}{head}   existing stack, M4 (recorded; stack painted)")
+    for image in IMAGES:
         cells = []
         for board in PROCESSORS:
-            built = builds.build(board, application)
-            size = sections_of(builds, built, source, application)
-            cells.append(f"{size.text + size.data:,} / {size.ram:,}")
-        print(f"  {label:52}" + "".join(f"{cell:>16}" for cell in cells) + f"   {existing}")
+            built = builds.build(board, image.application)
+            linked = image.linked(builds, built)
+            size = image_sections(built, linked)
+            cells.append(f"{size.text + size.data:,} / {size.ram:,} / {bounded_stack(built, linked):,}")
+        print(f"  {image.label:52}" + "".join(f"{cell:>24}" for cell in cells) + f"   {image.existing}")
     print("  components of the generated example of the last image: flash / RAM")
-    columns = [dict(components(builds.build(board, IMAGES[-1][1]))) for board in PROCESSORS]
+    columns = [dict(components(builds.build(board, IMAGES[-1].application))) for board in PROCESSORS]
     for name in sorted(set().union(*columns)):
-        print(f"  {name:52}" + "".join(f"{column.get(name, ''):>16}" for column in columns))
+        print(f"  {name:52}" + "".join(f"{column.get(name, ''):>24}" for column in columns))
+    bench_selections(builds, PROCESSORS)
     print()
-
-
-def sections_of(builds: Builds, built: Built, source: str, application: str) -> Sections:
-    """Return the sizes of the example, or of a source of tests/firmware/c linked with the library."""
-    if not source:
-        return image_sections(built, built.image)
-    flags = ["-DTICKER_LISTENS"] if source == "ticker.c" and application == BOTH else []
-    return image_sections(built, builds.application(built, source, *flags))
 
 
 def components(built: Built) -> Iterator[tuple[str, str]]:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from functools import cache
 
 import pytest
+from installed import Installed, install_wheel
 from matrix import VARIANTS, Tree, make_tree
 
 
@@ -19,3 +20,9 @@ def tree_of(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Tree]:
         return make_tree(name, VARIANTS[name], base / name)
 
     return get
+
+
+@pytest.fixture(scope="session")
+def installed(tmp_path_factory: pytest.TempPathFactory) -> Installed:
+    """The wheel of this repository in an environment of its own, made once in a process."""
+    return install_wheel(tmp_path_factory.mktemp("package"))

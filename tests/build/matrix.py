@@ -64,13 +64,21 @@ nodes:
       - {topic: said, type: std_msgs/msg/String, limits: {string: 3000}, queue: 2}
       - {topic: joints, type: sensor_msgs/msg/JointState}
 """
+_BUSY = """\
+version: 1
+limits: {"*": {string: 24, sequence: 3}}
+nodes:
+  - name: busy
+"""
+_SERVES = "    services: [{name: sum, type: example_interfaces/srv/AddTwoInts}]\n"
+_ASKS = "    clients: [{name: /far/sum, type: example_interfaces/srv/AddTwoInts}]\n"
 VARIANTS: Mapping[str, str] = MappingProxyType(
     {
         "pool": _POOL,
         "demo": DEMO.read_text(encoding="utf-8"),
         "pool-none-drop-code-arena-device": _POOL_LARGE
         + "liveliness: none\non_full: drop_oldest\nerrors: code\nmemory: {arena: 1024}\n"
-        + "session: {key: device}\n",
+        + "session: {key: device}\ncomponents: [+publish_statistics, +name_substitutions]\n",
         "pool-acknack-block-xml-reliable": _POOL
         + "liveliness: acknack\non_full: block 20 ms\nentities: xml\ncreation: reliable\n",
         "declared-acknack-drop-arena-reference-pieces": _NODES.replace("sequence: 6", "sequence: 80")
@@ -89,9 +97,26 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "interfaces: [std_msgs/msg/Header]\n",
         "reader-pool-xml": "version: 1\nprofiles: [pure_reader]\ninterfaces: [std_msgs/msg/String]\n"
         + "entities: xml\nlimits: {'*': {string: 2000}}\ntransport: {mtu: 2400}\n",
+        "server-binary-timers-sleep": _BUSY
+        + _SERVES
+        + "    timers: [{name: tick, period: 50 ms}]\nprofiles: [pure_reader]\ncomponents: [-subscribe, +services, "
+        + "+executor, +timers, +sleep_cycles, +session_state, +micro_ros_utilities, +time_sync]\n",
+        "client-xml-code-rtos-timers-threads": _BUSY
+        + _ASKS
+        + "    timers: [{name: tick, period: 50 ms, kind: rtos}]\nprofiles: [pure_sender]\n"
+        + "components: [-publish, +services, +executor, +timers, +multithread, +liveliness_hard, +discovery]\n"
+        + "entities: xml\nerrors: code\n",
+        "both-reference-tcp": _BUSY
+        + _SERVES
+        + _ASKS
+        + "profiles: [pure_sender]\ncomponents: [-publish, +services, +executor]\nentities: reference\n"
+        + "transport: {type: tcp}\n",
+        "serial-sleep": _POOL + "components: [+sleep_cycles]\ntransport: {type: serial}\n",
+        "custom-framed-sleep": _POOL
+        + "components: [+sleep_cycles]\ntransport: {type: custom, framing: true}\n",
     }
 )
-"""Application files by name. Together they select every alternative file of the components that are ready."""
+"""Application files by name. Together they select every file of the components that are ready."""
 
 
 @dataclass(frozen=True)

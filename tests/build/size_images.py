@@ -50,9 +50,10 @@ def build(folder: Path, text: str, target: str = "host", *, status: int = 0) -> 
     return out
 
 
-def tool(*command: str | Path) -> str:
-    """Return what a program of a tool chain says, in English."""
+def tool(*command: str | Path, text: str = "") -> str:
+    """Return what a program of a tool chain says, in English; `text` is its input."""
     environ = {**os.environ, "LC_ALL": "C"}
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, env=environ, check=False)
+    words = [str(c) for c in command]
+    done = subprocess.run(words, input=text, capture_output=True, text=True, env=environ, check=False)
     assert done.returncode == 0, done.stderr
     return done.stdout

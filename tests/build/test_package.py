@@ -3,16 +3,15 @@
 
 from __future__ import annotations
 
-import shutil
+import os
 import subprocess
-import sys
 import time
 import zipfile
-from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from cli.environments import ROOT, clean_environ, install, with_dependencies
+from cli.environments import ROOT, clean_environ, install
+from installed import Installed, environment_with_dependencies
 
 COMMANDS = (
     "build",
@@ -26,57 +25,7 @@ COMMANDS = (
     "agent",
     "agent udp4",
 )
-# What the wheel is made from, and what a fresh clone has; folders that git does not know are not in it.
-SOURCES = ("pyproject.toml", "README.md", "LICENSE", "microros_gen", "profiles")
 DATA = ("profiles", "components", "templates", "idl", "targets")
-
-
-@dataclass(frozen=True)
-class Installed:
-    """The wheel, and an environment that has it."""
-
-    wheel: Path
-    program: Path
-
-    def run(self, *arguments: str, folder: Path) -> subprocess.CompletedProcess[str]:
-        command = [str(self.program), *arguments]
-        environment = clean_environ(XDG_CACHE_HOME=str(folder / "cache"))
-        return subprocess.run(
-            command, cwd=folder, env=environment, text=True, capture_output=True, check=False
-        )
-
-
-@pytest.fixture(scope="module")
-def installed(tmp_path_factory: pytest.TempPathFactory) -> Installed:
-    base = tmp_path_factory.mktemp("package")
-    source = base / "clone"
-    source.mkdir()
-    for name in SOURCES:
-        path = ROOT / name
-        if path.is_dir():
-            shutil.copytree(path, source / name, ignore=shutil.ignore_patterns("__pycache__"))
-        else:
-            shutil.copy(path, source / name)
-    wheel = [sys.executable, "-m", "pip", "wheel", "-q", "--disable-pip-version-check", "--no-deps"]
-    made = subprocess.run([*wheel, "-w", str(base), str(source)], text=True, capture_output=True, check=False)
-    assert made.returncode == 0, made.stdout + made.stderr
-    (path,) = base.glob("microros_gen-*.whl")
-    shutil.rmtree(source)
-    _new_environment(base / "environment")
-    subprocess.run(install(base / "environment", ["--no-deps", str(path)]), env=clean_environ(), check=True)
-    return Installed(path, base / "environment" / "bin" / "microros-gen")
-
-
-def _new_environment(folder: Path) -> None:
-    """Make an environment that sees the packages of the kept one with the dependencies, and nothing else."""
-    kept = with_dependencies(sys.executable, sys.version_info[:2])
-    where = "import sysconfig; print(sysconfig.get_path('purelib'))"
-    packages = subprocess.run([str(kept), "-c", where], text=True, capture_output=True, check=True).stdout
-    subprocess.run(
-        [sys.executable, "-m", "venv", "--without-pip", str(folder)], env=clean_environ(), check=True
-    )
-    (own,) = folder.glob("lib/python3*/site-packages")
-    (own / "dependencies.pth").write_text(packages)
 
 
 def test_the_wheel_holds_every_file_of_data(installed: Installed) -> None:
@@ -87,6 +36,11 @@ def test_the_wheel_holds_every_file_of_data(installed: Installed) -> None:
         files = [p.relative_to(origin).as_posix() for p in origin.rglob("*") if p.is_file()]
         assert files, folder
         assert {f"microros_gen/{folder}/{name}" for name in files} <= there
+    shared = {name.partition(".data/data/share/")[2] for name in there}
+    assert "cmake/microros_gen/microros_genConfig.cmake" in shared
+    prefix = ROOT / "cmake" / "ament" / "prefix"
+    ament = {path.relative_to(prefix).as_posix() for path in prefix.glob("*/cmake/*.cmake")}
+    assert ament | {name.replace("Config.", "-extras.") for name in ament} <= shared
     for name in ("application.schema.json", "profile.schema.json", "msg.lark"):
         assert f"microros_gen/parse/{name}" in there
     assert not [name for name in there if name.startswith(("tests/", "examples/", "docs/"))]
@@ -101,6 +55,29 @@ def test_it_builds_from_another_folder_without_ros(installed: Installed, tmp_pat
     golden = ["check", "--profile", "pure_sender", "--golden", str(ROOT / "tests/golden/pure_sender")]
     compared = installed.run(*golden, folder=tmp_path)
     assert compared.returncode == 0, compared.stdout[:2000] + compared.stderr
+
+
+def test_cmake_finds_it_where_its_program_is_on_the_path(installed: Installed, tmp_path: Path) -> None:
+    text = "cmake_minimum_required(VERSION 3.16)\nproject(found NONE)\nfind_package(microros_gen REQUIRED)\n"
+    (tmp_path / "CMakeLists.txt").write_text(text + "microros_add_library(robot PROFILES pure_sendr)\n")
+    environment = clean_environ(PATH=f"{installed.program.parent}{os.pathsep}{os.environ['PATH']}")
+    configure = ["cmake", "-S", ".", "-B", "build"]
+    done = subprocess.run(
+        configure, cwd=tmp_path, env=environment, text=True, capture_output=True, check=False
+    )
+    assert "there is no profile 'pure_sendr'" in done.stderr
+    cache = (tmp_path / "build/CMakeCache.txt").read_text()
+    assert f"MICROROS_GEN_PROGRAM:FILEPATH={installed.program}\n" in cache
+
+
+@pytest.mark.long
+def test_an_editable_installation_has_the_files_of_cmake(tmp_path: Path) -> None:
+    environment_with_dependencies(tmp_path / "environment")
+    options = ["--no-deps", "--editable", str(ROOT)]
+    subprocess.run(install(tmp_path / "environment", options), env=clean_environ(), check=True)
+    installed = tmp_path / "environment/share/cmake/microros_gen"
+    files = {path.name: path.read_bytes() for path in installed.iterdir()}
+    assert files == {path.name: path.read_bytes() for path in (ROOT / "cmake").glob("*.cmake")}
 
 
 @pytest.mark.parametrize("command", ["", *COMMANDS])

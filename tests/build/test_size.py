@@ -23,6 +23,7 @@ from microros_gen.build.disassembly import parse_disassembly
 from microros_gen.build.elf import Elf
 from microros_gen.build.folder import read_folder
 from microros_gen.build.linker_map import parse_map
+from microros_gen.build.pointers import read_pointers
 from microros_gen.build.report import SizeReport, measure
 from microros_gen.build.stack import bound_of, shown_name
 from microros_gen.build.toolchain import find_toolchain
@@ -331,6 +332,92 @@ def test_recursion_and_frames_of_variable_size_are_named(probe_tree: Path, tmp_p
     assert report.stack.main is not None
     assert "f: recursion" in report.stack.main.open
     assert "f: a frame of variable size" in report.stack.main.open
+
+
+CALLBACKS = """\
+#include <rclc/rclc.h>
+
+struct handle {
+  int (*weigh)(const int * values);
+  void (*nobody)(double value);
+};
+
+extern struct handle table[2]; /* in the same file, but as if from elsewhere: nothing is inlined */
+
+__attribute__((noinline)) static int light(const int * values)
+{
+  return values[0];
+}
+
+__attribute__((noinline)) static int heavy(const int * values)
+{
+  volatile int room[100] = {0};
+
+  room[99] = values[0];
+  return room[99];
+}
+
+__attribute__((noinline)) int never_held(const int * values)
+{
+  volatile int room[1000] = {0};
+
+  room[999] = values[0];
+  return room[999];
+}
+
+struct handle table[2] = {{light, 0}, {heavy, 0}};
+
+int main(void)
+{
+  rcl_allocator_t allocator = rcl_get_default_allocator();
+  static rclc_support_t support;
+  const int values[1] = {(int)rclc_support_init(&support, 0, NULL, &allocator)};
+  int sum = never_held(values);
+
+  for (volatile int i = 0; i < 2; i++) {
+    sum += table[i].weigh(values);
+    if (table[i].nobody) {
+      table[i].nobody(1.0);
+    }
+  }
+  return sum;
+}
+"""
+
+
+def check_pointers(report: SizeReport, image: Path) -> None:
+    """A pointer leads to the functions of its type whose address something holds."""
+    functions = {p.address: p for p in report.pieces if p.function and p.symbol}
+    pointers = read_pointers(report.folder, Elf(image), functions)
+    assert {functions[a].symbol for a in pointers.targets("weigh") or ()} == {"light", "heavy"}
+    assert pointers.targets("nobody") == frozenset(), "no function of that type is held anywhere"
+    assert pointers.targets("no_such_member") is None
+    assert report.stack.main is not None
+    assert not [text for text in report.stack.main.open if "callback" in text]
+
+
+def test_an_image_of_an_application(probe_tree: Path, tmp_path: Path) -> None:
+    """Linked by somebody else, from objects anywhere: the sums are those of `size`, and its own functions count."""
+    source, image = tmp_path / "robot.c", tmp_path / "robot.elf"
+    source.write_text(CALLBACKS, encoding="utf-8")
+    flags = ["-g", "-ffunction-sections", CALL_GRAPH, f"-I{probe_tree / 'include'}"]
+    tool("gcc", *flags, "-c", source, "-o", tmp_path / "robot.o")
+    linked = [tmp_path / "robot.o", probe_tree / "lib/libmicroros.a", "-o", image]
+    tool("gcc", "-Wl,--gc-sections", *linked)
+    with pytest.raises(UserError, match="is no map of"):
+        measure(probe_tree, (image, image.with_suffix(".map")))
+    tool("gcc", "-Wl,--gc-sections", f"-Wl,-Map={image.with_suffix('.map')}", *linked)
+    report = measure(probe_tree, (image, image.with_suffix(".map")))
+    check_pointers(report, image)
+    assert report.totals == berkeley("size", image)
+    owners = {p.symbol: p.owner.group for p in report.pieces if p.symbol}
+    assert (owners["heavy"], owners["rcutils_get_default_allocator"]) == ("application", "component")
+    assert report.stack.main is not None
+    assert "never_held" in {link.name for link in report.stack.main.chain}
+    other = tmp_path / "other.elf"
+    tool("gcc", "-x", "c", "-", "-o", other, text="int main(void) { return 0; }")
+    with pytest.raises(UserError, match="was not linked with the library"):
+        measure(probe_tree, (other, image.with_suffix(".map")))
 
 
 def test_a_text_that_is_no_map_has_no_sections() -> None:

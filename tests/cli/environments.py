@@ -16,7 +16,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 OLDEST = (3, 10)
-_CACHE = ROOT / "build" / "test-environments"
+ENVIRONMENTS = ROOT / "build" / "test-environments"
 _DEPENDENCIES = re.compile(r"^dependencies = \[(.*)\]$", re.MULTILINE)
 
 
@@ -90,10 +90,10 @@ def with_dependencies(interpreter: str, version: tuple[int, int]) -> Path:
     Raises OSError where it cannot be made: there is no network, or no wheel for this Python.
     """
     key = hashlib.sha256(f"{interpreter} {dependencies()}".encode()).hexdigest()[:8]
-    folder = _CACHE / f"python{version[0]}.{version[1]}-{key}"
+    folder = ENVIRONMENTS / f"python{version[0]}.{version[1]}-{key}"
     if not folder.is_dir():
-        _CACHE.mkdir(parents=True, exist_ok=True)
-        fresh = _CACHE / f".{folder.name}.{os.getpid()}"
+        ENVIRONMENTS.mkdir(parents=True, exist_ok=True)
+        fresh = ENVIRONMENTS / f".{folder.name}.{os.getpid()}"
         try:
             new_environment(interpreter, fresh, dependencies())
             with suppress(OSError):  # another process was first

@@ -169,7 +169,7 @@ def test_interfaces_of_services_and_actions(run: Runner) -> None:
         f"std_srvs/srv/{name}" for name in ("Empty", "SetBool", "Trigger")
     ]
     one = data_of(run, "interfaces", "std_srvs/SetBool", "--interface-path", IDL)
-    assert one["description"]["type_description"]["type_name"] == "std_srvs/srv/SetBool"
+    assert one["type_description_msg"]["type_description"]["type_name"] == "std_srvs/srv/SetBool"
     assert "  request" in table_of(run, "interfaces", "std_srvs/SetBool")
 
 

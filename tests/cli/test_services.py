@@ -76,3 +76,19 @@ def test_changes_of_a_service_file_are_seen(run: Runner, folder: Path) -> None:
         assert run(*ARGUMENTS, "mine/Do", "--interface-path", str(folder / "mine")).status == 0
         struct = (folder / "out/include/mine/srv/detail/do__struct.h").read_text(encoding="utf-8")
         assert f"int8_t {member};" in struct
+
+
+@pytest.mark.parametrize(
+    ("rest", "hint"),
+    [
+        ("interfaces: [std_msgs/msg/Int32]", "Add a service in `interfaces:`"),
+        ("nodes: [{name: a, publishers: [{topic: x, type: std_msgs/msg/Int32}]}]", "Add a service of a node"),
+    ],
+)
+def test_services_without_a_service_are_refused(run: Runner, folder: Path, rest: str, hint: str) -> None:
+    text = f"profiles: [pure_sender]\ncomponents: [+services]\n{rest}\n"
+    (folder / "microros.yaml").write_text(text, encoding="utf-8")
+    outcome = run("generate", "--output", "out")
+    assert outcome.status == 2
+    assert "'services' is selected, and there is no service" in outcome.err
+    assert hint in outcome.err

@@ -56,6 +56,14 @@ def test_a_wrong_name_on_the_command_line(run: Runner, folder: Path, command: st
     assert left_behind(folder) == []
 
 
+@pytest.mark.parametrize("profile", ["pure_sender", "pure_reader"])
+def test_a_message_that_does_not_fit_shows_the_option_that_named_it(run: Runner, profile: str) -> None:
+    outcome = run("generate", "--profile", profile, "--interface", "sensor_msgs/msg/MultiDOFJointState")
+    assert outcome.status == 2
+    place = r"^<command line>:1:13: error: sensor_msgs/msg/MultiDOFJointState takes up to \d+ bytes"
+    assert re.match(place, outcome.err), outcome.err
+
+
 IN_THE_FILE = {
     "broken YAML": ("nodes:\n", "nodes: [\n", r"microros\.yaml:\d+:\d+: error: "),
     "a key": ("limits:", "limit:", r"microros\.yaml:7:1: error: .*limit.*Did you mean 'limits'\?"),
@@ -85,6 +93,11 @@ IN_THE_FILE = {
         "[pure_sender]",
         "[pure_sender, managed_service]",
         r"microros\.yaml:2:25: error: .*managed_service.*lifecycle.*does not have yet",
+    ),
+    "an RTOS without a port": (
+        "profiles: [pure_sender]",
+        "profiles: [pure_sender]\ntarget: {name: cortex-m4, rtos: freertos}",
+        r"microros\.yaml:3:\d+: error: no port for the RTOS 'freertos'.*leave `rtos` out",
     ),
     "contradictory components": (
         "profiles: [pure_sender]",

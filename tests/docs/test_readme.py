@@ -13,6 +13,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from docs.console import blocks, masked
 
 from microros_gen.cli.main import _COMMANDS
 
@@ -20,24 +21,18 @@ ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
-def blocks(kind: str) -> list[str]:
-    return re.findall(rf"^```{kind}\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
+def texts(kind: str) -> list[str]:
+    return [block.text for block in blocks(README) if block.language == kind]
 
 
 def test_the_example_is_the_demos_application() -> None:
-    (shown,) = blocks("yaml")
+    (shown,) = texts("yaml")
     lines = (ROOT / "examples/demo/microros.yaml").read_text(encoding="utf-8").splitlines(keepends=True)
     assert shown == "".join(line for line in lines if not line.startswith("#"))
 
 
-def masked(text: str) -> str:
-    """Sizes of compiled code are the compiler's, numbers of objects may grow with the runtime."""
-    text = re.sub(r"(?m)^(library .*): \d+ bytes of code.*$", r"\1", text)
-    return re.sub(r"(?m)^(files|compiled) +\d+", r"\1 N", text).rstrip()
-
-
 def test_the_console_example_prints_what_it_shows(tmp_path: Path) -> None:
-    (block,) = blocks("console")
+    (block,) = texts("console")
     command, _, shown = block.partition("\n")
     assert command.startswith("$ microros-gen ")
     arguments = shlex.split(command.removeprefix("$ microros-gen "))

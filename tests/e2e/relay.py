@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A UDP relay between images and their agent: it keeps the port that an image was built for, lets the agent
-behind it come and go, and loses, doubles and delays datagrams when told to.
+behind it come and go, and loses, doubles, delays and cuts datagrams when told to.
 """
 
 from __future__ import annotations
@@ -14,10 +14,33 @@ import time
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from types import TracebackType
 
 # Seconds until each copy of a datagram goes on; none: it is lost.
 Fault = Callable[[], list[float]]
+
+
+# What arrives of a datagram.
+Cut = Callable[[bytes], bytes]
+
+
+def no_cut(data: bytes) -> bytes:
+    """Leave a datagram whole."""
+    return data
+
+
+def cutting(seed: int, part: float = 0.05) -> Cut:
+    """Return a network that loses the end of the part `part` of all datagrams, whatever UDP says of their length.
+
+    What it changed within one, a UDP checksum finds: such a datagram is a lost one.
+    """
+    chance = random.Random(seed)
+
+    def cut(data: bytes) -> bytes:
+        return data[: chance.randrange(1, len(data))] if len(data) > 1 and chance.random() < part else data
+
+    return cut
 
 
 def no_fault() -> list[float]:
@@ -59,7 +82,9 @@ class Relay:
 
     def __init__(self) -> None:
         self.fault: Fault = no_fault
+        self.cut: Cut = no_cut
         self.passed = 0
+        self.shortened = 0
         self.sent: Counter[int] = Counter()
         """Messages of clients by the id of their first submessage."""
         self._front = _socket()
@@ -90,7 +115,7 @@ class Relay:
         """Serve with the agent at `port` from now on; 0: nobody is there."""
         with self._lock:
             self._target = port
-            self.fault = no_fault
+            self.fault, self.cut = no_fault, no_cut
             for back in self._backs.values():
                 self._selector.unregister(back)
                 back.close()
@@ -112,11 +137,10 @@ class Relay:
         except OSError:
             return  # the news that nobody listens there
         if client is not None:
-            self._pass_on(lambda: self._front.sendto(data, client))
+            self._pass_on(data, lambda part: self._front.sendto(part, client))
         elif self._target:
             self.sent.update(data[4:5])
-            back = self._back(address)
-            self._pass_on(lambda: back.send(data))
+            self._pass_on(data, self._back(address).send)
 
     def _back(self, client: tuple[str, int]) -> socket.socket:
         if client not in self._backs:
@@ -126,10 +150,13 @@ class Relay:
             self._selector.register(back, selectors.EVENT_READ, client)
         return self._backs[client]
 
-    def _pass_on(self, send: Callable[[], object]) -> None:
+    def _pass_on(self, data: bytes, send: Callable[[bytes], object]) -> None:
         for delay in self.fault():
+            part = self.cut(data)
             self.passed += 1
-            heapq.heappush(self._waiting, _Waiting(time.monotonic() + delay, self.passed, send))
+            self.shortened += part != data
+            due = time.monotonic() + delay
+            heapq.heappush(self._waiting, _Waiting(due, self.passed, partial(send, part)))
 
     def _send_due(self) -> None:
         while self._waiting and self._waiting[0].due <= time.monotonic():

@@ -15,7 +15,7 @@ from agent.process import AgentProcess, running_agent
 
 from e2e.images import C_FILES, QUICK, Images, started
 from e2e.line_relay import LineRelay
-from e2e.relay import Relay, lossy
+from e2e.relay import Relay, cutting, lossy
 
 pytestmark = pytest.mark.ros
 
@@ -83,9 +83,12 @@ def over_udp(
     image = images.build(relay.port, APPLICATION.format(transport=""), "gcc", QUICK)
     program = image.application(C_FILES / "echo.c", image.out.parent / "echo", "-std=c99", "-Wall", "-Werror")
     relay.connect(agent.port)
-    relay.fault = lossy(count)
+    relay.fault, relay.cut = lossy(count), cutting(count)
+    before = relay.shortened
     counted = echo(observer, program, count, timeout_s)
+    print(f"datagrams that came cut: {relay.shortened - before}")
     assert counted["resent"] > count // 8
+    assert relay.shortened - before > count // 50
 
 
 def over_a_line(

@@ -19,6 +19,7 @@ from pathlib import Path
 
 import pytest
 
+from microros_gen.build.compile import CALL_GRAPH
 from microros_gen.cli.emulator import Emulator, Machine
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.model.target import Target
@@ -81,13 +82,17 @@ class Built:
         return {parts[2]: int(parts[0], 16) for parts in map(str.split, lines) if len(parts) == 3}
 
     def link(self, source: Path, image: Path, *flags: str) -> Path:
-        """Compile an application outside of the tool and link it as OUT/README.md says."""
+        """Compile an application outside of the tool and link it as OUT/README.md says, with what `size` reads."""
         compiled = image.with_suffix(".o")
         compiler, strict = self.target.compilers[0], ("-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror")
         common = [compiler, *self.target.c_flags, "-ffunction-sections", "-fdata-sections"]
         include = f"-I{self.out / 'include'}"
-        check([*common, *strict, *flags, include, "-c", str(source), "-o", str(compiled)])
-        script = ["-T", str(self.out / "src" / "port_bare" / "image.ld")]
+        check([*common, *strict, *flags, CALL_GRAPH, include, "-c", str(source), "-o", str(compiled)])
+        script = [
+            "-T",
+            str(self.out / "src" / "port_bare" / "image.ld"),
+            f"-Wl,-Map={image.with_suffix('.map')}",
+        ]
         library = str(self.out / "lib" / "libmicroros.a")
         check([*common, *self.target.link_flags, *script, str(compiled), library, "-o", str(image)])
         return image

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from runtime.fake_agent import FakeAgent
 
-from firmware.board import Builds, Built, board, target
+from firmware.board import Board, Builds, Built, board, target
 from firmware.instructions import trace_regions
 from firmware.line import scripted_agent
 
@@ -166,18 +166,28 @@ def painted_stack(built: Built, samples: int = 5) -> int:
     with board(built) as running, scripted_agent(running.device, agent):
         running.go_on()
         running.wait_for(lambda: len(agent.values()) >= samples)
-        symbols = built.symbols()
-        size = symbols["port_stack_high"] - symbols["port_stack_low"]
-        words = running.words("port_stack_low", size // 4)
+        return touched_stack(running, built, built.image)
+
+
+def touched_stack(running: Board, built: Built, image: Path) -> int:
+    """Return how many bytes of its stack a running image has used up to now."""
+    symbols = built.symbols(image)
+    size = symbols["port_stack_high"] - symbols["port_stack_low"]
+    words = running.words("port_stack_low", size // 4)
     untouched = next((i for i, word in enumerate(words) if word != _PAINT), len(words))
     return size - 4 * untouched
 
 
-def bounded_stack(built: Built) -> int:
-    """Return the worst stack that `microros-gen size` proves for the image, interrupts included."""
+def bounded_stack(built: Built, image: Path | None = None) -> int:
+    """Return the worst stack that `microros-gen size` proves for an image, by default the example, with interrupts."""
     command = [sys.executable, "-m", "microros_gen", "size", str(built.out), "--format", "json"]
+    if image is not None and image != built.image:
+        command += ["--image", str(image)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
-    return int(json.loads(done.stdout)["stack"]["total"])
+    assert done.returncode == 0, done.stderr
+    stack = json.loads(done.stdout)["stack"]
+    assert not stack["not_counted"], stack["not_counted"]
+    return int(stack["total"])
 
 
 def work(builds: Builds, name: str, sender: Sender) -> Work:

@@ -10,7 +10,7 @@ import pytest
 from runtime.fake_agent import FakeAgent
 
 from firmware.board import Builds, Built, board, need
-from firmware.footprint import SERVES, image_sections
+from firmware.footprint import SERVES, bounded_stack, image_sections, touched_stack
 from firmware.line import scripted_agent
 
 APPLICATION = """\
@@ -38,13 +38,16 @@ def test_a_timer_publishes_under_the_executor(builds: Builds, kind: str) -> None
         start = time.monotonic()
         running.wait_for(lambda: len(agent.values()) > SAMPLES)
         took = time.monotonic() - start
+        touched = touched_stack(running, built, image)
     assert agent.values()[:SAMPLES] == list(range(SAMPLES))
     assert took > 0.1 * SAMPLES * 0.8
+    proven = bounded_stack(built, image)  # callbacks of the application included
+    assert proven // 4 < touched <= proven
 
 
 @pytest.mark.parametrize(
     ("listens", "text", "ram"),
-    [(False, 11300, 1300), (True, 15000, 1700)],
+    [(False, 10800, 1040), (True, 15000, 1260)],
     ids=["talks", "talks-and-listens"],
 )
 def test_its_size(builds: Builds, listens: bool, text: int, ram: int) -> None:
@@ -60,7 +63,9 @@ def test_the_size_of_a_server(builds: Builds) -> None:
     """A server of SetBool and executor (the goal of image 3: 15,000 and 3,000); `errors: code`."""
     need(NAME)
     built = builds.build(NAME, SERVES)
-    assert within(built, builds.application(built, "setbool.c"), 13750, 1950)
+    image = builds.application(built, "setbool.c")
+    assert within(built, image, 13750, 1740)
+    assert bounded_stack(built, image) <= 1320, "every interrupt on top of it"
 
 
 def within(built: Built, image: Path, text: int, ram: int) -> bool:

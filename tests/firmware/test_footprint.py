@@ -30,7 +30,7 @@ def _params() -> Iterator[ParameterSet]:
         yield pytest.param(name, sender, id=label, marks=[] if label in SLICE else [pytest.mark.long])
 
 
-@pytest.mark.parametrize(("name", "sender"), _params())
+@pytest.mark.parametrize(("name", "sender"), list(_params()))
 def test_nothing_grows_unseen(builds: Builds, name: str, sender: Sender) -> None:
     """A figure above its ceiling, or far below: then `make footprint` shall write the new one down."""
     need(name, emulator=True)

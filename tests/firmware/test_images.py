@@ -58,19 +58,20 @@ def test_beside_the_elf_file_are_the_formats_of_programs_that_flash(builds: Buil
     assert reset == built.symbols()["port_cortex_m_reset"] | 1
 
 
+def _vendors_firmware(built: Built, folder: Path, *flags: str) -> set[str]:
+    """Link the archive as into a vendor's project; return the symbols of the image."""
+    compiler = [built.target.compilers[0], *built.target.c_flags]
+    source, compiled, image = C_FILES / "vendor.c", folder / "vendor.o", folder / "firmware.elf"
+    check([*compiler, *flags, f"-I{built.out / 'include'}", "-c", str(source), "-o", str(compiled)])
+    link = ("--specs=nano.specs", "-nostartfiles", "-Wl,--fatal-warnings", "-T", str(C_FILES / "vendor.ld"))
+    check([*compiler, *link, str(compiled), str(built.out / "lib" / "libmicroros.a"), "-o", str(image)])
+    return set(built.symbols(image))
+
+
 def test_a_vendors_start_up_and_handlers_do_not_collide(builds: Builds, tmp_path: Path) -> None:
     """The archive, linked as into a vendor's project: its vector table, its SysTick_Handler, its linker script."""
     built = builds.build("qemu-mps2-an386")
-    objects = [tmp_path / "vendor.o"]
-    compiler = [built.target.compilers[0], *built.target.c_flags]
-    include = f"-I{built.out / 'include'}"
-    check([*compiler, include, "-c", str(C_FILES / "vendor.c"), "-o", str(objects[0])])
-    image = tmp_path / "firmware.elf"
-    script = str(C_FILES / "vendor.ld")
-    library = str(built.out / "lib" / "libmicroros.a")
-    flags = ("--specs=nano.specs", "-nostartfiles", "-Wl,--fatal-warnings", "-T", script)
-    check([*compiler, *flags, *map(str, objects), library, "-o", str(image)])
-    symbols = set(built.symbols(image))
+    symbols = _vendors_firmware(built, tmp_path)
     assert {"port_time_ms", "port_bare_tick", "SysTick_Handler"} <= symbols
     assert not symbols & {
         "port_bare_start",
@@ -80,6 +81,13 @@ def test_a_vendors_start_up_and_handlers_do_not_collide(builds: Builds, tmp_path
     }
     library_symbols = set(built.symbols(built.out / "lib" / "libmicroros.a"))
     assert {s for s in library_symbols if CMSIS.fullmatch(s)} == set()
+
+
+def test_functions_of_an_rtos_win_over_those_of_the_archive(builds: Builds, tmp_path: Path) -> None:
+    """An application that has time and sleep from its RTOS defines them; no tick of the bare port is linked then."""
+    symbols = _vendors_firmware(builds.build("qemu-mps2-an386"), tmp_path, "-DOWN_TIME")
+    assert {"port_time_ms", "port_sleep_ms"} <= symbols
+    assert "port_bare_tick" not in symbols
 
 
 USER_BOARD = """\

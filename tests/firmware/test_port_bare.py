@@ -47,8 +47,7 @@ def test_the_ring_holds_the_longest_message_and_an_answer_for_each_slot(slots: i
     """At the worst every byte of a frame is stuffed: 7E, then twice source, destination, length, payload, CRC."""
     worst = 1 + 2 * (4 + size + 2) + slots * (1 + 2 * (4 + 13 + 2))
     ring = ring_size(plan(slots, size))
-    assert worst <= ring < 2 * worst
-    assert ring & (ring - 1) == 0
+    assert worst < ring <= worst + 4, "one byte of a ring is never used"
 
 
 @pytest.mark.parametrize(

@@ -17,6 +17,7 @@ ORDER = (
     "parse",
     "sources",
     "resolve",
+    "adopt",
     "plan",
     "render",
     "output",
@@ -71,9 +72,9 @@ def test_the_check_finds_a_wrong_import(tmp_path: Path) -> None:
 
 
 def test_only_reading_writing_and_building_touch_the_disk() -> None:
-    """`parse`, `resolve`, `plan`, `model` and `diagnostics` compute; they open no file and start no process."""
+    """`parse`, `resolve`, `adopt`, `plan`, `model` and `diagnostics` compute: no file is opened, no process started."""
     forbidden = {"subprocess", "socket", "tempfile", "shutil"}
-    for folder in ("diagnostics", "model", "parse", "resolve", "plan"):
+    for folder in ("diagnostics", "model", "parse", "resolve", "adopt", "plan"):
         for path in sorted((PACKAGE / folder).rglob("*.py")):
             names = {module.split(".")[0] for _, module in imports(path)}
             assert not names & forbidden, f"{path.name} uses {names & forbidden}"

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PYTHON_FOLDERS = ["microros_gen", "tests", "examples"]
+PYTHON_FOLDERS = ["microros_gen", "tests", "examples", "docs"]
 SUPPRESSIONS = ROOT / "tests" / "house" / "cppcheck-suppressions.txt"
 
 
@@ -47,7 +47,7 @@ def test_each_suppression_has_its_reason() -> None:
         previous = line
 
 
-@pytest.mark.parametrize("folder", ["microros_gen", "profiles", "tests", "examples"])
+@pytest.mark.parametrize("folder", ["microros_gen", "profiles", "tests", "examples", "cmake", "docs"])
 def test_every_source_carries_the_licence(folder: str) -> None:
     endings = {".py", ".c", ".h", ".yaml", ".lark", ".cmake"}
     for path in sorted((ROOT / folder).rglob("*")):

@@ -77,7 +77,7 @@ def test_a_service_shows_its_parts(folder: Path) -> None:
     assert data["parts"]["response"]["constants"][0]["name"] == "LATE"
     assert [entry["type"].split("_")[-1] for entry in data["derived"]] == ["Request", "Response", "Event"]
     assert all(entry["hash"].startswith("RIHS01_") for entry in data["derived"])
-    members = data["description"]["type_description"]["fields"]
+    members = data["type_description_msg"]["type_description"]["fields"]
     assert [member["name"] for member in members] == ["request_message", "response_message", "event_message"]
 
 

@@ -110,3 +110,20 @@ def test_one_reference_cannot_be_two(tmp_path: Path) -> None:
     assert "two subscriptions of /clock differ in type or QoS" in diagnostic.headline()
     assert "microros.yaml:9:" in diagnostic.headline()
     assert "microros.yaml:3:" in diagnostic.headline()
+
+
+def test_a_rule_of_the_first_node_moves_it(tmp_path: Path) -> None:
+    """The source says /clock, the wire has another name, as with a remapping rule of ROS 2."""
+    text = NODES.replace("name: first", "name: first\n    remap: {/clock: /sim/clock}")
+    result = planned(tmp_path, text)
+    clock = result.project.runtime.subscriptions[0]
+    assert (clock.given, clock.topic, clock.dds_topic) == ("/clock", "/sim/clock", "rt/sim/clock")
+    for wrong, said in (
+        (text.replace("clock: ros\n", ""), "first does not subscribe to /clock. Select it with `clock: ros`"),
+        (
+            NODES.replace("name: second", "name: second\n    remap: {/clock: /sim/clock}"),
+            "second does not subscribe to /clock. Give the rule to the first node",
+        ),
+    ):
+        with pytest.raises(UserError, match=said):
+            planned(tmp_path, wrong)

@@ -311,3 +311,16 @@ def test_codes_instead_of_text(bench: Bench) -> None:
     assert client.call("publisher 1 0 Int32 9 reliable").error == "E08"
     assert client.call("node 0 a/b -").error == "E08"
     assert client.call("init").error == "E03"
+
+
+def test_a_publisher_of_an_ended_context(bench: Bench) -> None:
+    """Its handle is none in the next context, and can be finalized there."""
+    client = bench.connected()
+    client.ok("fini")
+    client.ok("init")
+    assert client.call("publish 0 1").code == 300
+    client.ok("node 0 talker -")
+    client.ok("publisher_fini 0 0")
+    client.ok("publisher 0 0 Int32 chatter reliable")
+    client.ok("publish 0 2")
+    assert client.agent.values() == [2]

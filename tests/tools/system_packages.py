@@ -17,6 +17,7 @@ NEEDED = {
     "clang-tidy": "clang-tidy",
     "cppcheck": "cppcheck",
     "cmake": "cmake",
+    "ninja": "ninja-build",
     "g++": "g++",
     "arm-none-eabi-gcc": "gcc-arm-none-eabi",
     "/usr/lib/arm-none-eabi/newlib/nano.specs": "libnewlib-arm-none-eabi",

@@ -78,6 +78,22 @@ def split(data: bytes, at: int, rest_when_zero: bool = False) -> list[Span]:
     return found
 
 
+def is_cut(data: bytes, at: int) -> bool:
+    """Return whether `data`, whose header ends at `at`, ends before its submessages do, or has none.
+
+    So a message looks of which a network has lost the end: on a reliable stream it has not come, and is sent again.
+    """
+    size = len(data)
+    if at + SUBMESSAGE_HEADER > size:
+        return True
+    while at + SUBMESSAGE_HEADER <= size:
+        at += SUBMESSAGE_HEADER + (data[at + 2] | data[at + 3] << 8)
+        if at >= size:
+            return at > size
+        at += -at & 3
+    return False
+
+
 def _check_requests(spans: list[Span]) -> None:
     requests = sum(span[0] != SubmessageId.WRITE_DATA for span in spans)
     if requests > MOST_REQUESTS:

@@ -1,43 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Calls that need no agent, and what each returns: compiled against ROS 2's librcl and against the generated library. */
+#include "tell.h"
+
 #include <rcl/domain_id.h>
-#include <rcl/error_handling.h>
+#include <rcl/expand_topic_name.h>
 #include <rcl/guard_condition.h>
 #include <rcl/rcl.h>
 #include <rcl/time.h>
 #include <rcl/timer.h>
+#include <rcl/validate_topic_name.h>
 #include <rcl/wait.h>
 #include <rcutils/snprintf.h>
 #include <rcutils/types/string_array.h>
+#include <rcutils/types/string_map.h>
 #include <rmw/time.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-
-static void * heap_allocate(size_t size, void * state)
-{
-  (void)state;
-  return malloc(size);
-}
-static void heap_deallocate(void * pointer, void * state)
-{
-  (void)state;
-  free(pointer);
-}
-static void * heap_reallocate(void * pointer, size_t size, void * state)
-{
-  (void)state;
-  return realloc(pointer, size);
-}
-static void * heap_zero(size_t count, size_t size, void * state)
-{
-  (void)state;
-  return calloc(count, size);
-}
-
-static const rcl_allocator_t heap = {heap_allocate, heap_deallocate, heap_reallocate, heap_zero, NULL};
-
-#define TELL(call) (printf("%s %ld\n", #call, (long)(call)), rcl_reset_error())
 
 static void options(void)
 {
@@ -324,6 +301,141 @@ static void texts(void)
   TELL(rmw_time_from_nsec(-1).sec);
 }
 
+static void maps(void)
+{
+  rcutils_string_map_t a = rcutils_get_zero_initialized_string_map();
+  rcutils_string_map_t b = rcutils_get_zero_initialized_string_map();
+  const rcl_allocator_t none = rcutils_get_zero_initialized_allocator();
+  const char * key;
+  size_t size = 7;
+
+  TELL(rcutils_string_map_init(NULL, 0, heap));
+  TELL(rcutils_string_map_init(&a, 0, none));
+  TELL(rcutils_string_map_get_size(&a, &size));
+  TELL(rcutils_string_map_set(&a, "x", "1"));
+  TELL(rcutils_string_map_unset(&a, "x"));
+  TELL(rcutils_string_map_clear(&a));
+  TELL(rcutils_string_map_reserve(&a, 3));
+  TELL(rcutils_string_map_key_exists(&a, "x"));
+  TELL(rcutils_string_map_get(&a, "x") != NULL);
+  TELL(rcutils_string_map_get_next_key(&a, NULL) != NULL);
+  TELL(rcutils_string_map_fini(&a));
+  TELL(rcutils_string_map_fini(NULL));
+  TELL(rcutils_string_map_init(&a, 1, heap));
+  TELL(rcutils_string_map_init(&a, 1, heap));
+  TELL(rcutils_string_map_set(&a, NULL, "1"));
+  TELL(rcutils_string_map_set(&a, "x", NULL));
+  TELL(rcutils_string_map_set(NULL, "x", "1"));
+  TELL(rcutils_string_map_set(&a, "x", "1"));
+  TELL(rcutils_string_map_set_no_resize(&a, "xy", "2"));
+  TELL(rcutils_string_map_set_no_resize(&a, "x", "3"));
+  TELL(rcutils_string_map_set(&a, "xy", "2"));
+  TELL(rcutils_string_map_set(&a, "xyz", "4"));
+  TELL(rcutils_string_map_get_size(&a, &size));
+  TELL(size);
+  TELL(rcutils_string_map_get_capacity(&a, &size));
+  TELL(size);
+  TELL(rcutils_string_map_get_capacity(&a, NULL));
+  TELL(rcutils_string_map_get(&a, "x")[0]);
+  TELL(rcutils_string_map_getn(&a, "xyz", 2)[0]);
+  TELL(rcutils_string_map_key_existsn(&a, "xyzzy", 3));
+  TELL(rcutils_string_map_key_existsn(&a, "y", 1));
+  TELL(rcutils_string_map_unset(&a, "y"));
+  TELL(rcutils_string_map_unset(&a, NULL));
+  TELL(rcutils_string_map_copy(&a, &b));
+  TELL(rcutils_string_map_init(&b, 0, heap));
+  TELL(rcutils_string_map_copy(&a, &b));
+  TELL(rcutils_string_map_copy(NULL, &b));
+  TELL(rcutils_string_map_unset(&b, "xyz"));
+  TELL(rcutils_string_map_unset(&b, "xyz"));
+  key = rcutils_string_map_get_next_key(&b, NULL);
+  TELL(strcmp(key, "x"));
+  key = rcutils_string_map_get_next_key(&b, key);
+  TELL(strcmp(key, "xy"));
+  TELL(rcutils_string_map_get_next_key(&b, key) != NULL);
+  TELL(rcutils_string_map_reserve(&b, 1));
+  TELL(rcutils_string_map_get_capacity(&b, &size));
+  TELL(size);
+  TELL(rcutils_string_map_clear(&b));
+  TELL(rcutils_string_map_get_next_key(&b, NULL) != NULL);
+  TELL(rcutils_string_map_fini(&b));
+  TELL(rcutils_string_map_fini(&b));
+  TELL(rcutils_string_map_fini(&a));
+}
+
+static void expand(const char * topic, const char * node, const char * space)
+{
+  rcutils_string_map_t map = rcutils_get_zero_initialized_string_map();
+  char * full = NULL;
+
+  if (rcutils_string_map_init(&map, 0, heap) != 0 || rcutils_string_map_set(&map, "x", "/v") != 0) {
+    exit(1);
+  }
+  SAY(
+    "'%s' of '%s' in '%s' %ld\n", topic, node, space,
+    (long)rcl_expand_topic_name(topic, node, space, &map, heap, &full));
+  SAY("'%s' 0\n", full != NULL ? full : "");
+  free(full);
+  rcl_reset_error();
+  TELL(rcutils_string_map_fini(&map));
+}
+
+static void names(void)
+{
+  static const char * const topics[] = {
+    "a",      "/a",    "~",     "~/a",  "",    "a/", "1a", "a/1", "a b",  "a~",
+    "{node}", "{ns}",  "{x}",   "a{x}", "{y}", "{x", "x}", "{1}", "a{/}", "{namespace}/{node}",
+    "a//b",   "{{a}}", "~a{x}", "/~/a", "/"};
+  char many[300];
+  rcutils_string_map_t none = rcutils_get_zero_initialized_string_map();
+  char * full = NULL;
+  int result = 0;
+  size_t index = 0;
+
+  for (size_t i = 0; i < sizeof(topics) / sizeof(topics[0]); ++i) {
+    SAY("topic '%s' 0\n", topics[i]);
+    TELL(rcl_validate_topic_name(topics[i], &result, &index));
+    TELL(result);
+    TELL(index);
+    TELL(rcl_topic_name_validation_result_string(result) != NULL);
+    expand(topics[i], "n", "/");
+    expand(topics[i], "n", "/s/t");
+  }
+  TELL(rcl_validate_topic_name(NULL, &result, &index));
+  TELL(rcl_validate_topic_name("a", NULL, &index));
+  TELL(rcl_validate_topic_name("~1", &result, NULL));
+  TELL(rcl_validate_topic_name_with_size("a/b", 2, &result, NULL));
+  TELL(result);
+  TELL(rcl_topic_name_validation_result_string(77) != NULL);
+  expand("a", "", "/");
+  expand("a", "n/", "/");
+  expand("a", "1", "/");
+  expand("a", "n", "");
+  expand("a", "n", "s");
+  expand("a", "n", "/s/");
+  memset(many, 'a', sizeof(many));
+  many[0] = '/';
+  many[246] = '\0';
+  expand("a", "n", many);
+  expand("a", &many[1], "/");
+  many[246] = 'a';
+  many[256] = '\0';
+  expand("a", &many[1], "/");
+  expand("a", "n", many);
+  many[256] = 'a';
+  many[257] = '\0';
+  expand("a", &many[1], "/");
+  expand(many, "n", "/");
+  TELL(rcl_expand_topic_name(NULL, "n", "/", &none, heap, &full));
+  TELL(rcl_expand_topic_name("a", NULL, "/", &none, heap, &full));
+  TELL(rcl_expand_topic_name("a", "n", NULL, &none, heap, &full));
+  TELL(rcl_expand_topic_name("a", "n", "/", NULL, heap, &full));
+  TELL(rcl_expand_topic_name("a", "n", "/", &none, heap, NULL));
+  TELL(rcl_get_default_topic_name_substitutions(NULL));
+  TELL(rcl_get_default_topic_name_substitutions(&none));
+  TELL(rcl_node_resolve_name(NULL, "a", heap, false, false, &full));
+}
+
 int main(void)
 {
   options();
@@ -334,5 +446,7 @@ int main(void)
   clocks();
   waiting();
   texts();
+  maps();
+  names();
   return 0;
 }

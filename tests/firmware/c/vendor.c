@@ -13,10 +13,32 @@ void SystemInit(void)
 {
 }
 
+#ifdef OWN_TIME
+/* An RTOS below: it has the system timer, and time, sleep and waiting are its own. */
+static volatile uint32_t vendor_ticks;
+
+void SysTick_Handler(void)
+{
+  ++vendor_ticks;
+}
+
+uint32_t port_time_ms(void)
+{
+  return vendor_ticks;
+}
+
+void port_sleep_ms(uint32_t ms)
+{
+  const uint32_t start = vendor_ticks;
+  while (vendor_ticks - start < ms) {
+  }
+}
+#else
 void SysTick_Handler(void)
 {
   port_bare_tick();
 }
+#endif
 
 void HardFault_Handler(void)
 {

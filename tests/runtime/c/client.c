@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* An application in the hands of the test: one call for each line of standard input. */
 #include "port_fake.h"
+#include "client.h"
 #include "types.h"
 
 #include <rcl/error_handling.h>
@@ -19,7 +20,7 @@ enum { NODES = 4, PUBLISHERS = 6, WORDS = 6, COMMAND = 1024 };
 static rclc_support_t support;
 static rcl_init_options_t options;
 static rcl_node_t nodes[NODES];
-static rcl_publisher_t publishers[PUBLISHERS];
+rcl_publisher_t publishers[PUBLISHERS];
 static rcl_allocator_t allocator;
 
 static rcl_ret_t init_with_options(char ** word)
@@ -236,7 +237,7 @@ int client_ping(char ** word);                            /* client_ping.c, or c
 int client_read(char ** word, rcl_node_t * node_list);    /* client_read.c, or client_no_read.c */
 int client_time(char ** word);                            /* client_time.c, or client_no_time.c */
 int client_extra(char ** word, rclc_support_t * session); /* client_extra.c, or client_no_extra.c */
-int client_serve(char ** word, rcl_node_t * node_list);     /* client_serve.c, or client_no_serve.c */
+int client_serve(char ** word, rcl_node_t * node_list);   /* client_serve.c, or client_no_serve.c */
 
 static rcl_ret_t call(const char * line)
 {

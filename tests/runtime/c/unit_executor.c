@@ -393,6 +393,11 @@ static void test_wait_set(void)
   CHECK(
     rcl_wait(&set, 0) == RCL_RET_WAIT_SET_INVALID && rcl_wait_set_clear(&set) == RCL_RET_WAIT_SET_INVALID);
   CHECK(rcl_wait_set_init(&set, 3, 0, 0, 0, 0, 0, &support.context, allocator) == RCL_RET_BAD_ALLOC);
+  CHECK(strstr(rcl_get_error_string().str, "pools: {subscriptions: 3}") != NULL);
+  CHECK(rcl_wait_set_init(&set, 250, 0, 0, 0, 0, 0, &support.context, allocator) == RCL_RET_BAD_ALLOC);
+  CHECK(strstr(rcl_get_error_string().str, "pools: {subscriptions: 250}") != NULL);
+  CHECK(rcl_wait_set_init(&set, 251, 0, 0, 0, 0, 0, &support.context, allocator) == RCL_RET_BAD_ALLOC);
+  CHECK(strstr(rcl_get_error_string().str, "pools") == NULL); /* nothing helps */
   CHECK(rcl_wait_set_init(&set, 0, 0, 0, 0, 0, 1, &support.context, allocator) == RCL_RET_BAD_ALLOC);
   CHECK(rcl_wait_set_init(&set, 0, 0, 0, 0, 0, 0, &support.context, allocator) == RCL_RET_OK);
   CHECK(rcl_wait(&set, 0) == RCL_RET_WAIT_SET_EMPTY);

@@ -43,6 +43,8 @@ uint16_t rmw_node_take(xrce_client_t * client, const char * name, const char * n
       return i;
     }
   }
-  microros_error_set(microros_error_nodes_full, name, NULL, MICROROS_NODES_MAX, MICROROS_NODES_MAX + 1u);
+  microros_error_set(
+    microros_error_of_pool(microros_error_nodes_full, MICROROS_NODES_MAX), name, NULL, MICROROS_NODES_MAX,
+    MICROROS_NODES_MAX + 1u);
   return RMW_NO_PLACE;
 }

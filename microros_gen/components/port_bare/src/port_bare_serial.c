@@ -5,25 +5,32 @@
 #include "microros/port_board.h"
 #include "microros/port_uart.h"
 
-/* The size is a power of two, so that positions may run on and wrap: their difference is what the ring holds. The interrupt
- * alone writes `put` and `lost`, the task alone `taken`. */
+/* One byte is never used: so a full ring differs from an empty one. The interrupt alone writes `put` and `lost`, the task alone
+ * `taken`. */
 static struct {
-  volatile uint16_t put;
-  volatile uint16_t taken;
+  volatile uint32_t put;
+  volatile uint32_t taken;
   volatile uint32_t lost;
   volatile uint8_t bytes[PORT_BOARD_RING_SIZE];
 } port_ring;
 
+/* Downwards: it is shorter to see that 0 is reached. */
+static uint32_t ring_next(uint32_t at)
+{
+  return (at == 0u ? PORT_BOARD_RING_SIZE : at) - 1u;
+}
+
 void port_uart_received(uint8_t byte)
 {
-  const uint16_t put = port_ring.put;
+  const uint32_t put = port_ring.put;
+  const uint32_t next = ring_next(put);
 
-  if ((uint16_t)(put - port_ring.taken) == PORT_BOARD_RING_SIZE) {
+  port_ring.bytes[put] = byte; /* nobody reads it before `put` has gone on */
+  if (next == port_ring.taken) {
     port_uart_lost();
-    return;
+  } else {
+    port_ring.put = next;
   }
-  port_ring.bytes[put % PORT_BOARD_RING_SIZE] = byte;
-  port_ring.put = (uint16_t)(put + 1u);
 }
 
 void port_uart_lost(void)
@@ -73,13 +80,13 @@ bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size
 
 size_t port_serial_read(port_serial_t * serial, uint8_t * buffer, size_t capacity)
 {
-  uint16_t taken = port_ring.taken;
+  uint32_t taken = port_ring.taken;
   size_t count = 0;
 
   (void)serial;
   while (count < capacity && taken != port_ring.put) {
-    buffer[count] = port_ring.bytes[taken % PORT_BOARD_RING_SIZE];
-    taken = (uint16_t)(taken + 1u);
+    buffer[count] = port_ring.bytes[taken];
+    taken = ring_next(taken);
     ++count;
   }
   port_ring.taken = taken;

@@ -58,7 +58,7 @@ bool xrce_read_is_reliable(const xrce_client_t * client, const xrce_receiver_t *
 
 xrce_receiver_t * xrce_read_find(xrce_client_t * client, uint16_t object)
 {
-  const uint16_t index = (uint16_t)((object >> 4) - MICROROS_PUBLISHERS_MAX);
+  const uint16_t index = (uint16_t)(xrce_object_index(object) - MICROROS_PUBLISHERS_MAX);
 
   if (index >= XRCE_RECEIVERS || read_object(index) != object || !client->states[read_place(index)].wanted) {
     return NULL;

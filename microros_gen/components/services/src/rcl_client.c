@@ -28,6 +28,7 @@ rcl_ret_t rcl_client_init(
   rcl_client_t * client, const rcl_node_t * node, const rosidl_service_type_support_t * type_support,
   const char * service_name, const rcl_client_options_t * options)
 {
+  rcl_names_topic_t taken;
   const char * fault;
 
   if (options == NULL || client == NULL) {
@@ -42,12 +43,12 @@ rcl_ret_t rcl_client_init(
   if (client->impl != NULL) {
     return microros_error_named(RCL_RET_ALREADY_INIT, microros_error_client_open, service_name);
   }
-  fault = rcl_names_check_topic(service_name);
+  fault = rcl_names_take(&taken, service_name, node->impl);
   if (fault != NULL) {
     microros_error_set(microros_error_name, service_name, fault, 0, 0);
     return RCL_RET_SERVICE_NAME_INVALID;
   }
-  return rmw_requester_open(node->impl, type_support, service_name, &options->qos, &client->impl);
+  return rmw_requester_open(node->impl, type_support, taken.name, &options->qos, &client->impl);
 }
 
 rcl_ret_t rcl_client_fini(rcl_client_t * client, rcl_node_t * node)

@@ -44,9 +44,13 @@ static rmw_ret_t replier_open(
   static rmw_service_t services[MICROROS_SERVICES_MAX]; /* handed out by place */
   const microros_service_type_t * type = type_support->data;
   const xrce_service_t opened = {type, type->response};
-  const rmw_section_t section = {XRCE_REPLIERS_AT - MICROROS_NODES_MAX, MICROROS_SERVICES_MAX,
-                                 microros_error_service_undeclared,     microros_error_service_open,
-                                 microros_error_services_full,          type->dds_type_name};
+  const rmw_section_t section = {
+    XRCE_REPLIERS_AT - MICROROS_NODES_MAX,
+    MICROROS_SERVICES_MAX,
+    microros_error_service_undeclared,
+    microros_error_service_open,
+    microros_error_of_pool(microros_error_services_full, MICROROS_SERVICES_MAX),
+    type->dds_type_name};
   xrce_endpoint_t wanted = {
     .client = node->context->impl, .type = type->request, .participant = rmw_node_index(node)};
   const rmw_ret_t result = rmw_service_open(&wanted, &opened, &section, node, name, qos);

@@ -52,21 +52,22 @@ static void stream_free(xrce_stream_reliable_t * stream, uint8_t count)
   stream->count = (uint8_t)(stream->count - count);
 }
 
-bool xrce_stream_reliable_drop_oldest(
+const uint8_t * xrce_stream_reliable_drop_oldest(
   xrce_stream_reliable_t * stream, const xrce_session_t * session, uint32_t now)
 {
   const uint16_t first = stream->first;
+  const uint8_t * dropped = &stream->message[stream->head][MICROROS_RELIABLE_FRONT];
 
   (void)session;
   if (stream->count == 0u) {
-    return false;
+    return NULL;
   }
   stream_free(stream, 1);
   if (stream->held) {
     stream->first = first; /* what is held has no number yet */
   }
   stream->heartbeat_ms = now;
-  return true;
+  return dropped;
 }
 
 void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now)

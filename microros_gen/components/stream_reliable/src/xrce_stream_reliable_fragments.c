@@ -182,9 +182,10 @@ static uint8_t stream_first_unsent(const xrce_stream_reliable_t * stream)
   return i;
 }
 
-bool xrce_stream_reliable_drop_oldest(
+const uint8_t * xrce_stream_reliable_drop_oldest(
   xrce_stream_reliable_t * stream, const xrce_session_t * session, uint32_t now)
 {
+  const uint8_t * dropped;
   uint8_t unsent = 0; /* without a session nothing that was sent counts */
 
   (void)now;
@@ -192,10 +193,11 @@ bool xrce_stream_reliable_drop_oldest(
     unsent = stream_first_unsent(stream);
   }
   if (unsent == stream->count) {
-    return false;
+    return NULL;
   }
+  dropped = &stream->message[stream_slot(stream, unsent)][MICROROS_RELIABLE_FRONT];
   stream_remove(stream, unsent);
-  return true;
+  return dropped;
 }
 
 void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now)

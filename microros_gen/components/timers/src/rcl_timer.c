@@ -70,7 +70,8 @@ rcl_ret_t rcl_timer_init2(
   place = rcl_timer_source_take(period);
   if (place == NULL) {
     microros_error_set(
-      microros_error_pool_full, "timers", NULL, MICROROS_TIMERS_MAX, MICROROS_TIMERS_MAX + 1u);
+      microros_error_of_pool(microros_error_pool_full, MICROROS_TIMERS_MAX), "timers", NULL,
+      MICROROS_TIMERS_MAX, MICROROS_TIMERS_MAX + 1u);
     return RCL_RET_BAD_ALLOC;
   }
   result = timer_begin(place, clock, period, callback, autostart);

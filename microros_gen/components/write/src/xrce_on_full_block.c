@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* on_full: block up to MICROROS_ON_FULL_BLOCK_MS, then refuse. */
-#include "microros/lock.h"
 #include "microros/port.h"
-#include "microros/xrce_client.h"
+#include "microros/xrce_drops.h"
+#include "microros/xrce_rest.h"
 #include "microros/xrce_write.h"
 
 xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room)
@@ -10,13 +10,13 @@ xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room)
   const uint32_t start = port_time_ms();
 
   while (port_time_ms() - start < MICROROS_ON_FULL_BLOCK_MS) {
-    microros_pause();
+    xrce_rest(writer->client);
     xrce_session_pump(writer->client);
     *room = xrce_write_reserve(writer);
     if (*room != NULL) {
       return XRCE_WRITTEN;
     }
   }
-  ++writer->client->session.statistics.dropped;
+  xrce_drops_add(writer->client, writer->index);
   return xrce_write_obstacle(writer);
 }

@@ -3,7 +3,7 @@
  * on_full: drop_oldest. A reliable message takes the place of the oldest one, also while there is no session:
  * the newest are sent when there is one again. A best-effort message without a session is given up.
  */
-#include "microros/xrce_client.h"
+#include "microros/xrce_drops.h"
 #include "microros/xrce_routes.h"
 #include "microros/xrce_wire.h"
 #include "microros/xrce_write.h"
@@ -13,13 +13,17 @@ xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room)
   xrce_client_t * client = writer->client;
 
   if ((writer->qos & XRCE_QOS_RELIABLE) == 0u) {
-    ++client->session.statistics.dropped;
+    xrce_drops_add(client, writer->index);
     return XRCE_WRITE_DROPPED;
   }
   *room = xrce_route_reserve(client, true);
-  if (*room == NULL && xrce_route_drop_oldest(client)) {
-    ++client->session.statistics.dropped;
-    *room = xrce_route_reserve(client, true);
+  if (*room == NULL) {
+    const uint8_t * dropped = xrce_route_drop_oldest(client);
+
+    if (dropped != NULL) {
+      xrce_drops_add(client, xrce_object_index(xrce_get_be16(&dropped[XRCE_SUBMESSAGE_HEADER + 2])));
+      *room = xrce_route_reserve(client, true);
+    }
   }
   return *room != NULL ? XRCE_WRITTEN : xrce_write_obstacle(writer);
 }

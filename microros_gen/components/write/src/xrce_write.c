@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/xrce_write.h"
 
-#include "microros/xrce_client.h"
+#include "microros/xrce_drops.h"
 #include "microros/xrce_routes.h"
 #include "microros/xrce_wire.h"
 
@@ -55,7 +55,7 @@ static xrce_write_t write_end(xrce_endpoint_t * writer, uint8_t * room, size_t s
   xrce_put_be16(&room[4], XRCE_REQUEST_NONE);
   xrce_put_be16(&room[6], xrce_object_id(writer->index, XRCE_KIND_DATAWRITER));
   if (!xrce_route_commit(client, write_is_reliable(writer), BODY_OFFSET + size)) {
-    ++client->session.statistics.dropped;
+    xrce_drops_add(client, writer->index);
     return XRCE_WRITE_NOT_SENT;
   }
   return XRCE_WRITTEN;

@@ -56,6 +56,16 @@ const char * rcl_node_get_logger_name(const rcl_node_t * node);
 
 rcl_ret_t rcl_node_get_domain_id(const rcl_node_t * node, size_t * domain_id);
 
+/*
+ * Gives what a topic or service that the source calls so is called in ROS 2: expanded as rcl_expand_topic_name does, and
+ * unless `only_expand` is set, renamed as `remap:` of the application file does for what the node declares. The result is
+ * a string of `allocator`, which it goes back to. Codes as rcl_expand_topic_name, and RCL_RET_TOPIC_NAME_INVALID
+ * (RCL_RET_SERVICE_NAME_INVALID with `is_service`) where the result is no name; RCL_RET_ERROR for an invalid node.
+ */
+rcl_ret_t rcl_node_resolve_name(
+  const rcl_node_t * node, const char * input_topic_name, rcl_allocator_t allocator, bool is_service,
+  bool only_expand, char ** output_topic_name);
+
 rmw_node_t * rcl_node_get_rmw_handle(const rcl_node_t * node);
 
 #ifdef __cplusplus

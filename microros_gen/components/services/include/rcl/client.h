@@ -69,6 +69,14 @@ rcl_ret_t rcl_take_response(
 /* Returns the fully qualified name, which belongs to the client; NULL for an invalid one. */
 const char * rcl_client_get_service_name(const rcl_client_t * client);
 
+/* Return the QoS that was asked for, each default as what it means; NULL for an invalid one. What the agent has behind it is
+ * its own. Belongs to the client. */
+const rmw_qos_profile_t * rcl_client_request_publisher_get_actual_qos(const rcl_client_t * client);
+const rmw_qos_profile_t * rcl_client_response_subscription_get_actual_qos(const rcl_client_t * client);
+
+/* The same as options: the QoS is the actual one, the allocator the default one, since none is called. */
+const rcl_client_options_t * rcl_client_get_options(const rcl_client_t * client);
+
 rmw_client_t * rcl_client_get_rmw_handle(const rcl_client_t * client);
 
 bool rcl_client_is_valid(const rcl_client_t * client);

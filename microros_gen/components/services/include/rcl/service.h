@@ -69,6 +69,14 @@ rcl_ret_t rcl_send_response(
 /* Returns the fully qualified name, which belongs to the service; NULL for an invalid one. */
 const char * rcl_service_get_service_name(const rcl_service_t * service);
 
+/* Return the QoS that was asked for, each default as what it means; NULL for an invalid one. What the agent has behind it is
+ * its own. Belongs to the service. */
+const rmw_qos_profile_t * rcl_service_request_subscription_get_actual_qos(const rcl_service_t * service);
+const rmw_qos_profile_t * rcl_service_response_publisher_get_actual_qos(const rcl_service_t * service);
+
+/* The same as options: the QoS is the actual one, the allocator the default one, since none is called. */
+const rcl_service_options_t * rcl_service_get_options(const rcl_service_t * service);
+
 rmw_service_t * rcl_service_get_rmw_handle(const rcl_service_t * service);
 
 bool rcl_service_is_valid(const rcl_service_t * service);

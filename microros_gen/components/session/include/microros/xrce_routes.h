@@ -47,8 +47,9 @@ bool xrce_route_commit(xrce_client_t * client, bool reliable, size_t size);
  * have. */
 size_t xrce_route_capacity(bool reliable);
 
-/* Forgets the oldest unacknowledged reliable message; false: there is none. */
-bool xrce_route_drop_oldest(xrce_client_t * client);
+/* Forgets the oldest unacknowledged reliable message, and returns its submessage, to be read until the next one is
+ * reserved; NULL: there is none. */
+const uint8_t * xrce_route_drop_oldest(xrce_client_t * client);
 
 /* Returns how many reliable messages the agent has not acknowledged. */
 uint16_t xrce_route_unacknowledged(const xrce_client_t * client);

@@ -74,6 +74,7 @@ extern const char microros_error_service_full[];
 extern const char microros_error_service_session[];
 extern const char microros_error_service_short[];
 extern const char microros_error_requests_lost[];
+extern const char microros_error_pool_most[];
 
 /*
  * Makes this the last error. What `name`, `detail`, `found` and `fits` mean is said beside the texts; the
@@ -85,6 +86,15 @@ void microros_error_set(
 /* The same for microros_error_argument, and for errors with a name and nothing else. Both return `result`. */
 int32_t microros_error_refuse(int32_t result, const char * argument);
 int32_t microros_error_named(int32_t result, microros_error_t error, const char * name);
+
+/* A session holds no more places of one kind. */
+#define MICROROS_POOL_MOST 250u
+
+/* Returns what a full pool of this many places says: `error` advises one more, where one more can be. */
+static inline microros_error_t microros_error_of_pool(microros_error_t error, uint32_t places)
+{
+  return places < MICROROS_POOL_MOST ? error : (microros_error_t)microros_error_pool_most;
+}
 
 #ifdef __cplusplus
 }

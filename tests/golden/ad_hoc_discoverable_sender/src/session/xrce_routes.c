@@ -80,7 +80,7 @@ size_t xrce_route_capacity(bool reliable)
                   : MICROROS_BEST_EFFORT_SIZE - XRCE_MESSAGE_HEADER - XRCE_WRITE_PREFIX;
 }
 
-bool xrce_route_drop_oldest(xrce_client_t * client)
+const uint8_t * xrce_route_drop_oldest(xrce_client_t * client)
 {
   return xrce_stream_reliable_drop_oldest(&client->reliable, &client->session, client->session.now_ms);
 }

@@ -32,9 +32,14 @@ void xrce_stream_reliable_input_reset(xrce_stream_reliable_input_t * stream);
 bool xrce_stream_reliable_input_take(
   xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now);
 
-/* Takes a HEARTBEAT: what is before its first message cannot be had any more. False: the payload is malformed. */
+/* Takes a HEARTBEAT: what is before its first message cannot be had any more. What is kept behind that is not handed on
+ * from within a message: xrce_stream_reliable_input_go_on does that. False: the payload is malformed. */
 bool xrce_stream_reliable_input_on_heartbeat(
-  xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags, uint32_t now);
+  xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags);
+
+/* Hands on what is kept and whose turn a HEARTBEAT has made it, and acknowledges. For what has taken a message of another
+ * stream; does nothing where there was no such HEARTBEAT in it. */
+void xrce_stream_reliable_input_go_on(xrce_client_t * client, uint32_t now);
 
 /* --- for this component alone: one of xrce_stream_reliable_input_*.c --- */
 

@@ -35,7 +35,7 @@ rcl_subscription_t rcl_get_zero_initialized_subscription(void);
  * Waits for the agent, at most MICROROS_CREATE_TIMEOUT_MS. With `nodes:` in the application file the subscription must
  * be declared there; else it takes one of `pools: {subscriptions: N}`. From then on samples are kept while any function
  * of the library runs, as many as `queue:` says; a subscription goes on by itself after a lost session.
- * RCL_RET_TOPIC_NAME_INVALID for a name that ROS 2 refuses, RCL_RET_UNSUPPORTED for a QoS that XRCE cannot carry,
+ * RCL_RET_TOPIC_NAME_INVALID as rcl_publisher_init, RCL_RET_UNSUPPORTED for a QoS that XRCE cannot carry,
  * RCL_RET_TIMEOUT, else RCL_RET_ERROR with a text.
  */
 rcl_ret_t rcl_subscription_init(
@@ -71,6 +71,12 @@ rcl_ret_t rcl_take_serialized_message(
 
 /* Returns the fully qualified name, which belongs to the subscription; NULL for an invalid one. */
 const char * rcl_subscription_get_topic_name(const rcl_subscription_t * subscription);
+
+/* Returns what the agent was asked for, each default as what it means; NULL for an invalid one. Belongs to the subscription. */
+const rmw_qos_profile_t * rcl_subscription_get_actual_qos(const rcl_subscription_t * subscription);
+
+/* The same as options: the QoS is the actual one, the allocator the default one, since none is called. */
+const rcl_subscription_options_t * rcl_subscription_get_options(const rcl_subscription_t * subscription);
 
 rmw_subscription_t * rcl_subscription_get_rmw_handle(const rcl_subscription_t * subscription);
 

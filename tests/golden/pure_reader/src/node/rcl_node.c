@@ -18,13 +18,13 @@ rcl_node_t rcl_get_zero_initialized_node(void)
 
 static rcl_ret_t node_check_names(const char * name, const char * namespace_)
 {
-  const char * fault = rcl_names_check_node(name);
+  const char * fault = rcl_names_check_node_size(name);
 
   if (fault != NULL) {
     microros_error_set(microros_error_name, name, fault, 0, 0);
     return RCL_RET_NODE_INVALID_NAME;
   }
-  fault = rcl_names_check_namespace(namespace_);
+  fault = rcl_names_check_namespace_size(namespace_);
   if (fault != NULL) {
     microros_error_set(microros_error_name, namespace_, fault, 0, 0);
     return RCL_RET_NODE_INVALID_NAMESPACE;
@@ -81,12 +81,12 @@ rcl_ret_t rcl_node_fini(rcl_node_t * node)
 
 bool rcl_node_is_valid_except_context(const rcl_node_t * node)
 {
-  return node != NULL && rmw_node_is_open(node->impl);
+  return node != NULL && node->impl != NULL;
 }
 
 bool rcl_node_is_valid(const rcl_node_t * node)
 {
-  return rcl_node_is_valid_except_context(node) && rcl_context_is_valid(node->context);
+  return node != NULL && rmw_node_is_open(node->impl); /* which needs the session, and so the context */
 }
 
 const char * rcl_node_get_name(const rcl_node_t * node)

@@ -14,7 +14,11 @@ bool xrce_route_message(xrce_client_t * client, const uint8_t * message, size_t 
     !xrce_stream_best_effort_input_take(&client->best_effort_input, xrce_get_le16(&message[2]))) {
     return true; /* it is older than what was handed on */
   }
-  return xrce_session_take_submessages(client, message, size, now);
+  if (!xrce_session_take_submessages(client, message, size, now)) {
+    return false;
+  }
+  xrce_stream_reliable_input_go_on(client, now);
+  return true;
 }
 
 void xrce_route_submessage(
@@ -41,7 +45,7 @@ void xrce_route_submessage(
       xrce_read_on_acknack(client, payload, size, flags);
       break;
     case XRCE_HEARTBEAT:
-      if (!xrce_stream_reliable_input_on_heartbeat(client, payload, size, flags, now)) {
+      if (!xrce_stream_reliable_input_on_heartbeat(client, payload, size, flags)) {
         ++client->session.statistics.malformed;
       }
       break;
@@ -94,10 +98,10 @@ size_t xrce_route_capacity(bool reliable)
   return reliable ? 0u : MICROROS_BEST_EFFORT_SIZE - XRCE_MESSAGE_HEADER - XRCE_WRITE_PREFIX;
 }
 
-bool xrce_route_drop_oldest(xrce_client_t * client)
+const uint8_t * xrce_route_drop_oldest(xrce_client_t * client)
 {
   (void)client;
-  return false;
+  return NULL;
 }
 
 uint16_t xrce_route_unacknowledged(const xrce_client_t * client)

@@ -44,13 +44,24 @@ static void input_advance(xrce_stream_reliable_input_t * stream)
   stream->announced >>= 1;
 }
 
-/* Hands on the message whose turn it is. A malformed one is counted; it would be no better a second time. */
+/* Whether all of a message has come: a part of one is as good as lost, and comes again. */
+static bool input_is_whole(const uint8_t * message, size_t size)
+{
+  size_t at = XRCE_MESSAGE_HEADER;
+  size_t end = at;
+
+  while (at + XRCE_SUBMESSAGE_HEADER <= size) {
+    end = at + XRCE_SUBMESSAGE_HEADER + xrce_get_le16(&message[at + 2u]);
+    at = (end + 3u) & ~(size_t)3u;
+  }
+  return end > XRCE_MESSAGE_HEADER && end <= size && size <= at;
+}
+
+/* Hands on the message whose turn it is. */
 static void input_hand_on(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
 {
   input_advance(&client->reliable_input);
-  if (!xrce_session_take_submessages(client, message, size, now)) {
-    ++client->session.statistics.malformed;
-  }
+  (void)xrce_session_take_submessages(client, message, size, now); /* it is whole */
 }
 
 /* Hands on what is kept from the message on whose turn it is. */
@@ -73,7 +84,7 @@ bool xrce_stream_reliable_input_take(
   const uint16_t sequence = xrce_get_le16(&message[2]);
   const uint16_t ahead = (uint16_t)(sequence - stream->next);
 
-  if (message[1] != XRCE_STREAM_RELIABLE) {
+  if (message[1] != XRCE_STREAM_RELIABLE || !input_is_whole(message, size)) {
     return false;
   }
   if (client->session.state != XRCE_READY) {
@@ -90,27 +101,34 @@ bool xrce_stream_reliable_input_take(
   return true;
 }
 
-/* Goes past messages that cannot be had any more; what is kept of them is handed on. */
-static void input_skip(xrce_client_t * client, uint16_t first, uint32_t now)
+/* Whether the message on whose turn it is is kept. */
+static bool input_can_go_on(const xrce_stream_reliable_input_t * stream)
 {
-  xrce_stream_reliable_input_t * stream = &client->reliable_input;
+  return (xrce_stream_reliable_input_map(stream) & 1u) != 0u;
+}
 
+void xrce_stream_reliable_input_go_on(xrce_client_t * client, uint32_t now)
+{
+  if (input_can_go_on(&client->reliable_input)) {
+    input_hand_on_kept(client, now);
+    input_acknowledge(client);
+  }
+}
+
+/* Goes past messages that cannot be had any more, as far as one that is kept. */
+static void input_skip(xrce_stream_reliable_input_t * stream, uint16_t first)
+{
   for (uint8_t i = 0; i < WINDOW && stream->next != first; ++i) {
-    size_t size = 0;
-    const uint8_t * message = xrce_stream_reliable_input_kept(stream, stream->next, &size);
-
-    if (message != NULL) {
-      input_hand_on(client, message, size, now);
-    } else {
-      input_advance(stream);
+    if (input_can_go_on(stream)) {
+      return;
     }
+    input_advance(stream);
   }
   stream->next = first; /* nothing is kept beyond the window */
-  input_hand_on_kept(client, now);
 }
 
 bool xrce_stream_reliable_input_on_heartbeat(
-  xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags, uint32_t now)
+  xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags)
 {
   xrce_stream_reliable_input_t * stream = &client->reliable_input;
   uint16_t first;
@@ -124,12 +142,14 @@ bool xrce_stream_reliable_input_on_heartbeat(
   }
   first = xrce_get_u16(&payload[0], flags);
   if ((uint16_t)(first - stream->next) < HALF) {
-    input_skip(client, first, now);
+    input_skip(stream, first);
   }
   known = (uint16_t)(xrce_get_u16(&payload[2], flags) - stream->next + 1u);
   if (known < HALF) {
     input_announce(stream, known);
   }
-  input_acknowledge(client);
+  if (!input_can_go_on(stream)) { /* else xrce_stream_reliable_input_go_on acknowledges */
+    input_acknowledge(client);
+  }
   return true;
 }

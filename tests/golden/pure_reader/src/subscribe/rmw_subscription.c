@@ -28,12 +28,13 @@ static rmw_ret_t subscription_open_in(
   const char * topic, const rmw_qos_profile_t * qos, rmw_subscription_t ** subscription)
 {
   const microros_message_type_t * type = type_support->data;
-  const rmw_section_t section = {first,
-                                 count,
-                                 microros_error_subscription_undeclared,
-                                 microros_error_subscription_open,
-                                 microros_error_subscriptions_full,
-                                 type->dds_type_name};
+  const rmw_section_t section = {
+    first,
+    count,
+    microros_error_subscription_undeclared,
+    microros_error_subscription_open,
+    microros_error_of_pool(microros_error_subscriptions_full, MICROROS_SUBSCRIPTIONS_MAX),
+    type->dds_type_name};
   const rmw_name_t name = rmw_name_of_topic(topic, node->name, node->namespace_);
   xrce_endpoint_t wanted = {
     .client = node->context->impl, .type = type, .participant = rmw_node_index(node)};

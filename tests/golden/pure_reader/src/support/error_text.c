@@ -52,6 +52,7 @@ const char microros_error_value[] = "%t.%d: %n is above %m";
 const char microros_error_memory_rule[] = "memory rule '%d' names no string or sequence of %t";
 const char microros_error_memory_given[] = "the allocator gives no memory for %n bytes";
 const char microros_error_pool_full[] = "%n %s are all there are: set pools: {%s: %m}%y";
+const char microros_error_pool_most[] = "%s: all %n places are taken, and a session has no more of a kind";
 const char microros_error_memory_buffer[] = "the buffer has %n bytes and the message takes %m";
 const char microros_error_framing[] = "custom transport: set transport: {framing: %d}%y";
 

@@ -52,5 +52,5 @@ rcl_ret_t rclc_support_fini(rclc_support_t * support)
   }
   result = rcl_shutdown(&support->context);
   fini = rcl_context_fini(&support->context);
-  return result != RCL_RET_OK ? result : fini;
+  return result == RCL_RET_OK && fini == RCL_RET_OK ? RCL_RET_OK : RCL_RET_ERROR;
 }

@@ -24,6 +24,9 @@ static inline void rmw_qos_add_times(const rmw_qos_profile_t * qos, const xrce_e
   (void)endpoint;
 }
 
+/* Gives what the endpoint has, with every default put in; for those who ask. */
+void rmw_qos_actual(const xrce_endpoint_t * endpoint, rmw_qos_profile_t * qos);
+
 /* Returns rmw_qos_profile_default. */
 static inline const rmw_qos_profile_t * rmw_qos_default(void)
 {

@@ -44,8 +44,9 @@ uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream);
 void xrce_stream_reliable_commit(
   xrce_stream_reliable_t * stream, xrce_session_t * session, size_t size, uint32_t now);
 
-/* Forgets the oldest message and tells the agent at the next step; false: there is none. */
-bool xrce_stream_reliable_drop_oldest(
+/* Forgets the oldest message, tells the agent at the next step, and returns its submessages; NULL: there is none. They
+ * can be read until the next one is reserved. */
+const uint8_t * xrce_stream_reliable_drop_oldest(
   xrce_stream_reliable_t * stream, const xrce_session_t * session, uint32_t now);
 
 /* A session is new: holds what is kept, to be numbered from 0, or from what `creation: reliable` has left. */

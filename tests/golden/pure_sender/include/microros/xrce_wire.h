@@ -90,6 +90,11 @@ static inline uint16_t xrce_object_id(uint16_t index, uint8_t kind)
   return (uint16_t)(((uint32_t)index << 4) | kind);
 }
 
+static inline uint16_t xrce_object_index(uint16_t id)
+{
+  return (uint16_t)(id >> 4);
+}
+
 static inline void xrce_put_le16(uint8_t * at, uint16_t value)
 {
   at[0] = (uint8_t)(value & 0xffu);

@@ -31,6 +31,7 @@ rcl_ret_t rcl_publisher_open(
   rcl_publisher_t * publisher, const rcl_node_t * node, const rosidl_message_type_support_t * type_support,
   const char * topic_name, const rmw_qos_profile_t * qos)
 {
+  rcl_names_topic_t taken;
   const char * fault;
 
   if (publisher == NULL || type_support == NULL || topic_name == NULL) {
@@ -39,12 +40,12 @@ rcl_ret_t rcl_publisher_open(
   if (!rcl_node_is_valid(node)) {
     return microros_error_refuse(RCL_RET_NODE_INVALID, "node");
   }
-  fault = rcl_names_check_topic(topic_name);
+  fault = rcl_names_take(&taken, topic_name, node->impl);
   if (fault != NULL) {
     microros_error_set(microros_error_name, topic_name, fault, 0, 0);
     return RCL_RET_TOPIC_NAME_INVALID;
   }
-  return rmw_publisher_open(node->impl, type_support, topic_name, qos, &publisher->impl);
+  return rmw_publisher_open(node->impl, type_support, taken.name, qos, &publisher->impl);
 }
 
 rcl_ret_t rcl_publisher_init(
@@ -138,7 +139,7 @@ rmw_publisher_t * rcl_publisher_get_rmw_handle(const rcl_publisher_t * publisher
 
 bool rcl_publisher_is_valid_except_context(const rcl_publisher_t * publisher)
 {
-  return rcl_publisher_is_valid(publisher);
+  return publisher != NULL && publisher->impl != NULL;
 }
 
 bool rcl_publisher_can_loan_messages(const rcl_publisher_t * publisher)

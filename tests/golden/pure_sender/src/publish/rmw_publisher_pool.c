@@ -28,6 +28,7 @@ bool rmw_publisher_take(xrce_endpoint_t * writer, const rmw_name_t * topic, cons
     }
   }
   microros_error_set(
-    microros_error_publishers_full, given, NULL, MICROROS_PUBLISHERS_MAX, MICROROS_PUBLISHERS_MAX + 1u);
+    microros_error_of_pool(microros_error_publishers_full, MICROROS_PUBLISHERS_MAX), given, NULL,
+    MICROROS_PUBLISHERS_MAX, MICROROS_PUBLISHERS_MAX + 1u);
   return false;
 }

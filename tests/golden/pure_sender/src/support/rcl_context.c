@@ -25,7 +25,7 @@ rcl_ret_t rcl_context_fini(rcl_context_t * context)
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "context");
   }
   if (rcl_context_is_valid(context)) {
-    return microros_error_named(RCL_RET_ERROR, microros_error_context_in_use, NULL);
+    return microros_error_named(RCL_RET_INVALID_ARGUMENT, microros_error_context_in_use, NULL);
   }
   context->impl = NULL;
   return RCL_RET_OK;

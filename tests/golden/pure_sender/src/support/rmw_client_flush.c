@@ -3,6 +3,7 @@
 
 #include "microros/lock.h"
 #include "microros/port.h"
+#include "microros/xrce_rest.h"
 #include "microros/xrce_routes.h"
 
 bool rmw_client_flush(xrce_client_t * client, uint32_t timeout_ms)
@@ -17,7 +18,7 @@ bool rmw_client_flush(xrce_client_t * client, uint32_t timeout_ms)
     if (flushed || port_time_ms() - start >= timeout_ms) {
       break;
     }
-    microros_pause();
+    xrce_rest(client);
   }
   microros_unlock();
   return flushed;

@@ -78,8 +78,8 @@ rcl_ret_t rcl_clock_add_jump_callback(
   entry = jump_find(NULL, NULL, NULL);
   if (entry == NULL) {
     microros_error_set(
-      microros_error_pool_full, "jump_callbacks", NULL, MICROROS_JUMP_CALLBACKS_MAX,
-      MICROROS_JUMP_CALLBACKS_MAX + 1u);
+      microros_error_of_pool(microros_error_pool_full, MICROROS_JUMP_CALLBACKS_MAX), "jump_callbacks", NULL,
+      MICROROS_JUMP_CALLBACKS_MAX, MICROROS_JUMP_CALLBACKS_MAX + 1u);
     return RCL_RET_BAD_ALLOC;
   }
   entry->clock = clock;

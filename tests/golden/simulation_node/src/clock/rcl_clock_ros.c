@@ -47,7 +47,8 @@ static rcl_ros_time_t * ros_take(rcl_clock_t * clock)
   }
   if (time == NULL) {
     microros_error_set(
-      microros_error_pool_full, "ros_clocks", NULL, MICROROS_ROS_CLOCKS_MAX, MICROROS_ROS_CLOCKS_MAX + 1u);
+      microros_error_of_pool(microros_error_pool_full, MICROROS_ROS_CLOCKS_MAX), "ros_clocks", NULL,
+      MICROROS_ROS_CLOCKS_MAX, MICROROS_ROS_CLOCKS_MAX + 1u);
     return NULL;
   }
   time->clock = clock;

@@ -47,8 +47,8 @@ static rcl_guard_condition_impl_t * guard_condition_take(void)
     }
   }
   microros_error_set(
-    microros_error_pool_full, "guard_conditions", NULL, MICROROS_GUARD_CONDITIONS_MAX,
-    MICROROS_GUARD_CONDITIONS_MAX + 1u);
+    microros_error_of_pool(microros_error_pool_full, MICROROS_GUARD_CONDITIONS_MAX), "guard_conditions",
+    NULL, MICROROS_GUARD_CONDITIONS_MAX, MICROROS_GUARD_CONDITIONS_MAX + 1u);
   return NULL;
 }
 

@@ -36,7 +36,8 @@ static rcl_wait_set_impl_t * set_take(void)
     }
   }
   microros_error_set(
-    microros_error_pool_full, "wait_sets", NULL, MICROROS_WAIT_SETS_MAX, MICROROS_WAIT_SETS_MAX + 1u);
+    microros_error_of_pool(microros_error_pool_full, MICROROS_WAIT_SETS_MAX), "wait_sets", NULL,
+    MICROROS_WAIT_SETS_MAX, MICROROS_WAIT_SETS_MAX + 1u);
   return NULL;
 }
 
@@ -45,7 +46,9 @@ static bool set_fits(const char * what, size_t asked, size_t most)
   if (asked <= most) {
     return true;
   }
-  microros_error_set(microros_error_pool_full, what, NULL, (uint32_t)most, (uint32_t)asked);
+  microros_error_set(
+    microros_error_of_pool(microros_error_pool_full, (uint32_t)asked - 1u), what, NULL, (uint32_t)most,
+    (uint32_t)asked);
   return false;
 }
 

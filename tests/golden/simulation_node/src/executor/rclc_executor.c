@@ -45,7 +45,8 @@ static rclc_executor_handle_t * executor_take(const rclc_executor_t * executor)
   }
   if (place == NULL) {
     microros_error_set(
-      microros_error_pool_full, "executors", NULL, MICROROS_EXECUTORS_MAX, MICROROS_EXECUTORS_MAX + 1u);
+      microros_error_of_pool(microros_error_pool_full, MICROROS_EXECUTORS_MAX), "executors", NULL,
+      MICROROS_EXECUTORS_MAX, MICROROS_EXECUTORS_MAX + 1u);
     return NULL;
   }
   place->owner = executor;
@@ -130,7 +131,8 @@ rclc_executor_handle_t * rclc_executor_add_handle(
   }
   if (executor->index == executor->max_handles) {
     microros_error_set(
-      microros_error_pool_full, "handles", NULL, MICROROS_HANDLES_MAX, MICROROS_HANDLES_MAX + 1u);
+      microros_error_of_pool(microros_error_pool_full, MICROROS_HANDLES_MAX), "handles", NULL,
+      MICROROS_HANDLES_MAX, MICROROS_HANDLES_MAX + 1u);
     return NULL;
   }
   handle = &executor->handles[executor->index];

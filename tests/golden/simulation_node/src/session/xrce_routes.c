@@ -81,10 +81,10 @@ size_t xrce_route_capacity(bool reliable)
   return reliable ? 0u : MICROROS_BEST_EFFORT_SIZE - XRCE_MESSAGE_HEADER - XRCE_WRITE_PREFIX;
 }
 
-bool xrce_route_drop_oldest(xrce_client_t * client)
+const uint8_t * xrce_route_drop_oldest(xrce_client_t * client)
 {
   (void)client;
-  return false;
+  return NULL;
 }
 
 uint16_t xrce_route_unacknowledged(const xrce_client_t * client)

@@ -38,6 +38,7 @@ rcl_ret_t rcl_subscription_open(
   rcl_subscription_t * subscription, const rcl_node_t * node,
   const rosidl_message_type_support_t * type_support, const char * topic_name, const rmw_qos_profile_t * qos)
 {
+  rcl_names_topic_t taken;
   const char * fault;
 
   if (subscription == NULL || type_support == NULL || topic_name == NULL) {
@@ -46,12 +47,12 @@ rcl_ret_t rcl_subscription_open(
   if (!rcl_node_is_valid(node)) {
     return microros_error_refuse(RCL_RET_NODE_INVALID, "node");
   }
-  fault = rcl_names_check_topic(topic_name);
+  fault = rcl_names_take(&taken, topic_name, node->impl);
   if (fault != NULL) {
     microros_error_set(microros_error_name, topic_name, fault, 0, 0);
     return RCL_RET_TOPIC_NAME_INVALID;
   }
-  return rmw_subscription_open(node->impl, type_support, topic_name, qos, &subscription->impl);
+  return rmw_subscription_open(node->impl, type_support, taken.name, qos, &subscription->impl);
 }
 
 rcl_ret_t rcl_subscription_init(

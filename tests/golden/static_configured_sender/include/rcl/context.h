@@ -30,7 +30,7 @@ typedef struct rcl_context_s {
 
 rcl_context_t rcl_get_zero_initialized_context(void);
 
-/* RCL_RET_ERROR for a context that was not shut down. */
+/* RCL_RET_INVALID_ARGUMENT for a context that was not shut down. */
 rcl_ret_t rcl_context_fini(rcl_context_t * context);
 
 /* Returns a number that no other context of this run had; 0 for a context that is not initialized. */

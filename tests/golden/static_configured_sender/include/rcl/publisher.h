@@ -35,7 +35,8 @@ rcl_publisher_t rcl_get_zero_initialized_publisher(void);
 /*
  * Waits for the agent, at most MICROROS_CREATE_TIMEOUT_MS. With `nodes:` in the application file the
  * publisher must be declared there; else it takes one of `pools: {publishers: N}`. RCL_RET_TOPIC_NAME_INVALID
- * for a name that ROS 2 refuses, RCL_RET_UNSUPPORTED for a QoS that XRCE cannot carry, RCL_RET_TIMEOUT, else
+ * for a name that ROS 2 refuses, and without the component `name_substitutions` for one with {node} or {ns};
+ * RCL_RET_UNSUPPORTED for a QoS that XRCE cannot carry, RCL_RET_TIMEOUT, else
  * RCL_RET_ERROR with a text.
  */
 rcl_ret_t rcl_publisher_init(
@@ -68,8 +69,17 @@ rcl_ret_t rcl_publish_serialized_message(
  * as it takes. RCL_RET_TIMEOUT otherwise. */
 rcl_ret_t rcl_publisher_wait_for_all_acked(const rcl_publisher_t * publisher, rcl_duration_value_t timeout);
 
+/* Succeeds and sends nothing: liveliness is automatic, the only kind that XRCE has a place for. */
+rcl_ret_t rcl_publisher_assert_liveliness(const rcl_publisher_t * publisher);
+
 /* Returns the fully qualified name, which belongs to the publisher; NULL for an invalid one. */
 const char * rcl_publisher_get_topic_name(const rcl_publisher_t * publisher);
+
+/* Returns what the agent was asked for, each default as what it means; NULL for an invalid one. Belongs to the publisher. */
+const rmw_qos_profile_t * rcl_publisher_get_actual_qos(const rcl_publisher_t * publisher);
+
+/* The same as options: the QoS is the actual one, the allocator the default one, since none is called. */
+const rcl_publisher_options_t * rcl_publisher_get_options(const rcl_publisher_t * publisher);
 
 rmw_publisher_t * rcl_publisher_get_rmw_handle(const rcl_publisher_t * publisher);
 

@@ -6,7 +6,7 @@
 #include "microros/rmw_client.h"
 #include "microros/rmw_node.h"
 #include "microros/rmw_qos.h"
-#include "microros/xrce_client.h"
+#include "microros/xrce_drops.h"
 #include "microros/xrce_routes.h"
 #include "microros/xrce_wire.h"
 
@@ -61,6 +61,7 @@ rmw_ret_t rmw_publisher_open(
     xrce_endpoint_t * writer = &wanted.client->endpoints[wanted.index];
 
     *writer = wanted;
+    xrce_drops_clear(writer->client, writer->index);
     result = rmw_place_open(writer->client, publisher_place(writer), writer->name);
     if (result == RMW_RET_OK) {
       *publisher = publisher_hand_out(writer);
@@ -79,13 +80,17 @@ void rmw_publisher_close(rmw_publisher_t * publisher)
   microros_unlock();
 }
 
+/* A client that was ended has forgotten its endpoints. */
 bool rmw_publisher_is_open(const rmw_publisher_t * publisher)
 {
   const xrce_endpoint_t * writer;
 
-  if (publisher == NULL || publisher->data == NULL) {
+  if (publisher == NULL) {
     return false;
   }
-  writer = publisher->data;
+  writer = publisher->data; /* every handle that was given out has one */
+  if (writer->client == NULL) {
+    return false;
+  }
   return writer->client->states[publisher_place(writer)].wanted;
 }

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Plain text to Markdown."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+
+_CODE = re.compile(r"(`[^`\n]+`)")
+_IDENTIFIER = re.compile(r"(?<![\w/.:-])(--[a-z][a-z-]*|[A-Za-z][\w/.]*_[\w/.]*\w(?:\(\))?)(?!\w)")
+
+_ENTITIES = str.maketrans({"<": "&lt;", ">": "&gt;", "|": "&#124;"})
+
+
+def cell(text: str) -> str:
+    """Return `text` on one line, with identifiers as code and what Markdown would read as marks escaped."""
+    joined = " ".join(text.split())
+    return "".join(part if part.startswith("`") else _plain(part) for part in _CODE.split(joined))
+
+
+def _plain(text: str) -> str:
+    pieces = _IDENTIFIER.split(text)
+    for i, piece in enumerate(pieces):
+        pieces[i] = f"`{piece}`" if i % 2 else re.sub(r"([\\*_\[\]])", r"\\\1", piece).translate(_ENTITIES)
+    return "".join(pieces)
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Return a table; cells are Markdown already."""
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What mkdocs does for this site beside Markdown: generated pages, files of the repository that pages link to.
+
+A page says `../examples/…`, as it has to where the repository is browsed; the site gets a copy of such a file below
+`files/`, or, for a page of OUTSIDE, a page of its own.
+"""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from generators import c_api, command_line, schemas
+from mkdocs.config.defaults import MkDocsConfig
+from mkdocs.structure.files import File, Files
+from mkdocs.structure.pages import Page
+from pygments.formatters import HtmlFormatter
+
+ROOT = Path(__file__).resolve().parents[1]
+OUTSIDE = {"README.md": "overview.md", "examples/README.md": "examples.md"}
+"""Markdown outside of docs/ that is part of the site, and its page."""
+
+_LINK = re.compile(r"(?<=\]\()(?!https?:|#|mailto:)([^)#\s]+)(#[^)\s]*)?(?=\))")
+_SCHEMAS = {
+    "application": (
+        "microros.yaml",
+        "The application file: what is selected, declared, and what it may cost.",
+    ),
+    "profile": ("Profile file", "A profile of your own ([how](../howto/profile.md)), or one of profiles/."),
+    "target": ("Target file", "A processor or a board of your own ([how](../howto/port.md))."),
+    "agent": (
+        "Configuration of the agent",
+        "What `microros-gen agent --config FILE` takes ([more](../agent.md)).",
+    ),
+}
+
+
+@cache
+def generated() -> dict[str, str]:
+    """Return the pages that are made from the code: path below docs/ → Markdown."""
+    pages = {"reference/command_line.md": command_line.page()}
+    for name, (title, introduction) in _SCHEMAS.items():
+        pages[f"reference/{name}_file.md"] = schemas.page(title, introduction, f"{name}.schema.json")
+    return pages | {f"reference/c/{name}.md": text for name, text in c_api.pages().items()}
+
+
+def on_files(files: Files, config: MkDocsConfig) -> Files:
+    """Add the generated pages, those of OUTSIDE, and what pages link to."""
+    for path, text in generated().items():
+        files.append(File.generated(config, path, content=text))
+    for origin, path in OUTSIDE.items():
+        files.append(File.generated(config, path, content=(ROOT / origin).read_text(encoding="utf-8")))
+    for file in [file for file in files if file.is_documentation_page()]:
+        for link, _ in _LINK.findall(file.content_string):
+            target = _target(link, _origin(file.src_uri))
+            if target and target.startswith("files/") and files.get_file_from_path(target) is None:
+                files.append(File.generated(config, target, abs_src_path=str(ROOT / target[len("files/") :])))
+    style = HtmlFormatter(style="default").get_style_defs(".highlight")
+    files.append(File.generated(config, "css/highlight.css", content=style))
+    return files
+
+
+def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Files) -> str:
+    """Let links to files of the repository lead to their copies in the site."""
+    here = page.file.src_uri
+    origin = _origin(here)
+
+    def moved(found: re.Match[str]) -> str:
+        target = _target(found[1], origin)
+        if target is None:
+            return found[0]
+        return posixpath.relpath(target, posixpath.dirname(here) or ".") + (found[2] or "")
+
+    return _LINK.sub(moved, markdown)
+
+
+def on_page_context(context: dict[str, Any], page: Page, config: MkDocsConfig, nav: Any) -> None:
+    """Leave out the time of the build, which would make two builds differ."""
+    context["build_date_utc"] = "left out"
+
+
+def _origin(path: str) -> str:
+    """Return where a page of the site lies in the repository."""
+    return next((origin for origin, page in OUTSIDE.items() if page == path), f"docs/{path}")
+
+
+def _target(link: str, origin: str) -> str | None:
+    """Return the path in the site that a link leads to, or None where it is mkdocs' own matter."""
+    path = posixpath.normpath(posixpath.join(posixpath.dirname(origin), link))
+    if path in OUTSIDE:
+        return OUTSIDE[path]
+    if path.startswith("docs/"):
+        return path.removeprefix("docs/") if origin in OUTSIDE else None
+    return f"files/{path}" if (ROOT / path).is_file() else None

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`microros-gen init`: a new application folder, from a profile or from what there is already."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from microros_gen.cli.options import interface_path_option
+
+
+@click.command()
+@click.argument("folder", type=click.Path(path_type=Path), metavar="DIR")
+@click.option(
+    "--profile",
+    "profiles",
+    multiple=True,
+    metavar="NAME",
+    help="Profile, built-in or a file; several combine. Default without --from and --from-colcon-meta: pure_sender.",
+)
+@click.option("--target", metavar="NAME", help="Target, see `microros-gen targets`. Default: host.")
+@click.option(
+    "--from",
+    "sources",
+    type=click.Path(path_type=Path),
+    metavar="SRC_DIR",
+    help="Read the C and C++ sources of an rclc application and propose its nodes, entities and limits.",
+)
+@click.option(
+    "--from-colcon-meta",
+    "metas",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Read the settings of a colcon.meta (RMW_UXRCE_*, UCLIENT_*, …); of several the last one wins.",
+)
+@interface_path_option
+def command(
+    folder: Path,
+    profiles: tuple[str, ...],
+    target: str | None,
+    sources: Path | None,
+    metas: tuple[Path, ...],
+    interface_paths: tuple[Path, ...],
+) -> int:
+    """Write a new application folder: microros.yaml, main.c, CMakeLists.txt, a CI workflow with its golden copy.
+
+    No file that is there already is changed. What could not be decided is marked in microros.yaml, with the file and
+    line that it is about, and told as a warning.
+
+    \b
+    microros-gen init my_robot --profile pure_sender
+    microros-gen init my_robot --profile pure_reader --target qemu-mps2-an386
+    microros-gen init my_robot --from old/src --from-colcon-meta old/app-colcon.meta
+    """
+    from microros_gen.cli.init_folder import write_folder
+    from microros_gen.cli.init_sources import Wish, draft_of
+
+    wish = Wish(folder, profiles, target, sources, metas, interface_paths)
+    return write_folder(wish, draft_of(wish))

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/error.h"
+#include "microros/rmw_qos.h"
+#include "microros/xrce_objects.h"
+#include "rcl/service.h"
+
+#include <stddef.h>
+
+/* Both directions have one. */
+const rmw_qos_profile_t * rcl_service_request_subscription_get_actual_qos(const rcl_service_t * service)
+{
+  static rmw_qos_profile_t profiles[MICROROS_SERVICES_MAX]; /* by place */
+  const xrce_endpoint_t * endpoint;
+  rmw_qos_profile_t * profile;
+
+  if (!rcl_service_is_valid(service)) {
+    (void)microros_error_refuse(RCL_RET_SERVICE_INVALID, "service");
+    return NULL;
+  }
+  endpoint = service->impl->data;
+  profile = &profiles[MICROROS_NODES_MAX + endpoint->index - XRCE_REPLIERS_AT];
+  rmw_qos_actual(endpoint, profile);
+  return profile;
+}
+
+const rmw_qos_profile_t * rcl_service_response_publisher_get_actual_qos(const rcl_service_t * service)
+{
+  return rcl_service_request_subscription_get_actual_qos(service);
+}

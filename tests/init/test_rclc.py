@@ -1,0 +1,335 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is proposed for sources as people write them, and what of them is told to be not known."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from microros_gen.adopt.rclc_draft import Adopted, rclc_draft
+from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.model.component import Catalogue
+from microros_gen.model.draft import DraftEndpoint
+from microros_gen.sources.components import declared_functions, load_catalogue
+
+NODE = 'rclc_node_init_default(&node, "n", "", &support);'
+INT32 = "ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32)"
+
+
+@cache
+def catalogue() -> Catalogue:
+    return load_catalogue()
+
+
+def adopted(*texts: str) -> Adopted:
+    diagnostics = Diagnostics()
+    sources = [Source(f"{index}.c", text) for index, text in enumerate(texts)]
+    found = rclc_draft(sources, declared_functions(catalogue()), catalogue(), diagnostics)
+    diagnostics.check()
+    return found
+
+
+def program(body: str, before: str = "") -> str:
+    return f"{before}\nint main(void)\n{{\n  {NODE}\n  {body}\n}}\n"
+
+
+def endpoints(*texts: str) -> list[tuple[str, str, str]]:
+    return [(e.kind, e.name, e.type) for node in adopted(*texts).draft.nodes for e in node.endpoints]
+
+
+def only(text: str) -> DraftEndpoint:
+    (endpoint,) = adopted(text).draft.nodes[0].endpoints
+    return endpoint
+
+
+def reasons(*texts: str) -> list[str]:
+    return [f"{r.span}: {r.text}" for r in adopted(*texts).draft.all_remarks if r.undecided]
+
+
+@pytest.mark.parametrize(
+    ("topic", "before"),
+    [
+        ('"chatter"', ""),
+        ('"chat" /* said */ "ter"', ""),
+        ("TOPIC", '#define TOPIC "chatter"'),
+        ("TOPIC", '#define PART "chat"\n#define TOPIC PART \\\n  "ter"'),
+        ("topic", 'static const char * const topic = "chatter";'),
+        ("topic", 'const char topic[] = "chatter"; /* char topic[] = "other"; */'),
+        ("config.topic", 'static config_t config = {0};\nvoid set(void) { config.topic = "chatter"; }'),
+        ('(const char *)"chatter"', ""),
+        ('u8"chatter"', ""),
+    ],
+)
+def test_a_topic_is_found(topic: str, before: str) -> None:
+    text = program(f"rclc_publisher_init_default(&p, &node, {INT32}, {topic});", before)
+    if topic.startswith("(const"):
+        assert "is worked out when the program runs" in reasons(text)[0]
+        return
+    assert endpoints(text) == [("publisher", "chatter", "std_msgs/msg/Int32")]
+    assert reasons(text) == []
+
+
+@pytest.mark.parametrize(
+    ("topic", "before", "reason"),
+    [
+        ("argv[1]", "", "`argv[1]` is a parameter of main()"),
+        ("names[i]", 'char * names[] = {"a", "b"};', "`names[i]` is worked out when the program runs"),
+        ("a ? b : c", "", "is worked out when the program runs"),
+        ("make()", "", "is worked out when the program runs"),
+        ("elsewhere", "extern char * elsewhere;", "the value of `elsewhere` is not in these sources"),
+        ("t", 'void a(void) { t = "x"; }\nvoid b(void) { t = "y"; }', "`t` gets more than one value"),
+        ("NULL", "", "it is NULL"),
+    ],
+)
+def test_a_topic_that_is_not_known_is_told_with_its_reason(topic: str, before: str, reason: str) -> None:
+    text = program(f"rclc_publisher_init_default(&p, &node, {INT32}, {topic});", before)
+    text = text.replace("main(void)", "main(int argc, char ** argv)")
+    assert only(text).name == ""
+    (told,) = reasons(text)
+    line = text[: text.index("rclc_publisher")].count("\n") + 1
+    assert told.startswith(f"0.c:{line}:3: the topic of the publisher: ")
+    assert told.endswith(reason)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "// rclc_publisher_init_default(&p, &node, T, t);",
+        "// a line that goes on \\\n rclc_publisher_init_default(&p, &node, T, t);",
+        "/* rclc_publisher_init_default(&p, &node, T, t); */",
+        'puts("rclc_publisher_init_default(&p, &node, T, t);");',
+        "#if 0\n  rclc_publisher_init_default(&p, &node, T, t);\n#endif",
+        "#if 0\n#ifdef X\n rclc_publisher_init_default(&p, &node, T, t);\n#endif\n#endif",
+        'puts(R"(rclc_publisher_init_default(&p, &node, T, t))");',
+    ],
+)
+def test_what_is_no_code_is_not_read(text: str) -> None:
+    assert endpoints(program(text)) == []
+    assert reasons(program(text)) == []
+
+
+def test_declarations_are_no_calls() -> None:
+    before = "rcl_ret_t rclc_publisher_init_default(rcl_publisher_t *, const rcl_node_t *, T, const char *);"
+    assert endpoints(program("", before)) == []
+
+
+def test_a_call_over_lines_in_a_macro_of_the_program() -> None:
+    call = f'RCCHECK(rclc_publisher_init_default(\n    &p, // where\n    &node,\n    {INT32},\n    "a"));'
+    before = "#define RCCHECK(fn) { rcl_ret_t rc = fn; if (rc != RCL_RET_OK) { error_loop(); } }"
+    assert endpoints(program(call, before)) == [("publisher", "a", "std_msgs/msg/Int32")]
+
+
+def test_a_macro_that_creates_something_is_told() -> None:
+    before = f"#define PUBLISHER(p, topic) rclc_publisher_init_default(&p, &node, {INT32}, topic)"
+    text = program('PUBLISHER(p, "a");', before)
+    assert reasons(text) == [
+        "0.c:1:1: the macro PUBLISHER creates something; what its uses create is not known here"
+    ]
+
+
+def test_both_sides_of_a_condition_are_read_with_a_note() -> None:
+    text = program(
+        f'#ifdef WIFI\n  rclc_publisher_init_default(&p, &node, {INT32}, "wifi");\n#else\n'
+        f'  rclc_publisher_init_default(&p, &node, {INT32}, "wire");\n#endif'
+    )
+    found = adopted(text).draft.nodes[0].endpoints
+    assert [(e.name, [r.text for r in e.remarks]) for e in found] == [
+        ("wifi", ["only with `#ifdef WIFI`"]),
+        ("wire", ["only with `#else`"]),
+    ]
+    assert reasons(text) == []
+
+
+def test_type_supports_in_variables_and_macros() -> None:
+    text = program(
+        "const rosidl_message_type_support_t * ts = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Bool);\n"
+        '  rclc_publisher_init_default(&p, &node, ts, "a");\n'
+        "  ts = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Float32);\n"
+        '  rclc_subscription_init_default(&s, &node, ts, "b");\n'
+        '  rclc_service_init_default(&v, &node, SERVICE, "c");\n'
+        '  rclc_client_init_default(&c, &node, SERVICE, "d");\n',
+        "#define SERVICE ROSIDL_GET_SRV_TYPE_SUPPORT(std_srvs, srv, SetBool)",
+    )
+    assert endpoints(text) == [
+        ("publisher", "a", "std_msgs/msg/Bool"),
+        ("subscription", "b", "std_msgs/msg/Float32"),
+        ("service", "c", "std_srvs/srv/SetBool"),
+        ("client", "d", "std_srvs/srv/SetBool"),
+    ]
+    assert adopted(text).draft.components == ("+services",)
+
+
+def test_a_type_of_the_wrong_kind_is_told() -> None:
+    wrong = "ROSIDL_GET_SRV_TYPE_SUPPORT(std_srvs, srv, SetBool)"
+    text = program(f'rclc_publisher_init_default(&p, &node, {wrong}, "a");')
+    assert reasons(text) == ["0.c:5:3: the type of the publisher is std_srvs/srv/SetBool"]
+
+
+@pytest.mark.parametrize(
+    ("call", "qos"),
+    [
+        ('rclc_publisher_init_best_effort(&p, &node, T, "a");', {"reliability": "best_effort", "depth": 5}),
+        ('rclc_publisher_init(&p, &node, T, "a", &rmw_qos_profile_sensor_data);',
+         {"reliability": "best_effort", "depth": 5}),
+        ('rclc_publisher_init(&p, &node, T, "a", &rmw_qos_profile_default);', {}),
+        ("rmw_qos_profile_t q = rmw_qos_profile_default; q.depth = DEPTH;"
+         " q.durability = RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL;"
+         ' rclc_subscription_init(&p, &node, T, "a", &q);',
+         {"durability": "transient_local", "depth": 3}),
+        ("rcl_publisher_options_t o = rcl_publisher_get_default_options();"
+         " o.qos.reliability = RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT;"
+         ' rcl_publisher_init(&p, &node, T, "a", &o);', {"reliability": "best_effort"}),
+    ],
+)  # fmt: skip
+def test_qos(call: str, qos: dict[str, object]) -> None:
+    text = program(call, f"enum {{ ONE = 1, DEPTH = 1 + 2 }};\n#define T {INT32}")
+    assert dict(only(text).qos.settings) == qos
+    assert reasons(text) == []
+
+
+def test_qos_that_is_not_known_is_told() -> None:
+    text = program(
+        "rmw_qos_profile_t q = rmw_qos_profile_default; q.liveliness = RMW_QOS_POLICY_LIVELINESS_AUTOMATIC;"
+        f' rclc_publisher_init(&p, &node, {INT32}, "a", &q);'
+    )
+    assert reasons(text) == ["0.c:5:50: the QoS: `liveliness` = `RMW_QOS_POLICY_LIVELINESS_AUTOMATIC`"]
+
+
+@pytest.mark.parametrize(
+    ("period", "nanoseconds"),
+    [
+        ("RCL_MS_TO_NS(100)", 100_000_000),
+        ("RCL_S_TO_NS(1)", 1_000_000_000),
+        ("RCL_MS_TO_NS(PERIOD / 2)", 250_000_000),
+        ("RCL_MS_TO_NS(period_ms)", 20_000_000),
+        ("1000 * 1000ULL", 1_000_000),
+        ("(int64_t)PERIOD * 1'000", 500_000),
+        ("0x10", 16),
+    ],
+)
+def test_periods_of_timers(period: str, nanoseconds: int) -> None:
+    text = program(
+        f"const unsigned int period_ms = 20;\n  rclc_timer_init_default2(&my.Timer_1, &support, {period}, tick, true);",
+        "#define PERIOD 500",
+    )
+    (timer,) = adopted(text).draft.nodes[0].timers
+    assert (timer.name, timer.period_ns) == ("timer_1", nanoseconds)
+    assert adopted(text).draft.components == ("+timers",)
+
+
+@pytest.mark.parametrize(
+    ("period", "reason"),
+    [("rate()", "`rate()` is worked out when the program runs"), ("1.5", "no number"), ("x ? 1 : 2", "runs")],
+)
+def test_a_period_that_is_not_known_is_told(period: str, reason: str) -> None:
+    text = program(f"rclc_timer_init_default(&t, &support, {period}, tick);")
+    (timer,) = adopted(text).draft.nodes[0].timers
+    assert timer.period_ns is None
+    assert reason in reasons(text)[0]
+
+
+def test_entities_belong_to_their_nodes() -> None:
+    body = (
+        'rclc_node_init_default(&b, "b", "deep/er", &support);\n'
+        f'  rclc_publisher_init_default(&p, &node, {INT32}, "of_n");\n'
+        f'  rclc_publisher_init_default(&q, &b, {INT32}, "of_b");\n'
+        f'  rclc_publisher_init_default(&r, which, {INT32}, "of_one_of_them");'
+    )
+    nodes = adopted(program(body)).draft.nodes
+    assert [(n.name, n.namespace, [e.name for e in n.endpoints]) for n in nodes] == [
+        ("n", "", ["of_n", "of_one_of_them"]),
+        ("b", "deep/er", ["of_b"]),
+    ]
+    assert reasons(program(body)) == [
+        "0.c:8:3: which node the publisher is of: `which` may be one of several"
+    ]
+
+
+def test_an_application_that_creates_everything_again_has_it_once() -> None:
+    create = f'{NODE} rclc_publisher_init_default(&p, &node, {INT32}, "a");'
+    text = (
+        f"void create(void) {{ {create} }}\nvoid again(void) {{ {create} }}\nint main(void) {{ create(); }}"
+    )
+    nodes = adopted(text).draft.nodes
+    assert [(n.name, len(n.endpoints)) for n in nodes] == [("n", 1)]
+
+
+def test_cpp_sources_with_namespaces_and_classes() -> None:
+    text = (
+        "namespace robot { class Arm { public: void setup() {\n"
+        '  rclc_node_init_default(&this->node, "arm", "", &support);\n'
+        f'  rclc_publisher_init_default(&this->p, &this->node, {INT32}, "a");\n'
+        '}\n rcl_node_t node; }; }\nextern "C" { int main() { return 0; } }\n'
+    )
+    assert endpoints(text) == [("publisher", "a", "std_msgs/msg/Int32")]
+
+
+def test_several_files_are_one_program() -> None:
+    header = '#ifndef TOPICS_H\n#define TOPICS_H\n#define TOPIC "a"\n#endif'
+    text = program(f"rclc_publisher_init_default(&p, &node, {INT32}, TOPIC);")
+    assert endpoints(header, text) == [("publisher", "a", "std_msgs/msg/Int32")]
+    assert adopted(header, text).draft.nodes[0].endpoints[0].remarks == ()
+
+
+def test_settings_of_transport_session_and_domain() -> None:
+    text = program(
+        'rcl_init_options_set_domain_id(&o, 7); rmw_uros_options_set_udp_address("10.0.0.2", "9999", r);'
+        " rmw_uros_options_set_client_key(0xBA5EBA11, r);"
+    )
+    draft = adopted(text).draft
+    assert draft.nodes[0].domain_id == 7
+    transport = {key: value.value for key, value in draft.groups["transport"].items()}
+    assert transport == {"type": "udp", "agent": "10.0.0.2:9999"}
+    assert draft.groups["session"]["key"].value == 0xBA5EBA11
+
+
+@pytest.mark.parametrize(
+    ("call", "reason"),
+    [
+        ("rclc_action_server_init_default(&a, &node, &support, T, n);", "actions are not in this version"),
+        ("rcl_get_node_names(&node, a, &b, &c);", "rcl_get_node_names is not in this version"),
+        ("set_microros_serial_transports(Serial);", "set_microros_serial_transports() is of another library"),
+        ("std_msgs__msg__Header__create();", "takes memory from `memory.arena`"),
+    ],
+)
+def test_calls_that_need_somebody_are_told(call: str, reason: str) -> None:
+    assert any(reason in told for told in reasons(program(call)))
+
+
+def test_functions_of_the_programs_own_are_no_missing_ones() -> None:
+    assert reasons(program("rcl_my_own();", "void rcl_my_own(void)\n{\n}\n")) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "int main(void) { return 0; }",
+        "}}}{{{((",
+        '"unfinished\n',
+        "/* unfinished",
+        "#define\n#if\n",
+        "a = = =",
+    ],
+)
+def test_what_creates_no_node_is_refused(text: str) -> None:
+    with pytest.raises(Exception, match="these sources create no node"):
+        adopted(text)
+
+
+PIECES = st.sampled_from(
+    ["{", "}", "(", ")",
+     "[", "]", ",", ";", "=", ".", "->", "*", "&", "a", "msg", "7", '"x"', "'", '"', "/*", "*/", "//", "\\",
+     "\n", "#if 0\n", "#define A A\n", "\n#endif\n", "A", "sizeof", "enum", "char", "std_msgs__msg__String", "capacity",
+     "int f(void) {", "rclc_publisher_init_default(", "rclc_timer_init_default(", NODE, INT32]
+)  # fmt: skip
+
+
+@given(st.lists(PIECES, max_size=60))
+@settings(max_examples=150, deadline=None)
+def test_any_text_is_read_to_its_end(pieces: list[str]) -> None:
+    found = adopted(program("") + " ".join(pieces))
+    assert found.draft.nodes[0].name == "n"
