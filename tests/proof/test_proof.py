@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 from pathlib import Path
 
 import pytest
+from house.corpus import ROOT
 
 from proof import proofs, report
 from proof.proofs import Proof, Tree
@@ -115,3 +117,20 @@ def test_a_run_that_stops_is_no_proof() -> None:
 
 def test_every_alarm_that_stays_is_justified() -> None:
     assert all(entry.file and entry.text and entry.why for entry in report.justified())
+
+
+def test_commands_of_the_page_are_there() -> None:
+    """docs/proof.md names targets, files and proofs that exist; test_everything and the fuzz tests run what they do."""
+    page = report.PAGE.read_text(encoding="utf-8")
+    names = {proof.name for proof in proofs.load()}
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    lines = [line for block in re.findall(r"```sh\n(.*?)```", page, re.DOTALL) for line in block.splitlines()]
+    assert len(lines) == 4
+    for words in (line.partition("#")[0].split() for line in lines):
+        if words[0] == "make":
+            assert f"\n{words[1]}: " in makefile
+            continue
+        files = [word for word in words if word.startswith("tests/")]
+        assert files
+        assert all((ROOT / file).is_file() for file in files)
+        assert "prove.py" not in files[0] or words[-1] in names
