@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-# make demo | test | lint | misra | bench | golden | footprint | docs. Each sets up its own virtual environment in .venv first.
+# make demo | test | lint | misra | proof | bench | golden | footprint | docs. Each sets up its own virtual environment in .venv first.
 
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint misra bench golden footprint docs clean
+.PHONY: demo test lint misra proof bench golden footprint docs clean
 
 demo: $(VENV)/ros.stamp
 	@$(BIN)/python examples/demo/demo.py
@@ -19,6 +19,10 @@ lint: $(VENV)/dev.stamp
 
 misra: $(VENV)/dev.stamp
 	@$(BIN)/python tests/tools/misra.py
+
+proof: $(VENV)/dev.stamp
+	@$(PYTHON) tests/tools/system_packages.py
+	@$(BIN)/python tests/proof/prove.py
 
 bench: $(VENV)/dev.stamp
 	@$(PYTHON) tests/tools/system_packages.py

@@ -18,6 +18,7 @@ ELSEWHERE = {
     "check.md": "tests/docs/test_init_pages.py",
     "cmake.md": "tests/cmake_build/test_example.py",
     "idl.md": "tests/docs/test_init_pages.py",
+    "proof.md": "tests/proof/test_proof.py",
     "ros_build.md": "tests/ros_build/test_colcon.py",
 }
 """Pages whose commands another test runs, which reads the page."""

@@ -293,15 +293,20 @@ def link(objects: Sequence[Path], compiler: str, flags: Sequence[str], program: 
 
 
 def build(
-    tree: Tree, fixtures: Sequence[str], program: str, compiler: str = "gcc", flags: Sequence[str] = SANITIZE
+    tree: Tree,
+    fixtures: Sequence[str],
+    program: str,
+    compiler: str = "gcc",
+    flags: Sequence[str] = SANITIZE,
+    link_flags: Sequence[str] = (),
 ) -> Path:
     """Compile the tree and the named C files of c/, and link them to a program."""
     sources = [*tree.sources, *(FIXTURES / name for name in fixtures)]
     objects = compile_objects(tree, sources, compiler, flags)
 
     def make(target: Path) -> str:
-        link(objects, compiler, flags, target)
+        link(objects, compiler, link_flags or flags, target)
         return ""
 
-    key = _digest(_version(compiler), flags, objects)
+    key = _digest(_version(compiler), flags, link_flags, objects)
     return _made(key, f"{program}-{compiler}", make)[0]

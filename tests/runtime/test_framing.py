@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import random
-import shutil
 import subprocess
 from collections.abc import Iterator
 from dataclasses import replace
@@ -215,32 +214,3 @@ def test_flags_between_frames_are_nothing(framing: Framing) -> None:
         Event(b"one"),
         Event(b"two"),
     ]
-
-
-def _fuzz(folder: Path, *limits: str) -> None:
-    tree, sources = _sources(folder)
-    flags = ("-g", "-O1", "-fsanitize=fuzzer-no-link,address,undefined", "-fno-sanitize-recover=all")
-    objects = compile_objects(tree, [*sources, FIXTURES / "fuzz_framing.c"], "clang", flags)
-    program = link(objects, "clang", ("-fsanitize=fuzzer,address,undefined",), tree.folder / "fuzz")
-    corpus = folder / "corpus"
-    corpus.mkdir()
-    seeds = [frame(b"hello") * 2, ANSWER_FRAME, frame(bytes([0x7D, 0x7E]) * 20), LOGIN_FRAME[:9]]
-    for number, seed in enumerate(seeds):
-        (corpus / str(number)).write_bytes(b"\x40\x07\x20" + seed)
-    command = [program, "-seed=1", "-max_len=600", *limits, str(corpus)]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=900, check=False)
-    assert done.returncode == 0, done.stderr
-
-
-needs_clang = pytest.mark.skipif(not shutil.which("clang"), reason="libFuzzer comes with clang")
-
-
-@needs_clang
-def test_fuzz_slice(tmp_path: Path) -> None:
-    _fuzz(tmp_path, "-runs=40000", "-max_total_time=15")
-
-
-@needs_clang
-@pytest.mark.long
-def test_fuzz_long(tmp_path: Path) -> None:
-    _fuzz(tmp_path, "-max_total_time=600")

@@ -28,6 +28,7 @@ NEEDED = {
     "make": "make",
     "nm": "binutils",
     "valgrind": "valgrind",
+    "frama-c": "frama-c-base",
     "qemu-ppc": "qemu-user",
     "powerpc-linux-gnu-ld": "binutils-powerpc-linux-gnu",
     "/usr/powerpc-linux-gnu/lib/libc.a": "libc6-dev-powerpc-cross",

@@ -236,6 +236,17 @@ int32_t port_udp_receive(port_udp_t * udp, uint8_t * buffer, size_t capacity)
   return size;
 }
 
+void agent_inject(const uint8_t * bytes, size_t size)
+{
+  datagram_t * datagram = &queue[queue_count];
+
+  if (queue_count < QUEUE / 2 && size != 0u) {
+    ++queue_count;
+    datagram->size = size < DATAGRAM ? size : DATAGRAM;
+    memcpy(datagram->bytes, bytes, datagram->size);
+  }
+}
+
 void agent_offer(uint16_t index, const uint8_t * body, uint8_t size)
 {
   uint8_t * payload = send_begin(1, 9, (uint8_t)(size + 4u));

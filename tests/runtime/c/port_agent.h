@@ -6,6 +6,7 @@
 #include "microros/port.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 /* Steady time; waiting and sleeping move it on. Begins shortly before the milliseconds wrap. */
@@ -28,6 +29,9 @@ extern int64_t agent_periods[4];
 /* A sample arrives for the reader of this index among the endpoints. */
 void agent_offer(uint16_t index, const uint8_t * body, uint8_t size);
 void agent_offer_number(uint16_t index, int32_t value);
+
+/* A datagram from anybody, cut to what the client takes; nothing where too many wait already. */
+void agent_inject(const uint8_t * bytes, size_t size);
 
 /* Samples written since the last call, and the last one as a number. */
 uint32_t agent_written(int32_t * last);

@@ -127,20 +127,11 @@ void cdr_get_bool(cdr_in_t * in, bool * to, size_t count, const char * field)
 
 uint32_t cdr_in_length(cdr_in_t * in, uint32_t width, const char * field)
 {
-  const uint8_t * const from = take(in, 1U, sizeof(uint32_t), field);
-  uint8_t bytes[sizeof(uint32_t)];
-  uint32_t length;
+  uint32_t length = 0U;
 
-  if (from == NULL) {
-    return 0U;
-  }
-  (void)memcpy(bytes, from, sizeof(bytes));
-  if (in->swap) {
-    turn(bytes, 1U, sizeof(bytes));
-  }
-  (void)memcpy((uint8_t *)&length, bytes, sizeof(length));
-  const uint32_t left = in->size - in->position;
-  if (((uint64_t)length * width) > left) {
+  cdr_get_4(in, &length, 1U, field);
+  const uint32_t left = in->size - in->position; /* 0 where it failed */
+  if ((length > left) || (((uint64_t)length * width) > left)) {
     cdr_in_refuse(in, CDR_FAULT_END, field, (uint64_t)length * width, left);
     return 0U;
   }

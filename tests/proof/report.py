@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The report of the proof: which alarms are justified, what was not reached, and the tables of docs/proof.md."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from functools import cache
+
+import yaml
+from house.corpus import ROOT
+
+from proof.proofs import FOLDER, Alarm, Proof, Run, load, reached_by
+
+PAGE = ROOT / "docs" / "proof.md"
+BEGIN, END = "<!-- proof: begin -->\n", "<!-- proof: end -->\n"
+
+
+@dataclass(frozen=True)
+class Justified:
+    """An alarm that stays: its place and words (patterns), and why it is none."""
+
+    file: str
+    text: str
+    why: str
+
+
+@cache
+def justified() -> tuple[Justified, ...]:
+    """Return the entries of alarms.yaml."""
+    entries = yaml.safe_load((FOLDER / "alarms.yaml").read_text(encoding="utf-8")) or []
+    return tuple(Justified(**entry) for entry in entries)
+
+
+def is_justified(alarm: Alarm, known: Sequence[Justified]) -> bool:
+    return any(fnmatchcase(alarm.file, j.file) and fnmatchcase(alarm.text, j.text) for j in known)
+
+
+def name(run: Run) -> str:
+    """Return the proof, the machine and the variant."""
+    values = " ".join(f"{key}={value}" for key, value in run.variant.items())
+    return " ".join(part for part in (run.proof.name, run.machdep, values) if part)
+
+
+def line(run: Run) -> str:
+    return f"{name(run)}: {len(run.alarms)} alarms, {run.seconds:.1f} s"
+
+
+def problems(run: Run) -> list[str]:
+    """Return what has to be mended or justified after this run."""
+    found = [
+        f"{name(run)}: {alarm.file}:{alarm.line}: {alarm.text}"
+        for alarm in run.alarms
+        if not is_justified(alarm, justified())
+    ]
+    return [*found, f"{name(run)}: {run.failure}"] if run.failure else found
+
+
+def gaps(proof: Proof, each: Sequence[Run]) -> dict[str, tuple[int, int]]:
+    """Return functions of which no run of `proof` reaches every statement; those of drivers count."""
+    mine = [run for run in each if run.proof.name == proof.name]
+    return {f: pair for f, pair in reached_by(mine).items() if pair[0] < pair[1]}
+
+
+def unexplained(each: Sequence[Run]) -> list[str]:
+    """Return functions with statements that are not reached and have no reason in proofs.yaml."""
+    return [
+        f"{proof.name}: {function} reaches {some} of {every} statements, and proofs.yaml does not say why"
+        for proof in load()
+        for function, (some, every) in sorted(gaps(proof, each).items())
+        if function not in proof.unreached
+    ]
+
+
+def tables(each: Sequence[Run]) -> str:
+    """Return the part of docs/proof.md that the runs make."""
+    version = subprocess.run(["frama-c", "-version"], capture_output=True, text=True, check=True).stdout
+    alarms = sum(len(run.alarms) for run in each)
+    seconds = sum(run.seconds for run in each)
+    lines = [
+        f"Frama-C {version.strip()}: {len(each)} runs, {alarms} alarms"
+        f" ({len(justified())} justified), {seconds / 60:.0f} minutes.\n\n",
+        "| proof | what | for every input up to | runs | functions | statements | alarms |\n",
+        "|---|---|---|---|---|---|---|\n",
+    ]
+    for proof in load():
+        mine = [run for run in each if run.proof.name == proof.name]
+        most = reached_by(mine)
+        some, every = (sum(pair[i] for pair in most.values()) for i in (0, 1))
+        cells = (proof.name, proof.what, _bounds(proof), str(len(mine)), str(len(most)), f"{some} of {every}")
+        lines.append(f"| {' | '.join(cells)} | {sum(len(run.alarms) for run in mine)} |\n")
+    lines.append("\nStatements that no run reaches:\n\n")
+    for proof in load():
+        for function, (some, every) in sorted(gaps(proof, each).items()):
+            why = proof.unreached.get(function, "")
+            lines.append(f"- {proof.name}: `{function}`, {every - some} of {every}: {why}\n")
+    return "".join(lines)
+
+
+def _bounds(proof: Proof) -> str:
+    types = [f"{v['type'].split('/')[-1]} {v['FIRST']}…{v['LAST']}" for v in proof.variants if "LAST" in v]
+    return f"{proof.bound} ({', '.join(types)})" if types else proof.bound
+
+
+def write(each: Sequence[Run]) -> None:
+    """Put the tables into docs/proof.md."""
+    text = PAGE.read_text(encoding="utf-8")
+    before, after = text[: text.index(BEGIN) + len(BEGIN)], text[text.index(END) :]
+    PAGE.write_text(before + tables(each) + after, encoding="utf-8")

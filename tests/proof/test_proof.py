@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Frama-C's Eva over a slice of the proof, and over wrong code, where it must raise an alarm (docs/proof.md)."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+from house.corpus import ROOT
+
+from proof import proofs, report
+from proof.proofs import Proof, Tree
+
+needs_frama_c = pytest.mark.skipif(not proofs.is_installed(), reason="no frama-c (Debian: frama-c-base)")
+SLICE = [(proof, number) for proof in proofs.load() for number in proof.slice]
+HOST = "gcc_x86_64"
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("proof")
+
+
+@needs_frama_c
+@pytest.mark.parametrize(("proof", "number"), SLICE, ids=[f"{proof.name}-{n}" for proof, n in SLICE])
+def test_slice(proof: Proof, number: int, place: Path) -> None:
+    run = proofs.run(proof, proofs.tree(proof.application, place), HOST, number, place)
+    assert report.problems(run) == []
+
+
+@needs_frama_c
+@pytest.mark.long
+def test_everything(place: Path) -> None:
+    each = [
+        proofs.run(proof, proofs.tree(proof.application, place), machdep, number, place)
+        for proof in proofs.load()
+        for machdep, number in proofs.runs(proof)
+    ]
+    assert [text for run in each for text in report.problems(run)] == []
+    assert report.unexplained(each) == []
+
+
+def _done(text: str, code: int = 0) -> subprocess.CompletedProcess[str]:
+    return subprocess.CompletedProcess([], code, text, "")
+
+
+MUTATIONS = {
+    "bytes that are left": (
+        "decode",
+        "src/cdr_decode/cdr_decode.c",
+        "if (bytes > left) {",
+        "if (bytes > (uint64_t)left + 1U) {",
+    ),
+    "length of a string": (
+        "decode",
+        "src/cdr_decode/cdr_decode_text.c",
+        "if (size > limit) {",
+        "if (size > limit + 2U) {",
+    ),
+    "piece of a sample": (
+        "fragments",
+        "src/stream_reliable_input/xrce_fragments.c",
+        "size > (size_t)MICROROS_REASSEMBLY_SIZE - fragments->size",
+        "size > (size_t)MICROROS_REASSEMBLY_SIZE + 1u - fragments->size",
+    ),
+    "size of a frame": (
+        "frame_byte",
+        "src/framing/xrce_framing.c",
+        "framing->size - 1u < capacity",
+        "framing->size - 1u <= capacity",
+    ),
+    "limit of a string": (
+        "encode",
+        "src/std_msgs/string__type_support.c",
+        "message->data.size, 4U,",
+        "message->data.size, 5U,",
+    ),
+}
+
+
+@needs_frama_c
+@pytest.mark.parametrize(
+    ("name", "file", "right", "wrong"),
+    [
+        pytest.param(*values, id=key, marks=[] if key == "piece of a sample" else [pytest.mark.long])
+        for key, values in MUTATIONS.items()
+    ],
+)
+def test_a_wrong_check_is_an_alarm(name: str, file: str, right: str, wrong: str, tmp_path: Path) -> None:
+    """One check of a copy is off by one or two: the same run that finds nothing finds that."""
+    proof = next(proof for proof in proofs.load() if proof.name == name)
+    made = proofs.tree(proof.application, tmp_path)
+    source = made.folder / file
+    text = source.read_text(encoding="utf-8")
+    assert right in text
+    source.write_text(text.replace(right, wrong), encoding="utf-8")
+    run = proofs.run(proof, Tree(made.folder, made.types), HOST, 0, tmp_path)
+    assert run.alarms
+
+
+def test_a_run_that_stops_is_no_proof() -> None:
+    """What frama-c prints is read: an alarm, what was reached, and an analysis that did not come to its end."""
+    proof = proofs.load()[0]
+    text = (
+        "[eva] done for function main\n[eva:alarm] src/a.c:7: Warning: \n  out of bounds read.\n[metrics] \n"
+        "  main: 3 stmts out of 4 (75.0%)\n"
+    )
+    run = proofs.read(proof, HOST, {}, 1.0, _done(text))
+    assert (run.failure, run.reached) == ("", {"main": (3, 4)})
+    assert [(a.file, a.line, a.text) for a in run.alarms] == [("src/a.c", 7, "out of bounds read.")]
+    assert report.problems(run) == ["frame_byte gcc_x86_64: src/a.c:7: out of bounds read."]
+    assert proofs.read(proof, HOST, {}, 1.0, _done(text.replace("done for function", ""))).failure
+    assert proofs.read(proof, HOST, {}, 1.0, _done(text, 1)).failure
+
+
+def test_every_alarm_that_stays_is_justified() -> None:
+    assert all(entry.file and entry.text and entry.why for entry in report.justified())
+
+
+def test_commands_of_the_page_are_there() -> None:
+    """docs/proof.md names targets, files and proofs that exist; test_everything and the fuzz tests run what they do."""
+    page = report.PAGE.read_text(encoding="utf-8")
+    names = {proof.name for proof in proofs.load()}
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    lines = [line for block in re.findall(r"```sh\n(.*?)```", page, re.DOTALL) for line in block.splitlines()]
+    assert len(lines) == 4
+    for words in (line.partition("#")[0].split() for line in lines):
+        if words[0] == "make":
+            assert f"\n{words[1]}: " in makefile
+            continue
+        files = [word for word in words if word.startswith("tests/")]
+        assert files
+        assert all((ROOT / file).is_file() for file in files)
+        assert "prove.py" not in files[0] or words[-1] in names
