@@ -74,7 +74,7 @@ def bench_selections(builds: Builds, boards: dict[str, str]) -> None:
                 difference(found.library, without.library),
             )
             cells.append(f"{image} / {found.stack - without.stack:+,}; {library}")
-        print(f"  {more.removeprefix('components: '):30}" + "".join(f"{cell:>34}" for cell in cells))
+        print(f"  {more.removeprefix('components: '):30}" + "".join(f"{cell:>44}" for cell in cells))
 
 
 def selected(builds: Builds, board: str, profile: str, more: str = "") -> Selected:

@@ -116,7 +116,15 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "components: [+sleep_cycles]\ntransport: {type: custom, framing: true}\n",
     }
 )
-"""Application files by name. Together they select every file of the components that are ready."""
+"""Application files by name."""
+ALSO = (
+    "pool-acknack-block-xml-reliable",
+    "best-effort-none-code",
+    "best-effort-ping-drop",
+    "reader-code-none-preconfigured",
+    "reader-pool-xml",
+)
+"""Those of the long run: the others together select every file of the components that are ready."""
 
 
 @dataclass(frozen=True)

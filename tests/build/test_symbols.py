@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from matrix import VARIANTS, Tree, check, compile_tree, has
+from matrix import ALSO, VARIANTS, Tree, check, compile_tree, has
 
 from microros_gen.build.compile import object_name
 from microros_gen.cli import main as cli
@@ -118,7 +118,9 @@ def symbols(tree_of: TreeOf, tmp_path_factory: pytest.TempPathFactory) -> Callab
     return get
 
 
-@pytest.mark.parametrize("name", VARIANTS)
+@pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=[pytest.mark.long] if n in ALSO else []) for n in VARIANTS]
+)
 def test_symbols(tree_of: TreeOf, symbols: Callable[[str], Symbols], name: str) -> None:
     """Everything about one variant in one test: it is compiled only once."""
     tree, found = tree_of(name), symbols(name)

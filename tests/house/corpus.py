@@ -61,7 +61,8 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "components: [+micro_ros_utilities]\ninterfaces: [quality_msgs]\nlimits: {'*': {string: 12, sequence: 3}}\n",
         "pool": _INT32,
         "pool_block": _INT32 + "on_full: block 20 ms\n",
-        "substitutions": _INT32 + "components: [+name_substitutions, +subscribe, +services]\n",
+        "substitutions": _POOL + "components: [+name_substitutions, +subscribe, +services]\n"
+        "interfaces: [std_msgs/msg/Int32, std_srvs/srv/Empty]\n",
         "declared": _BOTH
         + "liveliness: acknack\non_full: drop_oldest\nerrors: code\nmemory: {arena: 1024}\nsession: {key: device}\n",
         "best_effort": _NODES + _BEST + "liveliness: none\n",
