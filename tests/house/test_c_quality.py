@@ -98,6 +98,7 @@ def complaints(answers: dict[str, str]) -> str:
     return "\n".join(text for text in answers.values() if text)
 
 
+@pytest.mark.lint
 @pytest.mark.skipif(not shutil.which("clang-tidy"), reason="no clang-tidy")
 def test_clang_tidy(all_units: list[Unit]) -> None:
     """What is off, and why, stands in .clang-tidy."""
@@ -116,6 +117,7 @@ def test_clang_tidy(all_units: list[Unit]) -> None:
     assert complaints(analyse(name, all_units, check)) == ""
 
 
+@pytest.mark.lint
 @pytest.mark.skipif(not shutil.which("cppcheck"), reason="no cppcheck")
 def test_cppcheck(trees: list[Tree]) -> None:
     """What is suppressed, and why, stands in cppcheck-suppressions.txt. A tree is checked as a whole."""
@@ -147,6 +149,7 @@ def test_gcc_warnings(all_units: list[Unit]) -> None:
     assert compile_quietly("gcc", (*COMMON, *GCC), all_units) == ""
 
 
+@pytest.mark.lint
 @pytest.mark.skipif(not shutil.which("gcc"), reason="no gcc")
 @pytest.mark.parametrize("level", ["-O0", "-Os", pytest.param("-O3", marks=pytest.mark.long)])
 def test_gcc_optimizing(all_units: list[Unit], level: str) -> None:
@@ -155,6 +158,7 @@ def test_gcc_optimizing(all_units: list[Unit], level: str) -> None:
     assert compile_quietly("gcc", (*flags, "-fanalyzer") if level == "-Os" else flags, all_units) == ""
 
 
+@pytest.mark.lint
 @pytest.mark.skipif(not shutil.which("clang"), reason="no clang")
 def test_clang_everything(all_units: list[Unit]) -> None:
     assert compile_quietly("clang", (*COMMON, *CLANG), all_units) == ""
@@ -175,6 +179,7 @@ def has_texts(tree: Tree) -> bool:
     return "src/support/error_text.c" in tree.sources
 
 
+@pytest.mark.lint
 def test_misra_finds_nothing_undocumented(places: misra.Places) -> None:
     assert misra.undocumented(places, misra.load_deviations()) == []
 
