@@ -15,7 +15,8 @@ test: $(VENV)/dev.stamp
 	@$(BIN)/python tests/tools/run_suite.py
 
 lint: $(VENV)/dev.stamp
-	@$(BIN)/python -m pytest -q tests/house -m "not long"
+	@$(PYTHON) tests/tools/system_packages.py
+	@$(BIN)/python tests/tools/run_suite.py -m "lint and not long"
 
 misra: $(VENV)/dev.stamp
 	@$(BIN)/python tests/tools/misra.py

@@ -117,6 +117,8 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
     }
 )
 """Application files by name."""
+FIRST = ("pool", "reader", "server-binary-timers-sleep", "client-xml-code-rtos-timers-threads")
+"""Those whose symbols the default suite looks at; `make lint` looks at the others."""
 ALSO = (
     "pool-acknack-block-xml-reliable",
     "best-effort-none-code",

@@ -21,14 +21,21 @@ _ALSO_CLANG = (
 )
 # Every variant is compiled by test_symbols.py with gcc, 64 bit, -Os; `pool` and `demo` share all other cases.
 CASES = [
-    ("pool", "gcc", 64, "-O0"),
     ("pool", "gcc", 32, "-Os"),
-    ("pool", "clang", 64, "-Os"),
-    ("demo", "gcc", 32, "-O0"),
-    ("demo", "clang", 64, "-O0"),
-    ("demo", "clang", 32, "-Os"),
     *(
-        pytest.param(name, "clang", 32, "-O0", marks=[] if name in _ALSO_CLANG else [pytest.mark.long])
+        pytest.param(*case, marks=pytest.mark.lint)
+        for case in (
+            ("pool", "gcc", 64, "-O0"),
+            ("pool", "clang", 64, "-Os"),
+            ("demo", "gcc", 32, "-O0"),
+            ("demo", "clang", 64, "-O0"),
+            ("demo", "clang", 32, "-Os"),
+        )
+    ),
+    *(
+        pytest.param(
+            name, "clang", 32, "-O0", marks=pytest.mark.lint if name in _ALSO_CLANG else pytest.mark.long
+        )
         for name in VARIANTS
         if name not in ("pool", "demo")
     ),

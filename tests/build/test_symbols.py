@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from matrix import ALSO, VARIANTS, Tree, check, compile_tree, has
+from matrix import ALSO, FIRST, VARIANTS, Tree, check, compile_tree, has
 
 from microros_gen.build.compile import object_name
 from microros_gen.cli import main as cli
@@ -119,7 +119,11 @@ def symbols(tree_of: TreeOf, tmp_path_factory: pytest.TempPathFactory) -> Callab
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(n, marks=[pytest.mark.long] if n in ALSO else []) for n in VARIANTS]
+    "name",
+    [
+        pytest.param(n, marks=[] if n in FIRST else [pytest.mark.long if n in ALSO else pytest.mark.lint])
+        for n in VARIANTS
+    ],
 )
 def test_symbols(tree_of: TreeOf, symbols: Callable[[str], Symbols], name: str) -> None:
     """Everything about one variant in one test: it is compiled only once."""
@@ -185,6 +189,7 @@ def _has_what_the_axes_say(application: str, names: frozenset[str]) -> None:
 _WORDS_OF = {"xml": {b"<dds>", b"KEEP_", b"</name>"}, "reference": {b"participant_profile", b"__dw"}}
 
 
+@pytest.mark.lint
 def test_words_of_other_ways_to_create_are_not_in_an_image(tree_of: TreeOf, tmp_path: Path) -> None:
     """`strings` of a linked image, not only of the library."""
     for name in (

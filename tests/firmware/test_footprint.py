@@ -15,19 +15,21 @@ from firmware.footprint import LIKE_FOR_LIKE, Sender, bounded_stack, buffers, pa
 CEILINGS = load()
 
 
-SLICE = (
-    f"{CORTEX_M4} pure_sender binary reliable code",
+SLICE = f"{CORTEX_M4} pure_sender binary reliable code"
+"""What the default suite measures."""
+MORE = (
     f"{CORTEX_M4} pure_sender binary best_effort code",
     "qemu-microbit pure_sender binary reliable code",
     "qemu-riscv32-virt pure_sender binary reliable code",
 )
-"""What the default suite measures; the long run has them all."""
+"""What `make lint` measures besides; the long run has them all."""
 
 
 def _params() -> Iterator[ParameterSet]:
     for name, sender in cases():
         label = f"{name} {sender.label}"
-        yield pytest.param(name, sender, id=label, marks=[] if label in SLICE else [pytest.mark.long])
+        others = [pytest.mark.lint if label in MORE else pytest.mark.long]
+        yield pytest.param(name, sender, id=label, marks=[] if label == SLICE else others)
 
 
 @pytest.mark.parametrize(("name", "sender"), list(_params()))

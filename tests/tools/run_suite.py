@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`make test`: the suite but its long runs and the analysers, side by side: one process more than there are cores."""
+"""`make test`: the suite but its long runs and `make lint`, side by side: one process more than there are cores."""
 
 from __future__ import annotations
 

@@ -54,12 +54,14 @@ def baseline(limits_case: Generated) -> str:
 
 
 @BOTH_LIMITS
+@pytest.mark.lint
 def test_portable_path_writes_the_same(limits_case: Generated, baseline: str) -> None:
     """Byte by byte, as on a big endian target: no run is copied as it lies in memory."""
     assert run([build(limits_case, "portable", ["gcc", "-O0", "-DCDR_HOST_IS_LITTLE_ENDIAN=0"])]) == baseline
 
 
 @BOTH_LIMITS
+@pytest.mark.lint
 def test_clang_with_sanitizers_writes_the_same(limits_case: Generated, baseline: str) -> None:
     """Storage and body are blocks of exactly their size, so a byte too far is seen."""
     needs("clang")
@@ -73,6 +75,7 @@ def test_clang_with_sanitizers_writes_the_same(limits_case: Generated, baseline:
 
 
 @BOTH_LIMITS
+@pytest.mark.lint
 def test_32_bit_writes_the_same(limits_case: Generated, baseline: str, tmp_path: Path) -> None:
     probe = tmp_path / "probe.c"
     probe.write_text("#include <stdio.h>\nint main(void) { return 0; }\n")
