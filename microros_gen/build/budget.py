@@ -16,6 +16,7 @@ from microros_gen.build.compile import OBJECTS
 from microros_gen.build.entities import RamPart
 from microros_gen.build.folder import Folder
 from microros_gen.build.stack import Bound, StackReport
+from microros_gen.sources.files import read_json
 
 ADVICE = f"{OBJECTS}/advice.json"
 _LIBRARY = ("component", "type support")
@@ -85,7 +86,7 @@ def store_advice(folder: Folder, advice: Iterable[Advice]) -> None:
 def planned_advice(folder: Folder) -> tuple[Advice, ...]:
     """Return what `build` stored for this plan."""
     try:
-        data = json.loads((folder.path / ADVICE).read_text(encoding="utf-8"))
+        data = read_json(folder.path / ADVICE, follow=False)
         if data["plan"] != folder.manifest["plan"]:
             return ()
         return tuple(Advice(str(a["change"]), int(a["saves"]), bool(a["exact"])) for a in data["advice"])

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,6 +14,7 @@ from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.output.tree import MANIFEST
 from microros_gen.plan.types_names import c_name, type_files
 from microros_gen.resolve.interfaces import split_type_name
+from microros_gen.sources.files import LARGEST_RECORD, read_json, read_text
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Folder:
         """What the linker says of the image."""
         try:
             path = self.outside[1] if self.outside is not None else self.path / MAP
-            return path.read_text(encoding="utf-8", errors="replace")
+            return read_text(path, errors="replace", largest=LARGEST_RECORD)
         except OSError:
             return ""
 
@@ -92,10 +92,10 @@ class Folder:
 def read_folder(path: Path) -> Folder:
     """Read an output folder; raises UserError where it is none, or was not built."""
     try:
-        manifest = json.loads((path / MANIFEST).read_text(encoding="utf-8"))
-        sources = tuple((path / "sources.txt").read_text(encoding="utf-8").split("\n")[:-1])
+        manifest = read_json(path / MANIFEST, follow=False)
+        sources = tuple(read_text(path / "sources.txt", follow=False).split("\n")[:-1])
         manifest["selection"]["reasons"], manifest["memory"], manifest["image"]
-    except (OSError, ValueError, KeyError) as error:
+    except (OSError, ValueError, KeyError, TypeError) as error:
         raise UserError(
             [
                 Diagnostic(
@@ -104,7 +104,7 @@ def read_folder(path: Path) -> Folder:
             ]
         ) from error
     try:
-        tools = json.loads((path / TOOLS).read_text(encoding="utf-8"))
+        tools = read_json(path / TOOLS, follow=False)
     except (OSError, ValueError):
         tools = None
     if not isinstance(tools, dict) or not (path / LIBRARY).is_file():

@@ -14,6 +14,8 @@ from collections.abc import Iterable, Sequence
 from functools import cache
 from pathlib import Path
 
+from microros_gen.sources.files import read_json
+
 CONFIG = "include/microros_config.h"
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
 _DEFINE = re.compile(r"#define ([A-Za-z_]\w*)(.*)")
@@ -30,7 +32,8 @@ class Stamps:
         self._digests: dict[str, str] = {}
         self._identifiers: dict[str, frozenset[str]] = {}
         try:
-            self._stamps = json.loads(path.read_text(encoding="utf-8"))
+            kept = read_json(path, follow=False)
+            self._stamps = kept if isinstance(kept, dict) else {}
         except (OSError, ValueError):
             self._stamps = {}
 

@@ -16,6 +16,7 @@ from microros_gen.cli.agent_types import ManifestOf
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, Span, UserError, nearest
 from microros_gen.model.agent_file import AgentFile, NamedPath, PtyChoice, SerialChoice, TransportChoice
 from microros_gen.parse.agent_file import DISCOVERY_PORT, parse_agent_file
+from microros_gen.sources.files import read_text
 
 DEFAULTS = Limits()
 MAXIMUM_DOMAIN = 232
@@ -206,7 +207,7 @@ def read_sources(
     sources = []
     for path in dict.fromkeys(paths):
         try:
-            sources.append(Source(str(path), path.read_text(encoding="utf-8-sig")))
+            sources.append(Source(str(path), read_text(path, encoding="utf-8-sig")))
         except OSError as error:
             diagnostics.error(f"{path} cannot be read: {error.strerror}", known.get(path))
         except UnicodeDecodeError as error:

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -11,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from microros_gen.diagnostics import Diagnostics, Span
+from microros_gen.sources.files import read_json
 
 _KEYED = re.compile(r"(0[xX][0-9a-fA-F]{1,8})=(.+)")
 _HASH = re.compile(r"RIHS01_[0-9a-f]{64}")
@@ -100,7 +100,7 @@ class _Content:
 def _read(manifest: ManifestOf, diagnostics: Diagnostics) -> _Content:
     path, span = manifest.path, manifest.span
     try:
-        data: Any = json.loads(path.read_text(encoding="utf-8"))
+        data: Any = read_json(path)
         types = {str(name): str(about["hash"]) for name, about in data["types"].items()}
         nodes = [f"{n['namespace'].rstrip('/')}/{n['name']}" for n in data["entities"]["nodes"]]
         if all(_HASH.fullmatch(told) for told in types.values()):

@@ -22,6 +22,7 @@ from microros_gen.cli.pipeline import Planned
 from microros_gen.cli.summary import built_summary, plan_summary
 from microros_gen.diagnostics import Diagnostic, Span, UserError
 from microros_gen.diagnostics.diagnostic import Severity
+from microros_gen.output.tree import check_build_folders
 
 
 @click.command()
@@ -41,6 +42,7 @@ def command(output: Path | None, **options: Any) -> None:
     selection = SelectionOptions(**options)
     planned, out = plan(selection, output)
     tools = find_toolchain(planned.project.target, os.environ)
+    check_build_folders(out)
     report = write(planned, out)
     click.echo(plan_summary(planned) + files_line(out, report), nl=False)
     _compile(planned, out, tools)

@@ -87,7 +87,10 @@ def write(planned: Planned, out: Path) -> WriteReport:
 
 def files_line(out: Path, report: WriteReport) -> str:
     """Return the line that says what was done to the files of `out`."""
-    return _files_line(out, len(report.written), len(report.unchanged), len(report.removed))
+    line = _files_line(out, len(report.written), len(report.unchanged), len(report.removed))
+    return line + "".join(
+        f"{'kept':<10} {name}: no longer selected, but changed by somebody else\n" for name in report.kept
+    )
 
 
 def _files_line(out: Path, written: int, unchanged: int, removed: int) -> str:

@@ -27,6 +27,7 @@ from microros_gen.resolve.interfaces import resolve_interfaces
 from microros_gen.resolve.selection import check_ready
 from microros_gen.sources.code import read_code
 from microros_gen.sources.components import declared_functions, load_catalogue
+from microros_gen.sources.files import read_text
 from microros_gen.sources.interfaces import InterfaceFinder
 
 DEFAULT_PROFILE = "pure_sender"
@@ -124,7 +125,7 @@ def _own(declaration: Declaration) -> tuple[Message, ...]:
 
 def _settings_of(path: Path, diagnostics: Diagnostics) -> tuple[MetaSetting, ...]:
     try:
-        source = Source(str(path), path.read_text(encoding="utf-8"))
+        source = Source(str(path), read_text(path))
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or "it is not UTF-8 text"
         diagnostics.error(f"cannot read '{path}': {reason}", hint="Give the path of a colcon.meta")

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import contextlib
-import json
 import os
 import shlex
 import signal
@@ -22,6 +21,7 @@ from microros_gen.cli.emulator import Emulator, Machine
 from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.output.tree import MANIFEST
 from microros_gen.plan.runtime import DISCOVERY_GROUP
+from microros_gen.sources.files import read_json
 
 AGENT_READY = "agent ready"
 
@@ -183,10 +183,10 @@ class _Parts:
 
 def _image_of(out: Path, domain: int | None) -> _Image:
     try:
-        manifest = json.loads((out / MANIFEST).read_text(encoding="utf-8"))
+        manifest = read_json(out / MANIFEST, follow=False)
         name, target, transport = manifest["image"], manifest["target"], manifest["transport"]
         machine = Machine.of(manifest["emulator"]) if manifest["emulator"] else None
-    except (OSError, ValueError, KeyError) as error:
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         message = f"{out} is no output folder of microros-gen"
         raise UserError([Diagnostic(message, hint="Give the folder that `build` wrote")]) from error
     if name is None:

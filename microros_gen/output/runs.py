@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import microros_gen
+from microros_gen.sources.files import read_json
 
 # What decides besides files: where interfaces are searched, and which Python's packages.
 _ENVIRONMENT = ("AMENT_PREFIX_PATH", "COLCON_PREFIX_PATH")
@@ -42,7 +43,7 @@ class Run:
 def find_run(command: Mapping[str, object], environ: Mapping[str, str]) -> Run | None:
     """Return the recorded run of `command` when nothing that it read or wrote has changed, else None."""
     try:
-        data = json.loads(_record(command, environ).read_text(encoding="utf-8"))
+        data = read_json(_record(command, environ))
         watched = {**data["inputs"], **data["outputs"]}
         if data["tool"] != _tool_state() or any(_state(Path(p)) != s for p, s in watched.items()):
             return None

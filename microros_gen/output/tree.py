@@ -4,49 +4,74 @@
 Every file is replaced atomically and only when its bytes differ. Before the first change a journal names all
 files that the run will write; it is removed after the manifest is written. So an interrupted run leaves each
 file old or new, and the next run knows which files are its own.
+
+Nothing outside the folder is read, written or removed, whatever lies in it: names in the manifest are checked, no
+symbolic link inside the folder is followed, and a file that is no longer selected is removed only if its content is
+what this tool wrote.
 """
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
-from collections.abc import Iterator, Mapping
+import stat
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from microros_gen.diagnostics import Diagnostic, UserError
+from microros_gen.sources.files import read_bytes, read_json
 
 MANIFEST = "manifest.json"
 JOURNAL = ".microros-gen-journal.json"
 TEMPORARY_SUFFIX = ".microros-gen-tmp"
 # Written by `build`, never part of the rendered tree.
 BUILD_FOLDERS = ("lib", "bin", ".build")
+_LARGEST_FILE = 1 << 30
 
 
 @dataclass(frozen=True)
 class WriteReport:
-    """What a run did to the folder: relative POSIX paths, sorted."""
+    """What a run did to the folder: relative POSIX paths, sorted.
+
+    `kept`: no longer selected, and not removed since somebody else changed them.
+    """
 
     written: tuple[str, ...]
     unchanged: tuple[str, ...]
     removed: tuple[str, ...]
+    kept: tuple[str, ...] = ()
 
 
 def write_tree(out: Path, files: Mapping[str, bytes]) -> WriteReport:
     """Make `out` hold exactly `files` (relative POSIX path → bytes; the manifest among them).
 
-    Raises UserError when the folder cannot be written or holds something that this tool did not write.
+    Raises UserError when the folder cannot be written, holds something that this tool did not write, or a symbolic
+    link where one of its folders belongs; then nothing was changed.
     """
     with _told_as_user_error(out):
         owned = _owned_files(out)
+        _refuse_links(out, files)
         out.mkdir(parents=True, exist_ok=True)
         changed = tuple(sorted(p for p in files if _differs(out / p, files[p])))
-        stale = tuple(sorted(p for p in owned if p not in files and (out / p).is_file()))
+        others = sorted(p for p in owned if p not in files and os.path.lexists(out / p) and not _link(out, p))
+        stale = tuple(p for p in others if _is_as_written(out / p, owned[p]))
         if changed or stale or (out / JOURNAL).exists():
             _replace_all(out, files, changed, stale, owned)
     unchanged = tuple(sorted(set(files) - set(changed)))
-    return WriteReport(changed, unchanged, stale)
+    return WriteReport(changed, unchanged, stale, tuple(sorted(set(others) - set(stale))))
+
+
+def check_build_folders(out: Path) -> None:
+    """Raise UserError when compiling in `out` would write through a symbolic link."""
+    for name in BUILD_FOLDERS:
+        for folder, folders, files in os.walk(out / name):
+            _refuse_links(
+                out, ((Path(folder) / f).relative_to(out).as_posix() for f in (*folders, *files)), True
+            )
+    _refuse_links(out, BUILD_FOLDERS, True)
 
 
 def write_files(folder: Path, files: Mapping[str, bytes]) -> tuple[str, ...]:
@@ -68,19 +93,21 @@ def check_owned(out: Path) -> None:
         _owned_files(out)
 
 
-def owned_paths(folder: Path) -> frozenset[str]:
-    """Return the files of a folder that this tool wrote, from its manifest and journal."""
+def _owned_by(folder: Path) -> dict[str, frozenset[str]]:
+    """Return the files of a folder that this tool wrote, each with the digests of what it wrote."""
     manifest, journal = _ours(folder / MANIFEST), _ours(folder / JOURNAL)
-    owned = set(_names(manifest.get("outputs"))) | set(_names(journal.get("files")))
-    return frozenset(owned | {MANIFEST} if manifest else owned)
+    owned: dict[str, frozenset[str]] = {MANIFEST: frozenset()} if manifest else {}
+    for name, digests in (*_named(manifest.get("outputs")), *_named(journal.get("files"))):
+        owned[name] = owned.get(name, frozenset()) | digests
+    return owned
 
 
-def _owned_files(out: Path) -> frozenset[str]:
+def _owned_files(out: Path) -> dict[str, frozenset[str]]:
     if out.exists() and not out.is_dir():
         raise UserError([Diagnostic(f"{out} is not a folder", hint="Choose another output folder with -o")])
     if not out.exists():
-        return frozenset()
-    owned = owned_paths(out)
+        return {}
+    owned = _owned_by(out)
     if not owned and not (out / JOURNAL).exists() and any(out.iterdir()):
         found = min(p.name for p in out.iterdir())
         raise UserError(
@@ -97,26 +124,55 @@ def _owned_files(out: Path) -> frozenset[str]:
 def _ours(path: Path) -> dict[str, object]:
     """Return the JSON mapping of a file that this tool wrote, else an empty one."""
     try:
-        data = json.loads(path.read_text(encoding="utf-8"))
+        data = read_json(path, follow=False)
     except (OSError, ValueError):
         return {}
     generator = data.get("generator") if isinstance(data, dict) else None
     return data if isinstance(generator, dict) and generator.get("name") == "microros-gen" else {}
 
 
-def _names(listed: object) -> Iterator[str]:
-    if isinstance(listed, (dict, list)):
-        yield from (name for name in listed if isinstance(name, str) and _is_inside(name))
+def _named(listed: object) -> Iterator[tuple[str, frozenset[str]]]:
+    """Yield each name of a manifest or journal that lies in the folder, with its digest or list of digests."""
+    for name, told in listed.items() if isinstance(listed, dict) else ():
+        digests = told if isinstance(told, list) else [told]
+        if isinstance(name, str) and _is_inside(name):
+            yield name, frozenset(d for d in digests if isinstance(d, str))
 
 
 def _is_inside(name: str) -> bool:
     path = PurePosixPath(name)
-    return bool(path.parts) and not path.is_absolute() and ".." not in path.parts
+    is_plain = not any(c in name for c in "\\:\0")  # what is a separator, a drive or the end elsewhere
+    return is_plain and bool(path.parts) and not path.is_absolute() and ".." not in path.parts
+
+
+def _link(out: Path, name: str) -> Path | None:
+    """Return the first folder on the way to `name` that is a symbolic link."""
+    parents = [out / parent for parent in reversed(PurePosixPath(name).parents) if parent.parts]
+    return next((parent for parent in parents if parent.is_symlink()), None)
+
+
+def _refuse_links(out: Path, names: Iterable[str], themselves: bool = False) -> None:
+    """Raise UserError where a folder on the way to one of `names` (or the name itself) is a symbolic link."""
+    folders = {str(PurePosixPath(name) if themselves else PurePosixPath(name).parent) for name in names}
+    found = {link for folder in folders if (link := _link(out, f"{folder}/file")) is not None}
+    if found:
+        hint = "Remove it; nothing outside the output folder is touched, and nothing was changed"
+        raise UserError([Diagnostic(f"{link} is a symbolic link", hint=hint) for link in sorted(found)])
+
+
+def _is_as_written(path: Path, digests: frozenset[str]) -> bool:
+    try:
+        return hashlib.sha256(read_bytes(path, _LARGEST_FILE, follow=False)).hexdigest() in digests
+    except OSError:
+        return False
 
 
 def _differs(path: Path, content: bytes) -> bool:
     try:
-        return path.stat().st_size != len(content) or path.read_bytes() != content
+        found = path.lstat()
+        if not stat.S_ISREG(found.st_mode) or found.st_size != len(content):
+            return True
+        return read_bytes(path, _LARGEST_FILE, follow=False) != content
     except FileNotFoundError:
         return True
 
@@ -126,11 +182,13 @@ def _replace_all(
     files: Mapping[str, bytes],
     changed: tuple[str, ...],
     stale: tuple[str, ...],
-    owned: frozenset[str],
+    owned: Mapping[str, frozenset[str]],
 ) -> None:
-    journal = {"files": sorted(set(files) | owned), "generator": {"name": "microros-gen"}}
+    digests = {name: {*owned.get(name, ()), hashlib.sha256(files[name]).hexdigest()} for name in changed}
+    listed = {name: sorted(digests.get(name, owned.get(name, ()))) for name in sorted({*files, *owned})}
+    journal = {"files": listed, "generator": {"name": "microros-gen"}}
     _replace(out / JOURNAL, (json.dumps(journal, indent=1) + "\n").encode())
-    _remove_temporaries(out, set(files) | owned)
+    _remove_temporaries(out, {name for name in listed if _link(out, name) is None})
     for folder in sorted({(out / name).parent for name in changed}):
         folder.mkdir(parents=True, exist_ok=True)
     for name in changed:

@@ -6,6 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.sources.files import read_text
 
 APPLICATION_FILE = "microros.yaml"
 
@@ -17,7 +18,7 @@ def read_application(config: Path | None, folder: Path, diagnostics: Diagnostics
         return None
     shown = str(config) if config is not None else APPLICATION_FILE
     try:
-        return Source(shown, path.read_text(encoding="utf-8"))
+        return Source(shown, read_text(path))
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or "it is not UTF-8 text"
         hint = "Give the path of an application file with -c, or none to use --profile alone"

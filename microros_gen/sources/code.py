@@ -6,6 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.sources.files import read_text
 
 COMPILED = (".c", ".cc", ".cpp", ".cxx", ".ino")
 """What a compiler is given; .ino are sketches, which Arduino makes into C++."""
@@ -35,7 +36,7 @@ def read_code(folder: Path, diagnostics: Diagnostics) -> tuple[Source, ...]:
     for path in _paths(folder):
         try:
             if path.stat().st_size <= _LARGEST:
-                found.append(Source(str(path), path.read_text(encoding="utf-8", errors="replace")))
+                found.append(Source(str(path), read_text(path, errors="replace")))
         except OSError as error:
             diagnostics.error(f"cannot read '{path}': {error.strerror}")
     if not found and not diagnostics.has_errors():

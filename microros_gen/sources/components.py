@@ -11,6 +11,7 @@ from types import MappingProxyType
 from microros_gen.diagnostics import Diagnostics, Source, nearest
 from microros_gen.model.component import Catalogue, Component
 from microros_gen.parse.component import parse_component
+from microros_gen.sources.files import read_text
 
 COMPONENT_FILE = "component.yaml"
 _FUNCTION = re.compile(
@@ -51,7 +52,7 @@ def declared_functions(catalogue: Catalogue) -> Mapping[str, str]:
             path = folder / header
             path = path if path.exists() else path.with_name(f"{path.name}.j2")
             if path.exists():
-                for name in _FUNCTION.findall(path.read_text(encoding="utf-8")):
+                for name in _FUNCTION.findall(read_text(path)):
                     found.setdefault(name, component.name)
     return MappingProxyType(found)
 
@@ -59,7 +60,7 @@ def declared_functions(catalogue: Catalogue) -> Mapping[str, str]:
 def _read(path: Path, root: Path, diagnostics: Diagnostics) -> Component | None:
     shown = path.relative_to(root).as_posix()
     try:
-        source = Source(shown, path.read_text(encoding="utf-8"))
+        source = Source(shown, read_text(path))
     except (OSError, UnicodeDecodeError) as fault:
         diagnostics.error(f"cannot read the component file '{shown}': {fault}")
         return None

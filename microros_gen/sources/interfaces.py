@@ -20,6 +20,7 @@ from types import MappingProxyType
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.model.types import TypeName
 from microros_gen.parse.msg_names import is_package_name
+from microros_gen.sources.files import read_bytes, read_text
 
 SUFFIXES_OF_KIND: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {"msg": (".msg", ".idl"), "srv": (".srv", ".idl"), "action": (".action", ".idl")}
@@ -198,7 +199,7 @@ def read_type(place: PackagePlace, name: TypeName, diagnostics: Diagnostics) -> 
     for suffix in SUFFIXES_OF_KIND.get(name.kind, ()):
         path = place.folder / name.kind / f"{name.name}{suffix}"
         try:
-            data = path.read_bytes()
+            data = read_bytes(path)
         except FileNotFoundError:
             continue
         except OSError as fault:
@@ -271,7 +272,7 @@ def _children(folder: Path) -> list[Path]:
 def _name_of(folder: Path) -> str:
     """Return the name in the folder's package.xml (REP-149), or the folder's own."""
     try:
-        manifest = (folder / "package.xml").read_text(encoding="utf-8")
+        manifest = read_text(folder / "package.xml")
     except (OSError, UnicodeDecodeError):
         return folder.resolve().name
     match = _PACKAGE_NAME.search(manifest)

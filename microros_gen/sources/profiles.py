@@ -13,6 +13,7 @@ from microros_gen.model.application import Named
 from microros_gen.model.component import Middleware, Profile, ProfileSet
 from microros_gen.model.xrce import BUILTIN_PROFILES
 from microros_gen.parse.profile import parse_middleware, parse_profile
+from microros_gen.sources.files import read_text
 
 MIDDLEWARE_FILE = "middleware.yaml"
 _SUFFIXES = (".yaml", ".yml")
@@ -152,7 +153,7 @@ def _user_file(name: str, near: Path) -> Path | None:
 
 def _read(path: Path, shown: str, diagnostics: Diagnostics, span: Span | None = None) -> Source | None:
     try:
-        return Source(shown, path.read_text(encoding="utf-8"))
+        return Source(shown, read_text(path))
     except OSError as fault:
         diagnostics.error(f"cannot read '{shown}': {fault.strerror}", span)
     except UnicodeDecodeError:

@@ -11,6 +11,7 @@ from microros_gen.model.target import Target
 from microros_gen.parse.target import merge_target, parse_target, target_of
 from microros_gen.parse.tree_values import text_of
 from microros_gen.parse.yaml_tree import MappingNode
+from microros_gen.sources.files import read_text
 from microros_gen.sources.runtime import TARGETS
 
 
@@ -78,7 +79,7 @@ class _Reader:
 
     def _source(self, path: Path, shown: str, span: Span | None) -> Source | None:
         try:
-            return Source(str(path), path.read_text(encoding="utf-8"))
+            return Source(str(path), read_text(path))
         except (OSError, UnicodeDecodeError) as error:
             reason = error.strerror if isinstance(error, OSError) else error
             hint = f"There are: {', '.join(builtin_targets())}; a path is relative to the file that names it"

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 from pathlib import Path
@@ -14,9 +15,13 @@ from microros_gen.output import tree
 from microros_gen.output.tree import JOURNAL, MANIFEST, write_tree
 
 
+def digests(content: dict[str, bytes]) -> dict[str, str]:
+    return {name: hashlib.sha256(data).hexdigest() for name, data in content.items()}
+
+
 def tree_of(**files: str) -> dict[str, bytes]:
     content = {name.replace("__", "/").replace("_c", ".c"): text.encode() for name, text in files.items()}
-    manifest = {"generator": {"name": "microros-gen"}, "outputs": dict.fromkeys(content, "")}
+    manifest = {"generator": {"name": "microros-gen"}, "outputs": digests(content)}
     return content | {MANIFEST: json.dumps(manifest).encode()}
 
 
@@ -36,7 +41,7 @@ def test_an_unchanged_file_keeps_its_time(tmp_path: Path) -> None:
     os.utime(tmp_path / "src/a.c", (1, 1))
     report = write_tree(tmp_path, tree_of(src__a_c="a", src__b_c="changed"))
     assert (tmp_path / "src/a.c").stat().st_mtime == 1
-    assert report.written == ("src/b.c",)
+    assert report.written == ("manifest.json", "src/b.c")
 
 
 def test_files_no_longer_selected_are_removed_with_their_folders(tmp_path: Path) -> None:
@@ -69,6 +74,105 @@ def test_a_manifest_cannot_make_us_delete_outside(tmp_path: Path) -> None:
     (out / JOURNAL).write_text(json.dumps({"generator": {"name": "microros-gen"}, "files": []}))
     write_tree(out, tree_of(src__a_c="a"))
     assert victim.read_text() == "keep"
+
+
+def owning(out: Path, name: str, content: bytes = b"mine") -> None:
+    """Make `out` a folder whose manifest lists `name`."""
+    out.mkdir(exist_ok=True)
+    manifest = {"generator": {"name": "microros-gen"}, "outputs": digests({name: content})}
+    (out / MANIFEST).write_text(json.dumps(manifest))
+
+
+@pytest.mark.parametrize("digest", [b"mine", b"other"], ids=["known content", "other content"])
+def test_a_link_in_the_folder_does_not_lead_a_removal_outside(tmp_path: Path, digest: bytes) -> None:
+    documents, out = tmp_path / "documents", tmp_path / "out"
+    documents.mkdir()
+    (documents / "x").write_bytes(b"mine")
+    owning(out, "docs/x", digest)
+    (out / "docs").symlink_to(documents)
+    write_tree(out, tree_of(src__a_c="a"))
+    assert (documents / "x").read_bytes() == b"mine"
+
+
+def test_a_folder_that_is_a_link_is_refused_before_anything_is_written(tmp_path: Path) -> None:
+    (tmp_path / "elsewhere").mkdir()
+    out = tmp_path / "out"
+    owning(out, "old.c")
+    (out / "src").symlink_to(tmp_path / "elsewhere")
+    before = held(out)
+    with pytest.raises(UserError, match=r"src is a symbolic link\. Remove it"):
+        write_tree(out, tree_of(src__a_c="a"))
+    assert held(out) == before
+    assert not list((tmp_path / "elsewhere").iterdir())
+
+
+@pytest.mark.parametrize("content", ["same", "different"])
+def test_a_file_that_is_a_link_is_replaced_and_its_aim_is_left_alone(tmp_path: Path, content: str) -> None:
+    victim, out = tmp_path / "victim", tmp_path / "out"
+    victim.write_text(content)
+    write_tree(out, tree_of(src__a_c="old"))
+    (out / "src/a.c").unlink()
+    (out / "src/a.c").symlink_to(victim)
+    write_tree(out, tree_of(src__a_c="same"))
+    assert not (out / "src/a.c").is_symlink()
+    assert (out / "src/a.c").read_text() == "same"
+    assert victim.read_text() == content
+
+
+def test_a_manifest_or_journal_that_is_a_link_is_not_read(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    owning(tmp_path / "elsewhere", "src/a.c")
+    out.mkdir()
+    (out / "mine").write_text("mine")
+    (out / MANIFEST).symlink_to(tmp_path / "elsewhere" / MANIFEST)
+    with pytest.raises(UserError, match="files that microros-gen did not write"):
+        write_tree(out, tree_of(src__a_c="a"))
+
+
+def test_a_file_that_somebody_changed_is_kept_and_named(tmp_path: Path) -> None:
+    write_tree(tmp_path, tree_of(src__a_c="a", src__b_c="b"))
+    (tmp_path / "src/a.c").write_text("an hour of work")
+    report = write_tree(tmp_path, tree_of(src__b_c="b"))
+    assert (report.removed, report.kept) == ((), ("src/a.c",))
+    assert (tmp_path / "src/a.c").read_text() == "an hour of work"
+
+
+@pytest.mark.parametrize("name", ["C:/x", "..\\x", "a/../../x", "/x", ".", "x\0y"])
+def test_names_that_lead_elsewhere_are_not_ours(tmp_path: Path, name: str) -> None:
+    owning(tmp_path, name)
+    write_tree(tmp_path, tree_of(src__a_c="a"))
+    assert set(held(tmp_path)) == {MANIFEST, "src/a.c"}
+
+
+def test_a_manifest_nested_100000_deep_is_no_manifest(tmp_path: Path) -> None:
+    (tmp_path / MANIFEST).write_text('{"generator": {"name": "microros-gen"}, "outputs": ' + "[" * 100_000)
+    with pytest.raises(UserError, match="files that microros-gen did not write"):
+        write_tree(tmp_path, tree_of(src__a_c="a"))
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are FIFOs on POSIX alone")
+@pytest.mark.parametrize("name", [MANIFEST, "src/a.c", "src/b.c"])
+def test_a_pipe_in_the_folder_is_no_reason_to_wait(tmp_path: Path, name: str) -> None:
+    write_tree(tmp_path, tree_of(src__a_c="", src__b_c="b"))
+    (tmp_path / name).unlink()
+    os.mkfifo(tmp_path / name)
+    if name == MANIFEST:
+        with pytest.raises(UserError):
+            write_tree(tmp_path, tree_of(src__a_c=""))
+    else:
+        write_tree(tmp_path, tree_of(src__a_c=""))
+        assert (tmp_path / "src/a.c").read_bytes() == b""
+
+
+@pytest.mark.parametrize("name", ["lib", "bin", ".build", ".build/src", ".build/src/x.o"])
+def test_compiling_does_not_write_through_a_link(tmp_path: Path, name: str) -> None:
+    (tmp_path / "elsewhere").mkdir()
+    out = tmp_path / "out"
+    (out / name).parent.mkdir(parents=True)
+    tree.check_build_folders(out)
+    (out / name).symlink_to(tmp_path / "elsewhere")
+    with pytest.raises(UserError, match=f"{name} is a symbolic link"):
+        tree.check_build_folders(out)
 
 
 def test_a_file_in_place_of_the_folder_is_told(tmp_path: Path) -> None:
