@@ -54,7 +54,7 @@ def _mixed(p: int, items: int, label: int, values: int, flags: int, words: int, 
     string, item = 3 * p, 6 * p
     inner = label + 8 * values
     found = 3 * words + 2 * inner + items * (item + inner) + 3 * (item + inner)
-    found += 10 + 2 * (string + 7) + 4 * 8 + flags
+    found += 11 + 2 * (string + 8) + 4 * 8 + flags
     return found + 2 * 20 + wides * (string + 2 * 20)
 
 
@@ -69,9 +69,9 @@ MIXED_DEFAULT = {
     "items[4].values": 5,
     "few": 3,
     "few[2].values": 5,
-    "short_name": 10,
+    "short_name": 11,  # the public library gives no room for the terminator of a bounded string
     "codes": 2,
-    "codes[1]": 7,
+    "codes[1]": 8,
     "bounded": 4,
     "flags": 5,
     "wide": 20,  # the public library gives none to a wstring, and bytes to a sequence of them
@@ -139,7 +139,7 @@ CASES: Mapping[str, tuple[Mapping[str, int], Sizes]] = {
             + 2 * (20 + 7 * 8)
             + 2 * (6 * p + 33 + 5 * 8)
             + (6 * p + 20 + 5 * 8)
-            + 10
+            + 11
             + 3 * (3 * p + 5)
             + 6 * 8
             + 2 * 20

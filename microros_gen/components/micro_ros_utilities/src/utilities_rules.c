@@ -125,6 +125,7 @@ size_t utilities_text_capacity(const utilities_walk_t * walk, const micro_ros_ut
   const size_t usual =
     rules_or(conf->max_string_capacity, micro_ros_utilities_memory_conf_default.max_string_capacity);
   const char * ending = utilities_is_sequence(walk->member) ? strings_of_sequence : "";
+  const size_t bound = walk->member->string_bound; /* characters, without the terminator */
 
-  return rules_capacity(walk, conf, ending, rules_or(walk->member->string_bound, usual));
+  return rules_capacity(walk, conf, ending, bound != 0u ? bound + 1u : usual);
 }

@@ -8,7 +8,7 @@
  *   "header.frame_id"; elements of a sequence of messages have no index: "points.positions". It gives elements of a
  *   sequence, or bytes of a string. The strings of a sequence of strings have ".data" behind its path:
  *   {"joint_names", 6} and {"joint_names.data", 20} are six strings of 20 bytes;
- * - the bound in the interface file;
+ * - the bound in the interface file, for a string one more;
  * - the number of the configuration for its kind, or of micro_ros_utilities_memory_conf_default where that is 0.
  *
  * A capacity of a string counts the terminator: 20 bytes hold a text of 19. A rule may be above the bound of the
