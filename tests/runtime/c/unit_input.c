@@ -96,19 +96,76 @@ static void test_a_gap(void)
 {
   begin_at(10);
   CHECK(take(12, 12) && expected == 10u && handed_on_count == 0u);
-  CHECK(missing == (MICROROS_RELIABLE_INPUT_SLOTS > 1u ? 0x0003u : 0x0007u));
+  CHECK(missing == 0x0003u); /* 12 is here, or had no slot: it would find none now */
   CHECK(take(10, 10) && expected == 11u);
-  CHECK(missing == (MICROROS_RELIABLE_INPUT_SLOTS > 1u ? 0x0001u : 0x0003u));
-  CHECK(take(11, 11) && missing == (MICROROS_RELIABLE_INPUT_SLOTS > 1u ? 0u : 1u));
+  CHECK(missing == (MICROROS_RELIABLE_INPUT_SLOTS > 1u ? 0u : 0x0002u)); /* 11 was requested */
+  CHECK(take(11, 11) && missing == 0u);
   CHECK(expected == (MICROROS_RELIABLE_INPUT_SLOTS > 1u ? 13u : 12u));
   CHECK(handed_on_count == (MICROROS_RELIABLE_INPUT_SLOTS > 1u ? 3u : 2u));
+}
+
+/* However many messages follow a gap, a missing one is requested once until the next HEARTBEAT. */
+static void test_requested_once(void)
+{
+  uint32_t requested[WINDOW] = {0};
+
+  begin_at(0xfff8);
+  for (uint16_t round = 0; round < 3u; ++round) {
+    for (uint16_t i = 0; i < WINDOW; ++i) {
+      if (i != 0u && i != 5u) {
+        CHECK(take((uint16_t)(0xfff8u + i), i) && expected == 0xfff8u);
+        for (uint32_t bit = 0; bit < WINDOW; ++bit) {
+          requested[bit] += (uint32_t)missing >> bit & 1u;
+        }
+      }
+    }
+  }
+  for (uint32_t i = 0; i < WINDOW; ++i) {
+    CHECK(requested[i] == (i == 0u || i == 5u ? 1u : 0u));
+  }
+  CHECK(heartbeat(0xfff8, 7) && (missing & 0x21u) == 0x21u); /* the request or its answer was lost */
+  CHECK(take(0xfff9, 1) && missing == 0u);
+}
+
+/* Somebody forges a number that the agent has not sent: a HEARTBEAT puts it right, nothing more is requested. */
+static void test_forged_number(void)
+{
+  begin_at(0);
+  CHECK(take(15, 15) && missing == 0x7fffu);
+  for (uint32_t i = 0; i < 5u; ++i) {
+    CHECK(take(15, 15) && missing == 0u);
+    CHECK(heartbeat(0, 1) && expected == 0u && missing == 3u);
+    CHECK(take(15, 15) && missing == 0x7ffcu);
+  }
+  CHECK(take(0, 0) && take(1, 1) && handed_on_count == 2u && expected == 2u);
+}
+
+/* A message without a slot is requested when its turn is near, not while it would find none again. */
+static void test_refused_until_the_gap_is_closed(void)
+{
+  const uint16_t slots = MICROROS_RELIABLE_INPUT_SLOTS - 1u;
+  uint32_t requested = 0;
+
+  begin_at(0);
+  for (uint16_t i = 1; i < WINDOW; ++i) {
+    CHECK(take(i, i) && missing == (i == 1u ? 1u : 0u));
+  }
+  CHECK(take(0, 0) && expected == slots + 1u);
+  for (uint32_t bit = 0; bit < WINDOW; ++bit) {
+    requested += (uint32_t)missing >> bit & 1u;
+  }
+  CHECK(requested == (uint32_t)(WINDOW - 1 - slots));
+  for (uint16_t i = (uint16_t)(slots + 1u); i < WINDOW; ++i) {
+    CHECK(take(i, i) && missing == 0u);
+  }
+  CHECK(handed_on_count == WINDOW);
 }
 
 static void test_heartbeats(void)
 {
   begin_at(0xfffe);
   CHECK(heartbeat(0xfffe, 0) && acknacks == 1u && expected == 0xfffeu && missing == 0x0007u);
-  CHECK(heartbeat(0xfffe, 0xfffd) && missing == 0x0007u); /* an older one changes nothing */
+  CHECK(heartbeat(0xfffe, 0xfffd) && missing == 0u);      /* it says that there is nothing */
   CHECK(heartbeat(0xfffe, 0x7000) && missing == 0xffffu); /* more than the bitmap has */
   CHECK(take(0xffff, 7) && handed_on_count == 0u);
   acknacks = 0;
@@ -192,6 +249,9 @@ int main(void)
 {
   test_in_order_and_twice();
   test_a_gap();
+  test_requested_once();
+  test_forged_number();
+  test_refused_until_the_gap_is_closed();
   test_heartbeats();
   test_what_is_not_for_it();
   test_what_was_cut_has_not_come();

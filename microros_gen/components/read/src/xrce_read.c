@@ -103,18 +103,17 @@ static uint16_t read_samples(const xrce_client_t * client, const xrce_receiver_t
 
 /* Whether something has to be said to the agent about a receiver, and how many samples to ask for. Preconfigured entities
  * stay when they are closed here: 0 samples tell the agent to stop. */
-static bool read_wants(const xrce_client_t * client, uint16_t index, uint32_t now, uint16_t * samples)
+static bool read_wants(xrce_client_t * client, uint16_t index, uint32_t now, uint16_t * samples)
 {
-  const xrce_receiver_t * receiver = &client->receivers[index];
+  xrce_receiver_t * receiver = &client->receivers[index];
   const xrce_object_state_t * state = &client->states[read_place(index)];
 
   *samples = 0;
   if (!state->wanted) {
     return MICROROS_PRECONFIGURED != 0u && receiver->request != XRCE_REQUEST_NONE;
   }
-  if (
-    state->stale || state->level != xrce_place_complete(read_place(index)) ||
-    !xrce_is_due(now, receiver->due_ms)) {
+  receiver->resting = receiver->resting && !xrce_is_due(now, receiver->due_ms);
+  if (receiver->resting || state->stale || state->level != xrce_place_complete(read_place(index))) {
     return false;
   }
   *samples = read_samples(client, receiver);
@@ -162,7 +161,7 @@ void xrce_read_step(xrce_client_t * client, uint32_t now)
   }
 }
 
-void xrce_read_renew(xrce_client_t * client, uint32_t now)
+void xrce_read_renew(xrce_client_t * client)
 {
   client->reading.outstanding = false;
   client->reading.sequence = 0;
@@ -174,7 +173,7 @@ void xrce_read_renew(xrce_client_t * client, uint32_t now)
     }
     receiver->request = XRCE_REQUEST_NONE;
     receiver->granted = 0;
-    receiver->due_ms = now;
+    receiver->resting = false;
   }
 }
 
@@ -215,6 +214,7 @@ void xrce_read_on_status(xrce_client_t * client, const uint8_t * payload, size_t
     receiver->request = XRCE_REQUEST_NONE;
     receiver->granted = 0;
     receiver->due_ms = now + MICROROS_RETRY_MOST_MS;
+    receiver->resting = true;
     ++client->session.statistics.refused;
   }
 }

@@ -29,7 +29,6 @@ void xrce_read_open(const xrce_endpoint_t * endpoint)
   xrce_receiver_t * receiver = queue_of(endpoint);
 
   (void)memset(receiver, 0, sizeof(*receiver));
-  receiver->due_ms = endpoint->client->session.now_ms;
 }
 
 void xrce_read_keep(

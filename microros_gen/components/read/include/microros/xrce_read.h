@@ -45,7 +45,7 @@ typedef struct xrce_slot_t {
 typedef struct xrce_receiver_t {
   uint32_t dropped; /* samples that had no room: see xrce_read_counters_t */
   uint32_t refused;
-  uint32_t due_ms;  /* after a refusal: when to ask again */
+  uint32_t due_ms;  /* while `resting`: when to ask again */
   uint16_t request; /* of the READ_DATA in force, or XRCE_REQUEST_NONE */
   uint16_t before;  /* of the one before it, of which samples may still be on their way */
   uint16_t granted; /* samples of a reliable endpoint that were asked for and have not come */
@@ -53,6 +53,7 @@ typedef struct xrce_receiver_t {
   uint8_t status;   /* with which the agent refused READ_DATA, until this was told; 0: none */
   uint8_t head;     /* the oldest sample's slot */
   uint8_t count;
+  bool resting;     /* the agent refused READ_DATA a moment ago */
 } xrce_receiver_t;
 
 /* The READ_DATA that is not acknowledged yet. */
@@ -104,7 +105,7 @@ xrce_read_counters_t xrce_read_counters(const xrce_endpoint_t * endpoint);
 
 /* --- what xrce_routes.c and the input streams call --- */
 
-void xrce_read_renew(xrce_client_t * client, uint32_t now);
+void xrce_read_renew(xrce_client_t * client);
 void xrce_read_step(xrce_client_t * client, uint32_t now);
 void xrce_read_on_data(
   xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags, uint32_t now);

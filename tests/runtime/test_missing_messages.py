@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Requests for missing messages: each once between two HEARTBEATs, so that a loss costs little on the line."""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import replace
+
+import pytest
+
+from microros_gen.plan.runtime import QueuePlan
+from runtime.conftest import Bench
+from runtime.driver import Client
+from runtime.harness import POOL, READER
+from runtime.reading_agent import ReadingAgent
+
+FIRST = POOL.publishers_max
+PIECES = 9
+LARGE = replace(READER, queues=(QueuePlan(1, 500), QueuePlan(1, 16)), reassembly_size=508)
+TEXT = "z" * (PIECES * 56 - 8 - 5)
+SAMPLE = struct.pack("<I", len(TEXT) + 1) + TEXT.encode() + b"\0"
+
+
+class Line:
+    """A client with a subscription, and an agent that sends all that an ACKNACK names, as the public one does."""
+
+    def __init__(self, bench: Bench, slots: int) -> None:
+        self.agent = ReadingAgent()
+        plan = replace(LARGE, reliable_input_slots=slots)
+        self.client: Client = bench.start(plan, agent=self.agent)
+        for call in ("init", "node 0 listener -", "read_init 0 0 String go reliable"):
+            self.client.ok(call)
+        self.client.spin(2)
+        self.sent = 0
+        self.lost: set[int] = set()
+        self.agent.drop_answer = self._pass
+
+    def _pass(self, answer: bytes) -> bool:
+        """Count what the agent sends; lose the first of each number in `lost`."""
+        if answer[1] != 0x80:
+            return False
+        self.sent += 1
+        (number,) = struct.unpack_from("<H", answer, 2)
+        lost = number in self.lost
+        self.lost.discard(number)
+        return lost
+
+    def named(self) -> list[int]:
+        """Return the numbers that the ACKNACKs so far have requested."""
+        found: list[int] = []
+        for datagram in self.client.sent:
+            if datagram[4] == 0x0A and datagram[12] == 0x80:
+                first, missing = (
+                    struct.unpack_from("<H", datagram, 8)[0],
+                    struct.unpack_from(">H", datagram, 10)[0],
+                )
+                found += [first + i for i in range(16) if missing >> i & 1]
+        return found
+
+
+@pytest.mark.parametrize("slots", [1, 2, 16])
+@pytest.mark.parametrize("lost", range(PIECES))
+def test_a_lost_piece_is_requested_once(bench: Bench, slots: int, lost: int) -> None:
+    """Without a HEARTBEAT the agent sends the lost piece and, where there was no slot, those after it: once each."""
+    line = Line(bench, slots)
+    first = line.agent.statuses
+    line.lost = {first + lost}
+    line.client.sent.clear()
+    line.client.queued += line.agent.offer(FIRST, SAMPLE)
+    line.client.spin(6)
+    if lost == PIECES - 1:  # nothing after it tells of it
+        line.client.queued += line.agent.tick()
+        line.client.spin(2)
+    assert line.client.ok("read_text 0 1000").lines == ("text " + TEXT,)
+    without_slot = max(0, PIECES - 1 - lost - (slots - 1))
+    assert line.sent == PIECES + 1 + without_slot
+    again = set(range(first + PIECES - without_slot, first + PIECES))
+    assert sorted(line.named()) == sorted({first + lost, *again})
+
+
+def test_two_losses_cost_two_pieces(bench: Bench) -> None:
+    line = Line(bench, 16)
+    first = line.agent.statuses
+    line.lost = {first + 1, first + 5}
+    line.client.queued += line.agent.offer(FIRST, SAMPLE)
+    line.client.spin(6)
+    assert line.client.ok("read_text 0 1000").lines == ("text " + TEXT,)
+    assert line.sent == PIECES + 2
+
+
+def test_a_lost_request_is_made_again_after_the_next_heartbeat(bench: Bench) -> None:
+    line = Line(bench, 16)
+    first = line.agent.statuses
+    line.agent.drop = lambda datagram: datagram[4] == 0x0A and datagram[12] == 0x80
+    line.lost = {first + 1}
+    line.client.sent.clear()
+    line.client.queued += line.agent.offer(FIRST, SAMPLE)
+    line.client.spin(50, 10)
+    assert line.named() == [first + 1]
+    line.agent.drop = lambda datagram: False
+    line.client.queued += line.agent.tick()
+    line.client.spin(3)
+    assert line.named() == [first + 1] * 2
+    assert line.client.ok("read_text 0 1000").lines == ("text " + TEXT,)
+
+
+def test_a_forged_number_makes_no_storm(bench: Bench) -> None:
+    """The messages before it do not exist: they are requested once for each HEARTBEAT, and data goes on."""
+    line = Line(bench, 4)
+    number = line.agent.statuses
+    forged = b"\x81\x80" + struct.pack("<H", number + 15) + b"\x09\x01\x08\0" + bytes(8)
+    line.client.sent.clear()
+    for _ in range(40):
+        line.client.queued += [forged]
+        line.client.spin()
+    assert len(line.named()) == 15
+    for i in range(10):
+        line.client.queued += [
+            *line.agent.offer(FIRST, struct.pack("<I", 2) + b"%d\0" % i),
+            *line.agent.tick(),
+        ]
+        line.client.spin(3)
+        assert line.client.ok("read_text 0 1000").lines == (f"text {i}",)
+    assert line.sent < 25
