@@ -6,12 +6,12 @@ What is left out: comments, directives (their macros and conditions are kept), a
 
 from __future__ import annotations
 
-import ast
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from microros_gen.diagnostics import Source, Span
+from microros_gen.diagnostics import Source, Span, reads
+from microros_gen.parse.python_literal import python_literal
 
 _TOKEN = re.compile(
     r"""
@@ -52,8 +52,8 @@ class Token:
         if "R" in self.text[: self.text.index('"')]:
             return inner[inner.index("(") + 1 : inner.rindex(")")]
         try:
-            return str(ast.literal_eval(f'"{inner}"'))
-        except (ValueError, SyntaxError):
+            return str(python_literal(f'"{inner}"'))
+        except ValueError:
             return inner
 
 
@@ -77,6 +77,7 @@ class CText:
     includes: tuple[str, ...]
 
 
+@reads
 def read_c(source: Source) -> CText:
     """Return the tokens of a file; any text can be read."""
     reader = _Reader(source)

@@ -101,7 +101,7 @@ class Values:
             return expanded
         try:
             value = _evaluate(ast.parse(expanded.strip(), mode="eval").body)
-        except (SyntaxError, ValueError, TypeError, ZeroDivisionError, RecursionError):
+        except (SyntaxError, ValueError, TypeError, ArithmeticError, RecursionError, MemoryError):
             return Unknown(f"`{shown(tokens)}` is no number that can be worked out here")
         return value
 
@@ -207,7 +207,7 @@ class Values:
         token = tokens[index]
         if token.kind == "number":
             digits = re.sub(r"[uUlL]+$", "", token.text.replace("'", ""))
-            return str(int(digits, 8)) if re.fullmatch(r"0[0-7]+", digits) else digits
+            return str(int(digits, 8)) if re.fullmatch(r"0[0-7]{1,22}", digits) else digits
         if token.kind == "punct":
             return "//" if token.text == "/" else token.text
         if token.text in _SCALES:

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from microros_gen.diagnostics import Diagnostics, Source, Span
+from microros_gen.diagnostics import Diagnostics, Source, Span, reads
 from microros_gen.parse.tree_read import expect_mapping
 from microros_gen.parse.yaml_tree import Entry, MappingNode, ScalarNode, SequenceNode, YamlNode, parse_yaml
 
@@ -28,6 +28,7 @@ class MetaSetting:
         return f"{self.package} {self.name}={self.value}" if self.name else f"{self.package} {self.value}"
 
 
+@reads
 def read_settings(source: Source, diagnostics: Diagnostics) -> tuple[MetaSetting, ...]:
     """Return every argument of CMake that `source` gives, in its order.
 

@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 import importlib
+import os
 import sys
+import traceback
 from collections.abc import Sequence
 
 import click
 
 from microros_gen import __version__
-from microros_gen.diagnostics import UserError, nearest
+from microros_gen.diagnostics import TRACEBACK, UserError, internal_error, nearest
 
 # Command → one line of help; each is the object `command` of the module of the same name, imported when used.
 _COMMANDS = {
@@ -69,7 +71,7 @@ def cli() -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command line and exit; never shows a traceback for a user's mistake."""
+    """Run the command line and exit; shows a traceback only where MICROROS_GEN_TRACEBACK asks for one."""
     sys.exit(_status(arguments))
 
 
@@ -77,6 +79,8 @@ def _status(arguments: Sequence[str] | None) -> int:
     try:
         result = cli.main(args=arguments, prog_name="microros-gen", standalone_mode=False)
     except UserError as error:
+        if error.__cause__ is not None and os.environ.get(TRACEBACK):
+            traceback.print_exception(error.__cause__)
         for diagnostic in error.diagnostics:
             click.echo(diagnostic.render(), err=True)
         return error.status
@@ -86,4 +90,13 @@ def _status(arguments: Sequence[str] | None) -> int:
     except (click.Abort, KeyboardInterrupt):
         click.echo("microros-gen: interrupted", err=True)
         return 130
+    except OSError as error:
+        place = f"{error.filename}: " if error.filename else ""
+        click.echo(f"microros-gen: error: {place}{error.strerror or error}", err=True)
+        return 1
+    except Exception as error:
+        if os.environ.get(TRACEBACK):
+            raise
+        click.echo(internal_error(error).render(), err=True)
+        return 2
     return result if isinstance(result, int) else 0

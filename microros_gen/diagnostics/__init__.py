@@ -2,6 +2,18 @@
 """What a user is told: places in sources, diagnostics and their printed form."""
 
 from microros_gen.diagnostics.diagnostic import Diagnostic, Diagnostics, Severity, UserError, nearest
+from microros_gen.diagnostics.internal import TRACEBACK, internal_error, reads
 from microros_gen.diagnostics.source import Source, Span
 
-__all__ = ["Diagnostic", "Diagnostics", "Severity", "Source", "Span", "UserError", "nearest"]
+__all__ = [
+    "TRACEBACK",
+    "Diagnostic",
+    "Diagnostics",
+    "Severity",
+    "Source",
+    "Span",
+    "UserError",
+    "internal_error",
+    "nearest",
+    "reads",
+]

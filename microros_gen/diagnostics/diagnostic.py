@@ -4,11 +4,20 @@
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import Enum
 
 from microros_gen.diagnostics.source import Span
+
+LONGEST_LINE = 160
+"""Characters that are shown of a source line."""
+
+LONGEST_WORD = 400
+"""Characters that are shown of one word of a message, such as a name from the input."""
+
+_LONG_WORD = re.compile(rf"\S{{{LONGEST_WORD + 1},}}")
 
 
 class Severity(Enum):
@@ -31,7 +40,7 @@ class Diagnostic:
         """Return `file:line:col: error: what. hint` (without a place: `microros-gen: error: …`)."""
         where = str(self.span) if self.span else "microros-gen"
         text = f"{where}: {self.severity.value}: {self.message}"
-        return f"{text}. {self.hint}" if self.hint else text
+        return _shortened(f"{text}. {self.hint}" if self.hint else text)
 
     def render(self) -> str:
         """Return the headline, then the source line with a caret below the place where there is one."""
@@ -40,10 +49,25 @@ class Diagnostic:
         line = self.span.source.line(self.span.line)
         if not line.strip():
             return self.headline()
-        lead = "".join("\t" if c == "\t" else " " for c in line[: self.span.column - 1])
-        end = min(self.span.end_column or self.span.column + 1, len(line) + 1)
-        caret = "^" + "~" * max(0, end - self.span.column - 1)
-        return f"{self.headline()}\n  {line.rstrip()}\n  {lead}{caret}"
+        line, column, end = _shown(line.rstrip(), self.span)
+        lead = "".join("\t" if c == "\t" else " " for c in line[: column - 1])
+        caret = "^" + "~" * max(0, end - column - 1)
+        return f"{self.headline()}\n  {line}\n  {lead}{caret}"
+
+
+def _shortened(message: str) -> str:
+    """Return the message with each long word (a name from the input) cut; a compiler's many lines stay."""
+    return _LONG_WORD.sub(lambda word: f"{word.group()[:LONGEST_WORD]}…", message)
+
+
+def _shown(line: str, span: Span) -> tuple[str, int, int]:
+    """Return what is shown of a line, and the columns of the place in it: of a long line the part around the place."""
+    begin, end = span.column, min(span.end_column or span.column + 1, len(line) + 1)
+    first = max(0, begin - 1 - LONGEST_LINE // 2) if len(line) > LONGEST_LINE else 0
+    part = line[first : first + LONGEST_LINE]
+    head, tail = "…" if first else "", "…" if first + len(part) < len(line) else ""
+    moved = len(head) - first
+    return f"{head}{part}{tail}", begin + moved, min(end + moved, len(head) + len(part) + 1)
 
 
 class UserError(Exception):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.diagnostics import Diagnostics, Source, reads
 from microros_gen.model.agent_file import (
     AgentFile,
     NamedPath,
@@ -26,6 +26,7 @@ DISCOVERY_PORT = 7400
 _TCP_LIMITS = ("connections", "output_bytes", "patience_s")
 
 
+@reads
 def parse_agent_file(source: Source, diagnostics: Diagnostics) -> AgentFile:
     """Return what the file says; what is wrong goes to `diagnostics`, and reads as not there."""
     found = Diagnostics()

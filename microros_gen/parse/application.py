@@ -7,7 +7,7 @@ import ipaddress
 import re
 from types import MappingProxyType
 
-from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
+from microros_gen.diagnostics import Diagnostics, Source, Span, nearest, reads
 from microros_gen.model.application import (
     DISCOVERY_PORT,
     LARGEST_UDP_PAYLOAD,
@@ -44,7 +44,7 @@ SHORTEST_SILENCE_MS, LONGEST_SILENCE_MS = 100, 999_000
 LONGEST_BLOCK_MS = 60_000
 """Longest time that `on_full: block …` may take, milliseconds."""
 
-_BLOCK = re.compile(r"block ([0-9]+) ?(ms|s)")
+_BLOCK = re.compile(r"block ([0-9]{1,12}) ?(ms|s)")
 _POOLS_BESIDE_NODES = (
     "history",
     "input_history",
@@ -61,6 +61,7 @@ _WITHOUT_ADDRESS = ("serial", "custom")
 _ONLY_FOR = {"device": "serial", "baud": "serial", "framing": "custom"}
 
 
+@reads
 def parse_application(source: Source, diagnostics: Diagnostics) -> Application | None:
     """Return the application that `source` describes; None where `diagnostics` got errors from it.
 
@@ -167,7 +168,7 @@ def parse_discover(text: str, span: Span | None, diagnostics: Diagnostics) -> in
     word, separator, port = text.partition(":")
     if word != "discover":
         return None
-    if separator and not (port.isascii() and port.isdigit() and 1 <= int(port) <= 65535):
+    if separator and not (re.fullmatch(r"[0-9]{1,5}", port) and 1 <= int(port) <= 65535):
         message = f"the port of the search must be a whole number between 1 and 65535; it is '{port}'"
         diagnostics.error(message, span, "Write `agent: discover`: agents listen at 7400")
         return DISCOVERY_PORT
@@ -191,7 +192,7 @@ def parse_agent_address(text: str, span: Span | None, diagnostics: Diagnostics) 
         diagnostics.error(f"the agent '{text}' lacks its port", span, f'Write "{text}:8888"')
         return None
     valid = _check_host(host, span, diagnostics)
-    if not port.isascii() or not port.isdigit() or not 1 <= int(port) <= 65535:
+    if not re.fullmatch(r"[0-9]{1,5}", port) or not 1 <= int(port) <= 65535:
         message = f"the agent's port must be a whole number between 1 and 65535; it is '{port}'"
         diagnostics.error(message, span, "The public agent's examples use 8888")
         return None
@@ -315,7 +316,7 @@ def _task(item: YamlNode, diagnostics: Diagnostics) -> TaskDecl:
 def _rate_period(node: YamlNode, diagnostics: Diagnostics) -> int | None:
     number = number_of(node)
     text = text_of(node)
-    if number is None and text is not None and re.fullmatch(r"[0-9]+([.][0-9]+)? ?Hz", text):
+    if number is None and text is not None and re.fullmatch(r"[0-9]{1,12}([.][0-9]{1,12})? ?Hz", text):
         number = float(text.removesuffix("Hz"))
     if number is None or number != number:
         return None

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.diagnostics import Diagnostics, Source, reads
 from microros_gen.model.component import Component, SourceFile
 from microros_gen.model.xrce import OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
 from microros_gen.parse.tree_read import check_keys, expect_mapping, read_choice, read_names, read_text
@@ -16,6 +16,7 @@ _LISTS = ("needs", "xrce", "sends", "receives", "objects", "headers", "sources")
 _STATUS = ("ready", "planned")
 
 
+@reads
 def parse_component(source: Source, diagnostics: Diagnostics) -> Component | None:
     """Return the component that `source` describes; None and errors in `diagnostics` where it is not one."""
     before = diagnostics.has_errors()

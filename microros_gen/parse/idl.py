@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from microros_gen.diagnostics import Diagnostics, Source, Span
+from microros_gen.diagnostics import Diagnostics, Source, Span, reads
 from microros_gen.model.derived import ACTION_PARTS, SERVICE_PARTS, make_declaration
 from microros_gen.model.types import Declaration, Message, TypeName
 from microros_gen.parse.idl_declarations import (
@@ -60,6 +60,7 @@ def parse_idl(source: Source, package: str, kind: str, diagnostics: Diagnostics)
     return read_idl(source, package, kind, diagnostics).declarations
 
 
+@reads
 def read_idl(source: Source, package: str, kind: str, diagnostics: Diagnostics) -> IdlFile:
     """Return what `parse_idl` returns, and the files that `source` includes, which are not read."""
     found = Diagnostics()
@@ -212,7 +213,7 @@ def _constants_by_struct(contents: Contents, scope: Scope) -> dict[str, list[Pla
 def _check_equal_constants(constants: Sequence[Placed], scope: Scope) -> None:
     """Report a constant that two modules declare alike: rosidl_parser gives both to the first module."""
     first: dict[str, list[Placed]] = {}
-    for constant in constants:
+    for constant in (c for c in constants if c.modules):
         for earlier in first.setdefault(str(constant.name), []):
             if earlier.modules != constant.modules and tokens_of(earlier.node) == tokens_of(constant.node):
                 scope.diagnostics.error(

@@ -9,7 +9,6 @@ in the hint.
 
 from __future__ import annotations
 
-import ast
 import math
 import operator
 import re
@@ -29,6 +28,7 @@ from microros_gen.model.types import (
     Value,
 )
 from microros_gen.parse.msg_declarations import LARGEST_BOUND, SyntaxNode
+from microros_gen.parse.python_literal import python_literal
 
 _SIGNED = (Primitive.INT8, Primitive.INT16, Primitive.INT32, Primitive.INT64, Primitive.IDL_CHAR)
 _FLOATS = (Primitive.FLOAT32, Primitive.FLOAT64)
@@ -313,8 +313,8 @@ def _elements(value: ScalarValue, span: Span) -> tuple[ScalarValue, ...]:
     """Return the elements of the default of an array: rosidl writes it as the text of a Python tuple."""
     hint = 'Write @default (value="(1, 2)"), for one element "(1,)"'
     try:
-        found = ast.literal_eval(value) if isinstance(value, str) else None
-    except (SyntaxError, ValueError, MemoryError, RecursionError):
+        found = python_literal(value) if isinstance(value, str) else None
+    except ValueError:
         found = None
     if not isinstance(found, (tuple, list)):
         raise IdlError(span, "the default of an array or sequence is a list in a string", hint)

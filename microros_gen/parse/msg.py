@@ -19,7 +19,7 @@ from functools import lru_cache
 from lark import Lark, Token
 from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedToken
 
-from microros_gen.diagnostics import Diagnostics, Source, Span
+from microros_gen.diagnostics import Diagnostics, Source, Span, reads
 from microros_gen.model.types import Field, Message, TypeName
 from microros_gen.parse.msg_declarations import Declaration, Line, read_declaration
 from microros_gen.parse.msg_names import package_name_fault, type_name_fault
@@ -64,6 +64,7 @@ class _Part:
     entries: list[_Entry] = field(default_factory=list)
 
 
+@reads
 def parse_msg(source: Source, name: TypeName, diagnostics: Diagnostics) -> Message | None:
     """Return the message that `source` declares as type `name`, or None when it has an error.
 

@@ -10,13 +10,13 @@ ends with its line.
 
 from __future__ import annotations
 
-import ast
 import codecs
 import math
 import re
 import struct
 
 from microros_gen.model.types import Primitive, ScalarValue, StringType
+from microros_gen.parse.python_literal import python_literal
 
 _INTEGER_RANGES = {
     Primitive.BYTE: (0, 255),
@@ -88,8 +88,8 @@ def string_elements(kind: StringType, texts: list[str]) -> tuple[str, ...]:
             "ROS 2 Jazzy refuses it too; set the value in the program",
         ) from None
     try:
-        elements: tuple[str, ...] = ast.literal_eval(_resolve_idl_escapes(literal))
-    except (SyntaxError, ValueError):
+        elements: tuple[str, ...] = python_literal(_resolve_idl_escapes(literal))
+    except ValueError:
         raise InvalidValueError("a backslash in a string array is not a complete escape", _FOUR) from None
     for element in elements:
         _check_characters(element, kind)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from types import MappingProxyType
 
-from microros_gen.diagnostics import Diagnostics, Source, Span
+from microros_gen.diagnostics import Diagnostics, Source, Span, reads
 from microros_gen.model.component import AxisValue, Middleware, Profile, XrceProfile
 from microros_gen.model.xrce import MICRO_ROS_COMPONENTS, SUBMESSAGES, XRCE_PROFILES
 from microros_gen.parse.tree_read import (
@@ -31,6 +31,7 @@ _PROFILE_KEYS = ("profile", "summary", "extends", "components", *AXES)
 _AXIS_VALUE_KEYS = ("component", "xrce", "agent", "allows")
 
 
+@reads
 def parse_profile(source: Source, diagnostics: Diagnostics, builtin: bool = False) -> Profile | None:
     """Return the profile that `source` describes, or None with errors in `diagnostics`.
 
@@ -69,6 +70,7 @@ def _profile(node: MappingNode, start: Span, diagnostics: Diagnostics, builtin: 
     )
 
 
+@reads
 def parse_middleware(source: Source, diagnostics: Diagnostics) -> Middleware | None:
     """Return the middleware table, or None with errors in `diagnostics`."""
     node = expect_mapping(parse_yaml(source, diagnostics), "the middleware table", diagnostics)

@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.diagnostics import Diagnostics, Source, reads
 from microros_gen.model.derived import SERVICE_PARTS
 from microros_gen.model.types import Service, TypeName
 from microros_gen.parse.parts import parse_parts
 
 
+@reads
 def parse_srv(source: Source, name: TypeName, diagnostics: Diagnostics) -> Service | None:
     """Return the service that `source` declares as type `name`, or None when it has an error.
 

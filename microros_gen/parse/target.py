@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.diagnostics import Diagnostics, Source, reads
 from microros_gen.model.target import PORTS, REGISTERS, Emulator, Region, Target, Uart, UniqueId
 from microros_gen.parse.tree_values import bool_of, child, entries, int_of, items, size_of, text_of
 from microros_gen.parse.yaml_tree import Entry, MappingNode, SequenceNode, YamlNode, parse_yaml
@@ -13,6 +13,7 @@ _ADDED = ("c_flags", "link_flags", "libraries")
 _ADDRESS_SPACE = 1 << 32
 
 
+@reads
 def parse_target(source: Source, diagnostics: Diagnostics, builtin: bool = False) -> MappingNode | None:
     """Return what one target file says; None and errors in `diagnostics` where it does not hold.
 

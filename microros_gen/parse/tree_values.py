@@ -14,9 +14,9 @@ from microros_gen.model.application import Named
 from microros_gen.model.names import NameFault
 from microros_gen.parse.yaml_tree import Entry, MappingNode, ScalarNode, SequenceNode, YamlNode
 
-_SIZE = re.compile(r"([0-9]+) ?(B|kB|KiB|MB|MiB)")
+_SIZE = re.compile(r"([0-9]{1,12}) ?(B|kB|KiB|MB|MiB)")
 _SIZE_UNITS = {"B": 1, "kB": 1000, "KiB": 1024, "MB": 1_000_000, "MiB": 1024 * 1024}
-_TIME = re.compile(r"([0-9]+(?:[.][0-9]+)?) ?(us|ms|s)")
+_TIME = re.compile(r"([0-9]{1,12}(?:[.][0-9]{1,12})?) ?(us|ms|s)")
 _TIME_UNITS = {"us": 1, "ms": 1000, "s": 1_000_000}
 
 

@@ -34,6 +34,11 @@ LARGEST_TREE = 100_000
 DEEPEST_TREE = 64
 """Levels of nesting that are taken."""
 
+LONGEST_NUMBER = 64
+"""Characters of a number that are taken; Python refuses to read or print very long ones."""
+
+_DEEPEST_FOR_C = 5_000
+
 _INTEGER = re.compile(r"[-+]?[0-9]+|0o[0-7]+|0x[0-9a-fA-F]+")
 _FLOAT = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?")
 _LEADING_ZERO = re.compile(r"[-+]?0[0-9]+")
@@ -122,7 +127,8 @@ def to_data(node: YamlNode) -> Data:
 
 def _compose(source: Source, diagnostics: Diagnostics, c_loader: bool) -> yaml.Node | None:
     text = _TRAILING_TAB.sub(lambda match: " " * len(match.group()), source.text)
-    if c_loader and hasattr(yaml, "CBaseLoader") and not _LOADERS_DIFFER.search(text):
+    may_use_c = c_loader and hasattr(yaml, "CBaseLoader") and not _may_be_deep(text)
+    if may_use_c and not _LOADERS_DIFFER.search(text):
         try:
             return yaml.compose(text, Loader=yaml.CBaseLoader)
         except (yaml.YAMLError, ValueError, RecursionError):
@@ -132,6 +138,16 @@ def _compose(source: Source, diagnostics: Diagnostics, c_loader: bool) -> yaml.N
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         diagnostics.extend([yaml_fault(source, error)])
         return None
+
+
+def _may_be_deep(text: str) -> bool:
+    """Return whether `text` could nest so deeply that libyaml, which recurses in C, would end the process.
+
+    Each level of flow style takes a bracket, and each level of block style a column of its line (two levels share
+    one where a list is not indented).
+    """
+    columns = max(map(len, text.split("\n")))
+    return text.count("[") + text.count("{") + 2 * columns > _DEEPEST_FOR_C
 
 
 class _Builder:
@@ -202,12 +218,18 @@ class _Builder:
 
     def _scalar(self, node: yaml.ScalarNode) -> ScalarNode:
         span, text = self._span(node), str(node.value)
+        if "\0" in text:
+            self._error(node, "a text with a NUL character", "Remove it")
+            return ScalarNode(None, text.replace("\0", ""), True, span)
         if not _is_plain(node):
             return ScalarNode(text, text, False, span)
         if _LEADING_ZERO.fullmatch(text):
             number = text.lstrip("+-").lstrip("0") or "0"
             hint = f"Write {number} (decimal), 0o{number} (octal) or '{text}' (text)"
             self._error(node, f"'{text}' is octal to some readers of YAML and decimal to others", hint)
+        if len(text) > LONGEST_NUMBER and (_INTEGER.fullmatch(text) or _FLOAT.fullmatch(text)):
+            self._error(node, f"a number of {len(text)} characters", "Write a smaller one, or quote a text")
+            return ScalarNode(None, text, True, span)
         return ScalarNode(_plain_value(text), text, True, span)
 
     def _check_tag(self, node: yaml.Node) -> None:

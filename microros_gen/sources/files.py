@@ -11,10 +11,11 @@ import errno
 import json
 import os
 import stat
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-LARGEST_TEXT = 8 << 20
+LARGEST_TEXT = 1 << 20
 """Bytes of a text that is read (interface, YAML, C source); the largest interface of ROS 2 has 30 kB."""
 
 LARGEST_RECORD = 64 << 20
@@ -29,7 +30,11 @@ def read_bytes(path: Path, largest: int = LARGEST_TEXT, follow: bool = True) -> 
 
     `follow` false: a symbolic link is refused instead of followed. Raises OSError, with the path as `filename`.
     """
-    _check_regular(path, path.stat() if follow else path.lstat())  # opening a device may already do something
+    try:
+        found = path.stat() if follow else path.lstat()
+    except ValueError as error:  # a NUL in the name
+        raise OSError(errno.EINVAL, str(error), str(path)) from error
+    _check_regular(path, found)  # opening a device may already do something
     with os.fdopen(os.open(path, _FLAGS if follow else _FLAGS | _NO_LINK), "rb") as file:
         _check_regular(path, os.fstat(file.fileno()))
         data = file.read(largest + 1)
@@ -56,6 +61,23 @@ def read_json(path: Path, largest: int = LARGEST_RECORD, follow: bool = True) ->
         return json.loads(read_text(path, largest=largest, follow=follow))
     except RecursionError as error:
         raise ValueError(f"{path} is nested too deeply") from error
+
+
+def is_file(path: Path) -> bool:
+    """Return whether a regular file has this name; a name that no file can have is none."""
+    return _is(path, stat.S_ISREG)
+
+
+def is_folder(path: Path) -> bool:
+    """Return whether a folder has this name; a name that no folder can have is none."""
+    return _is(path, stat.S_ISDIR)
+
+
+def _is(path: Path, judge: Callable[[int], bool]) -> bool:
+    try:
+        return judge(path.stat().st_mode)
+    except (OSError, ValueError):
+        return False
 
 
 def _check_regular(path: Path, found: os.stat_result) -> None:

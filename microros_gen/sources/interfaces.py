@@ -20,7 +20,7 @@ from types import MappingProxyType
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.model.types import TypeName
 from microros_gen.parse.msg_names import is_package_name
-from microros_gen.sources.files import read_bytes, read_text
+from microros_gen.sources.files import is_file, is_folder, read_bytes, read_text
 
 SUFFIXES_OF_KIND: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {"msg": (".msg", ".idl"), "srv": (".srv", ".idl"), "action": (".action", ".idl")}
@@ -230,7 +230,7 @@ def _stems(folder: Path, suffixes: tuple[str, ...]) -> list[str]:
 
 
 def _is_package(folder: Path) -> bool:
-    return any((folder / kind).is_dir() for kind in KINDS)
+    return any(is_folder(folder / kind) for kind in KINDS)
 
 
 def _packages_below(folder: Path, origin: Origin) -> list[PackagePlace]:
@@ -251,7 +251,11 @@ def _walk(folder: Path) -> Iterator[Path]:
     pending = [(entry, 1) for entry in reversed(_children(folder))]
     while pending:
         here, depth = pending.pop()
-        if here.name.startswith(".") or not here.is_dir() or any((here / name).exists() for name in _IGNORED):
+        if (
+            here.name.startswith(".")
+            or not is_folder(here)
+            or any((here / name).exists() for name in _IGNORED)
+        ):
             continue
         yield here
         if depth < _DEEPEST and not _is_package(here) and not _has_manifest(here):
@@ -259,7 +263,7 @@ def _walk(folder: Path) -> Iterator[Path]:
 
 
 def _has_manifest(folder: Path) -> bool:
-    return (folder / "package.xml").is_file()
+    return is_file(folder / "package.xml")
 
 
 def _children(folder: Path) -> list[Path]:
@@ -280,9 +284,9 @@ def _name_of(folder: Path) -> str:
 
 
 def _path_fault(path: Path) -> tuple[str, str] | None:
-    if not path.exists():
+    if not is_folder(path) and not is_file(path) and not os.path.lexists(path):
         return "does not exist", "Name a folder that holds interface packages, or one package"
-    if not path.is_dir():
+    if not is_folder(path):
         return "is not a folder", "Name the package's folder, the one that holds msg/, srv/ or action/"
     try:
         next(path.iterdir(), None)

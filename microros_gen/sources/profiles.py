@@ -13,7 +13,7 @@ from microros_gen.model.application import Named
 from microros_gen.model.component import Middleware, Profile, ProfileSet
 from microros_gen.model.xrce import BUILTIN_PROFILES
 from microros_gen.parse.profile import parse_middleware, parse_profile
-from microros_gen.sources.files import read_text
+from microros_gen.sources.files import is_file, read_text
 
 MIDDLEWARE_FILE = "middleware.yaml"
 _SUFFIXES = (".yaml", ".yml")
@@ -148,7 +148,7 @@ def _is_path(name: str) -> bool:
 
 def _user_file(name: str, near: Path) -> Path | None:
     names = (name,) if _is_path(name) else tuple(f"{name}{suffix}" for suffix in _SUFFIXES)
-    return next((near / n for n in names if (near / n).is_file()), None)
+    return next((near / n for n in names if is_file(near / n)), None)
 
 
 def _read(path: Path, shown: str, diagnostics: Diagnostics, span: Span | None = None) -> Source | None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import shutil
@@ -171,8 +172,12 @@ def test_an_interrupted_run_of_another_selection(
 ) -> None:
     """Its journal lies there, and a file that no one needs."""
     stray = "src/std_msgs/empty__functions.c"
-    put(application / OUT / stray, "/* half of another selection */\n")
-    journal = {"files": [stray], "generator": {"name": "microros-gen"}}
+    text = "/* half of another selection */\n"
+    put(application / OUT / stray, text)
+    journal = {
+        "files": {stray: [hashlib.sha256(text.encode()).hexdigest()]},
+        "generator": {"name": "microros-gen"},
+    }
     put(application / OUT / ".microros-gen-journal.json", json.dumps(journal))
     generate()
     assert not (application / OUT / stray).exists()
