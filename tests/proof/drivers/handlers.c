@@ -169,10 +169,12 @@ static void any_client(void)
   any_receivers();
   proof_any(&client.ping.due_ms, sizeof(client.ping.due_ms));
   client.ping.unanswered = proof_u8();
-  client.ping.answered = proof_bool();
-  client.time_sync.asked_ns = Frama_C_long_long_interval(0, INT64_MAX / 2);
+  client.ping.answers = Frama_C_unsigned_char_interval(0, UINT8_MAX);
+  client.time_sync.since_ns = Frama_C_long_long_interval(0, INT64_MAX / 2);
+  client.time_sync.round_trip_ns = Frama_C_long_long_interval(0, INT64_MAX);
   client.time_sync.offset_ns = 0;
-  client.time_sync.outstanding = proof_bool();
+  client.time_sync.callers = Frama_C_unsigned_char_interval(0, UINT8_MAX);
+  client.time_sync.answers = Frama_C_unsigned_char_interval(0, UINT8_MAX);
   client.time_sync.synchronized = proof_bool();
   client.fragments.next = proof_u16();
   client.fragments.skipping = proof_bool();

@@ -7,48 +7,51 @@
 #include "microros/rmw_client.h"
 #include "microros/rmw_epoch.h"
 #include "microros/xrce_client.h"
+#include "microros/xrce_rest.h"
 #include "microros/xrce_time_sync.h"
+#include "microros/xrce_wire.h"
 
 #include <stddef.h>
 
-/* After so much silence the question or its answer is taken for lost. */
-enum { REPEAT_MS = 100 };
-
+/* Returns whether an answer came. A session that is lost meanwhile, or was before, is waited for. */
 static bool sync_wait(xrce_client_t * client, uint32_t timeout_ms)
 {
   const uint32_t start = port_time_ms();
-  uint32_t asked = start;
+  const uint8_t answers = client->time_sync.answers;
+  uint32_t due = start; /* when to ask (again) */
 
-  (void)xrce_time_sync_ask(client); /* what was not sent is repeated like what was lost */
   for (;;) {
     uint32_t now;
 
     xrce_session_pump(client);
-    if (!client->time_sync.outstanding) {
+    if (client->time_sync.answers != answers) {
       return true;
     }
     now = port_time_ms();
-    if (client->session.state != XRCE_READY || now - start >= timeout_ms) {
+    if (client->session.state == (uint8_t)XRCE_READY && xrce_is_due(now, due)) {
+      xrce_time_sync_ask(client);
+      due = now + MICROROS_RETRY_FIRST_MS;
+    }
+    if (client->session.state == (uint8_t)XRCE_CLOSED || now - start >= timeout_ms) {
       return false;
     }
-    if (now - asked >= REPEAT_MS) {
-      asked = now;
-      (void)xrce_time_sync_ask(client);
-    }
-    microros_pause();
+    xrce_rest(client);
   }
 }
 
 static rmw_ret_t sync_session(int timeout_ms)
 {
   const uint32_t timeout = timeout_ms > 0 ? (uint32_t)timeout_ms : 0u;
-  xrce_client_t * client = rmw_client_connected();
+  xrce_client_t * client = rmw_client_instance();
+  bool synchronized;
 
-  if (client == NULL) {
+  if (client->session.state == (uint8_t)XRCE_CLOSED) {
     return microros_error_refuse(RMW_RET_ERROR, "session");
   }
-  if (!sync_wait(client, timeout)) {
-    client->time_sync.outstanding = false;
+  xrce_time_sync_begin(&client->time_sync);
+  synchronized = sync_wait(client, timeout);
+  xrce_time_sync_end(&client->time_sync);
+  if (!synchronized) {
     microros_error_set(
       microros_error_agent_silent, xrce_transport_name(&client->session.transport), NULL,
       xrce_transport_port(&client->session.transport), timeout);

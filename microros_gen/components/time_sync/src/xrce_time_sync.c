@@ -36,18 +36,32 @@ static bool time_get_moment(const uint8_t * at, uint8_t flags, int64_t * moment_
   return nanoseconds < (uint32_t)ns_per_s;
 }
 
-bool xrce_time_sync_ask(xrce_client_t * client)
+void xrce_time_sync_begin(xrce_time_sync_t * sync)
+{
+  if (sync->callers == 0u) {
+    sync->since_ns = port_time_steady_ns();
+    sync->round_trip_ns = INT64_MAX;
+  }
+  ++sync->callers;
+}
+
+void xrce_time_sync_end(xrce_time_sync_t * sync)
+{
+  if (sync->callers != 0u) { /* else another task closed the session meanwhile, and opened one */
+    --sync->callers;
+  }
+}
+
+void xrce_time_sync_ask(xrce_client_t * client)
 {
   uint8_t message[TIMESTAMP_SIZE];
-  xrce_time_sync_t * sync = &client->time_sync;
+  const int64_t now_ns = port_time_steady_ns();
 
-  sync->asked_ns = port_time_steady_ns();
-  sync->outstanding = true;
   xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_NONE, 0);
   xrce_put_submessage(&message[4], XRCE_TIMESTAMP, XRCE_FLAG_LITTLE_ENDIAN, MOMENT_SIZE);
-  time_put_le32(&message[8], (uint32_t)(sync->asked_ns / ns_per_s));
-  time_put_le32(&message[12], (uint32_t)(sync->asked_ns % ns_per_s));
-  return xrce_session_send(&client->session, message, sizeof(message));
+  time_put_le32(&message[8], (uint32_t)(now_ns / ns_per_s));
+  time_put_le32(&message[12], (uint32_t)(now_ns % ns_per_s));
+  (void)xrce_session_send(&client->session, message, sizeof(message)); /* a loss is what the repetition is for */
 }
 
 void xrce_time_sync_on_reply(xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags)
@@ -65,11 +79,14 @@ void xrce_time_sync_on_reply(xrce_client_t * client, const uint8_t * payload, si
     ++client->session.statistics.malformed;
     return;
   }
-  if (!sync->outstanding || originated_ns != sync->asked_ns) {
-    return; /* late, or twice */
+  if (
+    sync->callers == 0u || originated_ns < sync->since_ns || originated_ns > now_ns ||
+    now_ns - originated_ns >= sync->round_trip_ns) {
+    return; /* late, twice, or not as good */
   }
   /* Each moment is within 2^32 seconds, so the sum of two differences stays below 2^63 nanoseconds. */
   sync->offset_ns = ((received_ns - originated_ns) + (transmitted_ns - now_ns)) / 2;
-  sync->outstanding = false;
+  sync->round_trip_ns = now_ns - originated_ns;
   sync->synchronized = true;
+  ++sync->answers;
 }

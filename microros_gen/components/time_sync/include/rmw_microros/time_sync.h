@@ -15,9 +15,10 @@ extern "C" {
 #endif
 
 /*
- * Asks the agent what time it is and keeps the difference to the time since the start of the device. What is lost is
- * asked again; waits at most `timeout_ms`. RMW_RET_ERROR: there is no session, or no answer; then an earlier result
- * holds on. The result outlives a lost session, not rcl_shutdown.
+ * Asks the agent what time it is and keeps the difference to the time since the start of the device: right to half of the
+ * time that question and answer took. What is lost is asked again, and a session that was lost is waited for; waits at most
+ * `timeout_ms`, which must be longer than a round trip. RMW_RET_ERROR: there is no session, or no answer; then an earlier
+ * result holds on. The result outlives a lost session, not rcl_shutdown.
  */
 rmw_ret_t rmw_uros_sync_session(const int timeout_ms);
 
