@@ -10,6 +10,7 @@ from pathlib import Path
 from types import TracebackType
 
 from runtime.fake_agent import FakeAgent
+from runtime.wires import Datagrams, Wire
 
 # Sleeps of a millisecond in one call; more means that a wait has no end.
 MOST_SLEEPS = 20_000
@@ -26,12 +27,21 @@ class Result:
 
 
 class Client:
-    """The client program with `agent` on the other side; used as a context manager."""
+    """The client program with `agent` on the other side; used as a context manager.
 
-    def __init__(self, program: Path, agent: FakeAgent) -> None:
+    Answers come `round_trip_ms` after what they are for. `group` answers what is sent to the group of agents.
+    """
+
+    def __init__(self, program: Path, agent: FakeAgent, wire: Wire | None = None) -> None:
         self.agent = agent
         self.sent: list[bytes] = []
+        self.sent_at: list[int] = []
         self.queued: list[bytes] = []
+        self.round_trip_ms = 0
+        self.now_ms = 0
+        self.group: Callable[[bytes], bytes] = lambda question: b""
+        self._wire = wire or Datagrams()
+        self._late: list[tuple[int, bytes]] = []
         self.on_sleep: Callable[[], None] = lambda: None
         self._process = subprocess.Popen(
             [program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
@@ -61,8 +71,14 @@ class Client:
             word, _, rest = line.partition(" ")
             if word == "tx":
                 self._transmit(bytes.fromhex(rest))
+            elif word in ("open", "close"):
+                self._wire.begin()
+                lines.append(line)
+            elif word == "group":
+                self._say(f"group {self.group(bytes.fromhex(rest.split()[-1])).hex()}")
             elif word == "sleep":
                 slept += int(rest)
+                self.now_ms += int(rest)
                 assert slept < MOST_SLEEPS, f"{command} does not return"
                 self.on_sleep()
                 self._deliver()
@@ -80,6 +96,7 @@ class Client:
 
     def wait(self, milliseconds: int) -> None:
         """Let time pass for the client."""
+        self.now_ms += milliseconds
         self._say(f"time {milliseconds}")
 
     def tell(self, line: str) -> None:
@@ -94,13 +111,18 @@ class Client:
         (line,) = (x for x in self.ok("statistics").lines if x.startswith("statistics"))
         return {key: int(value) for key, value in (pair.split("=") for pair in line.split()[1:])}
 
-    def _transmit(self, datagram: bytes) -> None:
-        self.sent.append(datagram)
-        self.queued += self.agent.receive(datagram)
+    def _transmit(self, data: bytes) -> None:
+        for message in self._wire.messages(data):
+            self.sent.append(message)
+            self.sent_at.append(self.now_ms)
+            due = self.now_ms + self.round_trip_ms
+            self._late += [(due, answer) for answer in self.agent.receive(message)]
 
     def _deliver(self) -> None:
-        for datagram in self.queued:
-            self._say(f"rx {datagram.hex()}")
+        self.queued += [answer for due, answer in self._late if due <= self.now_ms]
+        self._late = [(due, answer) for due, answer in self._late if due > self.now_ms]
+        for answer in self.queued:
+            self._say(f"rx {self._wire.carried(answer).hex()}")
         self.queued.clear()
 
     def _line(self) -> str:

@@ -103,6 +103,47 @@ def test_time_goes_on_after_it(bench: Bench) -> None:
     )
 
 
+@pytest.mark.parametrize("round_trip_ms", [30, 90, 150, 900, 3000])
+def test_any_round_trip_below_the_time_out(bench: Bench, round_trip_ms: int) -> None:
+    """The answer takes all of the time, so the result is wrong by half of it, as for any client."""
+    client, _ = start(bench, lambda o: [answer(moment(EPOCH_NS), moment(EPOCH_NS), o)])
+    before = client.now_ms
+    client.round_trip_ms = round_trip_ms
+    result = client.ok(f"epoch_sync {round_trip_ms + 100}")
+    assert round_trip_ms <= result.slept <= round_trip_ms + 2
+    passed_ns = (client.now_ms - before) * 10**6
+    assert abs(epoch(client)[2] - EPOCH_NS - passed_ns) <= (round_trip_ms // 2 + 2) * 10**6
+    assert client.call(f"epoch_sync {round_trip_ms - 10}").code == 1
+
+
+def test_of_several_answers_the_quickest_counts(bench: Bench) -> None:
+    """As a modem that wakes up delivers them: the questions of a second all at once."""
+    client, agent = start(bench, lambda _: [])
+
+    def deliver() -> None:
+        if client.now_ms - began == 990:
+            right = EPOCH_NS + 990 * 10**6
+            order = agent.asked[::-1] + agent.asked
+            client.queued += [answer(moment(right), moment(right), moment(asked)) for asked in order]
+
+    began = client.now_ms
+    client.on_sleep = deliver
+    client.ok("epoch_sync 2000")
+    assert len(agent.asked) > 2
+    largest_error = START_MS * 10**6 + 990 * 10**6 - agent.asked[-1]
+    assert abs(epoch(client)[2] - EPOCH_NS - 990 * 10**6) <= largest_error // 2 + 2 * 10**6
+
+
+def test_a_late_answer_to_a_call_that_has_ended_changes_nothing(bench: Bench) -> None:
+    client, _ = start(bench, lambda o: [answer(moment(EPOCH_NS), moment(EPOCH_NS), o)])
+    client.round_trip_ms = 200
+    assert client.call("epoch_sync 100").code == 1
+    client.spin(20, 20)
+    assert not epoch(client)[0]
+    client.round_trip_ms = 0
+    client.ok("epoch_sync 100")
+
+
 def test_a_big_endian_answer(bench: Bench) -> None:
     def reply(originate: bytes) -> list[bytes]:
         seconds, nanoseconds = struct.unpack("<iI", originate)
@@ -120,12 +161,12 @@ def test_what_is_lost_is_asked_again(bench: Bench) -> None:
         bench, lambda o: [answer(moment(EPOCH_NS), moment(EPOCH_NS), o)] if next(replies) == 3 else []
     )
     result = client.ok("epoch_sync 1000")
-    assert 300 <= result.slept <= 305
+    assert 3 * PLAN.retry_first_ms <= result.slept <= 3 * PLAN.retry_first_ms + 5
     assert len(agent.asked) == 4
     assert len(set(agent.asked)) == 4, "each question has its own time"
 
 
-@pytest.mark.parametrize(("timeout", "questions"), [(0, 1), (-1, 1), (50, 1), (250, 3)])
+@pytest.mark.parametrize(("timeout", "questions"), [(0, 1), (-1, 1), (40, 1), (41, 2), (100, 3)])
 def test_no_answer_ends_in_time(bench: Bench, timeout: int, questions: int) -> None:
     client, agent = start(bench, lambda _: [])
     result = client.call(f"epoch_sync {timeout}")

@@ -33,7 +33,9 @@ static rcl_ret_t init_with_options(char ** word)
   if (result == RCL_RET_OK) {
     rmw_init_options_t * rmw = rcl_init_options_get_rmw_init_options(&options);
 
+#ifdef RMW_UXRCE_TRANSPORT_UDP
     result = rmw_uros_options_set_udp_address(word[2], word[3], rmw);
+#endif
     if (result == RCL_RET_OK) {
       result = rmw_uros_options_set_client_key((uint32_t)strtoul(word[4], NULL, 16), rmw);
     }

@@ -19,22 +19,30 @@ typedef struct datagram_t {
 static datagram_t queue[QUEUE];
 static size_t queue_first;
 static size_t queue_count;
+static size_t read_already; /* bytes of the first one, where they are read as such */
+static datagram_t group_answer;
 static uint32_t fake_now_ms = 0xffffff00u;  /* soon begins again at 0: every test passes the wrap */
 static int64_t fake_steady_ms = 5000000123; /* a device that has been on for eight weeks */
+static unsigned lock_depth;
+static bool lock_used; /* there is a lock */
 static bool send_fails;
 static bool open_fails;
 
-static void take_datagram(const char * hex)
+static void read_hex(datagram_t * datagram, const char * hex)
 {
-  datagram_t * datagram = &queue[(queue_first + queue_count) % QUEUE];
   unsigned value;
 
-  if (queue_count == QUEUE) {
-    abort();
-  }
   for (datagram->size = 0; sscanf(&hex[2u * datagram->size], "%2x", &value) == 1; ++datagram->size) {
     datagram->bytes[datagram->size] = (uint8_t)value;
   }
+}
+
+static void take_datagram(const char * hex)
+{
+  if (queue_count == QUEUE) {
+    abort();
+  }
+  read_hex(&queue[(queue_first + queue_count) % QUEUE], hex);
   ++queue_count;
 }
 
@@ -48,6 +56,8 @@ bool fake_take_line(const char * line)
 {
   if (strncmp(line, "rx ", 3) == 0) {
     take_datagram(&line[3]);
+  } else if (strncmp(line, "group ", 6) == 0) {
+    read_hex(&group_answer, &line[6]);
   } else if (strncmp(line, "time ", 5) == 0) {
     fake_pass((uint32_t)strtoul(&line[5], NULL, 10));
   } else if (strncmp(line, "send_fails ", 11) == 0) {
@@ -86,11 +96,37 @@ int64_t port_time_epoch_ns(void)
   return 0;
 }
 
+void port_lock(void)
+{
+  ++lock_depth;
+  lock_used = true;
+}
+
+void port_unlock(void)
+{
+  if (lock_depth == 0u) {
+    abort();
+  }
+  --lock_depth;
+}
+
+void fake_check_lock(void)
+{
+  if (lock_used && lock_depth == 0u) {
+    fprintf(stderr, "the transport is used without the lock\n");
+    abort();
+  }
+}
+
 /* The test acts while the library sleeps, until it says "go". */
 void port_sleep_ms(uint32_t duration_ms)
 {
   const char * line;
 
+  if (lock_depth > 1u) {
+    fprintf(stderr, "the lock is not given back\n");
+    abort();
+  }
   fake_pass(duration_ms);
   printf("sleep %u\n", (unsigned)duration_ms);
   (void)fflush(stdout);
@@ -106,11 +142,73 @@ uint32_t port_unique_id(void)
   return 0xfeedbeefu;
 }
 
+bool fake_open(const char * host, uint16_t port)
+{
+  fake_check_lock();
+  printf("open %s %u\n", host, (unsigned)port);
+  return !open_fails;
+}
+
+void fake_close(void)
+{
+  fake_check_lock();
+  queue_count = 0;
+  read_already = 0;
+  printf("close\n");
+}
+
+bool fake_send(const uint8_t * data, size_t size)
+{
+  fake_check_lock();
+  if (send_fails) {
+    return false;
+  }
+  printf("tx ");
+  for (size_t i = 0; i < size; ++i) {
+    printf("%02x", data[i]);
+  }
+  printf("\n");
+  return true;
+}
+
+static void drop_first(void)
+{
+  queue_first = (queue_first + 1u) % QUEUE;
+  --queue_count;
+  read_already = 0;
+}
+
+size_t fake_read(uint8_t * buffer, size_t capacity)
+{
+  const datagram_t * datagram = &queue[queue_first];
+  size_t size;
+
+  fake_check_lock();
+  if (queue_count == 0u) {
+    return 0;
+  }
+  size = datagram->size - read_already < capacity ? datagram->size - read_already : capacity;
+  memcpy(buffer, &datagram->bytes[read_already], size);
+  read_already += size;
+  if (read_already == datagram->size) {
+    drop_first();
+  }
+  return size;
+}
+
+size_t fake_group_read(uint8_t * buffer, size_t capacity)
+{
+  const size_t size = group_answer.size < capacity ? group_answer.size : capacity;
+
+  memcpy(buffer, group_answer.bytes, size);
+  group_answer.size = 0;
+  return size;
+}
+
 bool port_udp_open(port_udp_t * udp, const char * host, uint16_t port)
 {
   udp->handle = 7;
-  printf("open %s %u\n", host, (unsigned)port);
-  return !open_fails;
+  return fake_open(host, port);
 }
 
 enum { LOCAL = 5555 };
@@ -131,37 +229,21 @@ uint16_t port_udp_local(const port_udp_t * udp)
 void port_udp_close(port_udp_t * udp)
 {
   udp->handle = -1;
-  queue_count = 0;
-  printf("close\n");
+  fake_close();
 }
 
 bool port_udp_send(port_udp_t * udp, const uint8_t * data, size_t size)
 {
   (void)udp;
-  if (send_fails) {
-    return false;
-  }
-  printf("tx ");
-  for (size_t i = 0; i < size; ++i) {
-    printf("%02x", data[i]);
-  }
-  printf("\n");
-  return true;
+  return fake_send(data, size);
 }
 
 int32_t port_udp_receive(port_udp_t * udp, uint8_t * buffer, size_t capacity)
 {
-  const datagram_t * datagram = &queue[queue_first];
-
   (void)udp;
-  if (queue_count == 0u) {
-    return 0;
-  }
-  queue_first = (queue_first + 1u) % QUEUE;
-  --queue_count;
-  if (datagram->size > capacity) {
+  if (queue_count != 0u && queue[queue_first].size > capacity) {
+    drop_first();
     return -1;
   }
-  memcpy(buffer, datagram->bytes, datagram->size);
-  return (int32_t)datagram->size;
+  return (int32_t)fake_read(buffer, capacity);
 }

@@ -22,17 +22,19 @@ static bool sync_wait(xrce_client_t * client, uint32_t timeout_ms)
 
   for (;;) {
     uint32_t now;
+    bool over;
 
     xrce_session_pump(client);
     if (client->time_sync.answers != answers) {
       return true;
     }
     now = port_time_ms();
-    if (client->session.state == (uint8_t)XRCE_READY && xrce_is_due(now, due)) {
+    over = now - start >= timeout_ms;
+    if (client->session.state == (uint8_t)XRCE_READY && xrce_is_due(now, due) && (!over || due == start)) {
       xrce_time_sync_ask(client);
       due = now + MICROROS_RETRY_FIRST_MS;
     }
-    if (client->session.state == (uint8_t)XRCE_CLOSED || now - start >= timeout_ms) {
+    if (over || client->session.state == (uint8_t)XRCE_CLOSED) {
       return false;
     }
     xrce_rest(client);

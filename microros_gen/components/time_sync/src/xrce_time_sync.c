@@ -61,7 +61,8 @@ void xrce_time_sync_ask(xrce_client_t * client)
   xrce_put_submessage(&message[4], XRCE_TIMESTAMP, XRCE_FLAG_LITTLE_ENDIAN, MOMENT_SIZE);
   time_put_le32(&message[8], (uint32_t)(now_ns / ns_per_s));
   time_put_le32(&message[12], (uint32_t)(now_ns % ns_per_s));
-  (void)xrce_session_send(&client->session, message, sizeof(message)); /* a loss is what the repetition is for */
+  (void)xrce_session_send(
+    &client->session, message, sizeof(message)); /* a loss is what the repetition is for */
 }
 
 void xrce_time_sync_on_reply(xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags)
