@@ -4,18 +4,30 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Hashable, Iterator
+from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from microros_gen.agent.fairness import Account
 from microros_gen.agent.objects import ObjectTree
 from microros_gen.agent.rates import Rate
 from microros_gen.agent.services import Calls
 from microros_gen.agent.session import Ready, Session
+from microros_gen.agent.steps import Steps
 from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.wire.samples import Sample
 
 if TYPE_CHECKING:
     from microros_gen.agent.reading import Reading
+
+
+@dataclass(frozen=True, eq=False)
+class Job:
+    """Something that is done for a client step by step."""
+
+    steps: Steps[None]
+    adds: bool
+    """It adds to the ROS graph: it waits while that may not be changed."""
 
 
 @dataclass(eq=False)
@@ -30,6 +42,10 @@ class Client:
     heard: float
     calls: Calls
     rate: Rate
+    account: Account
+    """What it cost."""
+    claimed: bool = False
+    """Its transport knows that it is in session at its address."""
     opened: float = 0.0
     """When its session began; times of samples count from there."""
     probed: float = 0.0
@@ -41,10 +57,18 @@ class Client:
     """Reliable input streams whose ACKNACK is still to be sent."""
     ready: deque[Ready] = field(default_factory=deque)
     """To be processed."""
+    work: deque[Job] = field(default_factory=deque)
+    """To be done before that."""
+    turn_at: float = 0.0
+    """Not before then."""
+    inbox_bytes: int = 0
+    """Bytes of messages that came while it waited for its turn."""
     stream: int = 0
     """Stream of the message that is processed now."""
     more: bool = False
     """That message has further submessages."""
+    samples: tuple[bytes, int, Sequence[Sample]] | None = None
+    """Those of a sequence that it is not done with: the message, where in it the sequence is, and the samples."""
     whole: bytes | None = None
     """What the FRAGMENT that was processed last completed."""
     retry_at: float = 0.0

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable
 
 from microros_gen.agent.clients import Client
 from microros_gen.agent.entities import Entity, Readable
+from microros_gen.agent.fairness import TURN_S, Fairness
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.reading import RETRY_S, Reading
 from microros_gen.agent.ros.bridge import Source
@@ -20,8 +21,16 @@ CROWDED = 256
 class Deliveries:
     """Starts, wakes and ends readings; one at most for each object."""
 
-    def __init__(self, log: EventLog, fault: Callable[[Exception], None]) -> None:
+    def __init__(
+        self,
+        log: EventLog,
+        fault: Callable[[Exception], None],
+        fair: Fairness,
+        clock: Callable[[], float],
+    ) -> None:
         """`fault` is told of what should not happen: it ends the turn of one reading, and nobody else's."""
+        self._fair = fair
+        self._clock = clock
         self._log = log
         self._fault = fault
         self._by_source: dict[int, Reading] = {}
@@ -42,10 +51,8 @@ class Deliveries:
 
     def ready(self, sources: Iterable[Source], now: float) -> None:
         """Take from sources that got something; one that nobody reads keeps it."""
-        for source in sources:
-            reading = self._by_source.get(id(source))
-            if reading is not None:
-                self._go(reading, now)
+        found = (self._by_source.get(id(source)) for source in sources)
+        self._round([reading for reading in found if reading is not None], now)
 
     def room(self, client: Client, now: float) -> None:
         """Let those go on, in turn, that wait for room on a reliable stream of `client`."""
@@ -87,9 +94,20 @@ class Deliveries:
         due = []
         while self._later and self._later[0][0] <= now:
             due.append(heapq.heappop(self._later)[2])
-        for reading in due:
-            reading.scheduled = False
-            self._go(reading, now)
+            due[-1].scheduled = False
+        self._round(due, now)
+
+    def _round(self, readings: list[Reading], now: float) -> None:
+        """Let readings go on, those of clients that cost least first; for whom the time is too short, comes again."""
+        self._fair.order(readings)
+        at = now
+        for reading in readings:
+            if at >= now + TURN_S:
+                self._come_again(reading, now)
+                continue
+            self._go(reading, at)
+            before, at = at, self._clock()
+            reading.account.used += at - before
 
     def _go(self, reading: Reading, now: float) -> None:
         if reading.over:
@@ -103,14 +121,19 @@ class Deliveries:
         self.delivered += reading.entity.delivered - before
         if reading.over:
             self._drop(reading.client, reading.entity.id)
-        elif at is not None and not reading.scheduled:
-            reading.scheduled = True
-            self._order += 1
-            heapq.heappush(self._later, (at, self._order, reading))
-            if len(self._later) > self._crowded:
-                self._later = [item for item in self._later if not item[2].over]
-                heapq.heapify(self._later)
-                self._crowded = max(CROWDED, 2 * len(self._later))
+        elif at is not None:
+            self._come_again(reading, at)
+
+    def _come_again(self, reading: Reading, at: float) -> None:
+        if reading.over or reading.scheduled:
+            return
+        reading.scheduled = True
+        self._order += 1
+        heapq.heappush(self._later, (at, self._order, reading))
+        if len(self._later) > self._crowded:
+            self._later = [item for item in self._later if not item[2].over]
+            heapq.heapify(self._later)
+            self._crowded = max(CROWDED, 2 * len(self._later))
 
     def _attach(self, reading: Reading, source: Readable | None) -> None:
         if reading.source is not None:

@@ -7,9 +7,10 @@ from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import partial
 
-from microros_gen.agent.clients import Client, ClientTable
+from microros_gen.agent.clients import Client, ClientTable, Job
 from microros_gen.agent.deliveries import Deliveries
 from microros_gen.agent.entities import Home
+from microros_gen.agent.fairness import Accounts
 from microros_gen.agent.input_pool import Holder, InputPool
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog, Level
@@ -23,8 +24,10 @@ from microros_gen.agent.rivals import Rivals
 from microros_gen.agent.ros.bridge import Bridge
 from microros_gen.agent.services import Calls
 from microros_gen.agent.session import Session
+from microros_gen.agent.steps import Steps
 from microros_gen.agent.streams_out import Link
 from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.turns import Turns
 from microros_gen.agent.wire.constants import (
     COOKIE,
     SESSION_NONE_WITH_KEY,
@@ -68,8 +71,11 @@ class Lobby:
         held: Held,
         deliveries: Deliveries,
         pool: InputPool,
+        turns: Turns,
     ) -> None:
         self._clients = clients
+        self._turns = turns
+        self._accounts = Accounts(limits.clients)
         self._bridge = bridge
         self._log = log
         self._limits = limits
@@ -133,6 +139,8 @@ class Lobby:
         """Note that `client` sends from another address now."""
         before = client.place
         self._rivals.moved(client, transport, address, now)
+        client.transport.release(client.address)
+        client.claimed = False
         evicted = self._clients.move(client, transport, address)
         if evicted is not None:
             self.dismiss(evicted, "dropped: another client uses its address")
@@ -154,10 +162,13 @@ class Lobby:
         client.send(answer)
 
     def dismiss(self, client: Client, why: str) -> None:
-        """Forget a client; its entities leave the ROS graph."""
+        """Forget a client; its entities leave the ROS graph, as fast as others let them."""
         self._clients.remove(client)
+        client.transport.release(client.address)
         self._deliveries.forget(client)
-        client.objects.clear()
+        client.ready.clear()
+        client.work.clear()
+        self._turns.begin(client, Job(client.objects.clearing(), adds=False))
         client.session.reset()  # what its streams hold is not kept alive by who still knows the client
         self._tell(client, "client_gone", "client {client} " + why)
 
@@ -169,7 +180,7 @@ class Lobby:
     def put_to_sleep(self, client: Client) -> None:
         """Take the entities of a client that is not heard out of the ROS graph; its session stays."""
         client.asleep = True
-        client.objects.suspend()
+        self._turns.begin(client, Job(client.objects.suspending(), adds=False))
         for _ in range(client.session.rest()):
             text = "client {client} fell silent within a message in fragments, which is lost"
             self._log.count("unfinished", text, client=client.name)
@@ -177,11 +188,14 @@ class Lobby:
         text = "client {client} was not heard for {seconds} s: its entities left the ROS graph"
         self._tell(client, "client_silent", text, seconds=client.timeout_s)
 
-    def wake(self, client: Client, now: float) -> None:
-        """Bring the entities of a client back that is heard again."""
+    def wake(self, client: Client) -> bool:
+        """Bring the entities of a client back that is heard again; return whether they are there."""
         client.asleep = False
-        failed = client.objects.resume()
-        self._deliveries.refresh(client, now)
+        return self._turns.begin(client, Job(self._waking(client), adds=True))
+
+    def _waking(self, client: Client) -> Steps[None]:
+        failed = yield from client.objects.resuming()
+        self._deliveries.refresh(client, self._turns.clock())
         self._tell(client, "client_back", "client {client} is heard again: its entities are back")
         for entity, reason in failed:
             text = "client {client}: object {object} could not be made again: {reason}"
@@ -231,6 +245,8 @@ class Lobby:
         self._tell(
             new, "client_connected", text, peer=new.place, session=f"{wanted.session:#04x}", mtu=wanted.mtu
         )
+        if client is not None and client.work:  # what it had still leaves the ROS graph: that comes first
+            self._turns.begin(new, client.work[0])
         self._give(new)
         return Status.OK
 
@@ -245,15 +261,21 @@ class Lobby:
         calls = Calls(self._log, self._limits.requests, link.key.hex().upper())
         session = Session(link, self._limits, Holder(self._pool))
         rate = self._rates.of(link.key)
-        new = Client(session, objects, transport, address, timeout_s, now, calls, rate, opened=now)
+        account = self._accounts.of(link.key)
+        new = Client(session, objects, transport, address, timeout_s, now, calls, rate, account, opened=now)
         self._clients.add(new)
         return new
 
     def _give(self, client: Client) -> None:
         """Make the objects that files have for a client; those that it has stay."""
+        if self._held.preconfigured.objects(client.session.link.key):
+            self._turns.begin(client, Job(self._giving(client), adds=True))
+
+    def _giving(self, client: Client) -> Steps[None]:
         for given in self._held.preconfigured.objects(client.session.link.key):
-            outcome = client.objects.give(given.id, given.parent, given.description)
+            outcome = yield from client.objects.giving(given.id, given.parent, given.description)
             tell_outcome(self._log, client, given.id, outcome)
+            yield
 
     def _adopt(
         self,
@@ -308,7 +330,7 @@ class Lobby:
         if client.address != address:
             self.move(client, transport, address, now)
         if client.asleep:
-            self.wake(client, now)
+            self.wake(client)
         self._tell(client, "client_again", "client {client} connected again, its entities are kept")
         self._give(client)
 

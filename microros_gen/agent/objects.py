@@ -28,6 +28,7 @@ from microros_gen.agent.representation import (
 from microros_gen.agent.representation.description import UnknownNameError, UnsupportedKindError
 from microros_gen.agent.representation.reference import UnknownReferenceError
 from microros_gen.agent.ros.bridge import BridgeError
+from microros_gen.agent.steps import Steps, finish
 from microros_gen.agent.wire.constants import ObjectKind, Status
 from microros_gen.agent.wire.entity_messages import Create
 from microros_gen.agent.wire.errors import MalformedError
@@ -104,16 +105,20 @@ class ObjectTree:
 
     def create(self, create: Create) -> Outcome:
         """Carry out a CREATE by the table of creation modes (DDS-XRCE 1.0, table 7)."""
+        return finish(self.creating(create))
+
+    def creating(self, create: Create) -> Steps[Outcome]:
+        """Carry out a CREATE in steps: one for each object that is made or taken away."""
         return self._guarded(lambda: self._create(create))
 
-    def give(self, object_id: int, parent: int, description: Description) -> Outcome:
+    def giving(self, object_id: int, parent: int, description: Description) -> Steps[Outcome]:
         """Make an object that the client does not create itself; one that is there and the same stays."""
         wanted = _Wanted(object_id, parent, description, reuse=True, replace=True)
         return self._guarded(lambda: self._place(wanted))
 
-    def _guarded(self, make: Callable[[], Outcome]) -> Outcome:
+    def _guarded(self, make: Callable[[], Steps[Outcome]]) -> Steps[Outcome]:
         try:
-            return make()
+            return (yield from make())
         except _RefusedError as error:
             return Outcome(error.status, str(error))
         except BridgeError as error:
@@ -129,10 +134,14 @@ class ObjectTree:
 
     def delete(self, object_id: int) -> Status:
         """Carry out a DELETE."""
+        return finish(self.deleting(object_id))
+
+    def deleting(self, object_id: int) -> Steps[Status]:
+        """Carry out a DELETE in steps: one for each object."""
         entity = self._objects.get(object_id)
         if entity is not None:
             contained = [e for e in self if e.inside(entity)]
-            self._remove([entity, *contained])
+            yield from self._remove([entity, *contained])
             self._gone_with_container.update(e.id for e in contained)
             return Status.OK
         if object_id in self._gone_with_container:
@@ -142,7 +151,11 @@ class ObjectTree:
 
     def clear(self) -> None:
         """Drop everything; the ROS graph loses it at once."""
-        self._remove(list(self._objects.values()))
+        finish(self.clearing())
+
+    def clearing(self) -> Steps[None]:
+        """Drop everything, in steps."""
+        yield from self._remove(list(self._objects.values()))
         self._gone_with_container.clear()
 
     def forget_requests(self) -> None:
@@ -153,22 +166,32 @@ class ObjectTree:
 
     def suspend(self) -> None:
         """Leave the ROS graph and keep the descriptions."""
+        finish(self.suspending())
+
+    def suspending(self) -> Steps[None]:
+        """Leave the ROS graph, in steps."""
         for entity in reversed(list(self)):
             self._leave(entity)
+            yield
 
     def resume(self) -> list[tuple[Entity, str]]:
         """Return to the ROS graph; what cannot is dropped and returned with the reason."""
+        return finish(self.resuming())
+
+    def resuming(self) -> Steps[list[tuple[Entity, str]]]:
+        """Return to the ROS graph, in steps."""
         failed = []
-        for entity in self:
+        for entity in list(self):
             try:
                 self._enter(entity)
             except BridgeError as error:
                 failed.append((entity, str(error)))
+            yield
         for entity, _ in failed:
-            self._remove([entity, *self._made_from(entity)])
+            yield from self._remove([entity, *self._made_from(entity)])
         return failed
 
-    def _create(self, create: Create) -> Outcome:
+    def _create(self, create: Create) -> Steps[Outcome]:
         object_id = create.object & 0xFFF0 | create.kind
         present = self._objects.get(object_id)
         if present and not create.reuse and not create.replace:
@@ -176,13 +199,14 @@ class ObjectTree:
         if create.kind not in _SERVED:
             raise _RefusedError(Status.DENIED, f"objects of kind {_kind_name(create.kind)} are not served")
         description = describe(create, self._references, self._known(create.parent))
-        outcome = self._place(_Wanted(object_id, create.parent, description, create.reuse, create.replace))
+        wanted = _Wanted(object_id, create.parent, description, create.reuse, create.replace)
+        outcome = yield from self._place(wanted)
         if outcome.status is Status.OK and outcome.entity is not None:
             fits = len(create.representation.body) <= LARGEST_REPRESENTATION
             outcome.entity.representation = create.representation if fits else None
         return outcome
 
-    def _place(self, wanted: _Wanted) -> Outcome:
+    def _place(self, wanted: _Wanted) -> Steps[Outcome]:
         object_id = wanted.id
         present = self._objects.get(object_id)
         if wanted.within and present and not wanted.replace:
@@ -197,17 +221,17 @@ class ObjectTree:
             if not wanted.replace:
                 return Outcome(Status.MISMATCH, "the object exists and differs")
         if present:
-            self._remove([present, *self._made_from(present)])
+            yield from self._remove([present, *self._made_from(present)])
         elif len(self._objects) >= self._maximum:
             raise _RefusedError(Status.RESOURCES, f"the client has {self._maximum} objects already")
         self._enter(entity)
         self._objects[object_id] = entity
         self._gone_with_container.discard(object_id)
         if isinstance(wanted.description, Application):
-            self._fill(entity, wanted.description, wanted.replace)
+            yield from self._fill(entity, wanted.description, wanted.replace)
         return Outcome(Status.OK, entity=entity)
 
-    def _fill(self, application: Entity, description: Application, replace: bool) -> None:
+    def _fill(self, application: Entity, description: Application, replace: bool) -> Steps[None]:
         """Make the parts of an application: all of them, or none and not the application either (7.8.3.1).
 
         The n-th part of a kind (from 0) has the number of the application plus n.
@@ -220,9 +244,11 @@ class ObjectTree:
                 counts[part.kind] += 1
                 parent = 0 if part.container is None else made[part.container]
                 made.append(number << 4 | part.kind)
-                self._place(_Wanted(made[-1], parent, part.description, False, replace, within=application))
+                wanted = _Wanted(made[-1], parent, part.description, False, replace, within=application)
+                yield from self._place(wanted)
+                yield
         except Exception:
-            self._remove([application, *(e for e in self if e.inside(application))])
+            yield from self._remove([application, *(e for e in self if e.inside(application))])
             raise
 
     def _known(self, parent: int) -> Known:
@@ -263,10 +289,12 @@ class ObjectTree:
         self.publish.pop(entity.id, None)
         entity.leave()
 
-    def _remove(self, entities: list[Entity]) -> None:
+    def _remove(self, entities: list[Entity]) -> Steps[None]:
+        """Take objects away, what was made from others before those: so it may end midway."""
         for entity in reversed(entities):
             self._objects.pop(entity.id, None)
             self._leave(entity)
+            yield
 
     def _made_from(self, source: Entity) -> list[Entity]:
         made = [source]

@@ -15,6 +15,8 @@ from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.representation import Endpoint
 from microros_gen.agent.ros.bridge import BridgeError, BusyError
 from microros_gen.agent.services import ENCAPSULATION
+from microros_gen.agent.steps import Steps
+from microros_gen.agent.turns import Turns
 from microros_gen.agent.wire.cdr import Reader
 from microros_gen.agent.wire.constants import (
     DATA_FORMAT_MASK,
@@ -53,7 +55,8 @@ from microros_gen.agent.wire.session_messages import (
 )
 from microros_gen.agent.wire.submessages import Submessage, encode
 
-Handler = Callable[[Client, Submessage, float], None]
+Handler = Callable[[Client, Submessage, float], "Steps[None] | None"]
+"""What it returns is still to be done, step by step."""
 CALLS = (ObjectKind.REQUESTER, ObjectKind.REPLIER)
 READABLE = (ObjectKind.DATAREADER, *CALLS)
 NAMES = {
@@ -66,10 +69,23 @@ NAMES = {
 """What people call objects that have a place in ROS 2."""
 
 
+SAMPLES = 16
+"""Samples of a sequence between two looks whether the turn is over."""
+
+
+class TurnOverError(Exception):
+    """The turn of a client ended within a submessage; `done`: how many of its samples are done with."""
+
+    def __init__(self, done: int) -> None:
+        super().__init__(done)
+        self.done = done
+
+
 class Operations:
     """Dispatches by submessage; answers go out at once, after the acknowledgements that are due."""
 
-    def __init__(self, log: EventLog, deliveries: Deliveries) -> None:
+    def __init__(self, log: EventLog, deliveries: Deliveries, turns: Turns) -> None:
+        self._turns = turns
         self._log = log
         self._deliveries = deliveries
         handlers: dict[type, Handler] = {
@@ -85,23 +101,30 @@ class Operations:
         }
         self._handlers: Mapping[type, Handler] = MappingProxyType(handlers)
 
-    def run(self, client: Client, submessage: Submessage, now: float) -> None:
-        """Carry out one submessage of `client`; MalformedError when it makes no sense from a client."""
+    def run(self, client: Client, submessage: Submessage, now: float) -> Steps[None] | None:
+        """Carry out one submessage of `client`, or return the steps to do it in.
+
+        MalformedError when it makes no sense from a client.
+        """
         handler = self._handlers.get(type(submessage))
         if handler is None:
             raise MalformedError("unexpected_submessage", f"{submessage.ID.name} from a client in session")
-        handler(client, submessage, now)
+        return handler(client, submessage, now)
 
-    def _create(self, client: Client, submessage: Submessage, now: float) -> None:
+    def _create(self, client: Client, submessage: Submessage, now: float) -> Steps[None]:
         assert isinstance(submessage, Create)
-        outcome = client.objects.create(submessage)
+        stream = client.stream
+        outcome = yield from client.objects.creating(submessage)
+        client.stream = stream
         self._deliveries.refresh(client, now)
         self._answer(client, submessage.request, submessage.object, outcome.status, now)
         tell_outcome(self._log, client, submessage.object & 0xFFF0 | submessage.kind, outcome)
 
-    def _delete(self, client: Client, submessage: Submessage, now: float) -> None:
+    def _delete(self, client: Client, submessage: Submessage, now: float) -> Steps[None]:
         assert isinstance(submessage, Delete)
-        status = client.objects.delete(submessage.object)
+        stream = client.stream
+        status = yield from client.objects.deleting(submessage.object)
+        client.stream = stream
         self._deliveries.refresh(client, now)
         self._answer(client, submessage.request, submessage.object, status, now)
         self._log.emit(
@@ -129,8 +152,8 @@ class Operations:
         entity = client.objects.find(data[at + 2] << 8 | data[at + 3])
         try:
             if entity is not None and entity.writer is not None:
-                reader = Reader(data, at + DATA_PREFIX, end, bool(flags & FLAG_LITTLE))
-                return self._write_samples(client, entity, read_samples(reader, form), reader.little, done)
+                samples = _samples(client, data, at, end, flags)
+                return self._write_samples(client, entity, samples, bool(flags & FLAG_LITTLE), done)
             if entity is not None and entity.source is not None and entity.kind in CALLS:
                 if form:
                     raise MalformedError("data_format", f"format {form:#04x} for requests and replies")
@@ -184,6 +207,9 @@ class Operations:
             except BusyError as error:
                 raise BusyError(str(error), place) from error
             written += 1
+            if place % SAMPLES == SAMPLES - 1 and self._turns.over:
+                raise TurnOverError(place + 1)
+        client.samples = None
         return written
 
     def _read_data(self, client: Client, submessage: Submessage, now: float) -> None:
@@ -260,6 +286,17 @@ class Operations:
         client.acknowledge()  # some clients need that slot for their next request before they look further
         for message in messages or ():
             client.send(message)
+
+
+def _samples(client: Client, data: bytes, at: int, end: int, flags: int) -> Sequence[Sample]:
+    """Return the samples of a WRITE_DATA; those of a long sequence are kept until the client is done with them."""
+    kept = client.samples
+    if kept is not None and kept[0] is data and kept[1] == at:
+        return kept[2]
+    reader = Reader(data, at + DATA_PREFIX, end, bool(flags & FLAG_LITTLE))
+    samples = read_samples(reader, flags & DATA_FORMAT_MASK)
+    client.samples = (data, at, samples) if len(samples) > SAMPLES else None
+    return samples
 
 
 def _check_reading(entity: Entity | None, wanted: ReadData) -> tuple[Status, str]:

@@ -60,6 +60,8 @@ class Reading:
     def __init__(self, client: Client, entity: Entity, wanted: ReadData, now: float, log: EventLog) -> None:
         control = wanted.delivery or ONCE
         self.client = client
+        self.account = client.account
+        """Who pays."""
         self.entity = entity
         self.source: Readable | None = None
         """Where it takes from; None while the client is not in the ROS graph."""

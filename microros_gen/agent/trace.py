@@ -32,6 +32,8 @@ class TracedTransport:
         self.fileno = inner.fileno
         self.name_of = inner.name_of
         self.tick = inner.tick
+        self.claim = inner.claim
+        self.release = inner.release
         self.close = inner.close
 
     @property

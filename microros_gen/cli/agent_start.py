@@ -14,6 +14,7 @@ from typing import Any
 import click
 
 from microros_gen.agent.core import Agent
+from microros_gen.agent.fairness import Account, Fairness
 from microros_gen.agent.input_pool import InputPool
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.manifests import Manifests
@@ -49,7 +50,8 @@ def serve(options: AgentOptions) -> None:
         log.emit(Level.WARNING, "type_hash_differs", text, type=name)
     limits = options.limits
     pool = InputPool(limits.input_bytes, limits.clients + connections(options.transports))
-    transports = open_transports(options.transports, options.discovery, log, pool)
+    shared = Shared(pool, Fairness(), Account())
+    transports = open_transports(options.transports, options.discovery, log, shared)
     try:
         report, wait_s = graph_reporter(log), limits.request_wait_s
         bridge = open_bridge(limits.domains, options.domain, files.hashes, report, wait_s)
@@ -57,7 +59,17 @@ def serve(options: AgentOptions) -> None:
         _close(transports)
         raise
     manifests = Manifests(files.clients.by_client)
-    agent = Agent(bridge, log, limits, files.references, files.preconfigured, manifests=manifests, pool=pool)
+    agent = Agent(
+        bridge,
+        log,
+        limits,
+        files.references,
+        files.preconfigured,
+        manifests=manifests,
+        pool=pool,
+        fair=shared.fair,
+        strangers=shared.strangers,
+    )
     if options.verbose:
         transports = [TracedTransport(transport, log) for transport in transports]
     server = Server(agent, transports, log)
@@ -69,18 +81,28 @@ def serve(options: AgentOptions) -> None:
         server.run(lambda transport: _announce(announcements, transport), time.monotonic)
 
 
-def open_transports(
-    choices: Sequence[TransportChoice], discovery: int | None, log: EventLog, pool: InputPool
-) -> list[Transport]:
-    """Return open transports, and discovery of them at port `discovery`; UserError names all that fail.
+@dataclass(frozen=True)
+class Shared:
+    """What the agent and its transports have in common.
 
-    What they hold of messages that are not complete counts in `pool`.
+    What all hold of messages that are not complete counts in `pool`; `fair` says whose turn it is; `strangers` pays for
+    who has no session.
     """
+
+    pool: InputPool
+    fair: Fairness
+    strangers: Account
+
+
+def open_transports(
+    choices: Sequence[TransportChoice], discovery: int | None, log: EventLog, shared: Shared
+) -> list[Transport]:
+    """Return open transports, and discovery of them at port `discovery`; UserError names all that fail."""
     opened: list[Transport] = []
     diagnostics = Diagnostics()
     for choice in dict.fromkeys(choices):
         try:
-            opened.append(_open(choice, log, pool))
+            opened.append(_open(choice, log, shared))
         except UserError as error:
             diagnostics.extend(replace(d, span=d.span or choice.span) for d in error.diagnostics)
     try:
@@ -101,7 +123,7 @@ def connections(choices: Sequence[TransportChoice]) -> int:
     return sum(int(dict(c.limits).get("connections", TcpLimits.connections)) for c in streams)
 
 
-def _open(choice: TransportChoice, log: EventLog, pool: InputPool) -> Transport:
+def _open(choice: TransportChoice, log: EventLog, shared: Shared) -> Transport:
     from microros_gen.agent.transport.serial import Pty, serial_line  # not on every system
     from microros_gen.agent.transport.tcp import Tcp, TcpLimits
     from microros_gen.agent.transport.udp import Udp
@@ -113,9 +135,10 @@ def _open(choice: TransportChoice, log: EventLog, pool: InputPool) -> Transport:
     protocol = PROTOCOLS[choice.kind]
     host = choice.bind or protocol.loopback
     if not protocol.stream:
-        return Udp(protocol, host, choice.port)
+        return Udp(protocol, host, choice.port, shared.fair, shared.strangers)
     limits: dict[str, Any] = dict(choice.limits)
-    return Tcp(protocol, host, choice.port, log, replace(TcpLimits(), **limits), pool)
+    tcp_limits = replace(TcpLimits(), **limits)
+    return Tcp(protocol, host, choice.port, log, tcp_limits, shared.pool, shared.fair, shared.strangers)
 
 
 def _discovery(opened: Sequence[Transport], log: EventLog, port: int) -> Transport:

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 from microros_gen.agent.core import Agent
+from microros_gen.agent.fairness import Account
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.manifests import Manifests
@@ -203,6 +204,12 @@ class FakeTransport:
 
     def pump(self, receive: Receive) -> None:
         raise NotImplementedError
+
+    def claim(self, address: Hashable, account: Account) -> None:
+        """All are read alike."""
+
+    def release(self, address: Hashable) -> None:
+        """All are read alike."""
 
     def send(self, data: bytes, address: Hashable) -> None:
         self.sent.append((address, data))

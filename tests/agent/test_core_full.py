@@ -9,8 +9,8 @@ from agent.captured import CREATE_CLIENT, STATUS_AGENT
 from agent.client import int32_body
 from agent.fakes import Bench
 from agent.test_core import entities, message, publishing
-from microros_gen.agent.core import LONGEST_RETRY_S
 from microros_gen.agent.limits import Limits
+from microros_gen.agent.processing import LONGEST_RETRY_S
 from microros_gen.agent.ros.bridge import BusyError
 from microros_gen.agent.wire.cdr import Writer
 from microros_gen.agent.wire.constants import DataFormat, SubmessageId

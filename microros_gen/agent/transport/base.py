@@ -6,6 +6,8 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable
 from typing import Protocol
 
+from microros_gen.agent.fairness import Account
+
 Receive = Callable[[bytes, Hashable, "Transport"], None]
 """Takes one message, the address that it came from, and the transport."""
 
@@ -32,6 +34,12 @@ class Transport(Protocol):
 
     def tick(self, now: float) -> None:
         """Do what time brings (`now`: seconds, monotonic); called some ten times a second. Never raises."""
+
+    def claim(self, address: Hashable, account: Account) -> None:
+        """Note that a client is in session at an address: what comes from there is read in its turn. Never raises."""
+
+    def release(self, address: Hashable) -> None:
+        """Note that none is there any more. Never raises."""
 
     def send(self, data: bytes, address: Hashable) -> None:
         """Send one message without waiting; one that cannot go out is lost. Never raises."""

@@ -14,6 +14,7 @@ import socket
 import struct
 from collections.abc import Callable, Hashable, Iterable, Sequence
 
+from microros_gen.agent.fairness import Account
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.transport.addresses import Address, OwnAddress, own_addresses, parse_address
 from microros_gen.agent.transport.base import Receive
@@ -107,6 +108,12 @@ class Discovery:
             except (MalformedError, ValueError, OSError) as error:
                 text = "discovery: message from {peer} ignored: {detail}"
                 self._log.count("discovery_input", text, peer=place_name(asker), detail=str(error))
+
+    def claim(self, address: Hashable, account: Account) -> None:
+        """See Transport: nobody has a session here."""
+
+    def release(self, address: Hashable) -> None:
+        """See Transport: nobody has a session here."""
 
     def send(self, data: bytes, address: Hashable) -> None:
         """See Transport: nobody has a session here."""

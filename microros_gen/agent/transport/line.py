@@ -11,12 +11,13 @@ import os
 import select
 from collections.abc import Callable, Hashable
 
+from microros_gen.agent.fairness import Account
 from microros_gen.agent.framing import LARGEST_PAYLOAD, FrameDecoder, encode_frame
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.transport.base import Receive
 from microros_gen.agent.transport.outbox import Outbox, is_sample
 
-READ_BYTES = 16_384
+READ_BYTES = 4_096
 """Bytes that are read before the answers go out."""
 QUEUE_BYTES = 65_536
 """What may wait for a line that is slower than its answers; frames beyond it are lost."""
@@ -80,6 +81,12 @@ class Line:
             return
         for source, payload in self._decoder.feed(data):
             receive(payload, (self.label, source), self)
+
+    def claim(self, address: Hashable, account: Account) -> None:
+        """See Transport: who shares a line is read as it comes."""
+
+    def release(self, address: Hashable) -> None:
+        """See Transport: likewise."""
 
     def send(self, data: bytes, address: Hashable) -> None:
         """See Transport."""

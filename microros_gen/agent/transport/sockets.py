@@ -12,6 +12,9 @@ from microros_gen.diagnostics import Diagnostic, UserError
 BUFFER_BYTES = 4 << 20
 """Asked of the system for datagrams that wait; it may give less."""
 
+CLIENT_BUFFER_BYTES = 1 << 18
+"""The same for the datagrams of one client in session."""
+
 
 @dataclass(frozen=True)
 class Protocol:
@@ -74,6 +77,28 @@ def open_socket(protocol: Protocol, host: str, port: int) -> socket.socket:
     except OSError as error:
         made.close()
         raise UserError([_explain(error, protocol, host, port)]) from error
+    return made
+
+
+def open_twin(listener: socket.socket, peer: tuple[object, ...]) -> socket.socket:
+    """Return a socket at the port of `listener` (UDP) that takes what comes from `peer` alone; OSError: there is none.
+
+    The port is shared among the sockets of this user alone (SO_REUSEPORT), and only from when the listener was bound: a
+    second agent at the port is still refused. Between the two calls below the new one may get datagrams of others.
+    """
+    made = socket.socket(listener.family, socket.SOCK_DGRAM)
+    try:
+        made.setblocking(False)
+        if listener.family == socket.AF_INET6:
+            made.setsockopt(socket.IPPROTO_IPV6, socket.IPV6_V6ONLY, 1)
+        made.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, CLIENT_BUFFER_BYTES)
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
+        made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
+        made.bind(listener.getsockname())
+        made.connect(peer)
+    except OSError:
+        made.close()
+        raise
     return made
 
 

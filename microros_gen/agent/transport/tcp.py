@@ -11,10 +11,12 @@ from __future__ import annotations
 import errno
 import select
 import socket
+import time
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 from functools import partial
 
+from microros_gen.agent.fairness import TURN_S, Account, Fairness
 from microros_gen.agent.framing import LARGEST_PAYLOAD, LengthDecoder, encode_length
 from microros_gen.agent.input_pool import Holder, InputPool
 from microros_gen.agent.log import EventLog, Level
@@ -22,7 +24,7 @@ from microros_gen.agent.transport.base import Receive
 from microros_gen.agent.transport.outbox import Outbox, is_sample
 from microros_gen.agent.transport.sockets import Protocol, open_socket, place_name
 
-READ_BYTES = 16_384
+READ_BYTES = 4_096
 """Bytes that are read from a connection before it is another one's turn."""
 ACCEPTS = 16
 """Connections that are taken before it is the others' turn."""
@@ -61,7 +63,10 @@ class Connection:
         now: float,
         too_slow: Callable[[str], None],
         holder: Holder,
+        account: Account,
     ) -> None:
+        self.account = account
+        """Who pays for what comes over it."""
         self.holder = holder
         """Holds the message that it began."""
         self.socket = made
@@ -94,8 +99,15 @@ class Tcp:
         log: EventLog,
         limits: TcpLimits | None = None,
         pool: InputPool | None = None,
+        fair: Fairness | None = None,
+        strangers: Account | None = None,
     ) -> None:
-        """Bind to `host` and `port` (0: a free one); UserError when that is not possible. `pool` is the agent's."""
+        """Bind to `host` and `port` (0: a free one); UserError when that is not possible.
+
+        `pool` and `fair` are the agent's, and `strangers`, who pays for connections without a client.
+        """
+        self._fair = fair or Fairness()
+        self._strangers = strangers or Account()
         self._pool = pool
         self._log = log
         self._limits = limits or TcpLimits()
@@ -131,16 +143,21 @@ class Tcp:
 
     def pump(self, receive: Receive) -> None:
         """See Transport."""
-        arriving = False
-        for descriptor, events in self._epoll.poll(0):
-            connection = self._connections.get(descriptor)
-            if connection is None:
-                arriving = arriving or descriptor == self._listener.fileno()
+        found = dict(self._epoll.poll(0))
+        arriving = found.pop(self._listener.fileno(), 0)
+        ready = [self._connections[descriptor] for descriptor in found]
+        self._fair.order(ready)
+        began = time.monotonic()
+        for connection in ready:
+            if connection.closed:
                 continue
+            events = found[connection.descriptor]
             if events & select.EPOLLOUT:
                 self._write(connection)
-            if events & ~select.EPOLLOUT and not connection.closed:
+            if events & ~select.EPOLLOUT and not connection.closed and not connection.account.busy:
                 self._read(connection, receive)
+            if time.monotonic() > began + TURN_S:
+                break
         if arriving:  # last: a descriptor that was closed above may be another's afterwards
             self._accept()
 
@@ -154,6 +171,16 @@ class Tcp:
             self._care_at = now + CARE_S
             for connection in list(self._connections.values()):
                 self._care(connection, now - self._limits.patience_s)
+
+    def claim(self, address: Hashable, account: Account) -> None:
+        """See Transport."""
+        assert isinstance(address, Connection)
+        address.account = account
+
+    def release(self, address: Hashable) -> None:
+        """See Transport."""
+        assert isinstance(address, Connection)
+        address.account = self._strangers
 
     def send(self, data: bytes, address: Hashable) -> None:
         """See Transport."""
@@ -267,7 +294,13 @@ class Tcp:
         for name, value in _KEEPALIVE:
             made.setsockopt(socket.IPPROTO_TCP, getattr(socket, name), value)
         connection = Connection(
-            made, peer, self._limits.output_bytes, self._now, self._too_slow, Holder(self._pool)
+            made,
+            peer,
+            self._limits.output_bytes,
+            self._now,
+            self._too_slow,
+            Holder(self._pool),
+            self._strangers,
         )
         self._connections[connection.descriptor] = connection
         self._epoll.register(made, select.EPOLLIN)

@@ -1,29 +1,69 @@
 # SPDX-License-Identifier: Apache-2.0
-"""UDP over IPv4 or IPv6: one message a datagram; an address is the transport and the peer's socket address."""
+"""UDP over IPv4 or IPv6: one message a datagram; an address is the transport and the peer's socket address.
+
+A client in session has a socket of its own at the same port, connected to its address: the system hands its datagrams
+to that one, so each client has a queue of its own. One that sends more than is its turn fills its own queue, and
+nobody else's; and whose queue is read next is decided by what each has cost.
+"""
 
 from __future__ import annotations
 
+import select
+import socket
 import time
+from collections import deque
 from collections.abc import Hashable
+from typing import Any
 
+from microros_gen.agent.fairness import TURN_S, Account, Fairness
 from microros_gen.agent.transport.base import Receive
-from microros_gen.agent.transport.sockets import Protocol, open_socket, place_name
+from microros_gen.agent.transport.sockets import Protocol, open_socket, open_twin, place_name
 
 BATCH = 64
-"""Datagrams that are read before the answers go out."""
-TURN_S = 0.02
+"""Datagrams that are read from one socket before the answers go out."""
+SHARE_S = 0.002
 """Seconds after which it is the turn of others, if the datagrams of a batch are costly ones."""
 MAXIMUM_DATAGRAM = 65_535
+Peer = Any
+"""A socket address of the system: host, port, and for IPv6 more."""
+
+
+class Queue:
+    """A socket that is read: the one for everybody, or that of one client."""
+
+    def __init__(self, made: socket.socket, account: Account, peer: Peer = None) -> None:
+        """`peer`: whose it is; None: everybody's who has none."""
+        self.socket = made
+        self.account = account
+        self.peer = peer
 
 
 class Udp:
-    """A bound socket that does not block."""
+    """A bound socket that does not block, and one for each client in session."""
 
-    def __init__(self, protocol: Protocol, host: str, port: int) -> None:
-        """Bind to `host` and `port` (0: a free one); UserError when that is not possible."""
+    def __init__(
+        self,
+        protocol: Protocol,
+        host: str,
+        port: int,
+        fair: Fairness | None = None,
+        strangers: Account | None = None,
+    ) -> None:
+        """Bind to `host` and `port` (0: a free one); UserError when that is not possible.
+
+        `fair` orders the clients, `strangers` pays for who is none; both are the agent's.
+        """
+        self._fair = fair or Fairness()
         self._socket = open_socket(protocol, host, port)
         self.protocol = protocol
         self.host, self.port = self._socket.getsockname()[:2]
+        self._everybody = Queue(self._socket, strangers or Account())
+        self._queues: dict[int, Queue] = {self._socket.fileno(): self._everybody}
+        self._by_peer: dict[Peer, Queue] = {}
+        self._strays: deque[tuple[bytes, Peer]] = deque()
+        """What was read when a socket came or went."""
+        self._epoll = select.epoll()
+        self._epoll.register(self._socket, select.EPOLLIN)
 
     @property
     def label(self) -> str:
@@ -40,27 +80,53 @@ class Udp:
 
     def fileno(self) -> int:
         """See Transport."""
-        return self._socket.fileno()
+        return self._epoll.fileno()
 
     def pump(self, receive: Receive) -> None:
         """See Transport."""
-        take = self._socket.recvfrom
-        end = time.monotonic() + TURN_S
-        for _ in range(BATCH):
-            try:
-                data, peer = take(MAXIMUM_DATAGRAM)
-            except BlockingIOError:
-                return
-            except OSError:
-                continue  # an ICMP error for something sent earlier
+        while self._strays:
+            data, peer = self._strays.popleft()
             receive(data, (self, peer), self)
-            if time.monotonic() > end:
+        ready = [self._queues[descriptor] for descriptor, _ in self._epoll.poll(0)]
+        self._fair.order(ready)
+        began = time.monotonic()
+        for queue in ready:
+            if not queue.account.busy:
+                self._read(queue, receive)
+            if len(ready) > 1 and time.monotonic() > began + TURN_S:
                 return
+
+    def claim(self, address: Hashable, account: Account) -> None:
+        """See Transport."""
+        peer: Peer = address[1]  # type: ignore[index]
+        self.release(address)
+        try:
+            twin = open_twin(self._socket, peer)
+        except OSError:
+            return  # no descriptor is left: it is read with everybody's
+        self._keep(twin)
+        queue = self._by_peer[peer] = self._queues[twin.fileno()] = Queue(twin, account, peer)
+        self._epoll.register(queue.socket, select.EPOLLIN)
+
+    def release(self, address: Hashable) -> None:
+        """See Transport."""
+        queue = self._by_peer.pop(address[1], None)  # type: ignore[index]
+        if queue is None:
+            return
+        self._epoll.unregister(queue.socket)
+        del self._queues[queue.socket.fileno()]
+        self._keep(queue.socket)
+        queue.socket.close()
 
     def send(self, data: bytes, address: Hashable) -> None:
         """See Transport."""
+        peer: Peer = address[1]  # type: ignore[index]
+        queue = self._by_peer.get(peer)
         try:
-            self._socket.sendto(data, address[1])  # type: ignore[index]
+            if queue is None:
+                self._socket.sendto(data, peer)
+            else:
+                queue.socket.send(data)
         except OSError:
             return  # a datagram may always be lost
 
@@ -70,4 +136,32 @@ class Udp:
 
     def close(self) -> None:
         """See Transport."""
-        self._socket.close()
+        for queue in self._queues.values():
+            queue.socket.close()
+        self._queues.clear()
+        self._by_peer.clear()
+        self._epoll.close()
+
+    def _read(self, queue: Queue, receive: Receive) -> None:
+        take, account = queue.socket.recvfrom, queue.account
+        end = time.monotonic() + SHARE_S
+        for _ in range(BATCH):
+            try:
+                data, peer = take(MAXIMUM_DATAGRAM)
+            except BlockingIOError:
+                return
+            except OSError:
+                if queue.socket.fileno() < 0:
+                    return  # its client went with the message before
+                continue  # an ICMP error for something sent earlier
+            receive(data, (self, peer), self)
+            if account.busy or time.monotonic() > end:
+                return
+
+    def _keep(self, ends: socket.socket) -> None:
+        """Keep what waits in a socket: of one that was just made, what came to it before it was connected."""
+        for _ in range(BATCH):
+            try:
+                self._strays.append(ends.recvfrom(MAXIMUM_DATAGRAM))
+            except OSError:
+                return

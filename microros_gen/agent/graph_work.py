@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How much of the agent's time goes into changes of the ROS graph: nodes and endpoints that come and go.
+
+They cost much more than samples, here and at every other participant of the graph. All clients together have so many
+milliseconds of a second; what was not used may be used later, up to `BURST_S` seconds of it. A client may change the
+graph while more is left than it took itself in the last `MEMORY_S` seconds. So those who took most wait first, who
+begins is served at once while others flood, and one alone never gets more than half.
+"""
+
+from __future__ import annotations
+
+from math import exp
+
+from microros_gen.agent.fairness import Account
+
+BURST_S = 5.0
+"""Seconds whose work may come at once."""
+MEMORY_S = 10.0
+"""Seconds after which about a third of what a client took still counts."""
+
+
+class GraphWork:
+    """What is left of the time for changes."""
+
+    def __init__(self, ms_per_second: float) -> None:
+        self._share = ms_per_second / 1000
+        self._most = self._left = self._share * BURST_S
+        self._at = 0.0
+
+    def allows(self, account: Account, now: float) -> bool:
+        """Return whether a client may change the graph at `now`."""
+        self._refill(now)
+        return self._left > 0 and self._left >= _fade(account, now)
+
+    def charge(self, account: Account, seconds: float, now: float) -> None:
+        """Note that a change for a client took so many seconds."""
+        self._refill(now)
+        self._left -= seconds
+        account.graph_s = _fade(account, now) + seconds
+
+    def _refill(self, now: float) -> None:
+        self._left = min(self._most, self._left + max(0.0, now - self._at) * self._share)
+        self._at = now
+
+
+def _fade(account: Account, now: float) -> float:
+    if now > account.graph_at:
+        account.graph_s *= exp((account.graph_at - now) / MEMORY_S)
+        account.graph_at = now
+    return account.graph_s

@@ -1,0 +1,253 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What clients in session say, by submessage: done now, in the client's next turn, or when ROS 2 has room."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from microros_gen.agent.clients import Client, ClientTable, Job
+from microros_gen.agent.fairness import TURN_S, Fairness
+from microros_gen.agent.graph_work import GraphWork
+from microros_gen.agent.limits import Limits
+from microros_gen.agent.lobby import Lobby
+from microros_gen.agent.operations import Operations, TurnOverError
+from microros_gen.agent.ros.bridge import BridgeError, BusyError
+from microros_gen.agent.services import ENCAPSULATION
+from microros_gen.agent.session import Ready
+from microros_gen.agent.turns import Turns
+from microros_gen.agent.wire.constants import (
+    DATA_FORMAT_MASK,
+    FLAG_LITTLE,
+    STREAM_RELIABLE,
+    ObjectKind,
+    Status,
+    SubmessageId,
+)
+from microros_gen.agent.wire.data_messages import DATA_PREFIX
+from microros_gen.agent.wire.errors import MalformedError
+from microros_gen.agent.wire.message import SUBMESSAGE_HEADER, split
+from microros_gen.agent.wire.submessages import decode
+
+WRITE_DATA = int(SubmessageId.WRITE_DATA)
+ACKNACK = int(SubmessageId.ACKNACK)
+COSTLY = (SubmessageId.CREATE, SubmessageId.DELETE)
+"""What changes the ROS graph: each client has a rate for it, and all together have a part of the agent's time."""
+ANSWERED = (SubmessageId.CREATE, SubmessageId.READ_DATA)
+"""Whoever sends these waits for a STATUS when they are refused, also for what cannot be read."""
+RETRY_S, LONGEST_RETRY_S = 0.002, 0.064
+"""Seconds until a sample for which DDS had no room is tried again: at first, and at last."""
+Refuse = Callable[[Exception, bytes, Client], None]
+"""Counts, and tells, that a message of a client cannot be carried out."""
+
+
+class Processor:
+    """Takes what is ready of a client; what does not end in its turn is put off."""
+
+    def __init__(
+        self,
+        clients: ClientTable,
+        limits: Limits,
+        operations: Operations,
+        lobby: Lobby,
+        turns: Turns,
+        fair: Fairness,
+        graph: GraphWork,
+        refuse: Refuse,
+    ) -> None:
+        self._clients = clients
+        self._limits = limits
+        self._operations = operations
+        self._lobby = lobby
+        self._turns = turns
+        self._fair = fair
+        self._graph = graph
+        self._refuse = refuse
+        self._clock = turns.clock
+        self._to_acknowledge: set[Client] = set()
+        self._stopped: set[Client] = set()
+        """Clients with a reliable stream that waits for room in DDS."""
+        self.samples = 0
+        """Samples, requests and replies that were handed to ROS 2."""
+        turns.messages = self.process
+
+    def due(self) -> float | None:
+        """Return when `try_again` has something to do."""
+        return min((client.retry_at for client in self._stopped), default=None) if self._stopped else None
+
+    def flush(self) -> None:
+        """Send the acknowledgements of what was received since the last call."""
+        for client in self._to_acknowledge:
+            client.acknowledge()
+        self._to_acknowledge.clear()
+
+    def came(self, client: Client, stream: int) -> None:
+        """Note that a message came on a reliable stream, to be acknowledged."""
+        client.unacknowledged.add(stream)
+        self._to_acknowledge.add(client)
+
+    def process(self, client: Client) -> None:
+        """Do what is ready of a client, as far as its turn goes."""
+        ready, turns = client.ready, self._turns
+        while ready:
+            message = ready.popleft()
+            try:
+                self._process(client, *message)
+            except Exception as error:
+                client.more = False
+                self._refuse(error, message[0], client)
+            if ready and (client.work or turns.over):
+                turns.put_off(client)
+                return
+
+    def _process(self, client: Client, data: bytes, start: int, stream: int, whole: bool, done: int) -> None:
+        client.stream = stream
+        publish, turns = client.objects.publish, self._turns
+        begun = False
+        for identifier, flags, at, end in split(data, start, whole):
+            if begun and turns.over:
+                client.ready.appendleft((data, at - SUBMESSAGE_HEADER, stream, whole, 0))
+                return
+            begun = True
+            if identifier == WRITE_DATA:
+                writer = publish.get(data[at + 2] << 8 | data[at + 3]) if end - at >= DATA_PREFIX else None
+                try:
+                    if writer is None or flags & DATA_FORMAT_MASK:
+                        self.samples += self._operations.write(client, data, at, end, flags, done)
+                        done = 0
+                        continue
+                    writer(ENCAPSULATION[flags & FLAG_LITTLE] + data[at + DATA_PREFIX : end])
+                    self.samples += 1
+                except BusyError as error:
+                    self.samples += max(0, error.done - done)
+                    if self._stop(client, (data, at - SUBMESSAGE_HEADER, stream, whole, error.done), error):
+                        return
+                    self._operations.not_written(client, error)
+                except BridgeError as error:
+                    self._operations.not_written(client, error)
+                except TurnOverError as error:
+                    self.samples += error.done - done
+                    client.ready.appendleft((data, at - SUBMESSAGE_HEADER, stream, whole, error.done))
+                    return
+            elif identifier == ACKNACK and end - at == 5 and flags & FLAG_LITTLE:
+                first, missing = data[at] | data[at + 1] << 8, data[at + 2] << 8 | data[at + 3]
+                self._operations.acknowledged(client, data[at + 4], first, missing, self._clock())
+            elif identifier in COSTLY and not self._may_change(client, data, at, end):
+                waits = BusyError("it creates and deletes faster than it may")
+                if self._stop(
+                    client, (data, at - SUBMESSAGE_HEADER, stream, whole, 0), waits, "operations_wait"
+                ):
+                    return
+                self._refuse_costly(client, data, at, end)
+            elif not self._operate(client, identifier, flags, data, at, end, whole):
+                return
+
+    def _operate(
+        self, client: Client, identifier: int, flags: int, data: bytes, at: int, end: int, whole: bool
+    ) -> bool:
+        """Carry out a submessage that is no sample; False: the rest of the message is not to be processed now."""
+        if identifier == SubmessageId.DELETE and _of_client(data, at, end):
+            self._lobby.leave(client, data, at)
+            self._to_acknowledge.discard(client)
+            client.ready.clear()
+            return False
+        if client.adopted and identifier in (SubmessageId.GET_INFO, SubmessageId.CREATE):
+            self._lobby.send_away(client)
+            self._to_acknowledge.discard(client)
+            client.ready.clear()
+            return False
+        if identifier == SubmessageId.FRAGMENT and whole:
+            raise MalformedError("nested_fragment")
+        if identifier == SubmessageId.INFO or (identifier == SubmessageId.CREATE_CLIENT and at == end):
+            return True  # a sign of life; the public client's answer to a probe lacks its submessage header: zeros
+        if identifier == SubmessageId.HEARTBEAT:
+            self._to_acknowledge.add(client)
+        now = self._clock()
+        behind = end + 3 & ~3
+        client.more = not whole and behind + SUBMESSAGE_HEADER <= len(data)
+        try:
+            submessage = decode(identifier, flags, data, at, end)
+        except MalformedError:
+            if identifier in ANSWERED and end - at >= DATA_PREFIX:
+                self._operations.refuse(client, data, at, Status.INVALID_DATA, now)
+            raise
+        steps = self._operations.run(client, submessage, now)
+        done = steps is None or self._turns.begin(client, Job(steps, adds=identifier == SubmessageId.CREATE))
+        client.more = False
+        if not done:
+            client.ready.appendleft((data, behind, client.stream, whole, 0))
+            return False
+        if client.whole is None:
+            return True
+        client.ready.extendleft(
+            ((data, behind, client.stream, False, 0), (client.whole, 0, client.stream, True, 0))
+        )
+        client.whole = None
+        return False
+
+    def _may_change(self, client: Client, data: bytes, at: int, end: int) -> bool:
+        """Return whether a client may create or delete one more object now; it may always leave."""
+        now = self._clock()
+        if _of_client(data, at, end):
+            return True
+        return self._graph.allows(client.account, now) and client.rate.take(now)
+
+    def _refuse_costly(self, client: Client, data: bytes, at: int, end: int) -> None:
+        if end - at >= DATA_PREFIX:
+            self._operations.refuse(client, data, at, Status.RESOURCES, self._clock())
+        detail = f"more than {self._limits.operations_per_second} CREATE and DELETE in a second, or too costly ones"
+        self._refuse(MalformedError("too_many_operations", detail), data, client)
+
+    def _stop(self, client: Client, unfinished: Ready, error: BusyError, kind: str = "publish_waits") -> bool:
+        """Keep what cannot be done now, and what follows on its stream, unacknowledged; False where it is lost."""
+        stream = unfinished[2]
+        behind = [ready for ready in client.ready if ready[2] == stream]
+        of_it = 1 if unfinished[3] else 0  # the rest of the message whose fragment completed it
+        message, followers = [unfinished, *behind[:of_it]], [ready[0] for ready in behind[of_it:]]
+        if stream < STREAM_RELIABLE or not client.session.stop(message, followers):
+            return False
+        others = [ready for ready in client.ready if ready[2] != stream]
+        client.ready.clear()
+        client.ready.extend(others)
+        if client not in self._stopped:
+            self._stopped.add(client)
+            client.retry_s = RETRY_S
+            client.retry_at = self._clock() + RETRY_S
+            self._operations.waits(client, kind, error)
+        return True
+
+    def try_again(self, now: float) -> None:
+        """Go on with streams that stopped: soon after each sample that DDS took, else at growing intervals."""
+        due = [client for client in self._stopped if client.retry_at <= now]
+        self._fair.order(due)
+        for client in due:
+            began = self._clock()
+            if began >= now + TURN_S:
+                break
+            self._turns.start(began)
+            self._go_on(client, began)
+            client.account.used += self._clock() - began
+        self.flush()
+
+    def _go_on(self, client: Client, began: float) -> None:
+        known = self._clients.with_key(client.session.link.key) is client
+        if known and client.asleep:
+            client.retry_at = began + LONGEST_RETRY_S
+            return
+        samples = self.samples
+        if known and client.session.stopped:
+            client.ready.extend(client.session.go_on())
+            client.unacknowledged.update(ready[2] for ready in client.ready)
+            self._to_acknowledge.add(client)
+            if not self._turns.waits(client):
+                self.process(client)
+        if not known or not client.session.stopped:
+            self._stopped.discard(client)
+            return
+        took = self._clock() - began
+        client.retry_s = RETRY_S if self.samples > samples else min(2 * client.retry_s, LONGEST_RETRY_S)
+        client.retry_at = began + took + max(client.retry_s, 9 * took if self.samples == samples else 0)
+
+
+def _of_client(data: bytes, at: int, end: int) -> bool:
+    """Return whether the ids at `data[at]` are those of a client itself."""
+    return end - at >= DATA_PREFIX and data[at + 3] & 0x0F == ObjectKind.CLIENT

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Work of clients that does not end within their turn: it rests, and goes on when they are next.
+
+What a client waits for is done in order: first its jobs (its entities come, leave, or are made in steps), then its
+messages. Only clients whose turn was over are known here; all others were served at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from microros_gen.agent.clients import Client, Job
+from microros_gen.agent.fairness import TURN_S, Fairness
+from microros_gen.agent.graph_work import GraphWork
+from microros_gen.agent.steps import finish
+
+PAUSE_S = 0.02
+"""Seconds until a job is tried again that may not change the ROS graph now."""
+INBOX_BYTES = 65_536
+"""What may wait for the next turn of one client, beyond the message that it was stopped in."""
+
+
+class Turns:
+    """Who goes on next, and until when."""
+
+    def __init__(
+        self,
+        clock: Callable[[], float],
+        turn_s: float,
+        fair: Fairness,
+        graph: GraphWork,
+        fault: Callable[[Exception], None],
+    ) -> None:
+        """A turn of one client lasts `turn_s`; `fault` is told of what should not happen."""
+        self.clock = clock
+        self.end = 0.0
+        """When the turn that is under way is over."""
+        self.messages: Callable[[Client], None] = _nothing
+        """Process what is ready of a client; what is left over stays in its `ready`."""
+        self._turn_s = turn_s
+        self._fair = fair
+        self._graph = graph
+        self._fault = fault
+        self._waiting: set[Client] = set()
+
+    def start(self, now: float) -> None:
+        """Begin the turn of a client."""
+        self.end = now + self._turn_s
+
+    @property
+    def over(self) -> bool:
+        """Whether the turn is over."""
+        return self.clock() >= self.end
+
+    def begin(self, client: Client, job: Job) -> bool:
+        """Do a job behind those that the client has, as far as its turn goes; return whether it is done."""
+        client.work.append(job)
+        if len(client.work) > 1:
+            return False
+        try:
+            done = self._work(client)
+        except BaseException:
+            client.work.clear()
+            raise
+        if not done:
+            self.put_off(client)
+        return done
+
+    def put_off(self, client: Client) -> None:
+        """Go on with what `client` has in its next turn."""
+        self._waiting.add(client)
+        client.account.busy = client.turn_at <= self.clock()
+
+    def waits(self, client: Client) -> bool:
+        """Return whether a client has something that was put off."""
+        return client in self._waiting
+
+    def takes(self, client: Client, size: int) -> bool:
+        """Return whether a further message of a client that waits may wait too."""
+        if client.inbox_bytes >= INBOX_BYTES:
+            return False
+        client.inbox_bytes += size
+        return True
+
+    def due(self) -> float | None:
+        """Return when `run` has something to do."""
+        return min((client.turn_at for client in self._waiting), default=None) if self._waiting else None
+
+    def run(self, now: float) -> None:
+        """Let clients go on in turn, for a round."""
+        clients = [client for client in self._waiting if client.turn_at <= now]
+        self._fair.order(clients)
+        for client in clients:
+            began = self.clock()
+            if began >= now + TURN_S:
+                return
+            self.start(began)
+            self._go_on(client)
+            client.account.used += self.clock() - began
+
+    def finish(self) -> None:
+        """Do all jobs at once."""
+        for client in self._waiting:
+            for job in client.work:
+                finish(job.steps)
+            client.work.clear()
+        self._waiting.clear()
+
+    def _go_on(self, client: Client) -> None:
+        try:
+            done = self._work(client)
+            if done and client.ready:
+                self.messages(client)
+        except Exception as error:
+            client.work.clear()
+            self._fault(error)
+        if client.work or client.ready:
+            self.put_off(client)
+            return
+        self._waiting.discard(client)
+        client.account.busy = False
+        client.inbox_bytes = 0
+
+    def _work(self, client: Client) -> bool:
+        """Do steps of the jobs of a client until its turn is over; return whether all are done."""
+        account = client.account
+        while client.work:
+            job, began = client.work[0], self.clock()
+            if job.adds and not self._graph.allows(account, began):
+                client.turn_at = began + PAUSE_S
+                return False
+            try:
+                next(job.steps)
+            except StopIteration:
+                client.work.popleft()
+            now = self.clock()
+            self._graph.charge(account, now - began, now)
+            if now >= self.end:
+                break
+        return not client.work
+
+
+def _nothing(_client: Client) -> None:
+    """There are no messages."""
