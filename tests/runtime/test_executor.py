@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.plan.runtime import RuntimePlan, TimerPlan
+from microros_gen.plan.runtime import QueuePlan, RuntimePlan, TimerPlan
 from runtime.harness import EXECUTOR, ROS_TIME, SANITIZE, Tree, build, compilers, components, render
 
 MS = 1_000_000
@@ -21,10 +21,20 @@ TICKS = replace(
         TimerPlan(2, 0, "plain", 30 * MS),
     ),
 )
+CHANGES = replace(
+    EXECUTOR,
+    mtu=256,
+    best_effort_size=256,
+    timers_max=2,
+    services_max=3,
+    clients_max=2,
+    queues=(*(QueuePlan(2, 16),) * 2, *(QueuePlan(2, 40),) * 3, *(QueuePlan(2, 20),) * 2),
+)
 UNITS = {
     "unit_clock.c": EXECUTOR,
     "unit_timer.c": EXECUTOR,
     "unit_executor.c": EXECUTOR,
+    "unit_executor_changes.c": CHANGES,
     "unit_ticks.c": TICKS,
     "unit_clock_ros.c": ROS_TIME,
 }

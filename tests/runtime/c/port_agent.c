@@ -14,6 +14,7 @@ enum {
   READ_DATA = 8,
   RELIABLE = 0x80
 };
+enum { READER = 6, REQUESTER = 7, REPLIER = 8 };
 
 typedef struct datagram_t {
   size_t size;
@@ -27,11 +28,16 @@ int64_t agent_event_ns = INT64_MAX;
 void (*agent_event)(void);
 port_timer_tick_t agent_ticks[4];
 int64_t agent_periods[4];
+agent_reply_t agent_replies[AGENT_REPLIES];
+size_t agent_reply_count;
+bool agent_keeps_silent;
 
 static datagram_t queue[QUEUE];
 static size_t queue_count;
 static uint16_t sequence[2]; /* of the agent's streams: best effort, reliable */
 static uint8_t requests[ENDPOINTS][2];
+static uint8_t asked[ENDPOINTS][2]; /* the last request of a requester */
+static uint8_t unacknowledged[4];   /* the header of the last message that was not acknowledged */
 static uint32_t written;
 static int32_t written_last;
 static bool woken;
@@ -165,6 +171,35 @@ static void answer_session(void)
   memcpy(send_begin(0, 4, sizeof(granted)), granted, sizeof(granted));
 }
 
+static uint16_t index_of(const uint8_t * payload)
+{
+  return (uint16_t)(((uint32_t)payload[2] << 4 | (uint32_t)payload[3] >> 4) % ENDPOINTS);
+}
+
+/* A sample, a request or a reply. */
+static void take_written(const uint8_t * payload)
+{
+  enum { SAMPLE = 4, NUMBER = SAMPLE + 20, REPLY = SAMPLE + 24 };
+  const uint8_t kind = payload[3] & 0x0fu;
+
+  if (kind == REQUESTER) {
+    memcpy(asked[index_of(payload)], payload, 2);
+  } else if (kind == REPLIER) {
+    agent_reply_t * reply = &agent_replies[agent_reply_count];
+
+    if (agent_reply_count == AGENT_REPLIES) {
+      abort();
+    }
+    ++agent_reply_count;
+    reply->index = index_of(payload);
+    memcpy(&reply->number, &payload[NUMBER], sizeof(reply->number));
+    memcpy(&reply->value, &payload[REPLY], sizeof(reply->value));
+  } else {
+    ++written;
+    memcpy(&written_last, &payload[SAMPLE], sizeof(written_last));
+  }
+}
+
 static void take(uint8_t stream, const uint8_t * submessage)
 {
   const uint8_t * payload = &submessage[HEADER];
@@ -181,11 +216,10 @@ static void take(uint8_t stream, const uint8_t * submessage)
       send_begin(0, 6, 12)[5] = 1; /* in session */
       break;
     case WRITE_DATA:
-      ++written;
-      memcpy(&written_last, &payload[4], sizeof(written_last));
+      take_written(payload);
       break;
     case READ_DATA:
-      memcpy(requests[((size_t)payload[2] << 4 | payload[3] >> 4) % ENDPOINTS], payload, 2);
+      memcpy(requests[index_of(payload)], payload, 2);
       break;
     default:
       break;
@@ -209,7 +243,10 @@ void port_udp_close(port_udp_t * udp)
 bool port_udp_send(port_udp_t * udp, const uint8_t * data, size_t size)
 {
   (void)udp;
-  if (data[1] >= RELIABLE) {
+  if (data[1] == RELIABLE) {
+    memcpy(unacknowledged, data, sizeof(unacknowledged));
+  }
+  if (data[1] > RELIABLE || (data[1] == RELIABLE && !agent_keeps_silent)) {
     answer_acknack(data);
   }
   for (size_t at = HEADER; at + HEADER <= size;) {
@@ -247,14 +284,44 @@ void agent_inject(const uint8_t * bytes, size_t size)
   }
 }
 
-void agent_offer(uint16_t index, const uint8_t * body, uint8_t size)
+static void offer(uint16_t index, uint8_t kind, const uint8_t * body, uint8_t size)
 {
   uint8_t * payload = send_begin(1, 9, (uint8_t)(size + 4u));
 
   memcpy(payload, requests[index], 2);
   payload[2] = (uint8_t)(index >> 4);
-  payload[3] = (uint8_t)((uint32_t)index << 4 | 6u);
+  payload[3] = (uint8_t)((uint32_t)index << 4 | kind);
   memcpy(&payload[4], body, size);
+}
+
+void agent_offer(uint16_t index, const uint8_t * body, uint8_t size)
+{
+  offer(index, READER, body, size);
+}
+
+void agent_offer_request(uint16_t index, uint32_t number, int32_t value)
+{
+  uint8_t body[28] = {1, 15};
+
+  memcpy(&body[20], &number, sizeof(number));
+  memcpy(&body[24], &value, sizeof(value));
+  offer(index, REPLIER, body, sizeof(body));
+}
+
+void agent_offer_reply(uint16_t index, int32_t value)
+{
+  uint8_t body[8];
+
+  memcpy(body, asked[index], 2);
+  body[2] = (uint8_t)(index >> 4);
+  body[3] = (uint8_t)((uint32_t)index << 4 | REQUESTER);
+  memcpy(&body[4], &value, sizeof(value));
+  offer(index, REQUESTER, body, sizeof(body));
+}
+
+void agent_acknowledge(void)
+{
+  answer_acknack(unacknowledged);
 }
 
 void agent_offer_number(uint16_t index, int32_t value)

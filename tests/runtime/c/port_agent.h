@@ -30,6 +30,28 @@ extern int64_t agent_periods[4];
 void agent_offer(uint16_t index, const uint8_t * body, uint8_t size);
 void agent_offer_number(uint16_t index, int32_t value);
 
+/* A request arrives for the replier of this index, or a reply for the requester to its last request. */
+void agent_offer_request(uint16_t index, uint32_t number, int32_t value);
+void agent_offer_reply(uint16_t index, int32_t value);
+
+/* A reply that a replier wrote: whose it is, to which request, and the value. */
+typedef struct agent_reply_t {
+  uint16_t index;
+  uint32_t number;
+  int32_t value;
+} agent_reply_t;
+
+/* What repliers wrote; the unit sets the count to 0. */
+enum { AGENT_REPLIES = 16 };
+extern agent_reply_t agent_replies[AGENT_REPLIES];
+extern size_t agent_reply_count;
+
+/* While true, nothing that is written is acknowledged. */
+extern bool agent_keeps_silent;
+
+/* Acknowledges all that was written. */
+void agent_acknowledge(void);
+
 /* A datagram from anybody, cut to what the client takes; nothing where too many wait already. */
 void agent_inject(const uint8_t * bytes, size_t size);
 

@@ -43,7 +43,9 @@ static rcl_ret_t client_call(rclc_executor_handle_t * handle)
 
 static rcl_ret_t client_call_with_request_id(rclc_executor_handle_t * handle)
 {
-  handle->callback.client_with_request_id(handle->data, &handle->req_id);
+  rmw_request_id_t request_id = handle->req_id; /* the callback may remove the handle, and has this one */
+
+  handle->callback.client_with_request_id(handle->data, &request_id);
   return RCL_RET_OK;
 }
 

@@ -20,45 +20,79 @@ static rcl_ret_t service_look(const rclc_executor_handle_t * handle, bool * is_r
   return RCL_RET_OK;
 }
 
-static rcl_ret_t service_take(rclc_executor_handle_t * handle)
+/*
+ * What a call needs of its handle, which may be another's when the callback returns. A request is taken directly before its
+ * callback, whatever the semantics: until then a handle that is removed leaves it in the queue of its service.
+ */
+typedef struct service_call_t {
+  const rcl_service_t * service;
+  void * response;
+  rmw_request_id_t request_id;
+  bool taken;
+} service_call_t;
+
+static rcl_ret_t service_begin(rclc_executor_handle_t * handle, service_call_t * call)
 {
   rmw_service_info_t info;
   rmw_ret_t result;
 
+  call->service = handle->service;
+  call->response = handle->data_response_msg;
+  call->taken = false;
   if (!rcl_service_is_valid(handle->service)) {
     return service_refuse();
   }
-  result = rmw_replier_take(handle->service->impl, &info, handle->data, &handle->data_available);
-  if (handle->data_available) {
+  result = rmw_replier_begin(handle->service->impl, &info, handle->data, &call->taken);
+  if (call->taken) {
+    call->request_id = info.request_id;
     handle->req_id = info.request_id;
   }
   return result;
 }
 
-static rcl_ret_t service_respond(const rclc_executor_handle_t * handle)
+static rcl_ret_t service_end(const service_call_t * call)
 {
-  if (!rcl_service_is_valid(handle->service)) {
+  if (!rcl_service_is_valid(call->service)) {
+    rmw_replier_give_up();
     return service_refuse(); /* the callback has ended it */
   }
-  return rmw_replier_respond(handle->service->impl, &handle->req_id, handle->data_response_msg);
+  return rmw_replier_end(call->service->impl, &call->request_id, call->response);
 }
 
 static rcl_ret_t service_call(rclc_executor_handle_t * handle)
 {
-  handle->callback.service(handle->data, handle->data_response_msg);
-  return service_respond(handle);
+  service_call_t call;
+  const rcl_ret_t result = service_begin(handle, &call);
+
+  if (!call.taken) {
+    return result;
+  }
+  handle->callback.service(handle->data, call.response);
+  return service_end(&call);
 }
 
 static rcl_ret_t service_call_with_request_id(rclc_executor_handle_t * handle)
 {
-  handle->callback.service_with_request_id(handle->data, &handle->req_id, handle->data_response_msg);
-  return service_respond(handle);
+  service_call_t call;
+  const rcl_ret_t result = service_begin(handle, &call);
+
+  if (!call.taken) {
+    return result;
+  }
+  handle->callback.service_with_request_id(handle->data, &call.request_id, call.response);
+  return service_end(&call);
 }
 
 static rcl_ret_t service_call_with_context(rclc_executor_handle_t * handle)
 {
-  handle->callback.service_with_context(handle->data, handle->data_response_msg, handle->callback_context);
-  return service_respond(handle);
+  service_call_t call;
+  const rcl_ret_t result = service_begin(handle, &call);
+
+  if (!call.taken) {
+    return result;
+  }
+  handle->callback.service_with_context(handle->data, call.response, handle->callback_context);
+  return service_end(&call);
 }
 
 /* Returns a handle without its callback, or NULL. */
@@ -89,7 +123,7 @@ rcl_ret_t rclc_executor_add_service(
   rclc_executor_t * executor, rcl_service_t * service, void * request_msg, void * response_msg,
   rclc_service_callback_t callback)
 {
-  static const rclc_handle_kind_t kind = {service_look, service_take, service_call};
+  static const rclc_handle_kind_t kind = {service_look, rclc_handle_take_nothing, service_call};
   rclc_executor_handle_t * handle;
 
   if (
@@ -108,7 +142,8 @@ rcl_ret_t rclc_executor_add_service_with_request_id(
   rclc_executor_t * executor, rcl_service_t * service, void * request_msg, void * response_msg,
   rclc_service_callback_with_request_id_t callback)
 {
-  static const rclc_handle_kind_t kind = {service_look, service_take, service_call_with_request_id};
+  static const rclc_handle_kind_t kind = {
+    service_look, rclc_handle_take_nothing, service_call_with_request_id};
   rclc_executor_handle_t * handle;
 
   if (
@@ -127,7 +162,7 @@ rcl_ret_t rclc_executor_add_service_with_context(
   rclc_executor_t * executor, rcl_service_t * service, void * request_msg, void * response_msg,
   rclc_service_callback_with_context_t callback, void * context)
 {
-  static const rclc_handle_kind_t kind = {service_look, service_take, service_call_with_context};
+  static const rclc_handle_kind_t kind = {service_look, rclc_handle_take_nothing, service_call_with_context};
   rclc_executor_handle_t * handle;
 
   if (

@@ -68,20 +68,37 @@ static void executor_note(rcl_ret_t * first, rcl_ret_t result)
   }
 }
 
-/* A callback may remove handles, its own too: then the round goes on with the next but one. */
+/* Returns the first handle whose turn in this round is to come, or NULL. */
+static rclc_executor_handle_t * executor_next(const rclc_executor_t * executor)
+{
+  for (size_t i = 0; i < executor->index; ++i) {
+    if (executor->handles[i].has_turn) {
+      return &executor->handles[i];
+    }
+  }
+  return NULL;
+}
+
+/* A callback may remove handles, its own too, which moves those after it, or end the executor; what it adds has its first
+ * turn in the next round. So each turn looks for its handle. */
 static rcl_ret_t executor_process(const rclc_executor_t * executor)
 {
   const bool takes_first = executor->data_comm_semantics == RCLC_SEMANTICS_LOGICAL_EXECUTION_TIME;
+  rclc_executor_handle_t * handle;
   rcl_ret_t first = RCL_RET_OK;
 
-  for (size_t i = 0; i < executor->index && takes_first; ++i) {
-    executor_note(&first, handle_take(&executor->handles[i]));
-  }
   for (size_t i = 0; i < executor->index; ++i) {
-    if (!takes_first) {
+    executor->handles[i].has_turn = true;
+    if (takes_first) {
       executor_note(&first, handle_take(&executor->handles[i]));
     }
-    executor_note(&first, handle_call(&executor->handles[i]));
+  }
+  for (handle = executor_next(executor); handle != NULL; handle = executor_next(executor)) {
+    handle->has_turn = false;
+    if (!takes_first) {
+      executor_note(&first, handle_take(handle));
+    }
+    executor_note(&first, handle_call(handle));
   }
   for (size_t i = 0; i < executor->index; ++i) {
     executor->handles[i].data_available = false;

@@ -150,6 +150,24 @@ rmw_ret_t rmw_replier_take(
   return result;
 }
 
+rmw_ret_t rmw_replier_begin(
+  const rmw_service_t * service, rmw_service_info_t * info, void * ros_request, bool * taken)
+{
+  const xrce_endpoint_t * endpoint = service->data;
+  rmw_ret_t result = RMW_RET_OK;
+
+  *taken = false;
+  microros_lock();
+  if (xrce_write_reserve(endpoint) != NULL) { /* else somebody has filled the stream since it was ready */
+    result = replier_take(service, info, ros_request, taken);
+  }
+  if (*taken) {
+    ++endpoint->client->owed;
+  }
+  microros_unlock();
+  return result;
+}
+
 static rmw_ret_t replier_respond(
   const rmw_service_t * service, const rmw_request_id_t * request, const void * ros_response)
 {
@@ -175,4 +193,32 @@ rmw_ret_t rmw_replier_respond(
   result = replier_respond(service, request, ros_response);
   microros_unlock();
   return result;
+}
+
+/* A session that was opened meanwhile owes nothing. */
+static void replier_release(xrce_client_t * client)
+{
+  if (client->owed != 0u) {
+    --client->owed;
+  }
+}
+
+rmw_ret_t rmw_replier_end(
+  const rmw_service_t * service, const rmw_request_id_t * request, const void * ros_response)
+{
+  const xrce_endpoint_t * endpoint = service->data;
+  rmw_ret_t result;
+
+  microros_lock();
+  replier_release(endpoint->client);
+  result = replier_respond(service, request, ros_response);
+  microros_unlock();
+  return result;
+}
+
+void rmw_replier_give_up(void)
+{
+  microros_lock();
+  replier_release(rmw_client_instance());
+  microros_unlock();
 }

@@ -57,6 +57,20 @@ rmw_ret_t rmw_requester_take(
 void rmw_replier_pump(const rmw_service_t * service);
 void rmw_requester_pump(const rmw_client_t * client);
 
+/* --- for the executor, which answers when the callback returns --- */
+
+/* As rmw_replier_take, but *taken is also false while the reply would find no room; otherwise a slot of the reliable
+ * stream is kept back for it, until one of the two below. */
+rmw_ret_t rmw_replier_begin(
+  const rmw_service_t * service, rmw_service_info_t * info, void * ros_request, bool * taken);
+
+/* As rmw_replier_respond, with the slot that was kept back. */
+rmw_ret_t rmw_replier_end(
+  const rmw_service_t * service, const rmw_request_id_t * request, const void * ros_response);
+
+/* There is no reply: the service was ended meanwhile. */
+void rmw_replier_give_up(void);
+
 /* Encodes a reply into the reliable stream. RMW_RET_ERROR, with a text: a field above its limit, no room, no session. */
 rmw_ret_t rmw_replier_respond(
   const rmw_service_t * service, const rmw_request_id_t * request, const void * ros_response);
