@@ -62,7 +62,7 @@ class Client:
     turn_at: float = 0.0
     """Not before then."""
     inbox_bytes: int = 0
-    """Bytes of messages that came while it waited for its turn."""
+    """Bytes of messages that came while it waited for its turn, at most."""
     stream: int = 0
     """Stream of the message that is processed now."""
     more: bool = False

@@ -68,7 +68,7 @@ class Processor:
         """Clients with a reliable stream that waits for room in DDS."""
         self.samples = 0
         """Samples, requests and replies that were handed to ROS 2."""
-        turns.messages = self.process
+        turns.messages = self._take_up
 
     def due(self) -> float | None:
         """Return when `try_again` has something to do."""
@@ -84,6 +84,12 @@ class Processor:
         """Note that a message came on a reliable stream, to be acknowledged."""
         client.unacknowledged.add(stream)
         self._to_acknowledge.add(client)
+
+    def _take_up(self, client: Client) -> None:
+        """Go on with what was put off; what gets done is acknowledged."""
+        if client.unacknowledged:
+            self._to_acknowledge.add(client)
+        self.process(client)
 
     def process(self, client: Client) -> None:
         """Do what is ready of a client, as far as its turn goes."""

@@ -167,7 +167,8 @@ class Writer(Protocol):
     def publish(self, serialized: bytes) -> None:
         """Publish a sample: encapsulation header, then CDR body.
 
-        BusyError, after a millisecond or so, when it may be taken later; BridgeError when it never will be.
+        BusyError, after a millisecond or so, when it may be taken later; then for some milliseconds at once, without
+        asking DDS. BridgeError when it never will be.
         """
 
     def destroy(self) -> None:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Callable
 from ctypes import addressof, byref
 from typing import Any
@@ -20,6 +21,10 @@ from microros_gen.agent.ros.libraries import (
 )
 from microros_gen.agent.ros.raw_types import RawTypes
 from microros_gen.agent.ros.wakeups import Notify, Wakeups
+
+FULL_S, LONGEST_FULL_S = 0.002, 0.064
+"""Seconds for which a writer that is full is not asked again, at first and at last: each time the agent waits a
+millisecond in DDS, and so does everybody else."""
 
 
 class Ros:
@@ -68,17 +73,26 @@ class RawWriter(Entity):
         super().__init__(handle, events, endpoints)
         self._publish = handle.publish_raw
         self._keeps_all = keeps_all
+        self._full_s = 0.0
+        """How long DDS is not asked again; 0: it took the last sample."""
+        self._full_until = 0.0
 
     def publish(self, serialized: bytes) -> None:
         """See Writer."""
+        if self._full_s and time.monotonic() < self._full_until:
+            raise self._busy()
         try:
             self._publish(serialized)
         except FAILURES as error:
             if self._keeps_all:
-                raise BusyError(
-                    f"{self.label}: a reader does not take what it was sent, and DDS is full"
-                ) from error
+                self._full_s = min(max(FULL_S, 2 * self._full_s), LONGEST_FULL_S)
+                self._full_until = time.monotonic() + self._full_s
+                raise self._busy() from error
             raise BridgeError(f"publish on {self.label}: {first_line(error)}") from error
+        self._full_s = 0.0
+
+    def _busy(self) -> BusyError:
+        return BusyError(f"{self.label}: a reader does not take what it was sent, and DDS is full")
 
 
 class RawSource(Entity):

@@ -7,7 +7,7 @@ that an endpoint belongs to comes later than the endpoint.
 
 from __future__ import annotations
 
-import os
+import time
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any, Protocol
@@ -24,6 +24,14 @@ from microros_gen.agent.ros.libraries import FAILURES, OK, Libraries
 from microros_gen.agent.ros.wakeups import Wakeups, Watcher
 from microros_gen.agent.wire.constants import Status
 
+LOOK_S, BETWEEN_S = 0.001, 0.02
+"""Seconds for comparisons before it is others' turn, and until they go on."""
+MOST_COMPARED = 128
+"""Endpoints of one topic in this agent up to which it is compared: to ask for very many takes as long as they are."""
+MOST_TOLD = 64
+"""Differences that are told of one endpoint."""
+FEW, TOGETHER_S = 32, 0.05
+"""Endpoints of a node that are asked at once what happened; more are asked some time later, for all that happened."""
 CHECK_AFTER_S = 0.5
 """From a match to the comparison of hashes."""
 CHECKS = 20
@@ -83,12 +91,20 @@ class TopicTypes:
         for endpoint in endpoints:
             self._by_topic.setdefault(endpoint.topic, set()).add(endpoint)
 
+    def count(self, topic: str) -> int:
+        """Return how many endpoints of a topic the agent has."""
+        return len(self._by_topic.get(topic, ()))
+
     def release(self, endpoint: Endpoint) -> None:
         """Forget an endpoint."""
         left = self._by_topic.get(endpoint.topic, set())
         left.discard(endpoint)
         if not left:
             self._by_topic.pop(endpoint.topic, None)
+
+
+_Place = tuple[TopicTypes, str, bool]
+"""A topic in a domain, and whether its name is that of DDS."""
 
 
 class Destroyable(Protocol):
@@ -105,48 +121,72 @@ class Comparison(Watcher):
         self._handles = handles
         self._wakeups = wakeups
         self._report = report
-        self._due: dict[Endpoint, tuple[Any, int]] = {}
+        self._due: dict[_Place, dict[Endpoint, tuple[Any, int]]] = {}
+        """What is to be compared, with the handle of its node and how often a nameless other one is waited for."""
         self._told: dict[Endpoint, set[GraphReport]] = {}
         self._timer = wakeups.add_timer(self)
 
-    def soon(self, node: Any, endpoint: Endpoint) -> None:
-        """Compare `endpoint` in a moment; `node` is the handle of its node."""
+    def soon(self, node: Any, topics: TopicTypes, endpoint: Endpoint) -> None:
+        """Compare `endpoint` in a moment; `node` is the handle of its node, `topics` are those of its domain."""
         self._told.setdefault(endpoint, set())
-        if endpoint not in self._due:
+        if not self._due:
             self._wakeups.set_timer(self._timer, CHECK_AFTER_S)
-            self._due[endpoint] = node, CHECKS
+        self._due.setdefault((topics, endpoint.topic, endpoint.mangled), {}).setdefault(
+            endpoint, (node, CHECKS)
+        )
 
-    def forget(self, endpoint: Endpoint) -> None:
+    def forget(self, topics: TopicTypes, endpoint: Endpoint) -> None:
         """Do not look at an endpoint any more."""
-        self._due.pop(endpoint, None)
+        place = (topics, endpoint.topic, endpoint.mangled)
+        due = self._due.get(place, {})
+        due.pop(endpoint, None)
+        if not due:
+            self._due.pop(place, None)
         self._told.pop(endpoint, None)
 
     def look(self) -> None:
-        """See Watcher."""
-        due, self._due = self._due, {}
-        for endpoint, (node, tries) in due.items():
-            nameless = False
-            for found in self._others(node, endpoint):
-                if found["node_name"] == _UNKNOWN_NODE and tries > 1:
-                    nameless = True
-                    continue
-                report = _difference(endpoint, found)
-                if report is not None and report not in self._told[endpoint]:
-                    self._told[endpoint].add(report)
-                    self._report(report)
-            if nameless:
-                self._due[endpoint] = node, tries - 1
+        """See Watcher. A topic is asked for once, however many endpoints it has here; then it is others' turn."""
+        end = time.monotonic() + LOOK_S
+        again: dict[_Place, dict[Endpoint, tuple[Any, int]]] = {}
+        while self._due and time.monotonic() < end:
+            place = next(iter(self._due))
+            due = self._due.pop(place)
+            nameless = place[0].count(place[1]) <= MOST_COMPARED and self._compare(place, due)
+            left = {e: (node, tries - 1) for e, (node, tries) in due.items() if tries > 1}
+            if nameless and left:
+                again[place] = left
+        wait_s = BETWEEN_S if self._due else CHECK_AFTER_S
+        self._due.update(again)
         if self._due:
-            self._wakeups.set_timer(self._timer, CHECK_AFTER_S)
+            self._wakeups.set_timer(self._timer, wait_s)
 
-    def _others(self, node: Any, endpoint: Endpoint) -> Iterator[dict[str, Any]]:
+    def _compare(self, place: _Place, due: dict[Endpoint, tuple[Any, int]]) -> bool:
+        """Compare the endpoints at a place with others there; return whether one of those has no name yet."""
+        alike = {(endpoint.type, endpoint.hash) for endpoint in due}
+        node, tries = next(iter(due.values()))
+        last_try, nameless = tries <= 1, False
+        for found in self._others(node, place):
+            if found["node_name"] == _UNKNOWN_NODE and not last_try:
+                nameless = True
+            elif any(_differs(type_name, type_hash, found) for type_name, type_hash in alike):
+                for endpoint in due:
+                    self._tell(endpoint, _difference(endpoint, found))
+        return nameless
+
+    def _tell(self, endpoint: Endpoint, report: GraphReport | None) -> None:
+        told = self._told[endpoint]
+        if report is not None and report not in told and len(told) < MOST_TOLD:
+            told.add(report)
+            self._report(report)
+
+    def _others(self, node: Any, place: _Place) -> Iterator[dict[str, Any]]:
         """Give all endpoints of the other direction, and of ours: who publishes with us may have another type too."""
         for get in (
             self._handles.rclpy_get_publishers_info_by_topic,
             self._handles.rclpy_get_subscriptions_info_by_topic,
         ):
             try:
-                yield from get(node, endpoint.topic, endpoint.mangled)
+                yield from get(node, place[1], place[2])
             except FAILURES:  # the graph cannot be asked now: the next match compares again
                 return
 
@@ -172,7 +212,9 @@ class Events(Watcher):
         self.topics = topics
         self._report = report
         self._watched: dict[Endpoint, _Watched] = {}
-        self._descriptor = -1
+        self._descriptor = self._timer = -1
+        self._look_from = 0.0
+        """When it is to be looked at; 0: nothing happened."""
         self.entities: set[Destroyable] = set()
         """What the node has."""
 
@@ -201,11 +243,11 @@ class Events(Watcher):
             pointer = event.pointer
             if self._libraries.notify_event(pointer, self._libraries.eventfd_write, self._descriptor) != OK:
                 raise BridgeError(f"{endpoint.label}: {self._libraries.error()}")
-        os.eventfd_write(self._descriptor, 1)  # look once at what happened before
+        self._look_at(endpoint, watched)  # once at what happened before
 
     def compare(self, endpoint: Endpoint) -> None:
         """Compare the type of `endpoint` with that of others in a moment."""
-        self._comparison.soon(self._node, endpoint)
+        self._comparison.soon(self._node, self.topics, endpoint)
 
     def readers(self, endpoint: Endpoint, size: int) -> set[bytes]:
         """Return the first `size` bytes of the GUIDs of all readers that the graph has of the topic of `endpoint`."""
@@ -216,7 +258,7 @@ class Events(Watcher):
     def release(self, endpoints: Iterable[Endpoint]) -> None:
         """Forget endpoints before they are destroyed."""
         for endpoint in endpoints:
-            self._comparison.forget(endpoint)
+            self._comparison.forget(self.topics, endpoint)
             self.topics.release(endpoint)
             watched = self._watched.pop(endpoint, None)
             for event in watched.events() if watched else ():
@@ -226,30 +268,61 @@ class Events(Watcher):
         """Destroy what the node still has, and give the descriptor back: only then nobody writes to it."""
         for entity in list(self.entities):
             entity.destroy()
-        if self._descriptor >= 0:
-            self._wakeups.remove(self._descriptor)
-            self._descriptor = -1
+        for descriptor in (self._descriptor, self._timer):
+            if descriptor >= 0:
+                self._wakeups.remove(descriptor)
+        self._descriptor = self._timer = -1
 
     def look(self) -> None:
-        """See Watcher."""
+        """See Watcher. All endpoints of the node are asked, as it has one descriptor: if they are many, not at once."""
+        if len(self._watched) > FEW and not self._is_time():
+            return
         for endpoint, watched in list(self._watched.items()):
-            status = watched.matched.take_event()
-            counts = (status.total_count, status.current_count) if status else watched.counts
-            if counts != watched.counts:
-                before, watched.counts = watched.counts, counts
-                self._report(Matched(endpoint.node, endpoint.kind, endpoint.label, counts[1]))
-                if counts[0] > before[0]:
-                    self.compare(endpoint)
-            status = watched.refused.take_event()
-            if status is not None and status.total_count != watched.refusals:
-                watched.refusals = status.total_count
-                policy = status.last_policy_kind.name.removeprefix("RMW_QOS_POLICY_").lower()
-                self._report(
-                    Incompatible(endpoint.node, endpoint.kind, endpoint.label, policy, status.total_count)
-                )
-            status = watched.mistyped.take_event()
-            if status is not None and status.total_count_change:
+            self._look_at(endpoint, watched)
+
+    def _is_time(self) -> bool:
+        """Return whether a node with many endpoints is to be looked at now; else it is in a moment."""
+        now = time.monotonic()
+        if not self._look_from:
+            self._look_from = now + TOGETHER_S
+            if self._timer < 0:
+                self._timer = self._wakeups.add_timer(self)
+            self._wakeups.set_timer(self._timer, TOGETHER_S)
+        if now < self._look_from:
+            return False
+        self._look_from = 0.0
+        return True
+
+    def _look_at(self, endpoint: Endpoint, watched: _Watched) -> None:
+        status = watched.matched.take_event()
+        counts = (status.total_count, status.current_count) if status else watched.counts
+        if counts != watched.counts:
+            before, watched.counts = watched.counts, counts
+            self._report(Matched(endpoint.node, endpoint.kind, endpoint.label, counts[1]))
+            if counts[0] > before[0]:
                 self.compare(endpoint)
+        status = watched.refused.take_event()
+        if status is not None and status.total_count != watched.refusals:
+            watched.refusals = status.total_count
+            policy = status.last_policy_kind.name.removeprefix("RMW_QOS_POLICY_").lower()
+            self._report(
+                Incompatible(endpoint.node, endpoint.kind, endpoint.label, policy, status.total_count)
+            )
+        status = watched.mistyped.take_event()
+        if status is not None and status.total_count_change:
+            self.compare(endpoint)
+
+
+def _differs(type_name: str, type_hash: str | None, found: dict[str, Any]) -> bool:
+    """Return whether `found` has another type than one with this name and hash; quickly, for very many."""
+    if found["topic_type"] != type_name:
+        return True
+    announced = found["topic_type_hash"]
+    return (
+        type_hash is not None
+        and announced["version"] == 1
+        and bytes(announced["value"]).hex() != type_hash.removeprefix("RIHS01_")
+    )
 
 
 def _difference(endpoint: Endpoint, found: dict[str, Any]) -> GraphReport | None:
