@@ -9,16 +9,15 @@ order a client cleans up. A writer outlives the DELETE of its topic: micro-ROS d
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
+from microros_gen.agent.checks import RefusedError, check_application, check_object, part_ids
 from microros_gen.agent.entities import Entity, Home, Outcome
 from microros_gen.agent.representation import (
     Application,
     Description,
     Endpoint,
-    Group,
     Known,
     QosProfile,
     References,
@@ -75,12 +74,6 @@ class _Wanted:
     """The application that it is a part of."""
 
 
-class _RefusedError(Exception):
-    def __init__(self, status: Status, reason: str) -> None:
-        super().__init__(reason)
-        self.status = status
-
-
 class ObjectTree:
     """Objects by id, in the order of their creation, which has sources before what is made from them."""
 
@@ -119,7 +112,7 @@ class ObjectTree:
     def _guarded(self, make: Callable[[], Steps[Outcome]]) -> Steps[Outcome]:
         try:
             return (yield from make())
-        except _RefusedError as error:
+        except RefusedError as error:
             return Outcome(error.status, str(error))
         except BridgeError as error:
             return Outcome(error.status, str(error))
@@ -197,7 +190,7 @@ class ObjectTree:
         if present and not create.reuse and not create.replace:
             return Outcome(Status.ALREADY_EXISTS, "the object exists")
         if create.kind not in _SERVED:
-            raise _RefusedError(Status.DENIED, f"objects of kind {_kind_name(create.kind)} are not served")
+            raise RefusedError(Status.DENIED, f"objects of kind {_kind_name(create.kind)} are not served")
         description = describe(create, self._references, self._known(create.parent))
         wanted = _Wanted(object_id, create.parent, description, create.reuse, create.replace)
         outcome = yield from self._place(wanted)
@@ -210,20 +203,24 @@ class ObjectTree:
         object_id = wanted.id
         present = self._objects.get(object_id)
         if wanted.within and present and not wanted.replace:
-            raise _RefusedError(
+            raise RefusedError(
                 Status.ALREADY_EXISTS, f"object {object_id:#06x} exists, which is to be a part of it"
             )
-        _check_ros(wanted.description)
+        check_object(wanted.description)
         entity = Entity(object_id, wanted.description, self._sources(wanted))
         if present and wanted.reuse:
             if (present.description, present.sources) == (entity.description, entity.sources):
                 return Outcome(Status.OK_MATCHED, entity=present)
             if not wanted.replace:
                 return Outcome(Status.MISMATCH, "the object exists and differs")
+        if isinstance(wanted.description, Application):
+            made_from = {present.id, *(e.id for e in self._made_from(present))} if present else set()
+            others = self._objects.keys() - made_from
+            check_application(object_id, wanted.description, others, self._maximum, wanted.replace)
         if present:
             yield from self._remove([present, *self._made_from(present)])
         elif len(self._objects) >= self._maximum:
-            raise _RefusedError(Status.RESOURCES, f"the client has {self._maximum} objects already")
+            raise RefusedError(Status.RESOURCES, f"the client has {self._maximum} objects already")
         self._enter(entity)
         self._objects[object_id] = entity
         self._gone_with_container.discard(object_id)
@@ -232,20 +229,14 @@ class ObjectTree:
         return Outcome(Status.OK, entity=entity)
 
     def _fill(self, application: Entity, description: Application, replace: bool) -> Steps[None]:
-        """Make the parts of an application: all of them, or none and not the application either (7.8.3.1).
-
-        The n-th part of a kind (from 0) has the number of the application plus n.
-        """
-        counts: Counter[int] = Counter()
-        made: list[int] = []
+        """Make the parts of an application: all of them, or none and not the application either (7.8.3.1)."""
+        ids = part_ids(application.id, description)
         try:
-            for part in description.parts:
-                number = (application.id >> 4) + counts[part.kind] & 0xFFF
-                counts[part.kind] += 1
-                parent = 0 if part.container is None else made[part.container]
-                made.append(number << 4 | part.kind)
-                wanted = _Wanted(made[-1], parent, part.description, False, replace, within=application)
-                yield from self._place(wanted)
+            for object_id, part in zip(ids, description.parts, strict=True):
+                parent = 0 if part.container is None else ids[part.container]
+                yield from self._place(
+                    _Wanted(object_id, parent, part.description, False, replace, within=application)
+                )
                 yield
         except Exception:
             yield from self._remove([application, *(e for e in self if e.inside(application))])
@@ -277,7 +268,7 @@ class ObjectTree:
         found = self._objects.get(object_id & 0xFFF0 | kind)
         if found is None:
             wanted = f"{_kind_name(kind)} {object_id >> 4:#05x}"
-            raise _RefusedError(Status.UNKNOWN_REFERENCE, f"the client has no {wanted}")
+            raise RefusedError(Status.UNKNOWN_REFERENCE, f"the client has no {wanted}")
         return found
 
     def _enter(self, entity: Entity) -> None:
@@ -302,16 +293,6 @@ class ObjectTree:
             if any(s in made for s in entity.sources):
                 made.append(entity)
         return made[1:]
-
-
-def _check_ros(description: Description) -> None:
-    """Refuse what ROS 2 cannot carry instead of leaving it out silently."""
-    if isinstance(description, Endpoint) and description.content_filter:
-        reason = f"ROS 2 cannot filter by content: '{description.content_filter}'"
-        raise _RefusedError(Status.INCOMPATIBLE, reason)
-    if isinstance(description, Group) and any(description.partitions):
-        reason = f"ROS 2 has no partitions: '{', '.join(description.partitions)}'"
-        raise _RefusedError(Status.INCOMPATIBLE, reason)
 
 
 def _kind_name(kind: int) -> str:
