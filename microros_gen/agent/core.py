@@ -51,10 +51,12 @@ class Agent:
         pool: InputPool | None = None,
         fair: Fairness | None = None,
         strangers: Account | None = None,
+        processor: Callable[[], float] | None = None,
     ) -> None:
         """`pool` is shared with the transports that hold input too; default: one for the clients alone.
 
         So are `fair` and `strangers`, who has not opened a session yet, with those that read one client before another.
+        `processor` is the processor time of this thread.
         """
         self._bridge = bridge
         self._log = log
@@ -67,7 +69,8 @@ class Agent:
         self._graph = graph
         self._payer = self._strangers = strangers or Account()
         """Who pays for what is done now, and for messages outside of any session."""
-        self._turns = Turns(clock, limits.turn_ms / 1000, fair, graph, self._inner_fault)
+        turn_s = limits.turn_ms / 1000
+        self._turns = Turns(clock, turn_s, fair, graph, self._inner_fault, processor or time.thread_time)
         self._deliveries = Deliveries(log, self._inner_fault, fair, clock)
         pool = pool or InputPool(limits.input_bytes, limits.clients)
         self._lobby = Lobby(self.clients, bridge, log, limits, held, self._deliveries, pool, self._turns)

@@ -13,9 +13,9 @@ from math import exp
 
 from microros_gen.agent.fairness import Account
 
-BURST_S = 5.0
+BURST_S = 3.0
 """Seconds whose work may come at once."""
-MEMORY_S = 10.0
+MEMORY_S = 6.0
 """Seconds after which about a third of what a client took still counts."""
 
 

@@ -33,9 +33,9 @@ class Limits:
     may come at once. On a reliable stream further ones wait, others are refused."""
     turn_ms: float = 2.0
     """Milliseconds of work for one client before others have their turn; it goes on in its next one."""
-    graph_ms_per_second: float = 400.0
-    """Milliseconds of a second in which nodes and endpoints of all clients come and go; one alone gets at most half,
-    and five seconds' worth may come at once. Further CREATE and DELETE wait, or are refused; who comes back waits."""
+    graph_ms_per_second: float = 200.0
+    """Milliseconds of processor in a second in which nodes and endpoints of all clients come and go; one alone gets at
+    most half, and three seconds' worth may come at once. Further CREATE and DELETE wait, or are refused."""
     strangers_per_second: int = 2_000
     """Messages outside of any session that are answered in a second, of all senders together."""
     minimum_mtu: int = 32

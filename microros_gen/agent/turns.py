@@ -30,8 +30,13 @@ class Turns:
         fair: Fairness,
         graph: GraphWork,
         fault: Callable[[Exception], None],
+        processor: Callable[[], float],
     ) -> None:
-        """A turn of one client lasts `turn_s`; `fault` is told of what should not happen."""
+        """A turn of one client lasts `turn_s`; `fault` is told of what should not happen.
+
+        `processor` is the processor time of this thread: changes of the ROS graph are counted by it.
+        """
+        self._processor = processor
         self.clock = clock
         self.end = 0.0
         """When the turn that is under way is over."""
@@ -127,16 +132,17 @@ class Turns:
         """Do steps of the jobs of a client until its turn is over; return whether all are done."""
         account = client.account
         while client.work:
-            job, began = client.work[0], self.clock()
-            if job.adds and not self._graph.allows(account, began):
-                client.turn_at = began + PAUSE_S
+            job, now = client.work[0], self.clock()
+            if job.adds and not self._graph.allows(account, now):
+                client.turn_at = now + PAUSE_S
                 return False
+            began = self._processor()
             try:
                 next(job.steps)
             except StopIteration:
                 client.work.popleft()
             now = self.clock()
-            self._graph.charge(account, now - began, now)
+            self._graph.charge(account, self._processor() - began, now)
             if now >= self.end:
                 break
         return not client.work

@@ -244,6 +244,7 @@ class Bench:
             references,
             preconfigured,
             clock=lambda: self.now,
+            processor=lambda: self.now,
             manifests=manifests,
         )
 
