@@ -5,7 +5,8 @@
 #   [COMPONENTS <[+-]name>…]       add to `components` of the file
 #   [INTERFACES <pkg[/Type]>…]     add to those of the file
 #   [INTERFACE_PATHS <folder>…]    searched before AMENT_PREFIX_PATH, pip and what ships with the tool
-#   [TARGET <name or file>]        what it is compiled for; replaces `target` of the file
+#   [TARGET <name or file>]        what it is compiled for; replaces `target` of the file. Where neither says it, and this
+#                                  project compiles for a board: the target that CMAKE_SYSTEM_PROCESSOR names
 #   [AGENT <host:port or device>]  replaces the agent of the file
 #   [OUTPUT <folder>])             of the generated sources; default: <target>-microros in the build folder
 #
@@ -44,10 +45,14 @@ function(microros_add_library target)
   _microros_append_options(options --interface-path FOLDER ${arg_INTERFACE_PATHS})
   _microros_append_options(options --target FILE ${arg_TARGET})
   _microros_append_options(options --agent NAME ${arg_AGENT})
+  if(NOT arg_TARGET AND CMAKE_SYSTEM_NAME STREQUAL "Generic") # tool-chain files of `microros-gen targets` name their target
+    list(APPEND options --default-target "${CMAKE_SYSTEM_PROCESSOR}")
+  endif()
   _microros_generate("${target}" "${output}" "${build}/generated.d" ${options})
   _microros_check_tool_chain("${target}" "${output}")
 
   set(MICROROS_LIBRARY "${target}")
+  set(MICROROS_ARGUMENTS "${options}")
   set(MICROROS_EXAMPLE OFF)
   add_subdirectory("${output}" "${build}")
   set_target_properties("${target}" PROPERTIES MICROROS_OUTPUT "${output}")

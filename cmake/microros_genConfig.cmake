@@ -39,7 +39,8 @@ function(_microros_tool_of_environment prefix command message)
   if(MICROROS_GEN_PROGRAM)
     set(${command} "${MICROROS_GEN_PROGRAM}" PARENT_SCOPE)
   else()
-    set(${message} "there is no program microros-gen in ${prefix} or on the PATH. Install it: pip install microros-gen"
+    set(${message} "there is no program microros-gen in ${prefix} or on the PATH. Install it into the active Python environment: \
+pip install PATH, of a clone or wheel of microros_gen"
       PARENT_SCOPE)
   endif()
 endfunction()

@@ -14,30 +14,37 @@ from dataclasses import dataclass, replace
 from microros_gen.build.compile import LIBRARY
 from microros_gen.build.elf import Elf, Section, Symbol
 from microros_gen.build.folder import Folder
-from microros_gen.build.linker_map import Placed, parse_map
+from microros_gen.build.linker_map import Placed, is_of_tool_chain, member_of
+from microros_gen.build.placement import UNMAPPED, layout_of
 from microros_gen.diagnostics import Diagnostic, UserError
 
 GROUPS = (
     "component",
     "type support",
     "application",
+    "other library",
     "start-up",
     "compiler",
     "C library",
     "linker",
+    "unknown",
     "padding",
 )
-"""Kinds of owners, in the order of tables. `linker`: tables that it makes (PLT, GOT, dynamic linking)."""
+"""Kinds of owners, in the order of tables. `linker`: tables that it makes (PLT, GOT, dynamic linking).
 
-_MEMBER = re.compile(r"^(?P<archive>.*)\((?P<member>[^()]*)\)$")
+`other library`: archives that the user brought. `unknown`: of an image without a map, what no symbol table tells.
+"""
+
 _START_UP = re.compile(r"(^|/)([SgM]?crt[1in]|crt(begin|end)[ST]?|rcrt1)\.o$")
-_COMPILER = re.compile(r"(^|/)lib(gcc\w*|clang_rt[\w.-]*)\.a$")
+_COMPILER = re.compile(r"^lib(gcc\w*|clang_rt[\w.-]*)\.a$")
 _LINKER_MADE = re.compile(
     r"^\.(interp|dyn\w*|hash|gnu\.(hash|version\w*)|rela?\.?\w*(\..*)?|plt(\..*)?|iplt|got(\..*)?|eh_frame_hdr"
     r"|note\.gnu\.(build-id|property)|glue_7t?|vfp11_veneer|v4_bx|relr\.\w+)$"
 )
 _MERGED_TEXT = re.compile(r"\.str1\.\d+$|^\.rodata$")
 _SHOWN_TEXT = 40
+_LARGEST_GAP = 16
+"""Bytes of padding that an alignment may need."""
 _LIBRARY_NAME = LIBRARY.rsplit("/", 1)[-1]
 
 
@@ -80,6 +87,7 @@ class Piece:
 
 PADDING = Owner("padding", "alignment")
 LINKER = Owner("linker", "tables of the linker")
+UNKNOWN = Owner("unknown", "not known without a map")
 RESERVED = {
     ".stack": Owner("start-up", "reserved for the stack"),
     ".heap": Owner("start-up", "reserved for a heap"),
@@ -88,13 +96,13 @@ RESERVED = {
 
 def attribute(folder: Folder, image: Elf) -> tuple[Piece, ...]:
     """Return the pieces of a linked image, by section and address. UserError where the linker left no map."""
-    placed = parse_map(folder.map_text)
-    if not placed:
+    layout = layout_of(folder, image)
+    if not layout.placed:
         raise _no_map(folder)
-    owners = Owners(folder)
-    texts = _texts(folder, placed)
+    owners = Owners(folder, layout.sources)
+    texts = _texts(folder, layout.placed, owners)
     by_output: dict[str, list[Placed]] = {}
-    for item in placed:
+    for item in layout.placed:
         by_output.setdefault(item.output, []).append(item)
     pieces: list[Piece] = []
     for section in image.loaded:
@@ -107,10 +115,9 @@ def attribute(folder: Folder, image: Elf) -> tuple[Piece, ...]:
 
 def _no_map(folder: Folder) -> UserError:
     what, hint = f"{folder.path} holds no map of its image", "Build it again: microros-gen build"
-    if folder.outside is not None:
-        image, path = folder.outside
-        what = f"{path} is no map of {image}"
-        hint = f"Link the image with -Wl,-Map={path}, or give its map with --map"
+    if folder.linked is not None:
+        what = f"{folder.linked.image} has neither a map nor symbols"
+        hint = f"Link it without -s and with -Wl,-Map={folder.linked.map}, or give its map with --map"
     return UserError([Diagnostic(what, hint=hint)])
 
 
@@ -119,11 +126,13 @@ def attribute_library(folder: Folder) -> tuple[Piece, ...]:
 
     Nothing has an address yet: the sections are laid one behind the other, so that each piece has its own.
     """
-    owners = Owners(folder)
+    owners = Owners(folder, {})
     pieces: list[Piece] = []
     base = 0
     for source in folder.sources:
-        item = Elf(folder.object_path(source))
+        item = folder.object(source)
+        if item is None:
+            continue
         owner, name = owners.of_source(source), source
         for section in item.loaded:
             symbols = _sized(s for s in item.symbols if s.section == section.index)
@@ -138,8 +147,11 @@ def attribute_library(folder: Folder) -> tuple[Piece, ...]:
 class Owners:
     """Whose an object is, by the name that the linker gives it."""
 
-    def __init__(self, folder: Folder) -> None:
+    def __init__(self, folder: Folder, sources: Mapping[Placed, str]) -> None:
+        """Take what is known of the library's objects in an image that somebody else linked."""
         self._folder = folder
+        self._sources = sources
+        self.mapped = bool(folder.placed)
         self._components = frozenset(folder.components)
 
     def of_source(self, source: str) -> Owner:
@@ -153,14 +165,17 @@ class Owners:
         """Return the owner of an input section and its source."""
         if _LINKER_MADE.match(placed.section) or placed.object in ("<internal>", "linker stubs"):
             return LINKER, None
-        match = _MEMBER.match(placed.object)
-        if match:
-            archive, member = match["archive"], match["member"]
-            if archive.rsplit("/", 1)[-1] == _LIBRARY_NAME and member in self._folder.objects:
-                source = self._folder.objects[member]
-                return self.of_source(source), source
-            group = "compiler" if _COMPILER.search(archive) else "C library"
-            return Owner(group, archive.rsplit("/", 1)[-1]), f"{archive.rsplit('/', 1)[-1]}({member})"
+        if placed in self._sources:
+            return self.of_source(self._sources[placed]), self._sources[placed]
+        if placed.object == UNMAPPED:
+            return UNKNOWN, None
+        archive, member = member_of(placed.object)
+        short = archive.rsplit("/", 1)[-1]
+        if archive and short == _LIBRARY_NAME and member in self._folder.objects:
+            source = self._folder.objects[member]
+            return self.of_source(source), source
+        if archive:
+            return Owner(_group_of(short), short), f"{short}({member})"
         short = placed.object.rsplit("/", 1)[-1]
         if _START_UP.search(placed.object):
             return Owner("start-up", short), short
@@ -168,6 +183,12 @@ class Owners:
             source = placed.object.removeprefix(".build/").removesuffix(".o") + ".c"
             return Owner("application", source), source
         return Owner("application", short), placed.object
+
+
+def _group_of(archive: str) -> str:
+    if _COMPILER.match(archive):
+        return "compiler"
+    return "C library" if is_of_tool_chain(archive) else "other library"
 
 
 def _cover(section: Section, placed: Iterable[Placed], owners: Owners) -> Iterator[Piece]:
@@ -178,13 +199,22 @@ def _cover(section: Section, placed: Iterable[Placed], owners: Owners) -> Iterat
         if begin >= end:
             continue
         if begin > at:
-            yield Piece(kind, section.name, "", at, begin - at, PADDING)
+            yield _gap(section, at, begin, owners.mapped)
         owner, source = owners.of(item)
         yield Piece(kind, section.name, item.section, begin, end - begin, owner, source)
         at = end
     if at < section.end:
-        owner = PADDING if at > section.address else RESERVED.get(section.name, LINKER)
-        yield Piece(kind, section.name, "", at, section.end - at, owner)
+        yield _gap(section, at, section.end, owners.mapped)
+
+
+def _gap(section: Section, begin: int, end: int, mapped: bool) -> Piece:
+    """Return what no object has: all of a section is the linker's; without a map, most of it has no symbol."""
+    kind, whole = str(section.kind), (begin, end) == (section.address, section.end)
+    if not mapped and not _LINKER_MADE.match(section.name) and (whole or end - begin >= _LARGEST_GAP):
+        owner = RESERVED.get(section.name, UNKNOWN)
+        return Piece(kind, section.name, section.name, begin, end - begin, owner)
+    owner = RESERVED.get(section.name, LINKER) if whole else PADDING
+    return Piece(kind, section.name, "", begin, end - begin, owner)
 
 
 def _split(
@@ -245,21 +275,17 @@ def _by_text(piece: Piece, content: bytes, texts: Mapping[bytes, Piece]) -> Iter
         at += size
 
 
-def _texts(folder: Folder, placed: Iterable[Placed]) -> Mapping[bytes, Piece]:
+def _texts(folder: Folder, placed: Iterable[Placed], owners: Owners) -> Mapping[bytes, Piece]:
     """Return each string constant of the objects in the image, with the owner that comes first."""
-    owners = Owners(folder)
     found: dict[bytes, Piece] = {}
-    for item in sorted(
-        {p.object: p for p in placed if p.section.startswith(".text")}.values(), key=lambda p: p.object
-    ):
-        owner, source = owners.of(item)
-        if source is None or not folder.object_path(source).is_file():
-            continue
-        elf = Elf(folder.object_path(source))
-        for section in elf.sections:
+    code = [p for p in placed if p.section.startswith(".text")]
+    mine = {source: owner for p in code for owner, source in [owners.of(p)] if source is not None}
+    for source in sorted(mine):
+        elf = None if mine[source].group in ("compiler", "C library") else folder.object(source)
+        for section in elf.sections if elf is not None else ():
             if section.strings and section.kind:
-                for text in elf.content(section).split(b"\0"):
-                    found.setdefault(text, Piece("text", "", "", 0, 0, owner, source))
+                for text in elf.content(section).split(b"\0") if elf is not None else ():
+                    found.setdefault(text, Piece("text", "", "", 0, 0, mine[source], source))
     return found
 
 

@@ -63,7 +63,7 @@ def budget_lines(
 ) -> tuple[BudgetLine, ...]:
     """Return a line for each budget of the application; that of the stack only where a bound is known."""
     budgets = folder.manifest["memory"]
-    where = "in the image" if folder.image else "of the library, before unused parts are dropped"
+    where = "in the image" if folder.image is not None else "of the library, before unused parts are dropped"
     found = []
     if "ram_budget" in budgets:
         uses = _sum((p.use, p.size) for p in parts if p.group in _LIBRARY)
@@ -80,6 +80,7 @@ def budget_lines(
 def store_advice(folder: Folder, advice: Iterable[Advice]) -> None:
     """Keep what `build` planned, for `size`."""
     data = {"plan": folder.manifest["plan"], "advice": [asdict(a) for a in advice]}
+    (folder.path / ADVICE).parent.mkdir(exist_ok=True)
     (folder.path / ADVICE).write_text(json.dumps(data, sort_keys=True), encoding="utf-8")
 
 

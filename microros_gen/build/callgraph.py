@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from microros_gen.build.attribution import Piece
+from microros_gen.build.compile import CALL_GRAPH
 from microros_gen.build.disassembly import Code, parse_disassembly
 from microros_gen.build.elf import THUMB, Elf
 from microros_gen.build.folder import Folder
@@ -22,6 +23,8 @@ from microros_gen.build.toolchain import run, sibling
 
 INDIRECT = "__indirect_call"
 TYPE_MEMBERS = ("encode", "encoded_size", "decode")
+_ARCHIVERS = {"EM_ARM": "arm-none-eabi-ar", "EM_RISCV": "riscv64-unknown-elf-ar"}
+"""Of an image whose tool chain nobody named."""
 ALLOCATOR_MEMBERS = ("allocate", "deallocate", "reallocate", "zero_allocate")
 
 _NODE = re.compile(r'^node: \{ title: "([^"]*)" label: "([^"]*)"')
@@ -103,9 +106,10 @@ def build_call_graph(folder: Folder, image: Elf, pieces: Iterable[Piece]) -> Cal
 
 def _frames(folder: Folder, functions: Iterable[Piece]) -> Mapping[tuple[str, str], Frame]:
     found: dict[tuple[str, str], Frame] = {}
-    for source in sorted({p.source for p in functions if p.source and p.source.endswith((".c", ".o"))}):
-        path = folder.object_path(source).with_suffix(".ci")
-        if path.is_file():
+    for source in sorted({p.source for p in functions if p.source}):
+        path = folder.object_path(source)
+        path = path.with_suffix(".ci") if path is not None else None
+        if path is not None and path.is_file():
             known = parse_call_graph(path.read_text(encoding="utf-8", errors="replace"))
             found.update({(source, name): frame for name, frame in known.items()})
     return found
@@ -120,11 +124,19 @@ def _node(piece: Piece, frames: Mapping[tuple[str, str], Frame]) -> Node:
             if not frame.bounded:
                 node.open.add(f"{names[0]}: a frame of variable size")
             return node
-    return Node(names[0], piece.address, None, "unknown", piece.source)
+    node = Node(names[0], piece.address, None, "unknown", piece.source)
+    if piece.owner.group == "application" and frames:
+        node.open.add(f"what {_file(piece)} calls through pointers (compile it with {CALL_GRAPH})")
+    return node
+
+
+def _file(piece: Piece) -> str:
+    return (piece.source or "the application").rpartition("/")[2]
 
 
 def _disassembled(folder: Folder, image: Elf) -> tuple[Code, ...]:
-    program = sibling(str(folder.tools.get("archiver", "ar")), "ar", "objdump")
+    archiver = str(folder.tools.get("archiver") or _ARCHIVERS.get(image.machine, "ar"))
+    program = sibling(archiver, "ar", "objdump")
     if program is None:
         return ()
     result = run([program, "-d", "--no-show-raw-insn", str(image.path.resolve())], folder.path)
@@ -211,16 +223,24 @@ def _targets(member: str | None, functions: Mapping[int, Piece]) -> frozenset[in
 def _member(folder: Folder, place: str, pointers: Container[str]) -> str | None:
     """Return the member, or the variable among `pointers`, that a call at `file:line:column` goes through."""
     name, line, _ = place.rsplit(":", 2)
-    try:
-        lines = (folder.path / name).read_text(encoding="utf-8", errors="replace").splitlines()
-    except OSError:
-        return None
+    lines = _lines_of(folder, name)
     text = lines[int(line) - 1] if int(line) <= len(lines) else ""
     found = re.findall(r"(?:->|\.)(\w+)\s*\(", text)
     known = [m for m in found if m in (*TYPE_MEMBERS, *ALLOCATOR_MEMBERS)]
     if not found:
         found = [name for name in re.findall(r"(\w+)\s*\(", text) if name in pointers]
     return known[0] if known else found[0] if found else None
+
+
+def _lines_of(folder: Folder, name: str) -> list[str]:
+    """Return the lines of a source, which the compiler was told relative to where it ran."""
+    folders = folder.linked.folders if folder.linked is not None else ()
+    for base in (folder.path, *folders):
+        try:
+            return (base / name).read_text(encoding="utf-8", errors="replace").splitlines()
+        except OSError:
+            continue
+    return []
 
 
 def _plain(title: str) -> str:

@@ -88,6 +88,18 @@ def read_variables(item: Elf) -> Mapping[str, tuple[str, tuple[Part, ...]]]:
     return found
 
 
+def read_units(image: Elf) -> Mapping[int, str]:
+    """Return the source file, as the compiler was told it, of each function and static variable by address."""
+    found: dict[int, str] = {}
+    for unit in image.dwarf.iter_CUs() if image.dwarf else ():
+        name = _name(unit.get_top_DIE())
+        for die in unit.iter_DIEs():
+            address = _address(image, die)
+            if address is not None:
+                found.setdefault(address, name)
+    return found
+
+
 def function_address(image: Elf, die: Any) -> int | None:
     """Return where a function begins, or None for what is none, or has no code."""
     if die.tag != "DW_TAG_subprogram" or "DW_AT_low_pc" not in die.attributes:

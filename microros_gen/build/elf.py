@@ -55,10 +55,11 @@ class Symbol:
 class Elf:
     """An ELF file, read once. Raises UserError when `path` is none."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, content: bytes | None = None) -> None:
+        """Read it; `content` is that of a member of the library `path`."""
         self.path = path
         try:
-            self.file: Any = ELFFile(BytesIO(path.read_bytes()))
+            self.file: Any = ELFFile(BytesIO(path.read_bytes() if content is None else content))
         except (OSError, ELFError) as error:
             raise UserError(
                 [

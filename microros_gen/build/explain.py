@@ -19,6 +19,7 @@ from microros_gen.model.component import Catalogue
 _NEEDED_BY = "needed by "
 _ERROR = re.compile(r'^#error\s+"?(.*?)"?\s*$', re.MULTILINE)
 _LISTED = 12
+_OTHERS = ("application", "other library", "start-up", "compiler", "C library")
 
 
 @dataclass(frozen=True)
@@ -63,7 +64,7 @@ class Explainer:
 
         Raises UserError with the nearest name where nothing has that name.
         """
-        for answer in (self._component, self._type, self._file, self._symbol, self._absent):
+        for answer in (self._component, self._type, self._file, self._own, self._symbol, self._absent):
             found = answer(query)
             if found is not None:
                 return found
@@ -114,6 +115,12 @@ class Explainer:
         pieces = [p for p in self._report.pieces if p.source == name]
         return self._of_pieces("file", name, pieces, self._header_note(name))
 
+    def _own(self, query: str) -> Explanation | None:
+        """Explain an object or archive that is not the library's: `app.c`, `app.c.o`, `libdriver.a`."""
+        names = (query, f"{query}.o", f"{query}.obj")
+        pieces = [p for p in self._report.pieces if p.owner.group in _OTHERS and p.owner.name in names]
+        return self._of_pieces("file", query, pieces, pieces[0].owner.group) if pieces else None
+
     def _symbol(self, query: str) -> Explanation | None:
         names = self._names()
         exact = [n for n in names if n == query]
@@ -124,7 +131,9 @@ class Explainer:
         piece = pieces[0]
         answer = self._of_pieces("symbol", found[0], pieces, "")
         place = self._report.facts.places.get(piece.address)
-        where = f"{place.file}:{place.line}" if place and place.line else piece.source or ""
+        where = piece.source or ""
+        if place is not None and place.line:
+            where = f"{self._folder.shown_file(place.file)}:{place.line}"
         return _with_place(answer, where)
 
     def _absent(self, query: str) -> Explanation | None:

@@ -25,6 +25,24 @@ class Placed:
     size: int
 
 
+_MEMBER = re.compile(r"^(?P<archive>.*)\((?P<member>[^()]*)\)$")
+_TOOL_CHAIN = re.compile(
+    r"^lib(gcc\w*|clang_rt[\w.-]*|c|m|g|rt|dl|pthread|atomic|nosys|rdimon|gloss|semihost|sim|crypto?|util|quadmath|ssp|stdc\+\+|supc\+\+)"
+    r"(_nano|_nonshared|-v2m|_v2m|_p|fs)*\.a$"
+)
+
+
+def member_of(name: str) -> tuple[str, str]:
+    """Split `lib/librobot.a(app.o)` into library and member; both are empty for an object of its own."""
+    match = _MEMBER.match(name)
+    return (match["archive"], match["member"]) if match else ("", "")
+
+
+def is_of_tool_chain(archive: str) -> bool:
+    """Whether a library, by its name without folders, is the compiler's or the C library."""
+    return _TOOL_CHAIN.match(archive) is not None
+
+
 _GNU_BEGIN = "Linker script and memory map"
 _GNU_OUTPUT = re.compile(r"^(?P<name>[.\w][^\s]*)(?:\s+0x[0-9a-f]+\s+0x[0-9a-f]+.*)?$")
 _GNU_NAME = re.compile(r"^ (?P<name>\*?[.\w][^\s]*\*?)(?:\s+(?P<rest>0x.*))?$")

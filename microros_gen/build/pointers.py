@@ -29,6 +29,8 @@ _BRANCHES: Mapping[str, frozenset[int]] = {
     "EM_386": frozenset({2, 4}),
 }
 _HOLDERS = ("DW_TAG_member", "DW_TAG_variable", "DW_TAG_formal_parameter")
+FOREIGN = ("application", "other library", "unknown")
+"""Owners whose code is the user's."""
 _UNWINDING = (".eh_frame", ".ARM.ex", ".gcc_except_table")
 
 
@@ -66,7 +68,7 @@ class Pointers:
 
 def read_pointers(folder: Folder, image: Elf, functions: Mapping[int, Piece]) -> Pointers:
     """Read the objects of an image and its debugging information; `functions` are those of the image by address."""
-    foreign = frozenset(a for a, p in functions.items() if p.owner.group == "application")
+    foreign = frozenset(a for a, p in functions.items() if p.owner.group in FOREIGN)
     signatures, members = _read_types(image)
     return Pointers(frozenset(_taken(folder, functions)), foreign, signatures, members)
 
@@ -76,13 +78,13 @@ def _taken(folder: Folder, functions: Mapping[int, Piece]) -> Iterator[int]:
     local = {(p.source, n): a for a, p in functions.items() for n in (p.symbol, *p.aliases)}
     exported = {name: address for (_, name), address in local.items()}
     for source in sorted({p.source for p in functions.values() if p.source}):
-        path = folder.object_path(source)
         mine = [a for a, p in functions.items() if p.source == source]
-        if not path.is_file():
-            if functions[mine[0]].owner.group == "application":
+        group = functions[mine[0]].owner.group
+        item = folder.object(source) if group not in ("compiler", "C library") else None
+        if item is None:
+            if group in FOREIGN:
                 yield from mine
             continue
-        item = Elf(path)
         if _shares_sections(item):
             yield from mine
         for name in _referred(item):

@@ -46,14 +46,15 @@ def read_references(folder: Folder, pieces: Iterable[Piece]) -> References:
     mine: dict[Key, Piece] = {}
     for piece in pieces:
         for name in (piece.symbol, *piece.aliases):
-            if name and piece.source and piece.source.endswith((".c", ".S")):
+            if name and piece.source and piece.owner.group not in ("compiler", "C library"):
                 mine[piece.source, name] = piece
     exported: dict[str, Key] = {}
     for key in mine:
         exported.setdefault(key[1], key)
     found: dict[Key, set[Key]] = {}
     for source in sorted({source for source, _ in mine}):
-        for name, to in _edges(Elf(folder.object_path(source))):
+        item = folder.object(source)
+        for name, to in _edges(item) if item is not None else ():
             target = (source, to) if (source, to) in mine else exported.get(to)
             if target and (source, name) in mine and target != (source, name):
                 found.setdefault(target, set()).add((source, name))

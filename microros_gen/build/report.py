@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from microros_gen.build.attribution import Piece, attribute, attribute_library
@@ -37,21 +37,31 @@ class SizeReport:
     budgets: tuple[BudgetLine, ...]
 
     @property
+    def mapped(self) -> bool:
+        """Whether the linker left a map; a library needs none."""
+        return self.folder.image is None or bool(self.folder.placed)
+
+    @property
     def totals(self) -> Mapping[str, int]:
         """Bytes of text, data and bss, as `size` counts them."""
         return {kind: sum(p.size for p in self.pieces if p.kind == kind) for kind in ("text", "data", "bss")}
 
 
-def measure(path: Path, outside: tuple[Path, Path] | None = None) -> SizeReport:
-    """Measure an output folder, or with `outside` an image that was linked with its library, and that image's map.
+def measure(path: Path, image: Path | None = None, linker_map: Path | None = None) -> SizeReport:
+    """Measure an output folder, or the image of a user's that was linked with its library.
 
-    UserError where the folder was not built, or files are not what they should be.
+    `path`, `image` and `linker_map` are as `locate` takes them. UserError where there is nothing that was built, or
+    files are not what they should be.
     """
-    folder = replace(read_folder(path), outside=outside)
+    return measure_folder(read_folder(path, image, linker_map))
+
+
+def measure_folder(folder: Folder) -> SizeReport:
+    """Measure what was read."""
     if folder.image is None:
         return _measure_library(folder)
     image = Elf(folder.image)
-    if outside is not None:
+    if folder.linked is not None:
         _check_plan(folder, image)
     pieces = attribute(folder, image)
     facts = read_facts(image)
@@ -112,7 +122,8 @@ def _library_facts(folder: Folder, pieces: Iterable[Piece]) -> Facts:
     for piece in pieces:
         if piece.ram and piece.symbol and piece.source:
             if piece.source not in known:
-                known[piece.source] = read_variables(Elf(folder.object_path(piece.source)))
+                item = folder.object(piece.source)
+                known[piece.source] = read_variables(item) if item is not None else {}
             found = known[piece.source].get(piece.symbol.partition(".")[0])
             if found:
                 types[piece.address], parts[piece.address] = found

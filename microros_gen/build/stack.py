@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from microros_gen.build.callgraph import CallGraph, Node
+from microros_gen.build.compile import CALL_GRAPH
 from microros_gen.build.elf import THUMB, Elf
 
 _API = re.compile(r"^(rclc?|rmw|rcutils|micro_ros_utilities)_")
@@ -72,7 +73,7 @@ class StackReport:
 def stack_report(graph: CallGraph, image: Elf, public: Iterable[str]) -> StackReport:
     """Return the bounds of an image; `public` are the names that the library exports in it."""
     if not graph.compiled:
-        why = "the compiler writes no stack usage (gcc 10 and newer do: -fcallgraph-info=su)"
+        why = f"nothing says what functions take (gcc 10 and newer write it beside the objects: {CALL_GRAPH})"
         return StackReport(False, why, 0, None, (), (), 0)
     worst = _Worst(graph)
     start = _start(graph, image)

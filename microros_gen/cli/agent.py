@@ -52,7 +52,8 @@ def command(**common: Any) -> None:
     """Connect DDS-XRCE clients (this project's, micro-ROS's, any other) to ROS 2.
 
     Name one transport or several; or none, with a --config that does. Every option below may stand behind a transport
-    as well, and holds for the whole agent. Needs ROS 2: pip install 'microros-gen[ros]', or a sourced installation.
+    as well, and holds for the whole agent. Needs ROS 2 Jazzy, sourced or in this Python: pip install
+    ros-jazzy-rclpy ros-jazzy-rmw-fastrtps-cpp ros-jazzy-common-interfaces.
 
     The protocol has no authentication and no encryption: whoever reaches the port can publish. So the agent
     listens on the loopback address unless --bind says otherwise; open it to trusted networks only.

@@ -9,19 +9,15 @@ from typing import Any
 
 import click
 
-from microros_gen.build.budget import store_advice
 from microros_gen.build.compile import compile_tree
 from microros_gen.build.folder import read_folder
 from microros_gen.build.measure import measure_library
-from microros_gen.build.report import SizeReport, check_budgets, measure
 from microros_gen.build.toolchain import Toolchain, find_toolchain
-from microros_gen.cli.advice import plan_advice
+from microros_gen.cli.budgets import check_planned
 from microros_gen.cli.generate import files_line, plan, write
 from microros_gen.cli.options import SelectionOptions, output_option, selection_options
 from microros_gen.cli.pipeline import Planned
 from microros_gen.cli.summary import built_summary, plan_summary
-from microros_gen.diagnostics import Diagnostic, Span, UserError
-from microros_gen.diagnostics.diagnostic import Severity
 from microros_gen.output.tree import check_build_folders
 
 
@@ -46,7 +42,7 @@ def command(output: Path | None, **options: Any) -> None:
     report = write(planned, out)
     click.echo(plan_summary(planned) + files_line(out, report), nl=False)
     _compile(planned, out, tools)
-    _check(planned, out, selection)
+    check_planned(planned, lambda: read_folder(out), selection)
 
 
 def _compile(planned: Planned, out: Path, tools: Toolchain) -> None:
@@ -56,30 +52,3 @@ def _compile(planned: Planned, out: Path, tools: Toolchain) -> None:
     built = compile_tree(out, sources, project.example, image, tools, project.linker_script)
     usage = measure_library(out, tools)
     click.echo(built_summary(out, built, usage, project.lacks_image), nl=False)
-
-
-def _check(planned: Planned, out: Path, selection: SelectionOptions) -> None:
-    """Check the budgets against what was built; UserError with status 1 when one is exceeded."""
-    memory = planned.project.application.memory
-    places = {"ram_budget": memory.ram_span, "flash_budget": memory.flash_span, "stack": memory.stack_span}
-    if memory.ram_budget is None and memory.flash_budget is None and memory.stack is None:
-        return
-    try:
-        report = measure(out)
-    except UserError as error:
-        _warn(f"budgets are not checked: {error.diagnostics[0].message}", None)
-        return
-    if memory.stack is not None and not report.stack.known:
-        _warn(f"memory.stack is not checked: {report.stack.why}", memory.stack_span)
-    if any(line.exceeded and line.key == "ram_budget" for line in report.budgets):
-        report = _with_advice(planned, out, selection)
-    check_budgets(report.budgets, places)
-
-
-def _with_advice(planned: Planned, out: Path, selection: SelectionOptions) -> SizeReport:
-    store_advice(read_folder(out), plan_advice(planned, selection))
-    return measure(out)
-
-
-def _warn(message: str, span: Span | None) -> None:
-    click.echo(Diagnostic(message, span, severity=Severity.WARNING).render(), err=True)

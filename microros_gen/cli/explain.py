@@ -12,12 +12,17 @@ import click
 
 from microros_gen.build.explain import Explainer, Explanation
 from microros_gen.build.report import measure
+from microros_gen.cli.options import check_map, image_option, map_option
 from microros_gen.sources.components import components_folder, load_catalogue
 
 
 @click.command()
 @click.argument("out", type=click.Path(path_type=Path))
 @click.argument("what", metavar="SYMBOL|FILE|COMPONENT")
+@image_option(
+    "Explain this image of yours, which was linked with OUT's library. Default: the one that was built."
+)
+@map_option
 @click.option(
     "--format",
     "kind",
@@ -26,19 +31,22 @@ from microros_gen.sources.components import components_folder, load_catalogue
     show_default=True,
     help="Lines for people, or JSON for programs.",
 )
-def command(out: Path, what: str, kind: str) -> None:
-    """Say where SYMBOL, FILE or COMPONENT of OUT (made by `build`) comes from, and why it is there.
+def command(out: Path, what: str, image: Path | None, linker_map: Path | None, kind: str) -> None:
+    """Say where SYMBOL, FILE or COMPONENT of OUT comes from, and why it is there.
 
-    A symbol may be given by a unique beginning, a file by its name alone; a type (pkg/msg/Type) works as well. For
-    what is not in the image the answer says what would bring it.
+    OUT is what `build` wrote, or a CMake build folder, whose own image is explained. A symbol may be given by a unique
+    beginning, a file by its name alone; a type (pkg/msg/Type) works as well. For what is not in the image the answer
+    says what would bring it.
 
     \b
     microros-gen explain build/pure_sender rcl_publish
     microros-gen explain build/pure_sender xrce_stream_reliable.c
     microros-gen explain build/pure_sender ping
     microros-gen explain build/pure_sender rcl/timer.h
+    microros-gen explain my_robot/build rclc_executor_spin
     """
-    explanation = Explainer(measure(out), load_catalogue(), _sources_of).explain(what)
+    check_map(image, linker_map)
+    explanation = Explainer(measure(out, image, linker_map), load_catalogue(), _sources_of).explain(what)
     if kind == "json":
         data = dataclasses.asdict(explanation)
         data["holds"] = [{"name": name, "bytes": size} for name, size in explanation.holds]

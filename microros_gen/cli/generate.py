@@ -27,6 +27,12 @@ if TYPE_CHECKING:
     metavar="FILE",
     help="Write what the output was made from, as a dependency file for make, Ninja and CMake.",
 )
+@click.option(
+    "--default-target",
+    metavar="NAME",
+    hidden=True,
+    help="For build systems: the target where nothing else says it and one of this name is built in.",
+)
 def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
     """Write the C sources of a selection to OUT, without compiling.
 

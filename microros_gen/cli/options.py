@@ -24,6 +24,7 @@ class SelectionOptions:
     target: str | None
     agent: str | None
     components: tuple[str, ...] = ()
+    default_target: str | None = None
 
 
 interface_path_option = click.option(
@@ -91,3 +92,24 @@ def output_option(function: F) -> F:
         metavar="OUT",
         help="Output folder; it belongs to the tool. Default: build/<profiles joined by +>.",
     )(function)
+
+
+def image_option(words: str) -> Callable[[F], F]:
+    """Add `--image FILE`; `words` are its help."""
+    kind = click.Path(path_type=Path, dir_okay=False, exists=True)
+    return click.option("--image", type=kind, metavar="FILE", help=words)
+
+
+map_option = click.option(
+    "--map",
+    "linker_map",
+    type=click.Path(path_type=Path, dir_okay=False, exists=True),
+    metavar="FILE.map",
+    help="What the linker wrote of it with -Wl,-Map=FILE.map; by default it lies beside the image.",
+)
+
+
+def check_map(image: Path | None, linker_map: Path | None) -> None:
+    """Refuse a map without the image that it is of."""
+    if linker_map is not None and image is None:
+        raise click.UsageError("--map is the map of an --image, which is not given.")

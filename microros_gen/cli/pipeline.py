@@ -34,7 +34,7 @@ from microros_gen.sources.components import load_catalogue
 from microros_gen.sources.interfaces import InterfaceFinder
 from microros_gen.sources.profiles import load_middleware, load_profiles
 from microros_gen.sources.runtime import ComponentFile, read_headers, read_sources
-from microros_gen.sources.targets import FoundTarget, read_target
+from microros_gen.sources.targets import FoundTarget, builtin_targets, read_target
 
 DEFAULT_INTERFACE = "std_msgs/msg/Int32"
 
@@ -251,6 +251,9 @@ def _with_options(
     if options.target:
         (named,) = _named((options.target,), "--target")
         target = replace(application.target, name=named.name, span=named.span)
+        application = replace(application, target=target)
+    elif application.target.span is None and options.default_target in builtin_targets():
+        target = replace(application.target, name=str(options.default_target))
         application = replace(application, target=target)
     if options.agent:
         (named,) = _named((options.agent,), "--agent")

@@ -17,7 +17,9 @@ from typing import Any
 
 import click
 
+from microros_gen.build.records import Located, locate
 from microros_gen.cli.emulator import Emulator, Machine
+from microros_gen.cli.options import image_option
 from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.output.tree import MANIFEST
 from microros_gen.plan.runtime import DISCOVERY_GROUP
@@ -28,6 +30,9 @@ AGENT_READY = "agent ready"
 
 @click.command()
 @click.argument("out", type=click.Path(path_type=Path))
+@image_option(
+    "Start this image of yours, which was linked with OUT's library. Default: the one that was built."
+)
 @click.option(
     "--no-agent",
     is_flag=True,
@@ -38,23 +43,25 @@ AGENT_READY = "agent ready"
     type=click.IntRange(0, 232),
     help="ROS domain that the agent puts the image into. Default: the one that the image asks for.",
 )
-def command(out: Path, no_agent: bool, domain: int | None) -> int:
-    """Start the image of OUT (made by `build`) and an agent for it; Ctrl-C or SIGTERM ends both.
+def command(out: Path, image: Path | None, no_agent: bool, domain: int | None) -> int:
+    """Start the image of OUT and an agent for it; Ctrl-C or SIGTERM ends both.
 
-    An image for a board runs in the target's emulator, its serial line on a pseudo-terminal, whose path is printed:
-    an agent may leave it and come back, the image runs on. The exit status is the image's (128 and more: a signal
-    ended it), or 0 after Ctrl-C. When a board restarts itself, because main() returned or after a fault, the run
-    ends with 0; with --no-agent the board starts again, as on a desk.
+    OUT is what `build` wrote, or a CMake build folder, whose own image is started. An image for a board runs in the
+    target's emulator, its serial line on a pseudo-terminal, whose path is printed: an agent may leave it and come
+    back, the image runs on. The exit status is the image's (128 and more: a signal ended it), or 0 after Ctrl-C. When
+    a board restarts itself, because main() returned or after a fault, the run ends with 0; with --no-agent the board
+    starts again, as on a desk.
 
     \b
     microros-gen run build/pure_sender
     microros-gen run build/pure_sender --no-agent
+    microros-gen run my_robot/build
     """
-    image = _image_of(out, domain)
+    found = _image_of(locate(out, image), domain)
     with _Parts() as parts:
-        start = _run_here if image.machine is None else _run_emulated
+        start = _run_here if found.machine is None else _run_emulated
         try:
-            status = start(parts, image, no_agent)
+            status = start(parts, found, no_agent)
         except UserError:
             if not parts.stopped:
                 raise
@@ -181,7 +188,8 @@ class _Parts:
                     pipe.close()
 
 
-def _image_of(out: Path, domain: int | None) -> _Image:
+def _image_of(located: Located, domain: int | None) -> _Image:
+    out = located.output
     try:
         manifest = read_json(out / MANIFEST, follow=False)
         name, target, transport = manifest["image"], manifest["target"], manifest["transport"]
@@ -189,19 +197,34 @@ def _image_of(out: Path, domain: int | None) -> _Image:
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         message = f"{out} is no output folder of microros-gen"
         raise UserError([Diagnostic(message, hint="Give the folder that `build` wrote")]) from error
-    if name is None:
-        message = f"{out} holds a library alone: target {target} has no image, or the application must provide a part"
-        raise UserError([Diagnostic(message, hint="`microros-gen build` says which")])
-    path = out / "bin" / name
-    if not path.is_file():
-        hint = "Make it with `microros-gen build`, then run it"
-        raise UserError([Diagnostic(f"{out} holds no image yet", hint=hint)])
+    path = located.image.image if located.image is not None else _example_of(located, name, target)
     if machine is None and target != "host":
         message = f"the image is for {target}, which names no emulator"
         raise UserError(
             [Diagnostic(message, hint="Add `emulator: {program: …, package: …}` to the target file")]
         )
     return _Image(out, path.resolve(), machine, transport, domain)
+
+
+def _example_of(located: Located, name: str | None, target: str) -> Path:
+    """Return the image that `build` made. UserError where there is none."""
+    if located.library is not None:
+        message = (
+            f"{located.library.archive} is a library alone: no image was linked to it by microros_image()"
+        )
+        raise UserError([Diagnostic(message, hint="Give the one that you linked: --image FILE")])
+    if name is None:
+        what = f"target {target} has no image, or the application must provide a part"
+        message = f"{located.output} holds a library alone: {what}"
+        hint = "`microros-gen build` says which; --image FILE starts one of yours"
+        raise UserError([Diagnostic(message, hint=hint)])
+    path = located.output / "bin" / name
+    if not path.is_file():
+        hint = (
+            "Make it with `microros-gen build`, then run it; of an image of yours give the CMake build folder"
+        )
+        raise UserError([Diagnostic(f"{located.output} holds no image yet", hint=hint)])
+    return path
 
 
 def _agent_of_host(image: _Image) -> list[str]:

@@ -7,25 +7,19 @@ from pathlib import Path
 
 import click
 
-from microros_gen.build.report import check_budgets, measure
+from microros_gen.build.folder import read_folder
+from microros_gen.build.report import check_budgets, measure_folder
+from microros_gen.cli.budgets import check_recorded
+from microros_gen.cli.options import check_map, image_option, map_option
 from microros_gen.cli.size_format import size_json, size_table
 
 
 @click.command()
 @click.argument("out", type=click.Path(path_type=Path))
-@click.option(
-    "--image",
-    type=click.Path(path_type=Path, dir_okay=False, exists=True),
-    metavar="FILE.elf",
-    help="Measure this image, which an application was linked to with OUT's library, not the example.",
+@image_option(
+    "Measure this image of yours, which was linked with OUT's library. Default: the one that was built."
 )
-@click.option(
-    "--map",
-    "linker_map",
-    type=click.Path(path_type=Path, dir_okay=False, exists=True),
-    metavar="FILE.map",
-    help="What the linker wrote of it with -Wl,-Map=FILE.map; by default it lies beside the image.",
-)
+@map_option
 @click.option(
     "--format",
     "kind",
@@ -42,25 +36,42 @@ from microros_gen.cli.size_format import size_json, size_table
     metavar="FILE",
     help="Write to FILE instead of the standard output.",
 )
+@click.option(
+    "--budgets",
+    "check",
+    is_flag=True,
+    help="Check the budgets alone, as `build` does after linking, and print nothing where they hold.",
+)
 def command(
-    out: Path, image: Path | None, linker_map: Path | None, kind: str, every: bool, output: Path | None
+    out: Path,
+    image: Path | None,
+    linker_map: Path | None,
+    kind: str,
+    every: bool,
+    output: Path | None,
+    check: bool,
 ) -> None:
-    """Show what OUT (made by `build`) takes: flash and RAM per component, entity and symbol, and the worst stack.
+    """Show what OUT takes: flash and RAM per component, entity and symbol, and the worst stack.
 
-    The figures are those of the linked image, and add up to what `size` of the tool chain says. For a target without
-    an image they are those of the library, before a linker drops what is not used. Ends with 1 when a budget of the
-    application file (memory.ram_budget, flash_budget, stack) is exceeded, and says what would bring it down.
+    OUT is what `build` wrote, or a CMake build folder (of microros_add_library and microros_image, `init` or colcon),
+    whose own image is measured. The figures are those of the linked image, and add up to what `size` of the tool
+    chain says. For a target without an image they are those of the library, before a linker drops what is not used.
+    Ends with 1 when a budget of the application file (memory.ram_budget, flash_budget, stack) is exceeded, and says
+    what would bring it down.
 
     \b
     microros-gen size build/pure_sender
-    microros-gen size build/pure_sender --all
-    microros-gen size build/pure_sender --image robot.elf
-    microros-gen size build/pure_sender --format html -o size.html
+    microros-gen size my_robot/build
+    microros-gen size build/pure_sender --image robot.elf --all
+    microros-gen size my_robot/build --format html -o size.html
     microros-gen size build/pure_sender --format json | jq .totals
     """
-    if linker_map is not None and image is None:
-        raise click.UsageError("--map is the map of an --image, which is not given.")
-    report = measure(out, (image, linker_map or image.with_suffix(".map")) if image else None)
+    check_map(image, linker_map)
+    folder = read_folder(out, image, linker_map)
+    if check:
+        check_recorded(folder)
+        return
+    report = measure_folder(folder)
     if kind == "html":
         from microros_gen.cli.size_html import size_html
 

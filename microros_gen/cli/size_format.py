@@ -15,6 +15,9 @@ from microros_gen.build.stack import Bound, StackReport, shown_name
 from microros_gen.cli.resolve_format import format_table
 
 _SHOWN_FUNCTIONS = 8
+UNMAPPED_NOTE = (
+    "what has no symbol, and objects of which nothing is known, are not attributed (link with -Wl,-Map=FILE)"
+)
 
 Row = tuple[str | tuple[str, ...], ...]
 
@@ -56,7 +59,7 @@ def piece_place(report: SizeReport, piece: Piece) -> str:
     """Return `src/session/xrce_session.c:31`, without the line where nobody knows it."""
     place = report.facts.places.get(piece.address) if piece.symbol else None
     if place and place.line and place.file:
-        return f"{place.file}:{place.line}"
+        return f"{report.folder.shown_file(place.file)}:{place.line}"
     return piece.source or ""
 
 
@@ -87,6 +90,8 @@ def size_data(report: SizeReport) -> dict[str, Any]:
     return {
         "version": 1,
         "measured": "image" if report.folder.image else "library",
+        "image": str(report.folder.image) if report.folder.linked else None,
+        "mapped": report.mapped,
         "target": manifest["target"],
         "plan": manifest["plan"],
         "totals": {**totals, "flash": totals["text"] + totals["data"], "ram": totals["data"] + totals["bss"]},
@@ -129,7 +134,8 @@ def _headline(report: SizeReport) -> str:
         what = f"Library for {manifest['target']}, before unused parts are dropped (the target has no image)"
     flash, ram = totals["text"] + totals["data"], totals["data"] + totals["bss"]
     sizes = f"text {totals['text']}, data {totals['data']}, bss {totals['bss']}"
-    return f"{what}: {flash} bytes of flash, {ram} of RAM ({sizes})\n"
+    note = "" if report.mapped else f"There is no map of it: {UNMAPPED_NOTE}\n"
+    return f"{what}: {flash} bytes of flash, {ram} of RAM ({sizes})\n{note}"
 
 
 def _owner_rows(report: SizeReport) -> list[tuple[str, str, str, str]]:

@@ -10,7 +10,7 @@ import squarify
 
 from microros_gen.build.attribution import GROUPS
 from microros_gen.build.report import SizeReport
-from microros_gen.cli.size_format import owner_sizes, ram_uses, symbol_rows
+from microros_gen.cli.size_format import UNMAPPED_NOTE, owner_sizes, ram_uses, symbol_rows
 from microros_gen.render.environment import make_environment
 
 WIDTH, HEIGHT = 1000.0, 520.0
@@ -42,6 +42,8 @@ def size_html(report: SizeReport) -> str:
     return template.render(
         report=report,
         manifest=report.folder.manifest,
+        name=report.folder.image_name.removeprefix("bin/"),
+        unmapped_note=UNMAPPED_NOTE,
         totals=report.totals,
         groups=GROUPS,
         flash=flash,

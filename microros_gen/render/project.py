@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from jinja2 import Environment
 
+from microros_gen.model.application import Memory
 from microros_gen.model.component import Component
 from microros_gen.plan.project import Project
 from microros_gen.plan.runtime import PublisherPlan
@@ -19,6 +20,8 @@ from microros_gen.render.types import render_types
 from microros_gen.render.types_decode import render_decoders
 from microros_gen.render.types_members import render_members
 from microros_gen.sources.runtime import ComponentFile
+
+IMAGE_CMAKE = "microros_image.cmake"
 
 
 @dataclass(frozen=True)
@@ -47,6 +50,7 @@ class _ProjectView:
     memory: tuple[_Bytes, ...]
     board: BoardView | None
     has_image: bool
+    budgets: str
 
 
 @dataclass(frozen=True)
@@ -78,9 +82,16 @@ def render_project(
     view = _project_view(project, rendered)
     for name in ("CMakeLists.txt", "sources.txt", "README.md"):
         rendered[name] = environment.get_template(f"project/{name}.j2").render(view=view).encode()
+    rendered[IMAGE_CMAKE] = environment.get_template(f"project/{IMAGE_CMAKE}").render().encode()
     if view.board is not None:
         rendered["toolchain.cmake"] = render_toolchain(project.target, environment)
     return rendered
+
+
+def _budgets(memory: Memory) -> str:
+    """Return the budgets as one text: an image is linked again, and checked, when it changes."""
+    budgets = (("ram", memory.ram_budget), ("flash", memory.flash_budget), ("stack", memory.stack))
+    return ", ".join(f"{name} {size}" for name, size in budgets if size is not None)
 
 
 def library_sources(files: Iterable[str]) -> tuple[str, ...]:
@@ -174,6 +185,7 @@ def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectVi
         entities=tuple(declared or pools),
         board=board_view(project),
         has_image=not project.lacks_image,
+        budgets=_budgets(project.application.memory),
         agent=project.selection.entities,
         declared=runtime.declared,
         agent_file=next((path for path in rendered if path.startswith("agent/")), ""),

@@ -14,6 +14,7 @@ import pytest
 from agent import captured
 from agent.client import XrceClient
 from agent.process import environment, own_domain, running_agent
+from microros_gen.agent.ros.libraries import INSTALL
 
 DOMAIN = own_domain()
 
@@ -99,7 +100,7 @@ def test_without_ros_it_says_what_to_install(missing: str, reason: str) -> None:
     result = run(code=code)
     assert result.returncode == 2
     assert reason in result.stderr
-    assert "pip install 'microros-gen[ros]'" in result.stderr
+    assert INSTALL in result.stderr
 
 
 @pytest.mark.parametrize("arguments", [("udp5",), ("udp4", "--port", "x"), ("udp4", "--domain", "233")])

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
@@ -14,7 +15,7 @@ import pytest
 import yaml
 from cli.environments import ROOT, clean_environ
 from installed import Installed, environment_with_dependencies
-from workflow import defaults_of, run_steps, steps_of
+from workflow import defaults_of, run_step, run_steps, steps_of
 
 WORKFLOW = ".github/workflows/microros.yml"
 ACTION = ROOT / "action.yml"
@@ -71,17 +72,22 @@ def test_the_workflow_passes_in_a_fresh_clone(
     check_schema("github-workflows", application / WORKFLOW)
     steps = steps_of(application / WORKFLOW)
     assert [step["uses"] for step in steps if "uses" in step] == USED
+    (job,) = yaml.safe_load((application / WORKFLOW).read_text())["jobs"].values()
+    assert job["if"] == "vars.MICROROS_GEN != ''", "nothing is red before pip can find the generator"
     git("clone", "-q", str(application), "clone", cwd=tmp_path)
     environment = runner(tmp_path, installed)
-    done = run_steps(steps, tmp_path / "clone", environment, {})
+    variables = {"MICROROS_GEN": str(installed.wheel)}
+    done = run_steps(steps, tmp_path / "clone", environment, variables)
     assert done.returncode == 0, done.stdout + done.stderr
     assert (tmp_path / "clone/build/an_app").is_file()
+    sized = run_step({"run": "microros-gen size build --format json"}, tmp_path / "clone", environment, {})
+    assert json.loads(sized.stdout)["image"] == str(tmp_path / "clone/build/an_app"), sized.stderr
     assert git("status", "--porcelain", cwd=tmp_path / "clone") == "", "what is built is ignored"
 
     # A change whose consequence is not in the golden copy.
     settings = tmp_path / "clone/microros.yaml"
     settings.write_text(settings.read_text().replace("topic: count", "topic: tally"))
-    done = run_steps(steps, tmp_path / "clone", environment, {})
+    done = run_steps(steps, tmp_path / "clone", environment, variables)
     assert done.returncode == 1
     assert '+  "/tally"' in done.stdout or "tally" in done.stdout
     assert re.search(r"[0-9]+ of [0-9]+ files differ from golden", done.stderr)

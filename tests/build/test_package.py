@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import time
 import zipfile
@@ -12,6 +13,8 @@ from pathlib import Path
 import pytest
 from cli.environments import ROOT, clean_environ, install
 from installed import Installed, environment_with_dependencies
+
+from microros_gen.agent.ros.libraries import INSTALL
 
 COMMANDS = (
     "build",
@@ -88,11 +91,16 @@ def test_help_works_without_ros(installed: Installed, tmp_path: Path, command: s
     assert done.stderr == ""
 
 
+def test_what_the_agent_asks_for_is_the_extra_of_the_package() -> None:
+    (extra,) = re.findall(r"(?m)^ros = \[(.*)\]$", (ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    assert INSTALL.split()[2:] == re.findall(r'"([^"]+)"', extra)
+
+
 def test_the_agent_says_what_it_needs(installed: Installed, tmp_path: Path) -> None:
     done = installed.run("agent", "udp4", "--port", "0", folder=tmp_path)
     assert done.returncode == 2
     assert "rclpy" in done.stderr
-    assert "pip install 'microros-gen[ros]'" in done.stderr
+    assert INSTALL in done.stderr
     assert "Traceback" not in done.stderr
 
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import yaml
 
-_INPUT = re.compile(r"\$\{\{ inputs\.([a-z-]+) \}\}")
+_INPUT = re.compile(r"\$\{\{ (?:inputs|vars)\.([A-Za-z_-]+) \}\}")
 
 
 def steps_of(path: Path) -> list[dict[str, Any]]:

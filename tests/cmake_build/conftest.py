@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from cmake_build.projects import EXAMPLE, Project, copy_of_tool, replace
+from cmake_build.projects import EXAMPLE, Project, copy_of_tool, follow_page, replace
 from e2e.relay import Relay
 
 PROGRAMS = ("cmake", "ninja", "make")
@@ -50,9 +50,19 @@ def project(
     shutil.copytree(EXAMPLE, home)
     (home / "mine.yaml").write_text(PROFILE)
     replace(home / "microros.yaml", "[pure_sender]\ncomponents: [+timers]\n", "[mine.yaml]\n")
-    replace(home / "CMakeLists.txt", "TARGET ${target}", f"TARGET ${{target}} AGENT 127.0.0.1:{relay.port}")
+    replace(
+        home / "CMakeLists.txt", "CONFIG microros.yaml", f"CONFIG microros.yaml AGENT 127.0.0.1:{relay.port}"
+    )
     made = Project(home, request.param, tool)
     configured = made.configure()
     assert configured.returncode == 0, configured.stderr
     assert {"robot-microros-build/librobot.a", "app", "app.c"} < made.rebuilt()
     return made
+
+
+@pytest.fixture(scope="session")
+def board(tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """The example for a Cortex-M4, by the commands of docs/cmake.md."""
+    if shutil.which("arm-none-eabi-gcc") is None:
+        pytest.skip("no arm-none-eabi-gcc")
+    return follow_page(tmp_path_factory.mktemp("board"), "build/app_m4")

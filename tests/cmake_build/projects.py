@@ -17,6 +17,8 @@ from cli.environments import ROOT, clean_environ
 
 EXAMPLE = ROOT / "examples" / "cmake_app"
 BOARD = "qemu-mps2-an386"
+PAGE = (ROOT / "docs" / "cmake.md").read_text(encoding="utf-8")
+(COMMANDS,) = re.findall(r"^```sh\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
 GENERATORS = {"ninja": "Ninja", "make": "Unix Makefiles"}
 IDLE = {"ninja": "ninja: no work to do.", "make": "Built target app"}
 
@@ -130,3 +132,27 @@ class Project:
 
     def _real(self, names: list[str]) -> set[str]:
         return {os.path.realpath(self.build_folder / name.strip()) for name in names}
+
+
+@dataclass
+class Followed(Project):
+    """The example as docs/cmake.md builds it, in the folder that the page names."""
+
+    folder: str = ""
+
+    @property
+    def build_folder(self) -> Path:
+        return self.source / self.folder
+
+
+def follow_page(folder: Path, build: str) -> Followed:
+    """Run the commands of docs/cmake.md that are for the build folder `build`; return what they made."""
+    (folder / "examples").symlink_to(EXAMPLE.parent)
+    made = Followed(folder, folder=build)
+    lines = [line.split() for line in COMMANDS.splitlines() if build in line.split()]
+    assert len(lines) == 2
+    for words in lines:
+        found = made.found if "-S" in words else ()
+        done = run(*words, *found, cwd=folder, env=made.environment)
+        assert done.returncode == 0, done.stdout + done.stderr
+    return made

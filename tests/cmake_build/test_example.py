@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import re
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -12,11 +11,9 @@ from pathlib import Path
 import pytest
 from agent.observer import observing
 from agent.process import own_domain, running_agent
-from cmake_build.projects import BOARD, EXAMPLE, ROOT, Project, run
+from cmake_build.projects import BOARD, EXAMPLE, PAGE, ROOT, Project, follow_page, run
 from e2e.relay import Relay
 
-PAGE = (ROOT / "docs" / "cmake.md").read_text(encoding="utf-8")
-(COMMANDS,) = re.findall(r"^```sh\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
 TOOLCHAIN = EXAMPLE / f"{BOARD}.cmake"
 
 
@@ -38,24 +35,9 @@ def test_on_this_machine_its_samples_arrive(project: Project, relay: Relay) -> N
     assert samples == [("/turns", {"data": first + i}) for i in range(len(samples))]
 
 
-def follow_page(folder: Path, build: str) -> Project:
-    """Run the commands of docs/cmake.md that are for the build folder `build`; return what they made."""
-    (folder / "examples").symlink_to(EXAMPLE.parent)
-    made = Project(folder)
-    lines = [line.split() for line in COMMANDS.splitlines() if build in line.split()]
-    assert len(lines) == 2
-    for words in lines:
-        found = made.found if "-S" in words else ()
-        done = run(*words, *found, cwd=folder, env=made.environment)
-        assert done.returncode == 0, done.stdout + done.stderr
-    return made
-
-
-@pytest.mark.skipif(shutil.which("arm-none-eabi-gcc") is None, reason="no arm-none-eabi-gcc")
-def test_for_a_board_it_becomes_its_image(tmp_path: Path) -> None:
+def test_for_a_board_it_becomes_its_image(board: Project) -> None:
     """Flags, start-up and memory map are the board's. make is the generator here; it, too, has nothing left to do."""
-    environment = follow_page(tmp_path, "build/app_m4").environment
-    folder = tmp_path / "build/app_m4"
+    environment, folder = board.environment, board.build_folder
     assert not (folder / "build.ninja").exists()
     again = run("cmake", "--build", folder, cwd=folder, env=environment).stdout
     assert "Building" not in again

@@ -19,7 +19,7 @@ ELSEWHERE = {
     "cmake.md": "tests/cmake_build/test_example.py",
     "idl.md": "tests/docs/test_init_pages.py",
     "proof.md": "tests/proof/test_proof.py",
-    "ros_build.md": "tests/ros_build/test_colcon.py",
+    "ros_build.md": "tests/ros_build/environments.py",
 }
 """Pages whose commands another test runs, which reads the page."""
 

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 from docs.console import blocks, masked
+from firmware.ceilings import ROW, load, readme_row
 
 from microros_gen.cli.main import _COMMANDS
 
@@ -48,6 +49,12 @@ def test_the_console_example_prints_what_it_shows(tmp_path: Path) -> None:
     )
     assert result.returncode == 0, result.stderr
     assert masked(result.stdout) == masked(shown)
+
+
+def test_the_figures_are_those_of_the_footprint() -> None:
+    """`make footprint` writes both."""
+    (row,) = ROW.finditer(README)
+    assert row[0] == readme_row(row, load())
 
 
 def test_the_firmware_of_the_example_is_built_and_measured(tmp_path: Path) -> None:

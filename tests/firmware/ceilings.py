@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,6 +14,8 @@ from firmware.board import BOARDS, Builds, target
 from firmware.footprint import MODES, RELIABILITIES, Sender, bounded_stack, sections, work
 
 FILE = Path(__file__).with_name("footprint.json")
+README = FILE.parents[2] / "README.md"
+ROW = re.compile(r"(?m)^\| here \| [^|]* \| [^|]* \| (?P<painted>[^|]*) \| [^|]* \| [^|]* \|$")
 CORTEX_M4 = "qemu-mps2-an386"
 OTHER_COMPILER = 1.05
 """How much more another version of a compiler than the one of the ceilings may need."""
@@ -61,3 +64,12 @@ def update(builds: Builds) -> None:
         board = found.setdefault(name, {"compiler": compiler_of(name), "senders": {}})
         board["senders"][sender.label] = measure(builds, name, sender)
     FILE.write_text(json.dumps(found, indent=2, sort_keys=True) + "\n", encoding="utf-8")
+    text = README.read_text(encoding="utf-8")
+    README.write_text(ROW.sub(lambda row: readme_row(row, found), text), encoding="utf-8")
+
+
+def readme_row(row: re.Match[str], figures: dict[str, Any]) -> str:
+    """Return the row of README.md with these figures; the painted stack, which is measured apart, is kept."""
+    sender = figures[CORTEX_M4]["senders"][Sender().label]
+    text, ram, ready, publish = (f"{sender[key]:,}" for key in ("text", "ram", "ready", "publish"))
+    return f"| here | {text} | {ram} | {row['painted']} | {ready} | {publish} |"

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import hashlib
 import os
 import re
@@ -10,85 +11,61 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Mapping
-from contextlib import suppress
 from pathlib import Path
 
-from cli.environments import ENVIRONMENTS, ROOT, clean_environ, dependencies, new_environment
+from cli.environments import ENVIRONMENTS, ROOT, clean_environ, dependencies
 
 WORKSPACE = Path(__file__).resolve().parent / "workspace"
-# What an interface package and colcon need; some of the wheels do not name all that they need themselves.
-_ROS = (
-    *("rosidl-default-generators", "rosidl-default-runtime", "rosidl-core-generators", "rosidl-core-runtime"),
-    *(
-        "ament-package",
-        "ament-cmake",
-        "ament-cmake-ros",
-        "ament-cmake-gtest",
-        "ament-cmake-gmock",
-        "ament-cmake-pytest",
-    ),
-    *(
-        "ament-cmake-include-directories",
-        "ament-cmake-libraries",
-        "python-cmake-module",
-        "fastrtps-cmake-module",
-    ),
+PAGE = ROOT / "docs" / "ros_build.md"
+SETUP, *COMMANDS = re.findall(
+    r"^```sh\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL
 )
-REQUIREMENTS = [
-    *(f"ros-jazzy-{name}" for name in _ROS),
-    *("empy==3.3.4", "catkin_pkg", "numpy", "colcon-common-extensions"),
-]
-# Not by the scripts that pip wrote: the environment was made in another folder, and they name that.
-_PROGRAMS = """\
-colcon() { python -c 'import sys; from colcon_core.command import main; sys.exit(main())' "$@"; }
-rosidl() { python -c 'import sys; from rosidl_cli.cli import main; sys.exit(main())' "$@"; }
-"""
+"""What makes the environment, and what is done in it, as the page says."""
 
 
 def ros_environment() -> Path:
-    """Return the folder of a virtual environment with REQUIREMENTS and the tool's dependencies, made once.
+    """Return the folder of the virtual environment that the commands of the page make, kept between runs.
 
-    Raises OSError where it cannot be made: there is no network, or no wheel for this Python.
+    Raises OSError where they fail: there is no network, or no wheel for this Python.
     """
-    wanted = [*REQUIREMENTS, *dependencies()]
-    key = hashlib.sha256(f"{sys.executable} {wanted}".encode()).hexdigest()[:8]
-    folder = ENVIRONMENTS / f"ros-build-{key}"
-    if not folder.is_dir():
-        ENVIRONMENTS.mkdir(parents=True, exist_ok=True)
-        fresh = ENVIRONMENTS / f".{folder.name}.{os.getpid()}"
-        try:
-            new_environment(sys.executable, fresh, wanted)
-            _mend(fresh, folder)
-            with suppress(OSError):  # another process was first
-                fresh.rename(folder)
-        finally:
-            shutil.rmtree(fresh, ignore_errors=True)
-    return folder
+    key = hashlib.sha256(f"{sys.executable} {SETUP} {dependencies()}".encode()).hexdigest()[:8]
+    home = ENVIRONMENTS / f"ros-build-{key}"
+    home.mkdir(parents=True, exist_ok=True)
+    with (home / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not (home / "done").is_file():
+            _make(home)
+            (home / "done").touch()
+    return home / "ros"
 
 
-def _mend(fresh: Path, folder: Path) -> None:
-    """Name this machine's folders of headers where the wheels name those of the machine that built them."""
-    ask = "import sysconfig, numpy; print(sysconfig.get_path('include')); print(numpy.get_include())"
-    said = subprocess.run(
-        [fresh / "bin/python", "-c", ask], text=True, capture_output=True, check=True
-    ).stdout
-    python, numpy = said.replace(str(fresh), str(folder)).splitlines()
-    for path in fresh.glob("share/*/cmake/*_pyExport.cmake"):
-        text = path.read_text()
-        text = re.sub(r'/opt/python/[^;"]*/numpy/[^;"]*', numpy, text)
-        path.write_text(re.sub(r'/opt/python/[^;"]*/include/[^;"]*', python, text))
+def _make(home: Path) -> None:
+    shutil.rmtree(home / "ros", ignore_errors=True)
+    (home / "microros_gen").unlink(missing_ok=True)
+    (home / "microros_gen").symlink_to(ROOT)
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    done = subprocess.run(
+        ["sh", "-ec", SETUP],
+        cwd=home,
+        env=clean_environ(PATH=path),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if done.returncode != 0:
+        raise OSError(f"{done.stdout[-2000:]}{done.stderr[-4000:]}")
 
 
 def environ(folder: Path, cache: Path) -> dict[str, str]:
-    """Return the environment of a shell in which `folder` is active and is the underlay."""
+    """Return the environment of a shell in which `folder` is active and is the underlay, as the page leaves it."""
     path = os.pathsep.join([str(folder / "bin"), os.environ["PATH"]])
     return clean_environ(PATH=path, AMENT_PREFIX_PATH=str(folder), XDG_CACHE_HOME=str(cache))
 
 
 def shell(folder: Path, environment: Mapping[str, str], script: str) -> subprocess.CompletedProcess[str]:
-    """Run a script of the shell in a folder; `colcon` and `rosidl` are those of the environment."""
+    """Run a script of the shell in a folder."""
     return subprocess.run(
-        ["sh", "-c", f"{_PROGRAMS}{script}"],
+        ["sh", "-c", script],
         cwd=folder,
         env=environment,
         text=True,

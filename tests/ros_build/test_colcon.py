@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from cli.environments import ROOT, clean_environ, install
 from cmake_build.projects import replace
-from ros_build.environments import WORKSPACE, clone, environ, ros_environment, shell
+from ros_build.environments import COMMANDS, WORKSPACE, clone, environ, ros_environment, shell
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 pytestmark = pytest.mark.long
@@ -143,15 +143,27 @@ def test_a_changed_message_reaches_the_firmware_and_nothing_else_is_built_again(
 @pytest.mark.skipif(shutil.which("arm-none-eabi-gcc") is None, reason="no arm-none-eabi-gcc")
 def test_the_commands_of_the_page(built: Built) -> None:
     """They build again, then for a board from the interfaces of the sourced workspace; and `rosidl` generates."""
-    page = (ROOT / "docs" / "ros_build.md").read_text(encoding="utf-8")
-    blocks = re.findall(r"^```sh\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
-    done = shell(built.folder, built.environment, "set -e\n" + "".join(blocks))
+    done = shell(built.folder, built.environment, "set -e\n" + "".join(COMMANDS))
     assert done.returncode == 0, done.stdout + done.stderr
+    assert re.search(r"^Image \S*/firmware for host: \d+ bytes of flash", done.stdout, re.MULTILINE)
     image = built.folder / "install_m4/robot_firmware/lib/robot_firmware/firmware.elf"
     assert image.read_bytes()[:4] == b"\x7fELF"
     manifest = json.loads((built.folder / "build_m4/robot_firmware/robot-microros/manifest.json").read_text())
     assert manifest["target"] == "qemu-mps2-an386"
     assert hashes(built.folder / "out/manifest.json").keys() >= {"robot_interfaces/msg/Robot"}
+
+
+def test_a_budget_is_checked_as_build_checks_it(built: Built, tmp_path: Path) -> None:
+    shutil.copytree(WORKSPACE / "robot_firmware", tmp_path / "src/robot_firmware")
+    config = tmp_path / "src/robot_firmware/microros.yaml"
+    config.write_text(f"{config.read_text()}memory: {{ram_budget: 1 KiB}}\n")
+    source = f". {shlex.quote(str(built.folder / 'install/local_setup.sh'))}\n"
+    done = shell(tmp_path, built.environment, source + BUILD)
+    assert done.returncode != 0
+    said = done.stdout + done.stderr
+    assert re.search(
+        r"microros\.yaml:8:22: error: static RAM in the image: \d+ bytes, and memory.ram_budget is 1024", said
+    )
 
 
 def test_a_mistake_in_the_application_file_is_told_as_the_tool_tells_it(built: Built, tmp_path: Path) -> None:

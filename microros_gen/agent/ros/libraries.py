@@ -30,6 +30,8 @@ from microros_gen.agent.ros.layout import (
 )
 from microros_gen.diagnostics import Diagnostic, UserError
 
+INSTALL = "pip install ros-jazzy-rclpy ros-jazzy-rmw-fastrtps-cpp ros-jazzy-common-interfaces"
+"""What the agent needs of ROS 2, where it is not sourced: the extra `ros` of pyproject.toml."""
 OK, TIMEOUT, BAD_ALLOC = 0, 2, 10
 """rcl_ret_t (rcl/types.h)."""
 SUBSCRIPTION_TAKE_FAILED, CLIENT_TAKE_FAILED, SERVICE_TAKE_FAILED = 401, 501, 601
@@ -259,5 +261,5 @@ def _expect(found: object, expected: object, what: str) -> None:
 
 
 def _unsuitable(reason: str) -> UserError:
-    hint = "Run: pip install 'microros-gen[ros]', or source an installation of ROS 2 Jazzy"
+    hint = f"Run: {INSTALL}, or source an installation of ROS 2 Jazzy"
     return UserError([Diagnostic(f"the agent cannot use this ROS 2: {reason}", hint=hint)])

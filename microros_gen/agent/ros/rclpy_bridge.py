@@ -18,7 +18,7 @@ from typing import Any
 from microros_gen.agent.ros.bridge import Bridge, BridgeError, GraphReport, HashOf, HashUnknown, Node, Source
 from microros_gen.agent.ros.endpoints import Ros
 from microros_gen.agent.ros.graph import Comparison, TopicTypes
-from microros_gen.agent.ros.libraries import FAILURES, first_line
+from microros_gen.agent.ros.libraries import FAILURES, INSTALL, first_line
 from microros_gen.agent.ros.names import ros_node
 from microros_gen.agent.ros.node import RawNode
 from microros_gen.agent.ros.raw_types import MAXIMUM_HANDLES, raw_types
@@ -87,7 +87,7 @@ def _import_rclpy() -> Any:
         reason = (
             "rclpy (ROS 2) is not installed for this Python" if missing else f"rclpy does not load: {error}"
         )
-        hint = "Run: pip install 'microros-gen[ros]', or source a ROS 2 installation"
+        hint = f"Run: {INSTALL}, or source a ROS 2 installation"
         raise UserError([Diagnostic(f"the agent needs ROS 2: {reason}", hint=hint)]) from error
 
 
