@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 import sys
 from pathlib import Path
 
@@ -57,9 +58,23 @@ def test_sources_for_another_machine(project: Project) -> None:
     said = refused(project, FIND + "microros_add_library(robot PROFILES pure_sender TARGET cortex-m4)\n")
     assert "its target is a microcontroller, and this project compiles for this machine" in said
     add = "microros_add_library(robot PROFILES pure_sender)\n"
-    toolchain = EXAMPLE / "qemu-mps2-an386.cmake"
+    text = (EXAMPLE / "qemu-mps2-an386.cmake").read_text(encoding="utf-8")
+    toolchain = project.source / "vendor.cmake"  # with another name of the processor than the tool's
+    toolchain.write_text(text.replace("CMAKE_SYSTEM_PROCESSOR qemu-mps2-an386", "CMAKE_SYSTEM_PROCESSOR arm"))
     said = refused(project, FIND + add, "--fresh", f"-DCMAKE_TOOLCHAIN_FILE={toolchain}")
-    assert "and this project compiles for qemu-mps2-an386 without one" in said
+    assert "and this project compiles for arm without one. Say which with TARGET" in said
+
+
+@pytest.mark.skipif(shutil.which("arm-none-eabi-gcc") is None, reason="no arm-none-eabi-gcc")
+def test_the_target_is_that_of_the_application_file_before_that_of_the_tool_chain(project: Project) -> None:
+    """The tool-chain file's counts where nothing else names one: examples/cmake_app is built so."""
+    config = project.source / "microros.yaml"
+    config.write_text("version: 1\nprofiles: [pure_sender]\ntarget: cortex-m4f\n")
+    text = BEGIN + FIND + "microros_add_library(robot)\n"
+    (project.source / "CMakeLists.txt").write_text(text)
+    done = project.configure(f"-DCMAKE_TOOLCHAIN_FILE={EXAMPLE / 'qemu-mps2-an386.cmake'}")
+    assert done.returncode == 0, done.stderr
+    assert "pure_sender for cortex-m4f: " in done.stdout
 
 
 def test_a_python_without_the_dependencies(project: Project) -> None:
