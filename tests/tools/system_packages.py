@@ -45,7 +45,7 @@ def missing_packages() -> list[str]:
     missing = {package for program, package in NEEDED.items() if not _is_there(program)}
     if shutil.which("gcc") is None or not _links_32_bit():
         missing |= {MULTILIB, "g++-multilib"}
-    return sorted(missing | _missing_libgcc())
+    return sorted(missing | _missing_libgcc() | _missing_sanitizers())
 
 
 def _is_there(name: str) -> bool:
@@ -64,6 +64,18 @@ def _missing_libgcc() -> set[str]:
     return {f"libgcc-{max(versions)}-dev-{CROSS[target]}-cross" for target in CROSS if target not in there}
 
 
+def _missing_sanitizers() -> set[str]:
+    """Return the package of clang's sanitizers, which clang only recommends; its name has clang's version."""
+    if shutil.which("clang") is None or not Path("/etc/debian_version").exists():
+        return set()
+    link = ["clang", "-fsanitize=address,undefined", "-x", "c", "-", "-o", os.devnull]
+    source = "int main(void) { return 0; }\n"
+    if subprocess.run(link, input=source, text=True, capture_output=True, check=False).returncode == 0:
+        return set()
+    version = subprocess.run(["clang", "-dumpversion"], text=True, capture_output=True, check=True).stdout
+    return {f"libclang-rt-{version.split('.')[0]}-dev"}
+
+
 def _links_32_bit() -> bool:
     test = ["g++", "-m32", "-x", "c++", "-", "-o", os.devnull]
     if shutil.which("g++") is None:
@@ -74,9 +86,14 @@ def _links_32_bit() -> bool:
 
 def main() -> int:
     """Install or tell; 0 when nothing is missing afterwards."""
-    packages = missing_packages()
-    if not packages:
-        return 0
+    for _ in range(2):  # what a compiler needs besides is known once it is there
+        packages = missing_packages()
+        if packages and _install(packages) != 0:
+            return 2
+    return 0
+
+
+def _install(packages: list[str]) -> int:
     command = ["apt-get", "install", "-y", "--no-install-recommends", *packages]
     may = Path("/etc/debian_version").exists() and hasattr(os, "geteuid") and os.geteuid() == 0
     if not may:
