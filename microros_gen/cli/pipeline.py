@@ -20,7 +20,14 @@ from microros_gen.parse.application import parse_agent_address, parse_applicatio
 from microros_gen.parse.tree_read import component_change
 from microros_gen.plan.agent_files import check_entities
 from microros_gen.plan.capacity import Capacities, Defaults, Entity, Root, plan_capacities
-from microros_gen.plan.declared import declarations, full_name, node_name, service_parts, type_name
+from microros_gen.plan.declared import (
+    check_types,
+    declarations,
+    full_name,
+    node_name,
+    service_parts,
+    type_name,
+)
 from microros_gen.plan.project import Project, plan_project
 from microros_gen.plan.service_limits import service_roots
 from microros_gen.plan.streams import DEFAULT_MTU, WRITE_DATA_OVERHEAD
@@ -112,7 +119,7 @@ def request_of(
 
 
 def _refuse_rtos(target: TargetRef, diagnostics: Diagnostics) -> None:
-    if target.rtos is not None:
+    if target.rtos not in (None, "none"):
         diagnostics.error(
             f"no port for the RTOS {target.rtos!r} is here yet",
             target.rtos_span,
@@ -166,11 +173,14 @@ def _check_interfaces_have_a_use(
 
 def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Diagnostics) -> Planned:
     """Find the interfaces and plan sizes, names and entities. Raises UserError with all that is wrong."""
-    application, selection = resolved.request.application, resolved.selection
+    request, application, selection = resolved.request, resolved.request.application, resolved.selection
     check_ready(selection, diagnostics)
     check_entities(application, selection, diagnostics)
-    finder = InterfaceFinder.from_environment(options.interface_paths)
-    finder.check_paths(diagnostics)
+    check_types(application, diagnostics)
+    own = [request.near / path.name for path in application.interface_paths]
+    finder = InterfaceFinder.from_environment((*options.interface_paths, *own))
+    spans = {request.near / path.name: path.span for path in application.interface_paths}
+    finder.check_paths(diagnostics, spans)
     interfaces = _interfaces(resolved, finder, diagnostics)
     capacities = _capacities(resolved, interfaces, diagnostics)
     diagnostics.check()

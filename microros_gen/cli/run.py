@@ -83,6 +83,7 @@ class _Image:
     def agent_options(self) -> list[str]:
         """The options that give an agent what it must hold for this image, and its ROS domain."""
         options = [] if self.domain is None else ["--domain", str(self.domain)]
+        options += ["--manifest", str(self.out / MANIFEST)]  # type hashes of what the image exchanges
         for option, name in (("--references", "references.xml"), ("--entities", "entities.json")):
             path = self.out / "agent" / name
             options += [option, str(path)] if path.is_file() else []

@@ -29,12 +29,16 @@ class Severity(Enum):
 
 @dataclass(frozen=True)
 class Diagnostic:
-    """One message to the user: what is wrong, where, and what to do (`hint`)."""
+    """One message to the user: what is wrong, where, and what to do (`hint`).
+
+    `block` are lines that can be pasted into the file; they are printed below the place.
+    """
 
     message: str
     span: Span | None = None
     hint: str | None = None
     severity: Severity = Severity.ERROR
+    block: tuple[str, ...] = ()
 
     def headline(self) -> str:
         """Return `file:line:col: error: what. hint` (without a place: `microros-gen: error: …`)."""
@@ -43,7 +47,10 @@ class Diagnostic:
         return _shortened(f"{text}. {self.hint}" if self.hint else text)
 
     def render(self) -> str:
-        """Return the headline, then the source line with a caret below the place where there is one."""
+        """Return the headline, then the source line with a caret below the place where there is one, then the block."""
+        return "\n".join((self._placed(), *self.block))
+
+    def _placed(self) -> str:
         if self.span is None:
             return self.headline()
         line = self.span.source.line(self.span.line)
@@ -94,6 +101,10 @@ class Diagnostics:
         """Add a warning."""
         self._add(Diagnostic(message, span, hint, Severity.WARNING))
 
+    def add(self, diagnostic: Diagnostic) -> None:
+        """Add a diagnostic as it is."""
+        self._add(diagnostic)
+
     def extend(self, diagnostics: Iterable[Diagnostic]) -> None:
         """Add what another step found."""
         for diagnostic in diagnostics:
@@ -119,8 +130,8 @@ class Diagnostics:
 def nearest(name: str, known: Iterable[str]) -> str | None:
     """Return the hint `did you mean 'x'?` for the known name closest to `name`, or None when none is close."""
     choices = sorted(known)
-    close = difflib.get_close_matches(name, choices, n=1, cutoff=0.5) or difflib.get_close_matches(
-        name.lower(), [c.lower() for c in choices], n=1, cutoff=0.5
+    close = difflib.get_close_matches(name, choices, n=1, cutoff=0.55) or difflib.get_close_matches(
+        name.lower(), [c.lower() for c in choices], n=1, cutoff=0.55
     )
     if not close:
         return None

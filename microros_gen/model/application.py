@@ -167,22 +167,6 @@ class ExecutorDecl:
 
 
 @dataclass(frozen=True)
-class TaskDecl:
-    """A periodic task. Times in microseconds; `deadline_us` None: the period; `wcet_us`: worst-case run time.
-
-    `criticality` is low, normal or high; tasks of a higher one keep their deadlines first.
-    """
-
-    name: str
-    period_us: int
-    deadline_us: int | None = None
-    wcet_us: int | None = None
-    criticality: str = "normal"
-    executor: str | None = None
-    span: Span | None = None
-
-
-@dataclass(frozen=True)
 class NodeDecl:
     """A node and what it owns. `given_name`, `given_namespace`: what the source has, where `remap:` changes them.
 
@@ -234,10 +218,10 @@ class Application:
 
     `hard_liveliness_ms`: how long the agent goes on without hearing the client; 0: as it likes.
     `pools` count entities where no nodes are given. `creation` (best_effort, reliable) is the stream of CREATE; None:
-    best effort. `logging` (console, callback, rosout) and `clock`
-    (steady, ros) are axes like `entities` and `liveliness`. `implied` are the endpoints of the library itself where
-    there are no nodes (with nodes they stand among their endpoints). `spans` holds the places of top-level keys and of
-    the keys of `pools` (as `pools.history`), for later steps.
+    best effort. `clock` (steady, ros) is an axis like `entities` and `liveliness`. `interface_paths` are relative to
+    the file. `implied` are the endpoints of the library itself where there are no nodes (with nodes they are among
+    their endpoints). `spans` holds the places of top-level keys and of the keys of `pools` (as `pools.history`), for
+    later steps.
     """
 
     distro: str = "jazzy"
@@ -252,14 +236,13 @@ class Application:
     target: TargetRef = TargetRef()
     nodes: tuple[NodeDecl, ...] = ()
     interfaces: tuple[Named, ...] = ()
+    interface_paths: tuple[Named, ...] = ()
     pools: Mapping[str, int] = field(default_factory=dict)
     limits: tuple[LimitRule, ...] = ()
     memory: Memory = Memory()
     on_full: str = "error"
     on_full_block_ms: int = 0
     error_text: bool = True
-    logging: Named | None = None
     clock: Named | None = None
-    tasks: tuple[TaskDecl, ...] = ()
     implied: tuple[EndpointDecl, ...] = ()
     spans: Mapping[str, Span] = field(default_factory=dict)

@@ -7,19 +7,17 @@ import ipaddress
 import re
 from types import MappingProxyType
 
-from microros_gen.diagnostics import Diagnostics, Source, Span, nearest, reads
+from microros_gen.diagnostics import Diagnostics, Source, Span, reads
 from microros_gen.model.application import (
     DISCOVERY_PORT,
     LARGEST_UDP_PAYLOAD,
     Application,
     Memory,
     Named,
-    NodeDecl,
     TargetRef,
-    TaskDecl,
     Transport,
 )
-from microros_gen.parse.application_nodes import check_unique, parse_nodes, positive_time
+from microros_gen.parse.application_nodes import parse_nodes
 from microros_gen.parse.limits import application_limits
 from microros_gen.parse.schema import validate_application
 from microros_gen.parse.tree_read import component_change
@@ -30,7 +28,6 @@ from microros_gen.parse.tree_values import (
     int_of,
     items,
     named_of,
-    number_of,
     size_of,
     span_of,
     text_of,
@@ -97,15 +94,14 @@ def _application(tree: MappingNode, diagnostics: Diagnostics) -> Application:
         target=_target(child(tree, "target")),
         nodes=nodes,
         interfaces=_names(child(tree, "interfaces")),
+        interface_paths=_names(child(tree, "interface_paths")),
         pools=MappingProxyType(pools),
         limits=application_limits(child(tree, "limits")),
         memory=_memory(child(tree, "memory")),
         on_full=on_full,
         on_full_block_ms=block_ms,
         error_text=text_of(child(tree, "errors")) != "code",
-        logging=named_of(child(tree, "logging")),
         clock=named_of(child(tree, "clock")),
-        tasks=_tasks(child(tree, "tasks"), nodes, diagnostics),
         spans=MappingProxyType(_spans(tree)),
     )
 
@@ -274,65 +270,3 @@ def _on_full(node: YamlNode | None, diagnostics: Diagnostics) -> tuple[str, int]
         message = f"'on_full: {text}' must block between 1 ms and {LONGEST_BLOCK_MS // 1000} s"
         diagnostics.error(message, span_of(node), "`on_full: error` does not block at all")
     return "block", milliseconds
-
-
-def _tasks(
-    node: YamlNode | None, nodes: tuple[NodeDecl, ...], diagnostics: Diagnostics
-) -> tuple[TaskDecl, ...]:
-    tasks = tuple(_task(item, diagnostics) for item in items(node))
-    check_unique("task", [(t.name, t.span) for t in tasks], diagnostics)
-    executors = {e.name for n in nodes for e in n.executors}
-    for item, task in zip(items(node), tasks, strict=True):
-        if task.executor is not None and task.executor not in executors:
-            hint = nearest(task.executor, executors) or "Declare it below `executors` of a node"
-            message = f"the task '{task.name}' spins the executor '{task.executor}', which no node has"
-            diagnostics.error(message, span_of(child(item, "executor")), hint)
-    return tasks
-
-
-def _task(item: YamlNode, diagnostics: Diagnostics) -> TaskDecl:
-    name = text_of(child(item, "name")) or ""
-    period, rate = positive_time(item, "period", diagnostics), child(item, "rate")
-    if (child(item, "period") is None) == (rate is None) and isinstance(item, MappingNode):
-        has = "both a period and a rate" if rate is not None else "neither a period nor a rate"
-        diagnostics.error(
-            f"the task '{name}' has {has}", item.span, "Give one: `period: 10 ms` or `rate: 100 Hz`"
-        )
-    if rate is not None and period is None:
-        period = _rate_period(rate, diagnostics)
-    task = TaskDecl(
-        name=name,
-        period_us=period or 0,
-        deadline_us=positive_time(item, "deadline", diagnostics),
-        wcet_us=positive_time(item, "wcet", diagnostics),
-        criticality=text_of(child(item, "criticality")) or TaskDecl.criticality,
-        executor=text_of(child(item, "executor")),
-        span=item.span,
-    )
-    _check_task(task, diagnostics)
-    return task
-
-
-def _rate_period(node: YamlNode, diagnostics: Diagnostics) -> int | None:
-    number = number_of(node)
-    text = text_of(node)
-    if number is None and text is not None and re.fullmatch(r"[0-9]{1,12}([.][0-9]{1,12})? ?Hz", text):
-        number = float(text.removesuffix("Hz"))
-    if number is None or number != number:
-        return None
-    if number <= 0 or not 1e-6 <= number <= 1e6:
-        diagnostics.error(
-            "'rate' must be between 0.000001 Hz and 1000000 Hz", node.span, "Write a rate such as 100 Hz"
-        )
-        return None
-    return int(1_000_000 / number + 0.5)
-
-
-def _check_task(task: TaskDecl, diagnostics: Diagnostics) -> None:
-    limit = task.deadline_us or task.period_us
-    if task.deadline_us and task.period_us and task.deadline_us > task.period_us:
-        message = f"the deadline of the task '{task.name}' is longer than its period"
-        diagnostics.error(message, task.span, f"Set deadline: {task.period_us} us or less")
-    elif task.wcet_us and limit and task.wcet_us > limit:
-        message = f"the task '{task.name}' runs for {task.wcet_us} us and must be done after {limit} us"
-        diagnostics.error(message, task.span, "Lower `rate`, or raise `deadline`")

@@ -14,7 +14,7 @@ from importlib import resources
 from typing import Any, cast
 
 from microros_gen.diagnostics import Diagnostics, Source, Span
-from microros_gen.parse.schema_words import describe_mismatch, describe_unknown_key
+from microros_gen.parse.schema_words import describe_mismatch, describe_unknown_key, key_without_space
 from microros_gen.parse.yaml_tree import MappingNode, SequenceNode, YamlNode, to_data
 
 Schema = dict[str, Any]
@@ -65,7 +65,8 @@ def _report(tree: YamlNode, error: Any, diagnostics: Diagnostics) -> None:
                 diagnostics.error(message, entry.key_span, hint)
     elif error.validator == "required" and isinstance(node, MappingNode):
         for key in cast("list[str]", error.validator_value):
-            if key not in node.entries:
+            meant = any(key_without_space(entry.key, schema) == key for entry in node)
+            if key not in node.entries and not meant:
                 owner = f"'{label}' lacks" if label else "the file lacks"
                 diagnostics.error(f"{owner} the key '{key}'", node.span, f"Add `{key}: …`")
     elif error.validator == "not" and "x-reserved" in schema:

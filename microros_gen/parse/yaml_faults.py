@@ -24,6 +24,11 @@ _FAULTS: tuple[tuple[str, str, str | None], ...] = (
         "Write `key: value`, with a space after the colon",
     ),
     (
+        r"expected alphabetic or numeric character, but found|while scanning an alias",
+        "a text that begins with '*' or '&' is an alias or an anchor to YAML",
+        'Quote it, as in "*": {string: 32}',
+    ),
+    (
         r"undefined alias",
         "an alias (*) to a name that no anchor (&) gives",
         "Quote a text that begins with '*'",

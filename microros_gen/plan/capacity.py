@@ -35,8 +35,9 @@ from microros_gen.model.types import (
     TypeName,
     element_of,
 )
-from microros_gen.plan.capacity_rules import LARGEST_LIMIT, RuleChecker, absolute_path, is_count
+from microros_gen.plan.capacity_rules import RuleChecker, absolute_path, is_count
 from microros_gen.plan.types_size import FieldLimits, TypeLimits, WireSizes
+from microros_gen.plan.unset import Unset, UnsetRoot, report_unset
 
 
 class Origin(Enum):
@@ -158,12 +159,13 @@ def plan_capacities(
     decided: dict[tuple[TypeName, tuple[str, ...], str], Capacity] = {}
     shared = _Tier(messages, application)
     own: list[EntityLimits] = []
+    unset: list[UnsetRoot] = []
     for root in roots:
         checker.check(root.rules, root.type)
         tiers = [_Tier(messages, root.rules, root.type), shared] if root.rules else [shared]
         walk = _Walk(messages, root, tiers, defaults)
         found = walk.type_limits(root.type, (), (str(root.type),))
-        walk.report_unset(found, diagnostics)
+        unset += [root_unset] if (root_unset := walk.unset_root()) else []
         limits[root.type] = _larger(limits[root.type], found) if root.type in limits else found
         if root.entity is not None and found is not None:
             own.append(EntityLimits(root.type, root.entity, found))
@@ -171,6 +173,7 @@ def plan_capacities(
             key = (capacity.root, capacity.path, capacity.kind)
             if key not in decided or decided[key].value < capacity.value:
                 decided[key] = capacity
+    report_unset(unset, application, diagnostics)
     entities = tuple(e for e in own if e.limits != limits[e.type])
     return Capacities(limits, tuple(decided.values()), _topic_limits(own, limits), entities)
 
@@ -239,20 +242,13 @@ class _Walk:
         fields = tuple(self._field_limits(field, (*path, field.name), types) for field in message.fields)
         return TypeLimits(fields) if any(f is not None for f in fields) else None
 
-    def report_unset(self, limits: TypeLimits | None, diagnostics: Diagnostics) -> None:
-        """Report the fields that nothing sets, each with a number that would do."""
-        if not self._unset or limits is None:
-            return
-        number = self._fitting()
-        for path, kind, field in self._unset:
-            value = number if number is not None else {"string": 64, "sequence": 16}[kind]
-            key = _yaml_key(self._root.type, path, {kind: value})
-            why = f"; {value} for every unset capacity fits its stream" if number is not None else ""
-            diagnostics.error(
-                f"the {kind} capacity of {self._root.type}.{'.'.join(path)} is not set",
-                self._root.span or field.span,
-                f"Add 'limits: {{{key}}}'{why}",
-            )
+    def unset_root(self) -> UnsetRoot | None:
+        """Return what nothing sets below this root; None where everything is set."""
+        unset = tuple(Unset(path, kind) for path, kind, _ in self._unset)
+        if not unset:
+            return None
+        root = self._root
+        return UnsetRoot(root.type, root.span or self._unset[0][2].span, unset, root.room, self._size_with)
 
     def _field_limits(
         self, field: Field, path: tuple[str, ...], types: tuple[str, ...]
@@ -290,21 +286,8 @@ class _Walk:
         self.decided.append(Capacity(self._root.type, path, kind, value, origin, span))
         return value
 
-    def _fitting(self) -> int | None:
-        """Return the largest number that fits the stream for every unset capacity; None: no number does."""
-        room = self._root.room
-        if room is None or self._size_with(0) > room:
-            return None
-        low, high = 0, 1
-        while high < LARGEST_LIMIT and self._size_with(high) <= room:
-            low, high = high, high * 2
-        while high - low > 1:
-            middle = (low + high) // 2
-            low, high = (middle, high) if self._size_with(middle) <= room else (low, middle)
-        return low or None
-
-    def _size_with(self, number: int) -> int:
-        same = _Walk(self._messages, self._root, self._tiers, Defaults(number, number))
+    def _size_with(self, string: int, sequence: int) -> int:
+        same = _Walk(self._messages, self._root, self._tiers, Defaults(string, sequence))
         limits = same.type_limits(self._root.type, (), (str(self._root.type),))
         return WireSizes(self._messages).largest(self._root.type, limits)
 

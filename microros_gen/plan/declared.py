@@ -51,6 +51,21 @@ def service_parts(kind: str) -> tuple[tuple[str, bool], ...]:
     return ("Request", kind == "client"), ("Response", kind == "service")
 
 
+def check_types(application: Application, diagnostics: Diagnostics) -> None:
+    """Report each topic and service that two declarations give different types: their endpoints would never match."""
+    first: dict[tuple[int, bool, str], tuple[str, EndpointDecl]] = {}
+    for node in application.nodes:
+        for endpoint in node.endpoints:
+            served = endpoint.kind in ("service", "client")
+            name, kind = full_name(node, endpoint), str(type_name(endpoint.type, "srv" if served else "msg"))
+            known, other = first.setdefault((node.domain_id, served, name), (kind, endpoint))
+            if known != kind:
+                span = endpoint.type_span or endpoint.span
+                line = f" in line {other.span.line}" if other.span else ""
+                message = f"{name} has the type {kind} here and {known}{line}"
+                diagnostics.error(message, span, "Give both the same type, or one another name")
+
+
 def full_name(node: NodeDecl, endpoint: EndpointDecl) -> str:
     """Return the fully qualified name of an endpoint's topic or service: `/imu/data`."""
     return expand_topic_name(endpoint.topic, node.name, node.namespace)

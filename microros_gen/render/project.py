@@ -122,9 +122,9 @@ def _unselected_headers(
 ) -> Iterable[tuple[str, bytes]]:
     template = environment.get_template("project/unselected.h.j2")
     for component in components:
+        advice = f"is not selected: add `{_key(component)}` to microros.yaml and generate again"
         message = (
-            f"The component '{component.name}' is not selected: add `{_key(component)}` to microros.yaml and generate"
-            " again"
+            f"The component '{component.name}' {advice if component.ready else 'is not in this version yet'}"
         )
         content = template.render(view=_UnselectedView(message)).encode()
         yield from ((f"include/{header}", content) for header in component.headers)

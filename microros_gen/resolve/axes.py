@@ -58,7 +58,6 @@ def _application_axes(application: Application) -> dict[str, Named]:
     said = {
         "entities": application.entities,
         "liveliness": application.liveliness,
-        "logging": application.logging,
         "clock": application.clock,
     }
     if transport.type_span is not None or transport.type != Transport().type:

@@ -24,6 +24,7 @@ HOST_PORT = "port_posix"
 # Objects that a CREATE makes; the client itself comes with CREATE_CLIENT.
 _CREATED = frozenset(OBJECT_KINDS) - {"agent", "client"}
 _LAYERS = ("micro-ROS", "middleware", "port")
+NOT_READY = "this version of microros-gen does not have yet"
 
 
 def resolve_selection(
@@ -46,9 +47,7 @@ def resolve_selection(
     picker = _Picker(catalogue, diagnostics)
     _pick_from_profiles(picker, application, profiles)
     if not picker.causes:
-        diagnostics.error(
-            "nothing is selected", None, "Add `profiles: [pure_sender]`, or --profile pure_sender"
-        )
+        _report_nothing(application, diagnostics)
     for choice in axes.values():
         _pick_axis(picker, choice, middleware)
     _pick_port(picker, application, port)
@@ -69,6 +68,15 @@ def resolve_selection(
     return _selection(picker, profiles, axes, middleware)
 
 
+def _report_nothing(application: Application, diagnostics: Diagnostics) -> None:
+    if not application.spans and not application.components:
+        hint = "Give --profile pure_sender, or begin with `microros-gen init DIR`; `microros-gen profiles` lists them"
+        diagnostics.error("no application file microros.yaml in this folder, and no profile", None, hint)
+        return
+    hint = "Add `profiles: [pure_sender]`, or --profile pure_sender"
+    diagnostics.error("nothing is selected", None, hint)
+
+
 def check_ready(selection: Selection, diagnostics: Diagnostics) -> None:
     """Report what is selected and planned only: an error for each choice of the user that leads to it."""
     asked: dict[Named, list[str]] = {}
@@ -79,8 +87,7 @@ def check_ready(selection: Selection, diagnostics: Diagnostics) -> None:
     for cause, names in sorted(asked.items(), key=lambda item: item[0].name):
         several = len(names) > 1
         diagnostics.error(
-            f"{cause.name} needs the component{'s' if several else ''} {', '.join(names)}, which this "
-            f"version of microros-gen does not have yet",
+            f"{cause.name} needs the component{'s' if several else ''} {', '.join(names)}, which {NOT_READY}",
             cause.span,
             "`microros-gen profiles` shows what is ready, `microros-gen resolve` why each is needed",
         )
@@ -244,12 +251,18 @@ def _check_drop(picker: _Picker, name: str, span: Span | None, text: str) -> Non
 
 def _check_declarations(picker: _Picker, application: Application) -> None:
     for demand in declared_components(application):
-        if demand.component not in picker.causes:
-            picker.diagnostics.error(
-                f"{demand.text} needs the component '{demand.component}', which nothing selects",
-                demand.span,
-                f"Add `components: [+{demand.component}]`, or a profile that has it",
-            )
+        if demand.component in picker.causes:
+            continue
+        component = picker.catalogue.get(demand.component)
+        if component is not None and not component.ready:
+            message = f"{demand.text} needs the component '{demand.component}', which {NOT_READY}"
+            picker.diagnostics.error(message, demand.span, "Remove it")
+            continue
+        picker.diagnostics.error(
+            f"{demand.text} needs the component '{demand.component}', which nothing selects",
+            demand.span,
+            f"Add `components: [+{demand.component}]`, or a profile that has it",
+        )
 
 
 def _check_axis_components(picker: _Picker, axes: Mapping[str, AxisChoice], middleware: Middleware) -> None:

@@ -17,7 +17,7 @@ from enum import Enum
 from pathlib import Path
 from types import MappingProxyType
 
-from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.model.types import TypeName
 from microros_gen.parse.msg_names import is_package_name
 from microros_gen.sources.files import is_file, is_folder, read_bytes, read_text
@@ -142,12 +142,16 @@ class InterfaceFinder:
             found = {**{name: tuple(there) for name, there in places.items()}, **found}
         return found
 
-    def check_paths(self, diagnostics: Diagnostics) -> None:
-        """Report each of the user's paths that is no folder, cannot be read or holds no interface package."""
+    def check_paths(self, diagnostics: Diagnostics, spans: Mapping[Path, Span | None] | None = None) -> None:
+        """Report each of the user's paths that is no folder, cannot be read or holds no interface package.
+
+        `spans` has the places of those that a file names.
+        """
         for path in self.paths:
             fault = _path_fault(path)
             if fault is not None:
-                diagnostics.error(f"the interface path '{path}' {fault[0]}", hint=fault[1])
+                span = spans.get(path) if spans else None
+                diagnostics.error(f"the interface path '{path}' {fault[0]}", span, fault[1])
 
     def searched(self) -> str:
         """Return where the search looks, in words, for a diagnostic."""

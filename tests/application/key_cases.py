@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from microros_gen.model.application import Application, LimitRule, ParameterDecl, TaskDecl, TimerDecl
+from microros_gen.model.application import Application, LimitRule, ParameterDecl, TimerDecl
 
 
 @dataclass(frozen=True)
@@ -48,10 +48,6 @@ def _timer(t: TimerDecl) -> tuple[Any, ...]:
 
 def _parameter(p: ParameterDecl) -> tuple[Any, ...]:
     return p.name, p.type, p.default
-
-
-def _task(t: TaskDecl) -> tuple[Any, ...]:
-    return t.name, t.period_us
 
 
 def _endpoint_cases(
@@ -197,14 +193,6 @@ _TOP = {
         "1:13",
         "'liveliness' must be ping, acknack or none; it is empty",
     ),
-    "logging": KeyCase(
-        "logging: rosout",
-        lambda a: a.logging.name,
-        "rosout",
-        "logging: ros",
-        "1:10",
-        "'logging' must be console,",
-    ),
     "clock": KeyCase(
         "clock: ros", lambda a: a.clock.name, "ros", "clock: sim", "1:8", "'clock' must be steady or ros"
     ),
@@ -320,6 +308,14 @@ _TOP = {
         "1:14",
         "'interfaces[0]' must be a package or a type such as std_msgs or std_msgs/msg/Int32; it is the text",
     ),
+    "interface_paths": KeyCase(
+        "interface_paths: [../msgs, own_msgs]",
+        lambda a: _names(a.interface_paths),
+        ["../msgs", "own_msgs"],
+        "interface_paths: [3]",
+        "1:19",
+        "'interface_paths[0]' must be the path of a folder; it is 3",
+    ),
     "pools": KeyCase(
         "pools: {}",
         lambda a: dict(a.pools),
@@ -350,7 +346,6 @@ _TOP = {
             "wait_sets": 0,
             "ros_clocks": 251,
             "jump_callbacks": 0,
-            "parameters": "'4'",
             "history": 17,
             "input_history": 0,
             "queue": 251,
@@ -446,14 +441,6 @@ _TOP = {
         "nodes: {name: a}",
         "1:8",
         "'nodes' must be a list; it is a mapping. Begin each item with '- ', or write [ … ]",
-    ),
-    "tasks": KeyCase(
-        "tasks: [{name: t, rate: 100 Hz}]",
-        lambda a: [_task(t) for t in a.tasks],
-        [("t", 10000)],
-        "tasks: t",
-        "1:8",
-        "'tasks' must be a list; it is the text 't'. Write it as a list: [t]",
     ),
 }
 
@@ -653,66 +640,38 @@ _NODES = {
     ),
 }
 
-_TASKS = {
-    "tasks[].name": KeyCase(
-        "tasks: [{name: control, period: 1 ms}]",
-        lambda a: a.tasks[0].name,
-        "control",
-        "tasks: [{name: control loop, period: 1 ms}]",
-        "1:16",
-        "'tasks[0].name' must be a name of lower-case letters",
-    ),
-    "tasks[].period": KeyCase(
-        "tasks: [{name: a, period: 1 ms}]",
-        lambda a: a.tasks[0].period_us,
-        1000,
-        "tasks: [{name: a, period: 1}]",
-        "1:27",
-        "'tasks[0].period' must be a time with its unit",
-    ),
-    "tasks[].rate": KeyCase(
-        "tasks: [{name: a, rate: 50}]",
-        lambda a: a.tasks[0].period_us,
-        20000,
-        "tasks: [{name: a, rate: 50 kHz}]",
-        "1:25",
-        "'tasks[0].rate' must be a rate such as 100 Hz; it is the text '50 kHz'",
-    ),
-    "tasks[].deadline": KeyCase(
-        "tasks: [{name: a, period: 1 s, deadline: 5 ms}]",
-        lambda a: a.tasks[0].deadline_us,
-        5000,
-        "tasks: [{name: a, period: 1 s, deadline: soon}]",
-        "1:42",
-        "'tasks[0].deadline' must be a time with its unit",
-    ),
-    "tasks[].wcet": KeyCase(
-        "tasks: [{name: a, period: 1 s, wcet: 200 us}]",
-        lambda a: a.tasks[0].wcet_us,
-        200,
-        "tasks: [{name: a, period: 1 s, wcet: 200}]",
-        "1:38",
-        "'tasks[0].wcet' must be a time with its unit",
-    ),
-    "tasks[].criticality": KeyCase(
-        "tasks: [{name: a, period: 1 s, criticality: high}]",
-        lambda a: a.tasks[0].criticality,
-        "high",
-        "tasks: [{name: a, period: 1 s, criticality: higher}]",
-        "1:45",
-        "'tasks[0].criticality' must be low, normal or high; it is the text 'higher'. Did you mean 'high'?",
-    ),
-    "tasks[].executor": KeyCase(
-        "nodes: [{name: n, executors: [{name: e}]}]\ntasks: [{name: a, period: 1 s, executor: e}]",
-        lambda a: a.tasks[0].executor,
-        "e",
-        "tasks: [{name: a, period: 1 s, executor: 3}]",
-        "1:42",
-        "'tasks[0].executor' must be a name",
-    ),
-}
+_EXECUTORS = {}
 
 RESERVED = {
+    "tasks": (
+        "tasks: [{name: t, rate: 100 Hz}]",
+        "1:1",
+        "the key 'tasks' is reserved for tasks of an operating system, which this version does not have",
+    ),
+    "logging": ("logging: console", "1:1", "the key 'logging' is reserved for log messages"),
+    "links": ("links: {}", "1:1", "the key 'links' is reserved for delivery from board to board"),
+    "agents": ("agents: [a]", "1:1", "the key 'agents' is reserved for more than one agent"),
+    "pools.parameters": ("pools: {parameters: 1}", "1:9", "the key 'parameters' is reserved for parameters"),
+    "target.network": (
+        "target: {name: m4, network: lwip}",
+        "1:20",
+        "the key 'network' is reserved for network",
+    ),
+    "nodes[].actions": (
+        "nodes: [{name: n, actions: []}]",
+        "1:19",
+        "the key 'actions' is reserved for actions",
+    ),
+    "nodes[].action_clients": (
+        "nodes: [{name: n, action_clients: []}]",
+        "1:19",
+        "the key 'action_clients' is reserved for actions",
+    ),
+    "nodes[].modes": (
+        "nodes: [{name: n, modes: {}}]",
+        "1:19",
+        "the key 'modes' is reserved for system modes",
+    ),
     "modes": (
         "modes: {}",
         "1:1",
@@ -728,7 +687,7 @@ RESERVED = {
 CASES: dict[str, KeyCase] = {
     **_TOP,
     **_NODES,
-    **_TASKS,
+    **_EXECUTORS,
     **_endpoint_cases("publishers", "publisher", "topic", "std_msgs/msg/String", "std_msgs/String"),
     **_endpoint_cases("subscriptions", "subscription", "topic", "std_msgs/msg/String", "std_msgs/srv/String"),
     **_endpoint_cases("services", "service", "name", "std_srvs/srv/SetBool", "std_srvs/SetBool"),

@@ -269,35 +269,28 @@ ERRORS: dict[str, tuple[str, str]] = {
         "on_full: block 61 s\n",
         "f:1:10: error: 'on_full: block 61 s' must block between 1 ms",
     ),
-    "task without a rate": (
-        "tasks: [{name: t}]\n",
-        "f:1:9: error: the task 't' has neither a period nor a rate. Give one: `period: 10 ms` "
-        "or `rate: 100 Hz`",
+    "a type as C++ writes it": (
+        "nodes: [{name: n, publishers: [{topic: t, type: 'std_msgs::msg::Int32'}]}]\n",
+        "f:1:49: error: 'nodes[0].publishers[0].type' must be a message type such as std_msgs/msg/Int32; it is "
+        "the text 'std_msgs::msg::Int32'. Write std_msgs/msg/Int32",
     ),
-    "task with both": (
-        "tasks: [{name: t, period: 1 s, rate: 1}]\n",
-        "f:1:9: error: the task 't' has both a period and a rate.",
+    "a QoS by its name": (
+        "nodes: [{name: n, publishers: [{topic: t, type: a/msg/B, qos: sensor_data}]}]\n",
+        "f:1:63: error: 'nodes[0].publishers[0].qos' must be a mapping of keys and values; it is the text "
+        "'sensor_data'. Write `qos: {reliability: best_effort, depth: 5}`",
     ),
-    "rate too high": (
-        "tasks: [{name: t, rate: 2000000}]\n",
-        "f:1:25: error: 'rate' must be between 0.000001 Hz and 1000000 Hz. Write a rate such as 100 Hz",
+    "no space after the colon": (
+        "nodes: [{name: n, publishers: [{topic:t, type: a/msg/B}]}]\n",
+        "f:1:33: error: 'nodes[0].publishers[0]' has no key 'topic:t'. Write `topic: t`, with a space after the colon",
     ),
-    "deadline behind the period": (
-        "tasks: [{name: t, period: 1 ms, deadline: 2 ms}]\n",
-        "f:1:9: error: the deadline of the task 't' is longer than its period. Set deadline: 1000 us or less",
+    "no space after the colon of the only key": (
+        "nodes:\n - name:n\n",
+        "f:2:4: error: 'nodes[0]' must be a mapping of keys and values; it is the text 'name:n'. Write `name: n`",
     ),
-    "run time above the deadline": (
-        "tasks: [{name: t, period: 1 ms, wcet: 2 ms}]\n",
-        "f:1:9: error: the task 't' runs for 2000 us and must be done after 1000 us.",
-    ),
-    "two tasks of one name": (
-        "tasks: [{name: t, rate: 1},\n  {name: t, rate: 1}]\n",
-        "f:2:3: error: there are two tasks 't'; the first is in line 1. Give each a name of its own",
-    ),
-    "task of no executor": (
-        "tasks: [{name: t, rate: 1, executor: e}]\n",
-        "f:1:38: error: the task 't' spins the executor 'e', which no node has. "
-        "Declare it below `executors` of a node",
+    "a star without quotes": (
+        "limits: {*: {string: 3}}\n",
+        "f:1:11: error: not valid YAML: a text that begins with '*' or '&' is an alias or an anchor to YAML. "
+        'Quote it, as in "*": {string: 32}',
     ),
     "limit of a field": (
         "limits: {a/msg/B: {c: {string: 0}}}\n",

@@ -77,7 +77,7 @@ IN_THE_FILE = {
     "a limit not set": (
         '"*": {string: 16, sequence: 4}',
         "std_msgs/msg/String: {data: 8}",
-        r"microros\.yaml:6:\d+: error: .*header\.frame_id.*limits.*\d+",
+        r"microros\.yaml:6:\d+: error: .*has no limit for header\.frame_id.*string: \d+",
     ),
     "a message larger than its stream": (
         "type: sensor_msgs/msg/Imu}",

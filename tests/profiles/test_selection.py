@@ -127,11 +127,14 @@ def test_axes_pick_their_components(resolve: Resolve) -> None:
     ]
 
 
-def test_rosout_is_a_publisher(resolve: Resolve) -> None:
-    outcome = resolve(text="profiles: [simulation_node]\nlogging: rosout\n")
+def test_rosout_is_a_publisher(resolve: Resolve, tmp_path: Path) -> None:
+    (tmp_path / "own.yaml").write_text(
+        "profile: own\nsummary: Mine\nextends: [simulation_node]\nlogging: rosout\n"
+    )
+    outcome = resolve("own", folder=tmp_path)
     assert {"logging", "logging_rosout", "publish"} <= set(outcome.names())
     write = next(x for x in outcome.selection.xrce_profiles if x.name == "write")
-    assert write.reasons == ("publish", "logging: rosout (microros.yaml:2)")
+    assert write.reasons == ("publish", "logging: rosout (profile own)")
 
 
 def test_a_simulation_node_has_a_ros_clock_and_says_why(resolve: Resolve) -> None:
@@ -191,13 +194,13 @@ ERRORS = {
     ),
     "declared and not selected": (
         "profiles: [pure_sender]\nnodes:\n  - name: a\n    timers: [{name: t, period: 1 s}]\n",
-        "microros.yaml:4:14: error: a timer needs the component 'timers', which nothing selects. "
-        "Add `components: [+timers]`, or a profile that has it",
+        "microros.yaml:4:14: error: a timer needs the component 'timers', which this version of microros-gen does not "
+        "have yet. Remove it",
     ),
-    "subscription of a pure sender": (
-        "profiles: [pure_sender]\nnodes:\n  - name: a\n    subscriptions: [{topic: t, type: a/msg/B}]\n",
-        "microros.yaml:4:21: error: a subscription needs the component 'subscribe', which nothing selects. "
-        "Add `components: [+subscribe]`, or a profile that has it",
+    "publisher of a profile without": (
+        "profiles: [simulation_node]\nnodes:\n  - name: a\n    publishers: [{topic: t, type: a/msg/B}]\n",
+        "microros.yaml:4:18: error: a publisher needs the component 'publish', which nothing selects. "
+        "Add `components: [+publish]`, or a profile that has it",
     ),
     "another value's component": (
         "profiles: [pure_sender]\nentities: preconfigured\ncomponents: [+entities_xml]\n",

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from microros_gen.parse.msg import parse_msg
 from microros_gen.plan.capacity import Capacities, Defaults, Entity, Origin, Root, plan_capacities
 from microros_gen.plan.types import plan_types
 from microros_gen.plan.types_size import WireSizes
+from microros_gen.plan.unset import SUGGESTED
 
 FILES = {
     "Leaf": "string text\nstring<=10 brief\nuint8[] raw\n",
@@ -204,21 +206,24 @@ def test_a_rule_for_an_unused_type_is_a_warning(messages: Mapping[TypeName, Mess
 def test_without_defaults_every_unset_field_is_named(messages: Mapping[TypeName, Message]) -> None:
     off = Defaults(None, None)
     found = errors(messages, rule("pkg/msg/Leaf", string=3, sequence=2), defaults=off)
-    assert [line.split("pkg/msg/Root.")[1].split(" ")[0] for line in found] == ["names", "names"]
-    assert "the sequence capacity of pkg/msg/Root.names is not set" in found[0]
-    assert "Add 'limits: {pkg/msg/Root: {names: {sequence: 16}}}'" in found[0]
+    (line,) = found
+    assert "pkg/msg/Root has no limit for names" in line
+    assert line.endswith('Add `"*": {string: 32, sequence: 8}` to `limits:`')
     capacities = plan(messages, rule("*", string=3, sequence=2), defaults=off)
     assert all(c.origin is not Origin.DEFAULT for c in capacities.decided)
 
 
-def test_the_suggested_number_fits_and_one_more_does_not(messages: Mapping[TypeName, Message]) -> None:
-    off = Defaults(None, None)
-    found = errors(messages, defaults=off, roots=(Root(ROOT, room=1000),))
-    number = int(found[0].split("; ")[1].split(" ")[0])
+@pytest.mark.parametrize("room", [400, 1000, 4000, 65000])
+def test_the_suggested_numbers_fit(messages: Mapping[TypeName, Message], room: int) -> None:
+    found = errors(messages, defaults=Defaults(None, None), roots=(Root(ROOT, room=room),))
+    string, sequence = (int(number) for number in re.findall(r": ([0-9]+)", found[0].split("Add ")[1]))
     sizes = WireSizes(messages)
-    for candidate, fits in ((number, True), (number + 1, False)):
-        capacities = plan(messages, rule("*", string=candidate, sequence=candidate))
-        assert (sizes.largest(ROOT, capacities.limits[ROOT]) <= 1000) == fits
+    capacities = plan(messages, rule("*", string=string, sequence=sequence))
+    assert sizes.largest(ROOT, capacities.limits[ROOT]) <= room
+    at = SUGGESTED.index((string, sequence))
+    for larger in SUGGESTED[:at]:
+        capacities = plan(messages, rule("*", string=larger[0], sequence=larger[1]))
+        assert sizes.largest(ROOT, capacities.limits[ROOT]) > room, "the largest pair that fits"
 
 
 def test_a_default_value_above_the_limit_is_refused(tmp_path: Path) -> None:

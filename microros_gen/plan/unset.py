@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Strings and sequences that nothing limits: what is said of them, and the lines that would set them all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from microros_gen.diagnostics import Diagnostic, Diagnostics, Span
+from microros_gen.model.application import LimitRule
+from microros_gen.model.types import TypeName
+
+SUGGESTED: tuple[tuple[int, int], ...] = ((32, 8), (32, 4), (16, 4), (16, 2), (8, 2), (8, 1), (4, 1))
+"""Characters and elements that are proposed: the first pair with which every message fits its stream."""
+
+_NAMED = 4
+
+
+@dataclass(frozen=True)
+class Unset:
+    """A member of a message without a limit; `kind` is `string` or `sequence`."""
+
+    path: tuple[str, ...]
+    kind: str
+
+
+@dataclass(frozen=True)
+class UnsetRoot:
+    """A declared type with its unset members. `size` returns the largest body under two numbers for all of them.
+
+    `room` is the largest body that its stream takes, bytes; None: it follows the message.
+    """
+
+    type: TypeName
+    span: Span | None
+    unset: tuple[Unset, ...]
+    room: int | None
+    size: Callable[[int, int], int]
+
+
+def report_unset(roots: Sequence[UnsetRoot], rules: Sequence[LimitRule], diagnostics: Diagnostics) -> None:
+    """Report each root with unset members at its place, and with the last one the lines that set all of them.
+
+    `rules` are what `limits:` of the application says already.
+    """
+    if not roots:
+        return
+    string, sequence = next((pair for pair in SUGGESTED if _fit(roots, pair)), SUGGESTED[-1])
+    kinds = {unset.kind for root in roots for unset in root.unset}
+    values = {kind: number for kind, number in (("string", string), ("sequence", sequence)) if kind in kinds}
+    hint = _hint(values, rules)
+    for index, root in enumerate(roots):
+        block = _block(roots, values, rules) if index == len(roots) - 1 else ()
+        diagnostics.add(Diagnostic(_message(root), root.span, hint, block=block))
+
+
+def _hint(values: Mapping[str, int], rules: Sequence[LimitRule]) -> str:
+    """Return the short form: one rule for everything."""
+    if any(rule.path == ("*",) for rule in rules):
+        return f'Add {" and ".join(f"`{kind}: {number}`" for kind, number in values.items())} to the rule for "*"'
+    star = f'"*": {_inner(values)}'
+    return f"Add `{star}` to `limits:`" if rules else f"Add `limits: {{{star}}}`"
+
+
+def _fit(roots: Iterable[UnsetRoot], pair: tuple[int, int]) -> bool:
+    return all(root.room is None or root.size(*pair) <= root.room for root in roots)
+
+
+def _message(root: UnsetRoot) -> str:
+    paths = list(dict.fromkeys(".".join(unset.path) for unset in root.unset))
+    shown = ", ".join(paths[:_NAMED]) + (f" and {len(paths) - _NAMED} more" if len(paths) > _NAMED else "")
+    return f"{root.type} has no limit for {shown}"
+
+
+def _block(
+    roots: Iterable[UnsetRoot], values: Mapping[str, int], rules: Sequence[LimitRule]
+) -> tuple[str, ...]:
+    """Return the lines that set each member by itself, to be changed one by one.
+
+    A type that has a line already gets one that says both.
+    """
+    lines = ["Or for each of them, below `limits:`" if rules else "Or for each of them:"]
+    lines += [] if rules else ["limits:"]
+    members: dict[TypeName, dict[str, object]] = {}
+    places: dict[TypeName, str] = {}
+    for root in roots:
+        if root.type not in members:
+            known = [rule for rule in rules if rule.path[0] == str(root.type)]
+            members[root.type] = _said(known)
+            places[root.type] = _instead(known)
+        for unset in root.unset:
+            _put(members[root.type], unset.path, unset.kind, values[unset.kind])
+    lines += [f"  {name}: {_inner(said)}{places[name]}" for name, said in members.items()]
+    return tuple(lines)
+
+
+def _instead(rules: Sequence[LimitRule]) -> str:
+    lines = sorted({rule.span.line for rule in rules if rule.span is not None})
+    return f"  # instead of line {lines[0]}" if lines else ""
+
+
+def _said(rules: Iterable[LimitRule]) -> dict[str, object]:
+    """Return what rules of one type say, as a tree of members."""
+    members: dict[str, object] = {}
+    for rule in rules:
+        for kind, number in (("string", rule.string), ("sequence", rule.sequence)):
+            if number is None:
+                continue
+            if len(rule.path) == 1:
+                members[kind] = number
+            else:
+                _put(members, rule.path[1:], kind, number)
+    return members
+
+
+def _put(members: dict[str, object], path: tuple[str, ...], kind: str, number: int) -> None:
+    """Write a number at `path`: alone where the member has one kind of limit, else by its kind."""
+    for name in path[:-1]:
+        below = members.setdefault(name, {})
+        if not isinstance(below, dict):  # how many elements, and now something in each of them
+            below = members[name] = {"sequence": below}
+        members = below
+    known = members.get(path[-1])
+    if known is None or known == number:
+        members[path[-1]] = number
+    elif isinstance(known, dict):
+        known[kind] = number
+    else:
+        other = "sequence" if kind == "string" else "string"
+        members[path[-1]] = {other: known, kind: number}
+
+
+def _inner(values: Mapping[str, object]) -> str:
+    parts = (f"{key}: {_inner(v) if isinstance(v, Mapping) else v}" for key, v in values.items())
+    return "{" + ", ".join(parts) + "}"
