@@ -43,8 +43,9 @@ class Transport:
 
     `type_span` None and `type` udp: the application does not say, so a profile's or the target's choice holds.
     `device` and `baud` are the serial line's; `framing` None: a custom transport chooses at run time.
-    `discover`: the agent is to be found by multicast to this port; None: `host` and `port` say where it is, or, where
-    `agent_span` is None too, the selection decides.
+    `send_buffer`: bytes that wait for a serial line; None: planned. `discover`: the agent is to be found by
+    multicast to this port; None: `host` and `port` say where it is, or, where `agent_span` is None too, the
+    selection decides.
     """
 
     type: str = "udp"
@@ -59,6 +60,7 @@ class Transport:
     baud: int = 115_200
     framing: bool | None = None
     discover: int | None = None
+    send_buffer: int | None = None
 
 
 @dataclass(frozen=True)

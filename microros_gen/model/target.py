@@ -12,6 +12,9 @@ PORTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
 )
 """The components of layer `port`, and the drivers of serial lines that each has."""
 
+OWN_DRIVER = "application"
+"""The driver of a serial line that the application provides: the functions of microros/port_uart.h."""
+
 REGISTERS: Mapping[str, tuple[str, ...]] = MappingProxyType({"port_riscv": ("mtime", "mtimecmp", "plic")})
 """Addresses that a port must know of a board besides those of its parts (RISC-V: ACLINT and PLIC)."""
 
@@ -31,7 +34,9 @@ class Region:
 class Uart:
     """A serial interface of a board: `driver` names a source file of the port, `irq` its receive interrupt.
 
-    `clock_hz` divides down to the baud rate; 0: that of the target. Pins are where they can be chosen; -1: none.
+    `tx_irq` is its transmit interrupt, the same where it has one for both. `driver` application: the program
+    drives it, and nothing else is known of it. `clock_hz` divides down to the baud rate; 0: that of the target.
+    Pins are where they can be chosen; -1: none.
     """
 
     driver: str
@@ -40,6 +45,12 @@ class Uart:
     clock_hz: int = 0
     tx_pin: int = -1
     rx_pin: int = -1
+    tx_irq: int = 0
+
+    @property
+    def interrupts(self) -> tuple[int, ...]:
+        """The numbers of its interrupts; those of an application's own driver are in `interrupts:`."""
+        return () if self.driver == OWN_DRIVER else tuple(sorted({self.irq, self.tx_irq}))
 
 
 @dataclass(frozen=True)

@@ -55,7 +55,7 @@ _POOLS_BESIDE_NODES = (
     "jump_callbacks",
 )
 _WITHOUT_ADDRESS = ("serial", "custom")
-_ONLY_FOR = {"device": "serial", "baud": "serial", "framing": "custom"}
+_ONLY_FOR = {"device": "serial", "baud": "serial", "send_buffer": "serial", "framing": "custom"}
 
 
 @reads
@@ -156,6 +156,7 @@ def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
         baud=int_of(child(node, "baud")) or Transport().baud,
         framing=bool_of(child(node, "framing")),
         discover=discover,
+        send_buffer=int_of(child(node, "send_buffer")),
     )
 
 

@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 from microros_gen.diagnostics import Diagnostics, Source, reads
-from microros_gen.model.target import PORTS, REGISTERS, Emulator, Region, Target, Uart, UniqueId
+from microros_gen.model.target import OWN_DRIVER, PORTS, REGISTERS, Emulator, Region, Target, Uart, UniqueId
 from microros_gen.parse.tree_values import bool_of, child, entries, int_of, items, size_of, text_of
 from microros_gen.parse.yaml_tree import Entry, MappingNode, SequenceNode, YamlNode, parse_yaml
 
 _REQUIRED = ("target", "summary", "port", "compilers", "archivers", "package")
 _ADDED = ("c_flags", "link_flags", "libraries")
 _ADDRESS_SPACE = 1 << 32
+# Where the transmit interrupt is when nobody says: CMSDK systems have it next to the one that receives.
+_TX_AFTER_RX = {"cmsdk": 1}
 
 
 @reads
@@ -90,7 +92,10 @@ def _uart(node: YamlNode | None) -> Uart | None:
     base, irq, clock_hz = (int_of(child(node, key)) or 0 for key in ("base", "irq", "clock_hz"))
     pins = [int_of(child(node, key)) for key in ("tx_pin", "rx_pin")]
     tx_pin, rx_pin = (-1 if pin is None else pin for pin in pins)
-    return Uart(text_of(child(node, "driver")) or "", base, irq, clock_hz, tx_pin, rx_pin)
+    driver, tx_irq = text_of(child(node, "driver")) or "", int_of(child(node, "tx_irq"))
+    if tx_irq is None:
+        tx_irq = irq + _TX_AFTER_RX.get(driver, 0)
+    return Uart(driver, base, irq, clock_hz, tx_pin, rx_pin, tx_irq)
 
 
 def _unique_id(node: YamlNode | None) -> UniqueId | None:
@@ -110,11 +115,7 @@ def _check(node: MappingNode, diagnostics: Diagnostics) -> None:
     """Report what the schema cannot say: what belongs together, and what the port does not have."""
     port = text_of(node.get("port")) or ""
     _check_memory(node, diagnostics)
-    driver = child(node.get("uart"), "driver")
-    if driver is not None and text_of(driver) not in PORTS.get(port, ()):
-        has = ", ".join(PORTS.get(port, ())) or "none"
-        hint = f"Its drivers are: {has}. Without `uart:` the application provides port_serial_*"
-        diagnostics.error(f"{port} has no driver '{text_of(driver)}'", driver.span, hint)
+    _check_uart(node, port, diagnostics)
     _check_interrupts(node, diagnostics)
     if node.get("flash") is None or bool_of(node.get("hosted")):
         return
@@ -122,6 +123,25 @@ def _check(node: MappingNode, diagnostics: Diagnostics) -> None:
         if child(node.get("registers"), name) is None:
             hint = f"Add `registers: {{{name}: 0x…}}`"
             diagnostics.error(f"{port} needs the address of {name}", node.span, hint)
+
+
+def _check_uart(node: MappingNode, port: str, diagnostics: Diagnostics) -> None:
+    uart, driver = node.get("uart"), child(node.get("uart"), "driver")
+    if driver is None:
+        return
+    if text_of(driver) == OWN_DRIVER:
+        for entry in entries(uart):
+            if entry.key != "driver":
+                message = f"'uart.{entry.key}' has no effect: the application drives the line"
+                diagnostics.error(message, entry.key_span, "Remove it; its handlers go into `interrupts:`")
+        return
+    for key in ("base", "irq"):
+        if child(uart, key) is None:
+            diagnostics.error(f"'uart' lacks the key '{key}'", (uart or node).span, f"Add `{key}: …`")
+    if text_of(driver) not in PORTS.get(port, ()):
+        has = ", ".join((*PORTS.get(port, ()), OWN_DRIVER))
+        hint = f"Its drivers are: {has}. Without `uart:` the application provides port_serial_*"
+        diagnostics.error(f"{port} has no driver '{text_of(driver)}'", driver.span, hint)
 
 
 def _check_memory(node: MappingNode, diagnostics: Diagnostics) -> None:
@@ -147,11 +167,12 @@ def _check_memory(node: MappingNode, diagnostics: Diagnostics) -> None:
 
 
 def _check_interrupts(node: MappingNode, diagnostics: Diagnostics) -> None:
-    irq = int_of(child(node.get("uart"), "irq"))
+    uart = _uart(node.get("uart"))
+    taken = uart.interrupts if uart else ()
     for entry in entries(node.get("interrupts")):
-        if irq is not None and int(entry.key) == irq:
+        if int(entry.key) in taken:
             hint = "Remove it here, or remove `uart:`"
-            diagnostics.error(f"interrupt {irq} is taken by 'uart'", entry.key_span, hint)
+            diagnostics.error(f"interrupt {entry.key} is taken by 'uart'", entry.key_span, hint)
 
 
 def _text(node: MappingNode, key: str) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.model.application import Application
-from microros_gen.model.target import Target, Uart
+from microros_gen.model.target import OWN_DRIVER, Target, Uart
 from microros_gen.plan.runtime import RuntimePlan
 
 DEFAULT_STACK = 2048
@@ -19,7 +19,15 @@ _LINE_USERS = ("serial", "custom")
 # OMG DDS-XRCE 1.0: a header of 4, a submessage of 4 and 5 (ACKNACK); and around it a frame, stuffed at the worst.
 _ACKNACK = 13
 _FRAME = 6
-_SERIAL_FUNCTIONS = ("port_serial_open", "port_serial_close", "port_serial_write", "port_serial_read")
+_SERIAL_FUNCTIONS = (
+    "port_serial_open",
+    "port_serial_close",
+    "port_serial_room",
+    "port_serial_write",
+    "port_serial_is_idle",
+    "port_serial_read",
+)
+_UART_FUNCTIONS = ("port_uart_start", "port_uart_stop", "port_uart_send")
 _LOCK_FUNCTIONS = ("port_lock", "port_unlock")
 _UDP_FUNCTIONS = ("port_udp_open", "port_udp_close", "port_udp_send", "port_udp_receive")
 
@@ -35,9 +43,11 @@ class BoardPlan:
 
     stack_size: int = 0
     ring_size: int = 0
+    output_size: int = 0
     ticks_per_ms: int = 0
     serial_driver: str = "none"
     uart_divisor: int = 0
+    tx_irq: int = 0
     tx_pin: int = 0
     rx_pin: int = 0
     has_fpu: bool = False
@@ -50,8 +60,13 @@ class BoardPlan:
 
     @property
     def has_serial_driver(self) -> bool:
-        """Whether this project drives the serial line of the board."""
+        """Whether this project has the serial line of the board, with a driver of its own or the application's."""
         return self.serial_driver != "none"
+
+    @property
+    def drives_itself(self) -> bool:
+        """Whether the application has the driver of the line."""
+        return self.serial_driver == OWN_DRIVER
 
 
 def plan_board(
@@ -61,19 +76,27 @@ def plan_board(
     if target.hosted:
         return BoardPlan()
     _check_unique_id(application, target, diagnostics)
-    driver = target.uart_driver if target.has_image and runtime.transport in _LINE_USERS else "none"
+    has_line = target.has_image or target.uart_driver == OWN_DRIVER
+    driver = target.uart_driver if has_line and runtime.transport in _LINE_USERS else "none"
     functions = _application_functions(runtime.transport, driver)
     functions += _LOCK_FUNCTIONS if runtime.multithread else ()
     if not target.has_image:
-        return BoardPlan(application_functions=functions)
-    uart = target.uart if driver != "none" else None
+        return BoardPlan(
+            ring_size=ring_size(runtime),
+            output_size=runtime.send_buffer,
+            serial_driver=driver,
+            application_functions=functions,
+        )
+    uart = target.uart if driver not in ("none", OWN_DRIVER) else None
     entry, first, section, handler, unused = _NAMES[target.port]
     return BoardPlan(
         stack_size=_stack_size(application, target, diagnostics),
         ring_size=ring_size(runtime),
+        output_size=runtime.send_buffer,
         ticks_per_ms=target.clock_hz // 1000,
         serial_driver=driver,
         uart_divisor=_divisor(uart, target, application, diagnostics) if uart else 0,
+        tx_irq=uart.tx_irq if uart else 0,
         tx_pin=uart.tx_pin & 0xFFFFFFFF if uart else 0,
         rx_pin=uart.rx_pin & 0xFFFFFFFF if uart else 0,
         has_fpu=any(flag in ("-mfloat-abi=hard", "-mfloat-abi=softfp") for flag in target.c_flags),
@@ -119,13 +142,15 @@ _NAMES = {
 def _vectors(target: Target, uart: Uart | None, handler: str, unused: str) -> tuple[str, ...]:
     named = dict(target.interrupts)
     if uart is not None:
-        named[uart.irq] = handler
+        named |= dict.fromkeys(uart.interrupts, handler)
     return tuple(named.get(number, unused) for number in range(max(named, default=0) + 1))
 
 
 def _application_functions(transport: str, driver: str) -> tuple[str, ...]:
     if transport == "serial" and driver == "none":
         return _SERIAL_FUNCTIONS
+    if driver == OWN_DRIVER:
+        return _UART_FUNCTIONS
     return _UDP_FUNCTIONS if transport == "udp" else ()
 
 

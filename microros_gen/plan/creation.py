@@ -52,6 +52,17 @@ def create_size(names: CreateNames, entities: str = "binary") -> int:
     return MESSAGE_HEADER + SUBMESSAGE_HEADER + _BEFORE_DESCRIPTION + longest + _OWNER
 
 
+def create_text(size: int, names: CreateNames, entities: str = "binary") -> int:
+    """Return how many bytes of the largest CREATE, which takes `size`, are surely text: names, and tags of XML.
+
+    Names of ROS and of references have neither `}` nor `~`, the two bytes that a serial line stuffs.
+    """
+    nothing = CreateNames(0, len("rt/"), 0, 0, len("/") if names.service else 0, 0)
+    if entities == "binary":
+        return max(size - create_size(nothing), 0)
+    return size - (MESSAGE_HEADER + SUBMESSAGE_HEADER + _BEFORE_DESCRIPTION + _OWNER + _NUL)
+
+
 def participant_reference(name: str, nodes: int) -> str:
     """Return the reference of a node's participant; `name` is what it carries, `nodes` how many the plan has.
 

@@ -15,7 +15,7 @@ from microros_gen.model.selection import Selection
 from microros_gen.model.target import Target
 from microros_gen.model.types import Message, TypeName
 from microros_gen.plan.board import BoardPlan, plan_board
-from microros_gen.plan.creation import CreateNames, create_size, participant_reference
+from microros_gen.plan.creation import CreateNames, create_size, create_text, participant_reference
 from microros_gen.plan.declared import named_at, pool, publisher_declarations, timed_qos, type_name
 from microros_gen.plan.names import dds_topic, dds_type, participant_name
 from microros_gen.plan.receiving import plan_receiving
@@ -111,7 +111,9 @@ def plan_project(
     queues = (*receiving.queues, *serving.queues)
     endpoints: list[PublisherPlan | SubscriptionPlan] = [*publishers, *receiving.subscriptions]
     names = (*roots, *(type_name(e.type) for e in application.implied))
-    create = _create_size(application, selection, nodes, tuple(endpoints), names, serving, services)
+    create, create_text = _create_size(
+        application, selection, nodes, tuple(endpoints), names, serving, services
+    )
     streams = plan_streams(
         application,
         selection.transport,
@@ -120,6 +122,7 @@ def plan_project(
         diagnostics,
         selection.has("stream_reliable_input"),
         (*receiving.received, *serving.received),
+        create_text,
     )
     receivers = receiving.subscriptions_max + serving.services_max + serving.clients_max
     receivers -= 1 if selection.has(CLOCK_ROS) else 0  # nobody adds the subscription of /clock to an executor
@@ -153,6 +156,7 @@ def plan_project(
         if selection.transport == "serial" and target.hosted
         else "",
         serial_baud=application.transport.baud,
+        send_buffer=streams.send_buffer,
         framing=_FRAMING[application.transport.framing],
         type_name_size=0 if nodes else _longest_type((*names, *services)) + 1,
         creation_size=streams.creation_size,
@@ -188,6 +192,8 @@ def plan_project(
     )
     _check_budget(application, streams, runtime.queues_size, diagnostics)
     board = plan_board(application, target, runtime, diagnostics)
+    own_line = runtime.transport == "serial" and not target.hosted and not board.has_serial_driver
+    runtime = replace(runtime, own_line=own_line)
     runtime = replace(runtime, plan_id=_plan_id(runtime, selection, types))
     return Project(name, application, selection, target, types, roots, streams, runtime, board, services)
 
@@ -261,10 +267,10 @@ def _create_size(
     roots: tuple[TypeName, ...],
     serving: Serving,
     services: tuple[TypeName, ...],
-) -> int:
-    """Return the size of the largest CREATE; 0: the client creates nothing."""
+) -> tuple[int, int]:
+    """Return the size of the largest CREATE and how much of it is text; 0: the client creates nothing."""
     if selection.entities == "preconfigured":
-        return 0
+        return 0, 0
     longest_type = _longest_type(roots)
     if not nodes:
         size = application.pools.get("name_size", DEFAULT_NAME_SIZE) - 1
@@ -282,7 +288,8 @@ def _create_size(
             max((len(s.name) for s in (*serving.services, *serving.clients)), default=0),
             max((len(s.dds_type) for s in (*serving.services, *serving.clients)), default=0),
         )
-    return create_size(names, selection.entities)
+    size = create_size(names, selection.entities)
+    return size, create_text(size, names, selection.entities)
 
 
 def _longest_type(roots: tuple[TypeName, ...]) -> int:

@@ -130,6 +130,7 @@ class RuntimePlan:
     `client_key` None: the port supplies it (`session.key: device`).
     `entities` is preconfigured, reference, xml or binary; `creation` the stream of CREATE (best_effort, reliable).
     `transport` is udp, tcp, serial or custom; `framing` of a custom one on, off or either (chosen at run time).
+    `send_buffer`: bytes that wait for a serial line; `own_line`: the application has its functions.
     `fragments`: some reliable message is larger than the MTU, `reliable_slot_size` holds it whole.
     `reliable_input_slots`: messages of the agent's reliable stream that the client holds at a time; 0: no such stream.
     `subscriptions_max`: places, at least one where they are selected; `services_max`, `clients_max`: 0 where `nodes:`
@@ -175,6 +176,8 @@ class RuntimePlan:
     transport: str = "udp"
     serial_device: str = ""
     serial_baud: int = 115_200
+    send_buffer: int = 2048
+    own_line: bool = False
     framing: str = "either"
     fragments: bool = False
     reliable_input_slots: int = 0
@@ -237,6 +240,11 @@ class RuntimePlan:
     def has_sockets(self) -> bool:
         """Whether the transport goes over a socket of the port."""
         return self.transport in ("udp", "tcp")
+
+    @property
+    def send_may_wait(self) -> bool:
+        """Whether sending is a function of the application, which may wait for its line."""
+        return self.transport == "custom" or self.own_line
 
     @property
     def discovers(self) -> bool:

@@ -24,6 +24,15 @@ DEFAULT_MTU = {"udp": 1472, "tcp": 1460, "serial": 512, "custom": 512}
 DEFAULT_HISTORY = 4
 LARGEST_MTU = 0xFFFF  # application.schema.json says it too
 DEFAULT_INPUT_HISTORY = 1
+# A frame around a message on a serial line: flag, addresses, length, CRC; all but the flag may be stuffed, and are
+# then twice as long (OMG DDS-XRCE 1.0, annex C). Of random bytes one in 128 is.
+_FRAME_FLAG = 1
+_FRAME_REST = 6
+_STUFFED_SHARE = 32  # a reserve four times that
+_LINES = ("serial", "custom")  # a custom transport may use the line of a board
+# The longest of what a session sends besides its streams: READ_DATA, CREATE_CLIENT; the latter with its property.
+_SESSION_MESSAGE = 24
+_SESSION_MESSAGE_HARD = 54
 # In front of a message that goes in fragments: FRAGMENT's header, beside that of the message.
 FRAGMENT_HEADER = 4
 # The length of a submessage has 16 bits (OMG DDS-XRCE 1.0, 8.3.4); the whole submessage is counted in as many here.
@@ -60,7 +69,9 @@ class StreamPlan:
     `mtu`: the largest message that is sent. `fragments`: some reliable message is larger, and goes in pieces.
     `creation_size`: of a request to create on the reliable stream. `reliable_input_slots`: messages of the agent's
     reliable stream that are held at a time; the one that is being handled is in the input buffer. `reassembly_size`:
-    the largest DATA, with its header, where some is larger than the input buffer; else 0.
+    the largest DATA, with its header, where some is larger than the input buffer; else 0. `send_buffer`: of a serial
+    line that sends by itself; it holds the longest frame, each of its bytes stuffed, or one message of each best-effort
+    writer.
     """
 
     mtu: int
@@ -72,6 +83,7 @@ class StreamPlan:
     fragments: bool = False
     reliable_input_slots: int = 0
     reassembly_size: int = 0
+    send_buffer: int = 0
 
     @property
     def ram(self) -> int:
@@ -89,14 +101,16 @@ def plan_streams(
     diagnostics: Diagnostics,
     reliable_input: bool = False,
     received: Iterable[Received] = (),
+    create_text: int = 0,
 ) -> StreamPlan:
     """Size the streams; a message that cannot fit its stream is an error with the number that would do.
 
-    `transport` is the selected one. `create` is the size of the largest CREATE (plan/creation.py), 0 where the client
-    creates nothing (entities: preconfigured). With `creation: reliable` it has storage of its own, and the reliable
-    stream is there for it. A reliable message above the MTU goes in fragments, a best-effort one and a CREATE cannot.
-    `reliable_input`: the agent's reliable stream is selected; a reliable DATA above the MTU comes in fragments.
-    `pools.slot_size` makes each buffer at least so large.
+    `transport` is the selected one. `create` is the size of the largest CREATE (plan/creation.py), 0 where the
+    client creates nothing (entities: preconfigured), and `create_text` how much of it a serial line never
+    stuffs. With `creation: reliable` it has storage of its own, and the reliable stream is there for it. A
+    reliable message above the MTU goes in fragments, a best-effort one and a CREATE cannot. `reliable_input`:
+    the agent's reliable stream is selected; a reliable DATA above the MTU comes in fragments. `pools.slot_size`
+    makes each buffer at least so large.
     """
     messages, samples = tuple(written), tuple(received)
     ceiling = application.transport.mtu or DEFAULT_MTU[transport]
@@ -135,7 +149,37 @@ def plan_streams(
         fragments=fragments,
         reliable_input_slots=_input_slots(application, reliable_input, diagnostics),
         reassembly_size=largest - MESSAGE_HEADER if largest > ceiling else 0,
+        send_buffer=_send_buffer(application, messages, ceiling, (create, create_text), diagnostics)
+        if transport in _LINES
+        else 0,
     )
+
+
+def _send_buffer(
+    application: Application,
+    messages: tuple[Written, ...],
+    ceiling: int,
+    create: tuple[int, int],
+    diagnostics: Diagnostics,
+) -> int:
+    """Return the bytes that a serial line needs for its output, of which one is never used."""
+    session = _SESSION_MESSAGE_HARD if application.hard_liveliness_ms else _SESSION_MESSAGE
+    largest = max(session, *(min(_datagram(message), ceiling) for message in messages))
+    frames = [_FRAME_FLAG + 2 * (size + _FRAME_REST) - text for size, text in ((largest, 0), create)]
+    least = max(frames) + 1
+    at_once = sum(_usual_frame(_datagram(message)) for message in messages if message.best_effort)
+    asked = application.transport.send_buffer
+    if asked is not None and asked < least:
+        diagnostics.error(
+            f"'transport.send_buffer' is {asked} and the longest frame on the line may take {least - 1} bytes",
+            application.spans.get("transport.send_buffer"),
+            f"Set send_buffer: {_align4(least)} or more, or lower transport.mtu or the limits of the largest message",
+        )
+    return _align4(asked or max(least, at_once + 1))
+
+
+def _usual_frame(size: int) -> int:
+    return _FRAME_FLAG + _FRAME_REST + size + size // _STUFFED_SHARE
 
 
 def _input_slots(application: Application, reliable_input: bool, diagnostics: Diagnostics) -> int:

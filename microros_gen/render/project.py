@@ -144,6 +144,11 @@ def without_folder(reason: str) -> str:
     return re.sub(r"\((?:[^()]*[/\\])?([^()/\\]+:\d+)\)", r"(\1)", reason)
 
 
+def _line(project: Project) -> int:
+    board = project.board
+    return board.ring_size + board.output_size if board.has_serial_driver else 0
+
+
 def _own_limits(project: Project, publisher: PublisherPlan) -> str:
     own = project.own_limits(publisher)
     return f", limits of its own: at most {own.max_encoded_size} bytes" if own else ""
@@ -193,6 +198,7 @@ def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectVi
             _Bytes("reliable output", runtime.reliable_slots * runtime.reliable_slot_size),
             _Bytes("best-effort output", runtime.best_effort_size),
             _Bytes("input", runtime.input_size),
+            *((_Bytes("serial line, both directions", _line(project)),) if _line(project) else ()),
             *((_Bytes("queues", runtime.queues_size),) if runtime.queues else ()),
             *((_Bytes("fragments that arrive", runtime.reassembly_size),) if runtime.reassembles else ()),
         ),

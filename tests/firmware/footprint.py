@@ -147,11 +147,11 @@ def image_sections(built: Built, image: Path) -> Sections:
 
 
 def buffers(built: Built) -> int:
-    """Return the bytes of all streams and of the ring that a line's interrupt fills."""
+    """Return the bytes of all streams and of the two rings of a serial line."""
     pools = json.loads((built.out / "manifest.json").read_text())["pools"]
     streams = pools["reliable_slots"] * pools["reliable_slot_size"] + pools["best_effort_size"]
-    sizes = dict(re.findall(r"^\S+ (\S+) \S (port_ring)$", _symbol_sizes(built), re.MULTILINE))
-    return int(streams + pools["input_size"] + sum(int(size, 16) for size in sizes))
+    sizes = re.findall(r"^\S+ (\S+) \S (port_ring|port_output)$", _symbol_sizes(built), re.MULTILINE)
+    return int(streams + pools["input_size"] + sum(int(size, 16) for size, _ in sizes))
 
 
 def _symbol_sizes(built: Built) -> str:

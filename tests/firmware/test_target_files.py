@@ -10,7 +10,7 @@ import yaml
 from jsonschema import Draft202012Validator
 
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.model.target import OPTIONAL_REGISTERS, PORTS, REGISTERS, Region
+from microros_gen.model.target import OPTIONAL_REGISTERS, OWN_DRIVER, PORTS, REGISTERS, Region
 from microros_gen.parse.schema import TARGET_SCHEMA, load_schema
 from microros_gen.sources.components import load_catalogue
 from microros_gen.sources.runtime import TARGETS
@@ -57,7 +57,7 @@ def test_ports_drivers_and_registers_are_the_same_everywhere() -> None:
         when = [dict(source.when) for source in catalogue[port].sources]
         assert {w["serial_driver"] for w in when if "serial_driver" in w} == set(drivers)
     known = SCHEMA["properties"]["uart"]["properties"]["driver"]["enum"]
-    assert set(known) == {driver for drivers in PORTS.values() for driver in drivers}
+    assert set(known) == {OWN_DRIVER} | {driver for drivers in PORTS.values() for driver in drivers}
     registers = {name for names in REGISTERS.values() for name in names} | set(OPTIONAL_REGISTERS)
     assert set(SCHEMA["properties"]["registers"]["properties"]) == registers
 
@@ -114,6 +114,14 @@ def test_extends_is_relative_to_the_file_that_says_it(tmp_path: Path) -> None:
         (
             BOARD + "uart: {driver: cmsdk, base: 0, irq: 3}\ninterrupts: {3: usart}\n",
             "7:14: error: interrupt 3 is taken by 'uart'",
+        ),
+        (
+            BOARD + "uart: {driver: cmsdk, base: 0, irq: 3}\ninterrupts: {4: usart}\n",
+            "7:14: error: interrupt 4 is taken by 'uart'",
+        ),
+        (
+            BOARD + "uart: {driver: application, irq: 3}\n",
+            "6:29: error: 'uart.irq' has no effect: the application drives the line",
         ),
         (
             BOARD + "interrupts: {480: a}\n",

@@ -32,6 +32,38 @@ def plan(
     return streams, [d.headline() for d in found]
 
 
+def test_a_serial_line_has_room_for_the_longest_frame_with_every_byte_stuffed_but_text() -> None:
+    """A frame is a flag and, twice at the worst, addresses, length, message and CRC; one byte of a ring stays free."""
+    streams, _ = plan(INT32, transport="serial", create=0)
+    assert streams.send_buffer == 1 + 2 * (24 + 6) + 1 + 2, "CREATE_CLIENT, and up to a multiple of four"
+    streams, _ = plan(large(400), transport="serial", create=92)
+    assert streams.send_buffer == 1 + 2 * (412 + 6) + 1 + 2
+    streams, _ = plan(large(60_000), transport="serial", create=92)
+    assert streams.send_buffer == 1 + 2 * (512 + 6) + 1 + 2, "of fragments, one"
+    found = Diagnostics()
+    text = plan_streams(Application(), "serial", (INT32,), 92, found, create_text=50)
+    assert text.send_buffer == 1 + 2 * (92 + 6) - 50 + 1
+    assert plan(INT32, transport="udp")[0].send_buffer == 0
+
+
+def test_a_serial_line_has_room_for_one_message_of_each_best_effort_writer() -> None:
+    streams, _ = plan(*[large(100, reliable=False)] * 5, transport="serial")
+    assert 5 * (112 + 7) < streams.send_buffer < 5 * (112 + 7 + 8)
+
+
+def test_a_send_buffer_is_what_the_application_says_if_the_longest_frame_fits() -> None:
+    def asked(size: int) -> tuple[StreamPlan, list[str]]:
+        application = Application(transport=Transport("serial", send_buffer=size))
+        return plan(large(100), application=application, transport="serial", create=0)
+
+    assert asked(238)[0].send_buffer == 240
+    assert asked(4000)[0].send_buffer == 4000
+    said = asked(200)[1]
+    assert len(said) == 1
+    assert "'transport.send_buffer' is 200 and the longest frame on the line may take 237 bytes" in said[0]
+    assert "Set send_buffer: 240" in said[0]
+
+
 def large(size: int, reliable: bool = True) -> Written:
     return Written("a/msg/B on /b", size, reliable, not reliable)
 

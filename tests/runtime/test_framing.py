@@ -48,8 +48,8 @@ class Framing:
             found.append(Event(None if line == "bad" else bytes.fromhex(line.removeprefix("got "))))
         return found
 
-    def send(self, message: bytes, room: int = 400_000) -> tuple[bool, bytes]:
-        self._say(f"room {room}")
+    def send(self, message: bytes, room: int = 400_000, kind: str = "room") -> tuple[bool, bytes]:
+        self._say(f"{kind} {room}")
         self._say(f"send {message.hex()}")
         word, _, line = self._line().partition(" ")
         return word == "sent", bytes.fromhex(line)
@@ -125,6 +125,10 @@ def test_sends_any_size(framing: Framing, size: int) -> None:
 def test_a_line_that_takes_not_all(framing: Framing, message: bytes, room: int) -> None:
     whole = frame(message, CLIENT, 0)
     sent, taken = framing.send(message, room)
+    stuffed = sum(byte in b"\x7d\x7e" for byte in message)
+    assert sent == (room >= 13 + len(message) + stuffed), "as if each byte around the message were stuffed"
+    assert taken == (whole if sent else b""), "a frame goes whole or not at all"
+    sent, taken = framing.send(message, room, "silent")
     assert sent == (room >= len(whole))
     assert taken == whole[:room]
 

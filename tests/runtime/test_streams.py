@@ -146,7 +146,7 @@ def test_a_transport_that_takes_nothing(bench: Bench) -> None:
     client.ok("publisher 1 0 Int32 sure reliable")
     client.tell("send_fails 1")
     result = client.call("publish 0 1")
-    assert (result.code, result.error) == (1, "publisher /chatter: the transport takes nothing")
+    assert (result.code, result.error) == (1, "publisher /chatter: the transport has no room for it")
     client.ok("publish 1 2")
     client.tell("send_fails 0")
     client.ok("flush 500")

@@ -23,6 +23,16 @@ void port_serial_close(port_serial_t * serial)
   serial->handle = 0;
 }
 
+size_t port_serial_room(port_serial_t * serial)
+{
+  return serial->handle != 0 ? SIZE_MAX : 0u;
+}
+
+bool port_serial_is_idle(port_serial_t * serial)
+{
+  return serial->handle == 0;
+}
+
 bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size)
 {
   (void)data;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Time, sleep, epoch and the ring of the serial line on the host, where their counters can be set before they wrap. */
+/* Time, sleep, epoch and the rings of the serial line on the host, where their counters can be set before they wrap. */
 #include "port_bare_time.c"
 
 #include "port_bare_epoch.c"
@@ -7,13 +7,12 @@
 #include "port_bare_sleep.c"
 
 #include <stdio.h>
+#include <string.h>
 
 static int failures;
 static uint32_t waits;
-static bool stuck;
 static uint32_t started;
-static uint8_t sent[64];
-static size_t sent_size;
+static uint32_t asked; /* calls of port_uart_send */
 
 #define EXPECT(condition) \
   do { \
@@ -39,12 +38,9 @@ void port_uart_stop(void)
   --started;
 }
 
-bool port_uart_put(uint8_t byte)
+void port_uart_send(void)
 {
-  if (!stuck) {
-    sent[sent_size++] = byte;
-  }
-  return !stuck;
+  ++asked;
 }
 
 static void sleeps_at_least_as_long_as_asked(void)
@@ -96,21 +92,81 @@ static void keeps_what_fits_and_counts_the_rest(void)
   EXPECT(taken[0] == 0u && taken[FITS - 1] == (uint8_t)(FITS - 1));
 }
 
-static void opens_at_its_own_speed_and_gives_up_on_a_line_that_stands_still(void)
+static void opens_at_its_own_speed(void)
 {
   port_serial_t serial;
-  const uint8_t text[3] = {1, 2, 3};
 
   EXPECT(!port_serial_open(&serial, "", PORT_BOARD_UART_BAUD + 1u));
   EXPECT(started == 0);
   EXPECT(port_serial_open(&serial, "", PORT_BOARD_UART_BAUD));
   EXPECT(started == 1);
-  EXPECT(port_serial_write(&serial, text, sizeof(text)));
-  EXPECT(sent_size == 3 && sent[2] == 3);
-  stuck = true;
-  EXPECT(!port_serial_write(&serial, text, sizeof(text)));
   port_serial_close(&serial);
   EXPECT(started == 0);
+}
+
+enum { OUTPUT_FITS = PORT_BOARD_OUTPUT_SIZE - 1 };
+
+/* Takes everything out: byte by byte as an interrupt, or in transfers as DMA, at most two around the end. */
+static size_t drain(uint8_t * out, bool by_transfers)
+{
+  size_t size = 0;
+
+  if (by_transfers) {
+    const volatile uint8_t * bytes;
+    uint32_t transfers = 0;
+
+    for (uint32_t count = port_uart_unsent(&bytes); count != 0u; count = port_uart_unsent(&bytes)) {
+      for (uint32_t i = 0; i < count; ++i) {
+        out[size++] = bytes[i];
+      }
+      EXPECT(port_serial_room(NULL) == OUTPUT_FITS - count || transfers == 0u);
+      port_uart_sent(count);
+      ++transfers;
+    }
+    EXPECT(transfers <= 2u);
+    return size;
+  }
+  while (port_uart_next(&out[size])) {
+    ++size;
+  }
+  return size;
+}
+
+static void takes_what_has_room_and_waits_for_nothing(void)
+{
+  uint8_t text[PORT_BOARD_OUTPUT_SIZE];
+  uint8_t out[PORT_BOARD_OUTPUT_SIZE];
+
+  for (uint32_t round = 0; round < 500u; ++round) { /* each begins at another place of the ring */
+    const uint32_t first = round % OUTPUT_FITS;
+
+    for (uint32_t i = 0; i < OUTPUT_FITS; ++i) {
+      text[i] = (uint8_t)(round + i);
+    }
+    EXPECT(port_serial_is_idle(NULL) && port_serial_room(NULL) == OUTPUT_FITS);
+    asked = 0;
+    waits = 0;
+    EXPECT(port_serial_write(NULL, text, first));
+    EXPECT(port_serial_room(NULL) == OUTPUT_FITS - first);
+    EXPECT(!port_serial_write(NULL, text, OUTPUT_FITS - first + 1u));
+    EXPECT(port_serial_write(NULL, &text[first], OUTPUT_FITS - first));
+    EXPECT(port_serial_room(NULL) == 0u && !port_serial_is_idle(NULL) && !port_serial_write(NULL, text, 1));
+    EXPECT(asked == 2u && waits == 0u);
+    EXPECT(drain(out, round % 2u == 0u) == OUTPUT_FITS && memcmp(out, text, OUTPUT_FITS) == 0);
+    (void)port_serial_write(NULL, text, 7);
+    EXPECT(drain(out, round % 2u != 0u) == 7u);
+  }
+}
+
+static void gives_up_what_was_not_sent_when_it_is_closed(void)
+{
+  port_serial_t serial;
+  uint8_t byte = 5;
+
+  EXPECT(port_serial_open(&serial, "", PORT_BOARD_UART_BAUD));
+  EXPECT(port_serial_write(&serial, &byte, 1));
+  port_serial_close(&serial);
+  EXPECT(port_serial_is_idle(&serial) && !port_uart_next(&byte));
 }
 
 int main(void)
@@ -118,6 +174,8 @@ int main(void)
   sleeps_at_least_as_long_as_asked();
   tells_the_epoch_over_a_wrap();
   keeps_what_fits_and_counts_the_rest();
-  opens_at_its_own_speed_and_gives_up_on_a_line_that_stands_still();
+  opens_at_its_own_speed();
+  takes_what_has_room_and_waits_for_nothing();
+  gives_up_what_was_not_sent_when_it_is_closed();
   return failures == 0 ? 0 : 1;
 }

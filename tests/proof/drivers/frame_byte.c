@@ -19,6 +19,12 @@ static int32_t reader_take_raw(xrce_framing_t * framing, uint8_t byte, uint8_t *
 static xrce_framing_t framing;
 static uint8_t buffer[CAPACITY];
 
+size_t xrce_line_room(struct xrce_transport_t * line)
+{
+  (void)line;
+  return SIZE_MAX;
+}
+
 bool xrce_line_write(struct xrce_transport_t * line, const uint8_t * data, size_t size)
 {
   (void)line;

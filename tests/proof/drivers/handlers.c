@@ -274,7 +274,8 @@ static void take(const case_t * is, size_t size)
     begin[3] = (uint8_t)Frama_C_interval(is->object[0], is->object[1]);
   }
   xrce_route_submessage(
-    &client, (uint8_t)Frama_C_interval(ID_FIRST, ID_LAST), proof_u8(), begin, size, proof_bool(), proof_u32());
+    &client, (uint8_t)Frama_C_interval(ID_FIRST, ID_LAST), proof_u8(), begin, size, proof_bool(),
+    proof_u32());
   check_client();
 }
 

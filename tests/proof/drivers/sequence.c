@@ -22,7 +22,8 @@ static void read(uint32_t position, uint32_t left, uint32_t capacity, bool swap)
 {
   cdr_fault_t fault;
   any_sequence_t sequence = {&room[sizeof(room) - (size_t)capacity * WIDTH], 0, capacity};
-  cdr_in_t in = {&buffer[POSITIONS + LAST - (position + left)], position + left, position, swap, false, &fault};
+  cdr_in_t in = {
+    &buffer[POSITIONS + LAST - (position + left)], position + left, position, swap, false, &fault};
 
   if (capacity == 0u) {
     sequence.data = NULL;

@@ -3,7 +3,8 @@
  * The framing over a line in memory, told by stdin what to do:
  *   open CAPACITY PIECE   a new reader; the line gives at most PIECE bytes a read
  *   feed HEX              these bytes arrive; prints `got HEX` and `bad` in their order, then `end`
- *   room N                the line takes N more bytes
+ *   room N                the line takes N more bytes, and says so
+ *   silent N              the same, and does not say it before
  *   send HEX              prints `sent HEX` or `failed HEX` with what the line took
  */
 #include "microros/xrce_framing.h"
@@ -22,11 +23,17 @@ struct xrce_transport_t {
   uint8_t out[LINE_SIZE];
   size_t out_size;
   size_t room;
+  bool tells;
 };
 
 static struct xrce_transport_t line;
 static uint8_t bytes[LINE_SIZE];
 static char text[2 * LINE_SIZE + 16];
+
+size_t xrce_line_room(struct xrce_transport_t * to)
+{
+  return to->tells ? to->room : SIZE_MAX;
+}
 
 bool xrce_line_write(struct xrce_transport_t * to, const uint8_t * data, size_t size)
 {
@@ -116,8 +123,9 @@ int main(void)
       buffer = malloc(capacity); /* exactly as large, so that the sanitizer sees one byte more */
       memset(&framing, 0, sizeof(framing));
       line.piece = piece;
-    } else if (sscanf(text, "room %lu", &number) == 1) {
+    } else if (sscanf(text, "room %lu", &number) == 1 || sscanf(text, "silent %lu", &number) == 1) {
       line.room = number;
+      line.tells = text[0] == 'r';
     } else if (strncmp(text, "feed ", 5) == 0 && buffer != NULL) {
       feed(&framing, buffer, capacity, from_hex(&text[5]));
     } else if (strncmp(text, "send ", 5) == 0) {

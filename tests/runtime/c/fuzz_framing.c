@@ -16,6 +16,11 @@ static struct xrce_transport_t line;
 
 int LLVMFuzzerTestOneInput(const uint8_t * data, size_t size);
 
+size_t xrce_line_room(struct xrce_transport_t * to)
+{
+  return sizeof(to->bytes) - to->size;
+}
+
 bool xrce_line_write(struct xrce_transport_t * to, const uint8_t * data, size_t size)
 {
   memcpy(&to->bytes[to->size], data, size);

@@ -53,7 +53,9 @@ static void test_wrap(void)
   }
   acknack(0xffff, 0x0003); /* ffff and 0000 are missing */
   CHECK(stream.count == 3u && stream.first == 0xffffu);
-  CHECK(session.statistics.resent == 2u);
+  CHECK(session.statistics.resent == 2u && session.statistics.sent == 4u);
+  xrce_stream_reliable_step(&stream, &session, true, 0);
+  CHECK(session.statistics.sent == 6u);
   acknack(1, 0);
   CHECK(stream.count == 1u && stream.first == 1u);
   acknack(2, 0);
@@ -84,7 +86,9 @@ static void test_old_and_wrong_acknacks(void)
   CHECK(stream.count == 2u && stream.first == 10u && session.statistics.resent == 0u);
   acknack(10, 0xffff); /* bits beyond the last */
   CHECK(session.statistics.resent == 2u && stream.count == 2u);
+  xrce_stream_reliable_step(&stream, &session, true, 0);
   acknack(8, 0x0004); /* 8 + 2 is the first of ours */
+  acknack(8, 0x0004); /* and it is on its way already */
   CHECK(session.statistics.resent == 3u);
 }
 

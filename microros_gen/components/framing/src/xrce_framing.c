@@ -10,13 +10,15 @@ enum { ADDRESS_CLIENT = 0x01, ADDRESS_AGENT = 0x00 };
 /* Bytes before and after the payload, the flag left out. */
 enum { FRAME_ADDRESSES = 2, FRAME_HEADER = 4, FRAME_CRC = 2 };
 
+/* Bytes around the payload, with the flag, where each of the others is stuffed. */
+enum { FRAME_AROUND = 1 + 2 * (FRAME_HEADER + FRAME_CRC) };
+
 /* One call takes no more chunks than this: who floods us must not stop us. */
 enum { CHUNKS_PER_CALL = 64 };
 
 /* A frame on its way out, a chunk at a time. */
 typedef struct frame_writer_t {
   struct xrce_transport_t * line;
-  uint16_t crc;
   bool fine;
   uint8_t held;
   uint8_t chunk[XRCE_FRAMING_CHUNK];
@@ -37,50 +39,71 @@ static uint16_t crc_add(uint16_t crc, uint8_t byte)
   return (uint16_t)(((uint32_t)crc >> 8) ^ (low << 6) ^ (low << 7) ^ ((parity & 1u) != 0u ? 0xc001u : 0u));
 }
 
+static bool frame_stuffs(uint8_t byte)
+{
+  return byte == FLAG || byte == ESCAPE;
+}
+
+/* Makes `crc` that of the bytes; returns how many they are on the line, stuffed. */
+static size_t frame_measure(const uint8_t * bytes, size_t size, uint16_t * crc)
+{
+  uint16_t sum = 0;
+  size_t stuffed = size;
+
+  for (size_t i = 0; i < size; ++i) {
+    sum = crc_add(sum, bytes[i]);
+    stuffed += frame_stuffs(bytes[i]) ? 1u : 0u;
+  }
+  *crc = sum;
+  return stuffed;
+}
+
 static void writer_flush(frame_writer_t * writer)
 {
   writer->fine = writer->fine && xrce_line_write(writer->line, writer->chunk, writer->held);
   writer->held = 0;
 }
 
-/* Puts bytes, stuffed, and makes their CRC the writer's. */
+/* Puts bytes, stuffed. */
 static void writer_put(frame_writer_t * writer, const uint8_t * bytes, size_t size)
 {
-  uint16_t crc = 0;
-
   for (size_t i = 0; i < size && writer->fine; ++i) {
     uint8_t byte = bytes[i];
 
-    crc = crc_add(crc, byte);
     if (writer->held > XRCE_FRAMING_CHUNK - 2) { /* no room for a pair */
       writer_flush(writer);
     }
-    if (byte == FLAG || byte == ESCAPE) {
+    if (frame_stuffs(byte)) {
       writer->chunk[writer->held++] = ESCAPE;
       byte ^= FLIP;
     }
     writer->chunk[writer->held++] = byte;
   }
-  writer->crc = crc;
 }
 
+/* The line gets a frame whole or not at all: so its room is asked for first. */
 bool xrce_framing_send(struct xrce_transport_t * line, const uint8_t * message, size_t size)
 {
   uint8_t header[FRAME_HEADER] = {ADDRESS_CLIENT, ADDRESS_AGENT, 0, 0};
+  uint8_t trailer[FRAME_CRC];
+  uint16_t crc;
   frame_writer_t writer;
 
   if (size > UINT16_MAX) {
     return false;
   }
+  if (FRAME_AROUND + frame_measure(message, size, &crc) > xrce_line_room(line)) {
+    return false;
+  }
   xrce_put_le16(&header[2], (uint16_t)size);
+  xrce_put_le16(trailer, crc);
   writer.line = line;
   writer.fine = true;
   writer.chunk[0] = FLAG;
   writer.held = 1;
   writer_put(&writer, header, sizeof(header));
   writer_put(&writer, message, size);
-  xrce_put_le16(header, writer.crc);
-  writer_put(&writer, header, FRAME_CRC);
+  writer_put(&writer, trailer, sizeof(trailer));
   writer_flush(&writer);
   return writer.fine;
 }

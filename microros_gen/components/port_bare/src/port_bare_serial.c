@@ -14,6 +14,19 @@ static struct {
   volatile uint8_t bytes[PORT_BOARD_RING_SIZE];
 } port_ring;
 
+/* The same the other way: the task alone writes `put`, the interrupt alone `sent`. Upwards, as a DMA controller reads. */
+static struct {
+  volatile uint32_t put;
+  volatile uint32_t sent;
+  volatile uint8_t bytes[PORT_BOARD_OUTPUT_SIZE];
+} port_output;
+
+/* Returns the place `count` bytes further, which is not beyond the end. */
+static uint32_t output_after(uint32_t at, uint32_t count)
+{
+  return at + count == PORT_BOARD_OUTPUT_SIZE ? 0u : at + count;
+}
+
 /* Downwards: it is shorter to see that 0 is reached. */
 static uint32_t ring_next(uint32_t at)
 {
@@ -59,23 +72,69 @@ bool port_serial_open(port_serial_t * serial, const char * device, uint32_t baud
   return true;
 }
 
+/* What was not sent is given up: whoever opens the line again begins a new session. */
 void port_serial_close(port_serial_t * serial)
 {
   serial->handle = 0;
   port_uart_stop();
+  port_output.sent = port_output.put;
 }
 
-/* Waits for the pace of the line, ten bits a byte: 512 bytes at 115200 baud take 44 ms. A line that stands still costs
- * PORT_UART_BYTE_TIMEOUT_MS. */
-bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size)
+size_t port_serial_room(port_serial_t * serial)
 {
-  bool taken = true;
+  const uint32_t put = port_output.put;
+  const uint32_t sent = port_output.sent;
 
   (void)serial;
-  for (size_t i = 0; i < size && taken; ++i) {
-    taken = port_uart_put(data[i]);
+  return (sent > put ? sent : sent + PORT_BOARD_OUTPUT_SIZE) - put - 1u;
+}
+
+bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size)
+{
+  uint32_t put = port_output.put;
+
+  if (size > port_serial_room(serial)) {
+    return false;
   }
-  return taken;
+  for (size_t i = 0; i < size; ++i) {
+    port_output.bytes[put] = data[i]; /* nobody sends it before `put` has gone on */
+    put = output_after(put, 1);
+  }
+  port_output.put = put;
+  port_uart_send();
+  return true;
+}
+
+bool port_serial_is_idle(port_serial_t * serial)
+{
+  (void)serial;
+  return port_output.sent == port_output.put;
+}
+
+bool port_uart_next(uint8_t * byte)
+{
+  const uint32_t sent = port_output.sent;
+
+  if (sent == port_output.put) {
+    return false;
+  }
+  *byte = port_output.bytes[sent];
+  port_output.sent = output_after(sent, 1);
+  return true;
+}
+
+uint32_t port_uart_unsent(const volatile uint8_t ** bytes)
+{
+  const uint32_t put = port_output.put;
+  const uint32_t sent = port_output.sent;
+
+  *bytes = &port_output.bytes[sent];
+  return (put < sent ? PORT_BOARD_OUTPUT_SIZE : put) - sent;
+}
+
+void port_uart_sent(uint32_t count)
+{
+  port_output.sent = output_after(port_output.sent, count);
 }
 
 size_t port_serial_read(port_serial_t * serial, uint8_t * buffer, size_t capacity)

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The UART of Arm's Cortex-M System Design Kit (DDI 0479, "APB UART"). It holds one byte of input; each that comes
- * asks for an interrupt. */
-#include "microros/port.h"
+/* The UART of Arm's Cortex-M System Design Kit (DDI 0479, "APB UART"). It holds one byte of input and one of
+ * output; each that comes and each that goes asks for an interrupt, on two numbers with one handler. */
 #include "microros/port_board.h"
 #include "microros/port_cortex_m.h"
 #include "microros/port_uart.h"
@@ -16,18 +15,23 @@ static const uint32_t state_tx_full = 1u << 0;
 static const uint32_t state_rx_full = 1u << 1;
 static const uint32_t state_rx_overrun = 1u << 3;
 static const uint32_t control_on =
-  0x2bu; /* transmitter, receiver, interrupts of receiving and of its overrun */
-static const uint32_t clear_receive = 0x0au;
+  0x2fu; /* transmitter, receiver, interrupts of both and of an overrun in receiving */
+static const uint32_t clear_all = 0x0bu; /* of these three */
 
 void port_cortex_m_uart_interrupt(void)
 {
-  PORT_CORTEX_M_REGISTER(UART_INTCLEAR) = clear_receive;
+  uint8_t byte;
+
+  PORT_CORTEX_M_REGISTER(UART_INTCLEAR) = clear_all;
   if ((PORT_CORTEX_M_REGISTER(UART_STATE) & state_rx_overrun) != 0u) {
     PORT_CORTEX_M_REGISTER(UART_STATE) = state_rx_overrun;
     port_uart_lost();
   }
   if ((PORT_CORTEX_M_REGISTER(UART_STATE) & state_rx_full) != 0u) {
     port_uart_received((uint8_t)(PORT_CORTEX_M_REGISTER(UART_DATA) & 0xffu));
+  }
+  if ((PORT_CORTEX_M_REGISTER(UART_STATE) & state_tx_full) == 0u && port_uart_next(&byte)) {
+    PORT_CORTEX_M_REGISTER(UART_DATA) = byte;
   }
 }
 
@@ -36,6 +40,7 @@ void port_uart_start(void)
   PORT_CORTEX_M_REGISTER(UART_BAUDDIV) = PORT_BOARD_UART_DIVISOR;
   PORT_CORTEX_M_REGISTER(UART_CTRL) = control_on;
   port_cortex_m_interrupt_enable(PORT_BOARD_UART_IRQ);
+  port_cortex_m_interrupt_enable(PORT_BOARD_UART_TX_IRQ);
 }
 
 void port_uart_stop(void)
@@ -43,15 +48,8 @@ void port_uart_stop(void)
   PORT_CORTEX_M_REGISTER(UART_CTRL) = 0;
 }
 
-bool port_uart_put(uint8_t byte)
+/* Nothing but the interrupt touches the data register. */
+void port_uart_send(void)
 {
-  const uint32_t start = port_time_ms();
-
-  while ((PORT_CORTEX_M_REGISTER(UART_STATE) & state_tx_full) != 0u) {
-    if (port_time_ms() - start > PORT_UART_BYTE_TIMEOUT_MS) {
-      return false;
-    }
-  }
-  PORT_CORTEX_M_REGISTER(UART_DATA) = byte;
-  return true;
+  port_cortex_m_interrupt_pend(PORT_BOARD_UART_TX_IRQ);
 }

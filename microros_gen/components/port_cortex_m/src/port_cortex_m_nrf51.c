@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The UART of Nordic's nRF51 (Reference Manual, "UART"). It holds six bytes of input, and asks for an interrupt anew
  * as long as there is one. */
-#include "microros/port.h"
 #include "microros/port_board.h"
 #include "microros/port_cortex_m.h"
 #include "microros/port_uart.h"
@@ -20,8 +19,24 @@
 #define UART_BAUD (PORT_BOARD_UART + 0x524u)
 
 static const uint32_t enabled = 4;
-static const uint32_t interrupt_rx_ready = 1u << 2;
+static const uint32_t interrupts = 1u << 2 | 1u << 7; /* a byte has come, a byte has gone */
 static const uint32_t error_overrun = 1u << 0;
+
+static bool nrf51_sends; /* of the interrupt, and of port_uart_start: a byte is on its way out */
+
+static void nrf51_go_on(void)
+{
+  uint8_t byte;
+
+  if (PORT_CORTEX_M_REGISTER(UART_TX_READY) != 0u) {
+    PORT_CORTEX_M_REGISTER(UART_TX_READY) = 0;
+    nrf51_sends = false;
+  }
+  if (!nrf51_sends && port_uart_next(&byte)) {
+    nrf51_sends = true;
+    PORT_CORTEX_M_REGISTER(UART_TX_DATA) = byte;
+  }
+}
 
 void port_cortex_m_uart_interrupt(void)
 {
@@ -37,6 +52,7 @@ void port_cortex_m_uart_interrupt(void)
     PORT_CORTEX_M_REGISTER(UART_RX_READY) = 0;
     port_uart_received((uint8_t)(PORT_CORTEX_M_REGISTER(UART_RX_DATA) & 0xffu));
   }
+  nrf51_go_on();
 }
 
 void port_uart_start(void)
@@ -45,7 +61,9 @@ void port_uart_start(void)
   PORT_CORTEX_M_REGISTER(UART_RX_PIN) = PORT_BOARD_UART_RX_PIN;
   PORT_CORTEX_M_REGISTER(UART_BAUD) = PORT_BOARD_UART_DIVISOR;
   PORT_CORTEX_M_REGISTER(UART_ENABLE) = enabled;
-  PORT_CORTEX_M_REGISTER(UART_INTERRUPTS) = interrupt_rx_ready;
+  PORT_CORTEX_M_REGISTER(UART_TX_READY) = 0;
+  nrf51_sends = false;
+  PORT_CORTEX_M_REGISTER(UART_INTERRUPTS) = interrupts;
   PORT_CORTEX_M_REGISTER(UART_START_TX) = 1;
   PORT_CORTEX_M_REGISTER(UART_START_RX) = 1;
   port_cortex_m_interrupt_enable(PORT_BOARD_UART_IRQ);
@@ -56,16 +74,8 @@ void port_uart_stop(void)
   PORT_CORTEX_M_REGISTER(UART_ENABLE) = 0;
 }
 
-bool port_uart_put(uint8_t byte)
+/* Nothing but the interrupt touches the transmitter. */
+void port_uart_send(void)
 {
-  const uint32_t start = port_time_ms();
-
-  PORT_CORTEX_M_REGISTER(UART_TX_READY) = 0;
-  PORT_CORTEX_M_REGISTER(UART_TX_DATA) = byte;
-  while (PORT_CORTEX_M_REGISTER(UART_TX_READY) == 0u) {
-    if (port_time_ms() - start > PORT_UART_BYTE_TIMEOUT_MS) {
-      return false;
-    }
-  }
-  return true;
+  port_cortex_m_interrupt_pend(PORT_BOARD_UART_IRQ);
 }

@@ -1,16 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #define _POSIX_C_SOURCE 200809L
 #include "microros/port.h"
+#include "microros/port_posix_serial.h"
+#include "microros_config.h"
 
-#include <errno.h>
 #include <fcntl.h>
-#include <poll.h>
+#include <string.h>
 #include <sys/types.h>
 #include <termios.h>
 #include <unistd.h>
 
-/* A line that takes nothing for so long is given up. */
-enum { WRITE_PATIENCE_MS = 100 };
+/* What the system had no room for: it follows with later calls. There is one line. */
+static struct {
+  size_t size;
+  uint8_t bytes[MICROROS_SEND_BUFFER];
+} serial_rest;
 
 typedef struct serial_speed_t {
   uint32_t baud;
@@ -71,6 +75,7 @@ bool port_serial_open(port_serial_t * serial, const char * device, uint32_t baud
     (void)close(handle);
     handle = -1;
   }
+  serial_rest.size = 0;
   serial->handle = handle;
   return handle >= 0;
 }
@@ -81,33 +86,61 @@ void port_serial_close(port_serial_t * serial)
   serial->handle = -1;
 }
 
-static bool serial_wait_for_room(int handle)
+/* Hands over what the system has room for, and returns how much that is. */
+static size_t serial_hand_over(int handle, const uint8_t * data, size_t size)
 {
-  struct pollfd line = {handle, POLLOUT, 0};
+  const ssize_t taken = size != 0u ? write(handle, data, size) : 0;
 
-  return poll(&line, 1, WRITE_PATIENCE_MS) == 1 && line.revents == POLLOUT;
+  return taken > 0 ? (size_t)taken : 0u; /* no room, or nobody at the other end: the session finds that out */
+}
+
+static void serial_flush(int handle)
+{
+  const size_t taken = serial_hand_over(handle, serial_rest.bytes, serial_rest.size);
+
+  if (taken != 0u) {
+    serial_rest.size -= taken;
+    (void)memmove(serial_rest.bytes, &serial_rest.bytes[taken], serial_rest.size);
+  }
+}
+
+bool port_posix_serial_waits(void)
+{
+  return serial_rest.size != 0u;
+}
+
+size_t port_serial_room(port_serial_t * serial)
+{
+  serial_flush((int)serial->handle);
+  return sizeof(serial_rest.bytes) - serial_rest.size;
 }
 
 bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size)
 {
-  const int handle = (int)serial->handle;
+  size_t taken = 0;
 
-  while (size != 0u) {
-    const ssize_t taken = write(handle, data, size);
-
-    if (taken > 0) {
-      data += taken;
-      size -= (size_t)taken;
-    } else if ((taken < 0 && errno != EAGAIN && errno != EINTR) || !serial_wait_for_room(handle)) {
-      return false;
-    }
+  if (size > port_serial_room(serial)) {
+    return false;
   }
+  if (serial_rest.size == 0u) {
+    taken = serial_hand_over((int)serial->handle, data, size);
+  }
+  (void)memcpy(&serial_rest.bytes[serial_rest.size], &data[taken], size - taken);
+  serial_rest.size += size - taken;
   return true;
+}
+
+bool port_serial_is_idle(port_serial_t * serial)
+{
+  serial_flush((int)serial->handle);
+  return serial_rest.size == 0u;
 }
 
 size_t port_serial_read(port_serial_t * serial, uint8_t * buffer, size_t capacity)
 {
-  const ssize_t size = read((int)serial->handle, buffer, capacity);
+  ssize_t size;
 
+  serial_flush((int)serial->handle);
+  size = read((int)serial->handle, buffer, capacity);
   return size > 0 ? (size_t)size : 0u; /* nothing there, or nobody at the other end */
 }

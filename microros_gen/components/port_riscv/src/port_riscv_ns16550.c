@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The UART 16550 with registers of one byte side by side (PC16550D data sheet). It holds 16 bytes of input,
- * and asks for an interrupt as long as there is one. */
-#include "microros/port.h"
+/* The UART 16550 with registers of one byte side by side (PC16550D data sheet). It holds 16 bytes of input
+ * and 16 of output, and asks for an interrupt as long as there is one of the first or, if it is let, room for all of the second. */
 #include "microros/port_board.h"
 #include "microros/port_riscv.h"
 #include "microros/port_uart.h"
@@ -17,10 +16,28 @@
 static const uint8_t line_8n1 = 0x03;
 static const uint8_t line_divisor = 0x83;
 static const uint8_t fifo_on = 0x07; /* cleared, an interrupt for each byte */
+enum { FIFO_SIZE = 16 };
+
 static const uint8_t interrupt_received = 0x01;
+static const uint8_t interrupt_both = 0x03; /* received, room */
 static const uint8_t state_ready = 0x01;
 static const uint8_t state_overrun = 0x02;
-static const uint8_t state_room = 0x20;
+static const uint8_t state_room = 0x20; /* nothing is left of what was to be sent */
+
+/* Fills the empty FIFO; with nothing to send the room is of no interest. */
+static void ns16550_go_on(void)
+{
+  uint8_t byte;
+  uint8_t count = 0;
+
+  while (count < FIFO_SIZE && port_uart_next(&byte)) {
+    PORT_RISCV_REGISTER_8(UART_DATA) = byte;
+    ++count;
+  }
+  if (count == 0u) {
+    PORT_RISCV_REGISTER_8(UART_INTERRUPTS) = interrupt_received;
+  }
+}
 
 void port_riscv_uart_interrupt(void)
 {
@@ -31,6 +48,9 @@ void port_riscv_uart_interrupt(void)
   }
   if ((state & state_ready) != 0u) {
     port_uart_received(PORT_RISCV_REGISTER_8(UART_DATA));
+  }
+  if ((state & state_room) != 0u) {
+    ns16550_go_on();
   }
 }
 
@@ -50,15 +70,8 @@ void port_uart_stop(void)
   PORT_RISCV_REGISTER_8(UART_INTERRUPTS) = 0;
 }
 
-bool port_uart_put(uint8_t byte)
+/* With room there, the interrupt comes at once. */
+void port_uart_send(void)
 {
-  const uint32_t start = port_time_ms();
-
-  while ((PORT_RISCV_REGISTER_8(UART_STATE) & state_room) == 0u) {
-    if (port_time_ms() - start > PORT_UART_BYTE_TIMEOUT_MS) {
-      return false;
-    }
-  }
-  PORT_RISCV_REGISTER_8(UART_DATA) = byte;
-  return true;
+  PORT_RISCV_REGISTER_8(UART_INTERRUPTS) = interrupt_both;
 }

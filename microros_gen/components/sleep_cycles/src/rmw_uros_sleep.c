@@ -38,7 +38,7 @@ static bool sleep_await(xrce_client_t * client, uint32_t timeout_ms)
 
   for (;;) {
     xrce_session_pump(client);
-    if (xrce_sleep_can_begin(client)) {
+    if (xrce_sleep_can_begin(client) && xrce_session_is_sent(&client->session)) {
       return true;
     }
     if (port_time_ms() - start >= timeout_ms) {

@@ -56,44 +56,55 @@ uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream)
   return &stream->message[stream_slot(stream, stream->count)][MICROROS_RELIABLE_FRONT];
 }
 
-/* Sends `size` bytes behind the room for a piece's header. A piece that the transport does not take is one that was
- * lost on the way: the agent asks for it. */
-static void stream_send_piece(
+/* What became of a number that was to be sent. */
+typedef enum stream_outcome_t { STREAM_SENT, STREAM_REFUSED, STREAM_NOTHING } stream_outcome_t;
+
+static stream_outcome_t stream_transmit(xrce_session_t * session, const uint8_t * message, size_t size)
+{
+  return xrce_transport_take_turn(&session->transport) && xrce_session_send(session, message, size)
+           ? STREAM_SENT
+           : STREAM_REFUSED;
+}
+
+/* Sends `size` bytes behind the room for a piece's header. */
+static stream_outcome_t stream_send_piece(
   xrce_session_t * session, uint8_t * piece, uint16_t sequence, uint16_t size, bool last)
 {
   const uint8_t flags = last ? XRCE_FLAG_LITTLE_ENDIAN | XRCE_FLAG_LAST_FRAGMENT : XRCE_FLAG_LITTLE_ENDIAN;
 
   xrce_put_header(piece, XRCE_SESSION_ID, XRCE_STREAM_RELIABLE, sequence);
   xrce_put_submessage(&piece[XRCE_MESSAGE_HEADER], XRCE_FRAGMENT, flags, size);
-  (void)xrce_session_send(session, piece, PIECE_HEADER + (size_t)size);
+  return stream_transmit(session, piece, PIECE_HEADER + (size_t)size);
 }
 
 /* Sends a piece of the i-th kept message, or the whole where that fits. */
-static void stream_send_of(
+static stream_outcome_t stream_send_of(
   xrce_stream_reliable_t * stream, xrce_session_t * session, uint8_t i, uint16_t piece, uint16_t sequence)
 {
   const uint8_t slot = stream_slot(stream, i);
   uint8_t * at = &stream->message[slot][(size_t)piece * PIECE_SIZE];
   const size_t size = (size_t)stream->size[slot] - (size_t)piece * PIECE_SIZE;
   uint8_t kept[PIECE_HEADER];
+  stream_outcome_t outcome;
 
   if (stream->size[slot] <= WHOLE_SIZE) {
     at = &at[PIECE_HEADER - XRCE_MESSAGE_HEADER];
     xrce_put_header(at, XRCE_SESSION_ID, XRCE_STREAM_RELIABLE, sequence);
-    (void)xrce_session_send(session, at, XRCE_MESSAGE_HEADER + size);
-    return;
+    return stream_transmit(session, at, XRCE_MESSAGE_HEADER + size);
   }
   (void)memcpy(kept, at, sizeof(kept));
   if (size > PIECE_SIZE) {
-    stream_send_piece(session, at, sequence, PIECE_SIZE, false);
+    outcome = stream_send_piece(session, at, sequence, PIECE_SIZE, false);
   } else {
-    stream_send_piece(session, at, sequence, (uint16_t)size, true);
+    outcome = stream_send_piece(session, at, sequence, (uint16_t)size, true);
   }
   (void)memcpy(at, kept, sizeof(kept));
+  return outcome;
 }
 
-/* Sends what has the number first + place; false: there is nothing. */
-static bool stream_send_place(xrce_stream_reliable_t * stream, xrce_session_t * session, uint16_t place)
+/* Sends what has the number first + place. */
+static stream_outcome_t stream_send_place(
+  xrce_stream_reliable_t * stream, xrce_session_t * session, uint16_t place)
 {
   const uint16_t sequence = (uint16_t)(stream->first + place);
   uint32_t piece = (uint32_t)place + stream->done;
@@ -102,8 +113,7 @@ static bool stream_send_place(xrce_stream_reliable_t * stream, xrce_session_t * 
     if (place == 0u) {
       uint8_t message[PIECE_HEADER];
 
-      stream_send_piece(session, message, sequence, 0, true);
-      return true;
+      return stream_send_piece(session, message, sequence, 0, true);
     }
     --piece;
   }
@@ -111,26 +121,50 @@ static bool stream_send_place(xrce_stream_reliable_t * stream, xrce_session_t * 
     const uint16_t pieces = stream_pieces(stream, i);
 
     if (piece < pieces) {
-      stream_send_of(stream, session, i, (uint16_t)piece, sequence);
-      return true;
+      return stream_send_of(stream, session, i, (uint16_t)piece, sequence);
     }
     piece -= pieces;
   }
-  return false;
+  return STREAM_NOTHING;
 }
 
-/* Sends as much as the window lets. */
+/* Sends again what the agent misses, until the transport takes no more. */
+static stream_outcome_t stream_repeat(xrce_stream_reliable_t * stream, xrce_session_t * session)
+{
+  stream_outcome_t outcome = STREAM_SENT;
+
+  for (uint8_t place = 0; outcome == STREAM_SENT && (uint32_t)stream->unsent >> place != 0u; ++place) {
+    const uint32_t bit = (uint32_t)1u << place;
+
+    if ((stream->unsent & bit) != 0u) {
+      outcome = stream_send_place(stream, session, place);
+    }
+    if (outcome == STREAM_SENT) {
+      stream->unsent = (uint16_t)(stream->unsent & ~bit);
+    }
+  }
+  return outcome;
+}
+
+/* Sends as much as the window lets and the transport takes: the rest waits for the next pump. */
 static void stream_flow(xrce_stream_reliable_t * stream, xrce_session_t * session, uint32_t now)
 {
+  stream_outcome_t outcome;
+
   if (session->state != XRCE_READY || stream->held) {
     return;
   }
   if (stream->sent == 0u) {
     stream->heartbeat_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
   }
-  while (stream->sent < WINDOW && stream_send_place(stream, session, stream->sent)) {
-    ++stream->sent;
+  outcome = stream_repeat(stream, session);
+  while (outcome == STREAM_SENT && stream->sent < WINDOW) {
+    outcome = stream_send_place(stream, session, stream->sent);
+    if (outcome == STREAM_SENT) {
+      ++stream->sent;
+    }
   }
+  stream->blocked = outcome == STREAM_REFUSED;
 }
 
 void xrce_stream_reliable_commit(
@@ -147,6 +181,7 @@ static void stream_pass(xrce_stream_reliable_t * stream, uint8_t count)
   stream->first = (uint16_t)(stream->first + count);
   stream->sent = (uint8_t)(stream->sent - count);
   stream->again = (uint16_t)((uint32_t)stream->again >> count);
+  stream->unsent = (uint16_t)((uint32_t)stream->unsent >> count);
 }
 
 /* The agent has the first `count` numbers, which are not more than were sent. */
@@ -206,6 +241,8 @@ void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now)
   stream->sent = 0;
   stream->done = 0;
   stream->again = 0;
+  stream->unsent = 0;
+  stream->blocked = false;
   stream->ending = true;
   stream->held = true;
   stream->held_until_ms = now + MICROROS_CREATE_TIMEOUT_MS;
@@ -220,9 +257,9 @@ void xrce_stream_reliable_step(
   if (stream->held && (settled || xrce_is_due(now, stream->held_until_ms))) {
     stream->held = false;
     session->statistics.resent += stream->count;
-    stream_flow(stream, session, now);
   }
-  if (stream->sent != 0u && !stream->held && xrce_is_due(now, stream->heartbeat_ms)) {
+  stream_flow(stream, session, now);
+  if (stream->sent != 0u && !stream->held && !stream->blocked && xrce_is_due(now, stream->heartbeat_ms)) {
     xrce_stream_reliable_heartbeat(session, stream->first, stream->sent);
     stream->heartbeat_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
     stream->again = 0;
@@ -253,12 +290,11 @@ bool xrce_stream_reliable_on_acknack(
   for (; missing != 0u; missing >>= 1) {
     /* Every acknowledgement behind a gap names it, so each number is sent again once between two HEARTBEATs. */
     if ((missing & 1u) != 0u && place < stream->sent && ((uint32_t)stream->again >> place & 1u) == 0u) {
-      stream->again = (uint16_t)(stream->again | 1u << place);
-      (void)stream_send_place(stream, session, place);
+      stream->again = (uint16_t)(stream->again | (uint32_t)1u << place);
+      stream->unsent = (uint16_t)(stream->unsent | (uint32_t)1u << place);
       ++session->statistics.resent;
     }
     ++place;
   }
-  stream_flow(stream, session, now);
   return true;
 }

@@ -5,6 +5,11 @@
 
 #include <string.h>
 
+size_t xrce_line_room(struct xrce_transport_t * line)
+{
+  return port_serial_room(&line->serial);
+}
+
 bool xrce_line_write(struct xrce_transport_t * line, const uint8_t * data, size_t size)
 {
   return port_serial_write(&line->serial, data, size);

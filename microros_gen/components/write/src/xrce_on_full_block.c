@@ -3,6 +3,7 @@
 #include "microros/port.h"
 #include "microros/xrce_drops.h"
 #include "microros/xrce_rest.h"
+#include "microros/xrce_routes.h"
 #include "microros/xrce_write.h"
 
 xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room)
@@ -19,4 +20,19 @@ xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room)
   }
   xrce_drops_add(writer->client, writer->index);
   return xrce_write_obstacle(writer);
+}
+
+/* The message lies in the stream, so others may not use it meanwhile: the lock is kept while the line makes room. */
+xrce_write_t xrce_write_on_unsent(xrce_endpoint_t * writer, size_t size)
+{
+  const uint32_t start = port_time_ms();
+
+  while (port_time_ms() - start < MICROROS_ON_FULL_BLOCK_MS) {
+    port_sleep_ms(1);
+    if (xrce_route_commit(writer->client, false, size)) {
+      return XRCE_WRITTEN;
+    }
+  }
+  xrce_drops_add(writer->client, writer->index);
+  return XRCE_WRITE_NOT_SENT;
 }

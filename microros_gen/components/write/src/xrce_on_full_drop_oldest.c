@@ -27,3 +27,10 @@ xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room)
   }
   return *room != NULL ? XRCE_WRITTEN : xrce_write_obstacle(writer);
 }
+
+xrce_write_t xrce_write_on_unsent(xrce_endpoint_t * writer, size_t size)
+{
+  (void)size;
+  xrce_drops_add(writer->client, writer->index);
+  return XRCE_WRITE_NOT_SENT;
+}

@@ -34,8 +34,8 @@ typedef struct xrce_framing_t {
   uint8_t chunk[XRCE_FRAMING_CHUNK];
 } xrce_framing_t;
 
-/* Writes one message of at most 65535 bytes as a frame. False: the line took no or not all of it; the peer drops
- * the part, and the next frame is whole again. */
+/* Writes one message of at most 65535 bytes as a frame. False: the line had no room for it and has nothing of it, or it
+ * failed in the middle; then the peer drops the part, and the next frame is whole again. */
 bool xrce_framing_send(struct xrce_transport_t * line, const uint8_t * message, size_t size);
 
 /*
@@ -48,6 +48,9 @@ int32_t xrce_framing_receive(
   xrce_framing_t * framing, struct xrce_transport_t * line, uint8_t * buffer, size_t capacity);
 
 /* --- what the transport implements --- */
+
+/* Returns how many bytes the line takes now; SIZE_MAX where nobody can tell before. */
+size_t xrce_line_room(struct xrce_transport_t * line);
 
 /* Hands all bytes to the line. False: they were not all taken. */
 bool xrce_line_write(struct xrce_transport_t * line, const uint8_t * data, size_t size);

@@ -27,6 +27,12 @@ void port_cortex_m_uart_interrupt(void);
 /* Lets interrupt `number` through (0 is the first one after the processor's own 16). */
 void port_cortex_m_interrupt_enable(uint32_t number);
 
+/* Makes interrupt `number` come, as if its device had asked (NVIC_ISPR). */
+static inline void port_cortex_m_interrupt_pend(uint32_t number)
+{
+  PORT_CORTEX_M_REGISTER(0xe000e200u + 4u * (number / 32u)) = (uint32_t)1 << (number % 32u);
+}
+
 /* Waits until all accesses to memory are done and what follows is fetched anew (DSB, ISB). */
 void port_cortex_m_barrier(void);
 

@@ -64,8 +64,17 @@ void xrce_session_lose(xrce_client_t * client, uint32_t now);
 /* Receives all that is there and does all that is due. Never blocks. */
 void xrce_session_pump(xrce_client_t * client);
 
+/* Does all that is due, without receiving. */
+void xrce_session_step_all(xrce_client_t * client);
+
 /* Sends one whole message. False: the transport did not take it. */
 bool xrce_session_send(xrce_session_t * session, const uint8_t * message, size_t size);
+
+/* Whether nothing of what was sent still waits for the line. */
+static inline bool xrce_session_is_sent(xrce_session_t * session)
+{
+  return !session->transport_open || xrce_transport_is_idle(&session->transport);
+}
 
 /* Returns a request id that no outstanding request has. */
 uint16_t xrce_session_next_request(xrce_session_t * session);
