@@ -18,7 +18,7 @@ import pytest
 from microros_gen.plan.runtime import RuntimePlan
 from runtime.fake_agent import FakeAgent
 from runtime.frames import AGENT, CLIENT, events, frame
-from runtime.harness import POOL, build, components, render
+from runtime.harness import POOL, Tree, build, components, render
 from runtime.test_udp import UdpAgent
 
 PLAN = replace(POOL, connect_timeout_ms=3000, create_timeout_ms=3000, liveliness_period_ms=50)
@@ -98,6 +98,36 @@ def test_serial_over_a_pseudo_terminal(noisy: bool, tmp_path: Path) -> None:
     assert values == sorted(set(values))
     assert values == list(range(100)) or noisy
     assert values[-1] == 99
+
+
+def test_a_terminal_that_nobody_reads_stops_nothing_and_gets_all_of_it_later(tmp_path: Path) -> None:
+    """The port alone: what the system has no room for waits in the port, and no call does."""
+    plan = replace(SERIAL, executors_max=1, handles_max=1)
+    tree = render(tmp_path, plan, components(plan))
+    wanted = ("port_posix_serial.c", "port_posix_wait.c", "port_posix_time.c")
+    alone = Tree(tree.folder, tuple(s for s in tree.sources if s.name in wanted))
+    program = build(alone, ["stuck_line.c"], "stuck")
+    master, slave = os.openpty()
+    tty.setraw(slave)
+    running = subprocess.Popen(
+        [program, os.ttyname(slave)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    )
+    assert running.stdin is not None
+    assert running.stdout is not None
+    size, worst_ms = map(int, running.stdout.readline().split())
+    assert size > plan.send_buffer, "the system took some of it, and the port the rest"
+    assert worst_ms < 90, "a write that waited for room gave up after 100 ms"
+    running.stdin.write("\n")
+    running.stdin.flush()
+    arrived = b""
+    while len(arrived) < size:
+        assert select.select([master], [], [], 20)[0], f"{len(arrived)} of {size} bytes"
+        arrived += os.read(master, 4096)
+    assert arrived == bytes(i % 251 for i in range(size))
+    assert int(running.stdout.readline()) < 20, "a wait ends when there is room, not by its time-out"
+    assert running.wait(20) == 0
+    os.close(master)
+    os.close(slave)
 
 
 @pytest.mark.parametrize(

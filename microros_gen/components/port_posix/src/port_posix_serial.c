@@ -10,11 +10,27 @@
 #include <termios.h>
 #include <unistd.h>
 
-/* What the system had no room for: it follows with later calls. There is one line. */
-static struct {
+/* An open line, and what the system had no room for: it follows with later calls. */
+typedef struct serial_line_t {
+  int handle; /* -1: none */
   size_t size;
   uint8_t bytes[MICROROS_SEND_BUFFER];
-} serial_rest;
+} serial_line_t;
+
+enum { LINES = 2 }; /* that of the session, and one to another agent that is asked whether it is there */
+
+static serial_line_t lines[LINES] = {{-1, 0, {0}}, {-1, 0, {0}}};
+
+/* Returns the line with this handle, -1 a free one; NULL: there is none. */
+static serial_line_t * line_of(int handle)
+{
+  for (size_t i = 0; i < LINES; ++i) {
+    if (lines[i].handle == handle) {
+      return &lines[i];
+    }
+  }
+  return NULL;
+}
 
 typedef struct serial_speed_t {
   uint32_t baud;
@@ -69,20 +85,30 @@ static bool serial_make_raw(int handle, uint32_t baud)
 
 bool port_serial_open(port_serial_t * serial, const char * device, uint32_t baud)
 {
-  int handle = open(device, O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  serial_line_t * line = line_of(-1);
+  int handle = line != NULL ? open(device, O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC) : -1;
 
   if (handle >= 0 && !serial_make_raw(handle, baud)) {
     (void)close(handle);
     handle = -1;
   }
-  serial_rest.size = 0;
+  if (line != NULL) {
+    line->handle = handle;
+    line->size = 0;
+  }
   serial->handle = handle;
   return handle >= 0;
 }
 
 void port_serial_close(port_serial_t * serial)
 {
-  (void)close((int)serial->handle);
+  const int handle = (int)serial->handle;
+  serial_line_t * line = line_of(handle);
+
+  if (handle >= 0 && line != NULL) {
+    (void)close(handle);
+    line->handle = -1;
+  }
   serial->handle = -1;
 }
 
@@ -94,53 +120,69 @@ static size_t serial_hand_over(int handle, const uint8_t * data, size_t size)
   return taken > 0 ? (size_t)taken : 0u; /* no room, or nobody at the other end: the session finds that out */
 }
 
-static void serial_flush(int handle)
+static void line_flush(serial_line_t * line)
 {
-  const size_t taken = serial_hand_over(handle, serial_rest.bytes, serial_rest.size);
+  const size_t taken = serial_hand_over(line->handle, line->bytes, line->size);
 
   if (taken != 0u) {
-    serial_rest.size -= taken;
-    (void)memmove(serial_rest.bytes, &serial_rest.bytes[taken], serial_rest.size);
+    line->size -= taken;
+    (void)memmove(line->bytes, &line->bytes[taken], line->size);
   }
 }
 
-bool port_posix_serial_waits(void)
+/* Returns the line, with what the system takes of it handed over; NULL: it is not open. */
+static serial_line_t * line_at_work(const port_serial_t * serial)
 {
-  return serial_rest.size != 0u;
+  serial_line_t * line = serial->handle >= 0 ? line_of((int)serial->handle) : NULL;
+
+  if (line != NULL) {
+    line_flush(line);
+  }
+  return line;
+}
+
+bool port_posix_serial_waits(int handle)
+{
+  const serial_line_t * line = handle >= 0 ? line_of(handle) : NULL;
+
+  return line != NULL && line->size != 0u;
 }
 
 size_t port_serial_room(port_serial_t * serial)
 {
-  serial_flush((int)serial->handle);
-  return sizeof(serial_rest.bytes) - serial_rest.size;
+  const serial_line_t * line = line_at_work(serial);
+
+  return line != NULL ? sizeof(line->bytes) - line->size : 0u;
 }
 
 bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size)
 {
+  serial_line_t * line = line_at_work(serial);
   size_t taken = 0;
 
-  if (size > port_serial_room(serial)) {
+  if (line == NULL || size > sizeof(line->bytes) - line->size) {
     return false;
   }
-  if (serial_rest.size == 0u) {
-    taken = serial_hand_over((int)serial->handle, data, size);
+  if (line->size == 0u) {
+    taken = serial_hand_over(line->handle, data, size);
   }
-  (void)memcpy(&serial_rest.bytes[serial_rest.size], &data[taken], size - taken);
-  serial_rest.size += size - taken;
+  (void)memcpy(&line->bytes[line->size], &data[taken], size - taken);
+  line->size += size - taken;
   return true;
 }
 
 bool port_serial_is_idle(port_serial_t * serial)
 {
-  serial_flush((int)serial->handle);
-  return serial_rest.size == 0u;
+  const serial_line_t * line = line_at_work(serial);
+
+  return line == NULL || line->size == 0u;
 }
 
 size_t port_serial_read(port_serial_t * serial, uint8_t * buffer, size_t capacity)
 {
   ssize_t size;
 
-  serial_flush((int)serial->handle);
+  (void)line_at_work(serial);
   size = read((int)serial->handle, buffer, capacity);
   return size > 0 ? (size_t)size : 0u; /* nothing there, or nobody at the other end */
 }

@@ -9,8 +9,8 @@
 extern "C" {
 #endif
 
-/* Returns whether the system has to make room for output: then a wait ends when it has. */
-bool port_posix_serial_waits(void);
+/* Returns whether the system has to make room for output of this line: then a wait ends when it has. */
+bool port_posix_serial_waits(int handle);
 
 #ifdef __cplusplus
 }
