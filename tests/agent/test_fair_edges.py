@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Fairness at the edges of the agent: what it asks of ROS 2, and which socket it reads."""
+
+from __future__ import annotations
+
+import socket
+import time
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from microros_gen.agent.fairness import Account
+from microros_gen.agent.ros.bridge import BusyError, GraphReport
+from microros_gen.agent.ros.endpoints import FULL_S, RawWriter
+from microros_gen.agent.ros.graph import Comparison, Endpoint, TopicTypes
+from microros_gen.agent.ros.wakeups import Wakeups
+from microros_gen.agent.transport.sockets import UDP4
+from microros_gen.agent.transport.udp import BATCH, Udp
+from microros_gen.diagnostics import UserError
+
+# ROS 2 is not asked more than it must be
+
+
+class FullHandle:
+    """A publisher whose readers take nothing."""
+
+    def __init__(self) -> None:
+        self.asked = 0
+
+    def publish_raw(self, serialized: bytes) -> None:
+        self.asked += 1
+        raise RuntimeError("timeout")
+
+
+class NoEvents:
+    def __init__(self) -> None:
+        self.entities: set[object] = set()
+
+
+def test_a_writer_that_is_full_is_not_asked_for_each_sample() -> None:
+    """S5: each time the agent would wait a millisecond in DDS."""
+    handle = FullHandle()
+    endpoint = Endpoint("/n", "publisher", "/t [x]", "/t", "x", None)
+    writer = RawWriter(handle, NoEvents(), (endpoint,), keeps_all=True)  # type: ignore[arg-type]
+    began = time.monotonic()
+    for _ in range(3_750):
+        with pytest.raises(BusyError):
+            writer.publish(b"\0\1\0\0")
+    assert 1 <= handle.asked <= 2 + (time.monotonic() - began) / FULL_S
+
+
+class Graph:
+    """What a bridge asks of ROS 2 about a topic."""
+
+    def __init__(self) -> None:
+        self.asked: list[str] = []
+        self.rclpy_get_publishers_info_by_topic = self._info
+        self.rclpy_get_subscriptions_info_by_topic = self._info
+
+    def _info(self, _node: object, topic: str, _mangled: bool) -> list[dict[str, Any]]:
+        self.asked.append(topic)
+        version = {"version": 0, "value": b""}
+        other = {"node_name": "other", "node_namespace": "/", "topic_type": "y", "topic_type_hash": version}
+        return [other]
+
+
+def test_a_topic_is_asked_about_once_for_all_its_endpoints() -> None:
+    wakeups: Wakeups[Any] = Wakeups()
+    graph, told, topics = Graph(), list[GraphReport](), TopicTypes()
+    comparison = Comparison(graph, wakeups, told.append)
+    endpoints = [Endpoint(f"/n{n}", "publisher", "/t [x]", "/t", "x", None) for n in range(100)]
+    for endpoint in endpoints:
+        topics.claim([endpoint])
+        comparison.soon("node", topics, endpoint)
+    comparison.look()
+    assert graph.asked == ["/t", "/t"]
+    assert len(told) == 100
+    comparison.look()
+    assert len(graph.asked) == 2, "nothing is left"
+    for endpoint in endpoints:
+        comparison.soon("node", topics, endpoint)
+        comparison.forget(topics, endpoint)
+    comparison.look()
+    assert len(graph.asked) == 2, "nor of those that are gone"
+    wakeups.close()
+
+
+# Sockets
+
+
+@pytest.fixture
+def udp() -> Iterator[Udp]:
+    transport = Udp(UDP4, "127.0.0.1", 0)
+    yield transport
+    transport.close()
+
+
+def peer(transport: Udp) -> socket.socket:
+    made = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    made.connect(("127.0.0.1", transport.port))
+    return made
+
+
+def test_a_client_that_sends_very_much_fills_a_queue_of_its_own(udp: Udp) -> None:
+    """S12: and whoever cost less is read first."""
+    flood, honest, stranger = peer(udp), peer(udp), peer(udp)
+    accounts = {flood.getsockname(): Account(1.0), honest.getsockname(): Account(0.5)}
+    for place, account in accounts.items():
+        udp.claim((udp, place), account)
+    for _ in range(20_000):
+        flood.send(bytes(200))
+    honest.send(b"honest")
+    stranger.send(b"stranger")
+    got: list[tuple[bytes, Any]] = []
+    udp.pump(lambda data, address, _: got.append((data, address[1])))  # type: ignore[index]
+    by_peer = [data for data, place in got if place != flood.getsockname()]
+    assert by_peer == [b"stranger", b"honest"], "who asks for little comes first, and neither is lost"
+    assert got[2][1] == flood.getsockname()
+    assert len(got) <= 2 + BATCH
+    udp.release((udp, flood.getsockname()))
+    udp.send(b"answer", (udp, honest.getsockname()))
+    assert honest.recv(100) == b"answer"
+
+
+def test_nothing_is_lost_or_mixed_up_while_clients_come_and_go(udp: Udp) -> None:
+    clients = [peer(udp) for _ in range(20)]
+    got: dict[Any, list[int]] = {client.getsockname(): [] for client in clients}
+
+    def take(data: bytes, address: Any, _: object) -> None:
+        got[address[1]].append(data[0])
+
+    for number in range(100):
+        for place, client in enumerate(clients):
+            client.send(bytes((number,)))
+            if (number + place) % 7 == 0:
+                udp.claim((udp, client.getsockname()), Account())
+            if (number + place) % 11 == 0:
+                udp.release((udp, client.getsockname()))
+        udp.pump(take)
+    for _ in range(100):
+        udp.pump(take)
+    assert {place: sorted(numbers) for place, numbers in got.items()} == {
+        place: list(range(100)) for place in got
+    }
+
+
+def test_another_agent_does_not_get_the_port(udp: Udp) -> None:
+    udp.claim((udp, peer(udp).getsockname()), Account())
+    with pytest.raises(UserError, match="in use"):
+        Udp(UDP4, "127.0.0.1", udp.port)
