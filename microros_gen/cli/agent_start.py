@@ -7,7 +7,7 @@ import gc
 import sys
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -72,6 +72,8 @@ def serve(options: AgentOptions) -> None:
     )
     if options.verbose:
         transports = [TracedTransport(transport, log) for transport in transports]
+    told = ", ".join(f"{name} {value:g}" for name, value in asdict(limits).items())
+    log.emit(Level.INFO, "limits", f"limits: {told}", **asdict(limits))
     server = Server(agent, transports, log)
     announcements = EventLog(sys.stdout, as_json)
     gc.collect()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """`make bench`: generate and build, encode and decode beside Fast CDR, instructions, flash of types, firmware,
-whole images, the client, the agent.
+whole images, the client, the agent, the agent under attack.
 
 Times depend on the machine; so each stands beside a peer that ran in the same minutes. Instruction counts come
 from callgrind and repeat exactly with one compiler.
@@ -14,6 +14,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from agent_attacks import bench_attacks
 from agent_bench import bench_agent
 from agent_sides import Target
 from client import bench_client
@@ -24,7 +25,18 @@ from images import bench_images
 from instructions import bench_instructions
 from type_flash import bench_type_flash
 
-PARTS = ("generate", "build", "instructions", "codec", "types", "footprint", "images", "client", "agent")
+PARTS = (
+    "generate",
+    "build",
+    "instructions",
+    "codec",
+    "types",
+    "footprint",
+    "images",
+    "client",
+    "agent",
+    "attacks",
+)
 
 
 def main() -> int:
@@ -59,6 +71,8 @@ def main() -> int:
             bench_client(work / "client")
         if "agent" in options.parts:
             bench_agent(work / "agent", Target(*options.agent) if options.agent else None)
+        if "attacks" in options.parts:
+            bench_attacks()
     return 0
 
 

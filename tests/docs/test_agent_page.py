@@ -19,9 +19,9 @@ from pathlib import Path
 import click
 import pytest
 
-from microros_gen.agent.core import Agent
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.preconfigured import Preconfigured
+from microros_gen.agent.processing import Processor
 from microros_gen.agent.ros import reports
 from microros_gen.agent.transport.tcp import TcpLimits
 from microros_gen.cli.agent import command
@@ -162,7 +162,7 @@ def test_every_kind_of_fault_is_there() -> None:
             }
     found = {kind for kind in found if re.fullmatch(r"[a-z]+(_[a-z]+)*", kind)}
     found |= {"frame_too_large", "frame_empty", "log_lost", "client_STATUS", "internal_ERROR"}
-    found |= {"no_server", "no_client", str(inspect.signature(Agent._stop).parameters["kind"].default)}
+    found |= {"no_server", "no_client", str(inspect.signature(Processor._stop).parameters["kind"].default)}
     assert found == kinds
 
 
