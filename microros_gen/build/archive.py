@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from microros_gen.sources.files import LARGEST_IMAGE, read_bytes
+
 _MAGIC, _THIN = b"!<arch>\n", b"!<thin>\n"
 _HEADER = 60
 _TABLES = ("/", "//", "/SYM64/", "__.SYMDEF", "__.SYMDEF SORTED")
@@ -23,7 +25,7 @@ class Member:
 def read_archive(path: Path) -> Iterator[Member]:
     """Yield the objects of a library; nothing of a file that is none, up to where it is cut off."""
     try:
-        data = path.read_bytes()
+        data = read_bytes(path, LARGEST_IMAGE)
     except OSError:
         return
     thin, names, at = data.startswith(_THIN), b"", len(_MAGIC)
@@ -52,7 +54,7 @@ def read_archive(path: Path) -> Iterator[Member]:
 def _member(path: Path, name: str, content: bytes, thin: bool) -> Member:
     if thin:
         try:
-            content = (path.parent / name).read_bytes()
+            content = read_bytes(path.parent / name, LARGEST_IMAGE)
         except OSError:
             content = b""
     return Member(name.rsplit("/", 1)[-1], content)

@@ -16,6 +16,7 @@ from elftools.elf.elffile import ELFFile
 from elftools.elf.sections import SymbolTableSection
 
 from microros_gen.diagnostics import Diagnostic, UserError
+from microros_gen.sources.files import LARGEST_IMAGE, read_bytes
 
 THUMB = 1
 """The bit that Arm sets in the address of a Thumb function."""
@@ -59,7 +60,7 @@ class Elf:
         """Read it; `content` is that of a member of the library `path`."""
         self.path = path
         try:
-            self.file: Any = ELFFile(BytesIO(path.read_bytes() if content is None else content))
+            self.file: Any = ELFFile(BytesIO(read_bytes(path, LARGEST_IMAGE) if content is None else content))
         except (OSError, ELFError) as error:
             raise UserError(
                 [

@@ -8,6 +8,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from elftools.common.exceptions import DWARFError, ELFError
+
 from microros_gen.build.attribution import Piece, attribute, attribute_library
 from microros_gen.build.budget import BudgetLine, advice_text, budget_lines, exceeded_message
 from microros_gen.build.callgraph import CallGraph, build_call_graph
@@ -57,10 +59,16 @@ def measure(path: Path, image: Path | None = None, linker_map: Path | None = Non
 
 
 def measure_folder(folder: Folder) -> SizeReport:
-    """Measure what was read."""
-    if folder.image is None:
-        return _measure_library(folder)
-    image = Elf(folder.image)
+    """Measure what was read. UserError where the image, or an object of it, is no whole ELF file."""
+    try:
+        return _measure_library(folder) if folder.image is None else _measure_image(folder, folder.image)
+    except (ELFError, DWARFError) as error:
+        what = f"{folder.image or folder.path} cannot be measured: {error}"
+        raise UserError([Diagnostic(what, hint="Link it again")], status=1) from error
+
+
+def _measure_image(folder: Folder, path: Path) -> SizeReport:
+    image = Elf(path)
     if folder.linked is not None:
         _check_plan(folder, image)
     pieces = attribute(folder, image)

@@ -21,6 +21,9 @@ LARGEST_TEXT = 1 << 20
 LARGEST_RECORD = 64 << 20
 """Bytes of a record that this tool wrote itself (manifest, stamps) or of a map file."""
 
+LARGEST_IMAGE = 1 << 30
+"""Bytes of an image or library that a compiler made, debugging information included."""
+
 _FLAGS = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
 _NO_LINK = getattr(os, "O_NOFOLLOW", 0)
 

@@ -17,7 +17,7 @@ import jsonschema
 import pytest
 from agent.observer import observing
 from agent.process import own_domain, running_agent
-from cmake_build.projects import BOARD, PAGE, ROOT, Project, run
+from cmake_build.projects import BOARD, EXAMPLE, PAGE, ROOT, Project, run
 from e2e.relay import Relay
 
 SCHEMA = json.loads((ROOT / "microros_gen/cli/size.schema.json").read_text(encoding="utf-8"))
@@ -268,7 +268,7 @@ profiles: [pure_sender]
 entities: preconfigured
 liveliness: none
 errors: code
-memory: {ram_budget: 64}
+memory: {ram_budget: 128}
 nodes: [{name: n, publishers: [{topic: t, type: std_msgs/msg/Int32, qos: {reliability: best_effort}}]}]
 """
 
@@ -287,8 +287,8 @@ def test_a_part_of_a_project_that_fetches_the_tool(generator: str, tmp_path: Pat
     built = project.build()
     assert built.returncode != 0
     ((place, what, budget),) = EXCEEDED.findall(built.stdout + built.stderr)
-    assert (place, what, budget) == (":6:23", "static RAM in the image", "memory.ram_budget is 64")
-    (firmware / "microros.yaml").write_text(SMALL.replace("64", "64 KiB"))
+    assert (place, what, budget) == (":6:22", "static RAM in the image", "memory.ram_budget is 128")
+    (firmware / "microros.yaml").write_text(SMALL.replace("128", "64 KiB"))
     built = project.build()
     assert built.returncode == 0, built.stdout
     data = sized(project, project.build_folder)
@@ -296,6 +296,32 @@ def test_a_part_of_a_project_that_fetches_the_tool(generator: str, tmp_path: Pat
     assert set(owners(data, "application")) == {"main.c.o"}
     assert data["stack"]["main"]["chain"][0]["function"] == "main"
     assert not owners(data, "other library")
+
+
+@pytest.mark.skipif(shutil.which("arm-none-eabi-gcc") is None, reason="no arm-none-eabi-gcc")
+def test_of_a_processor_without_a_board_the_library_is_checked(tmp_path: Path) -> None:
+    """There is no image, so `build` bounds the library; so does the build that makes it."""
+    project = Project(tmp_path / "a library")
+    project.source.mkdir()
+    (project.source / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.16)\nproject(firmware C ASM)\nfind_package(microros_gen REQUIRED)\n"
+        "microros_add_library(robot CONFIG microros.yaml TARGET cortex-m4f)\n"
+    )
+    (project.source / "microros.yaml").write_text(SMALL + "transport: {type: custom}\n")
+    configured = project.configure(f"-DCMAKE_TOOLCHAIN_FILE={EXAMPLE / BOARD}.cmake")
+    assert configured.returncode == 0, configured.stderr
+    built = project.build()
+    assert built.returncode != 0
+    ((place, what, _),) = EXCEEDED.findall(built.stdout + built.stderr)
+    assert (place, what) == (":6:22", "static RAM of the library, before unused parts are dropped")
+    (project.source / "microros.yaml").write_text(
+        SMALL.replace("128", "64 KiB") + "transport: {type: custom}\n"
+    )
+    built = project.build()
+    assert built.returncode == 0, built.stdout
+    assert sized(project, project.build_folder)["measured"] == "library"
+    (project.source / "microros.yaml").write_text(SMALL + "transport: {type: custom}\n")
+    assert project.build().returncode != 0, "nothing but the budget changed"
 
 
 def test_a_board_has_a_bound_for_everything(board: Project) -> None:
@@ -324,3 +350,8 @@ def test_what_is_not_there_is_said(project: Project, tmp_path: Path) -> None:
         hidden.rename(image)
     whole = tool(project, "size", project.build_folder, "--image", sys.executable, status=2).stderr
     assert "was not linked with the library of" in whole
+    cut = tmp_path / "cut"
+    cut.write_bytes(image.read_bytes()[:3000])
+    for path in (cut, Path("/dev/zero")):
+        said = tool(project, "size", project.build_folder, "--image", path, status=1).stderr
+        assert f"{path} cannot be measured: " in said
