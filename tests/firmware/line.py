@@ -92,6 +92,7 @@ class Relay:
 
     def __init__(self, board_device: str) -> None:
         self.fault: Fault = clean
+        self.stopped = False  # nothing that the board sends is taken: its line stands still
         self.lost = 0
         self.spoiled = 0
         self._board = open_raw(board_device)
@@ -113,7 +114,8 @@ class Relay:
 
     def _serve(self) -> None:
         while not self._ends.is_set():
-            ready, _, _ = select.select([self._board, self._master], [], [], 0.02)
+            taken = [self._master] if self.stopped else [self._board, self._master]
+            ready, _, _ = select.select(taken, [], [], 0.02)
             for handle in ready:
                 _write(self._master if handle == self._board else self._board, self._passed(_read(handle)))
 

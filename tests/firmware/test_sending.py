@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A publish of a board waits for no line: what it costs while the line takes nothing, and what becomes of the messages."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from runtime.fake_agent import FakeAgent
+
+from firmware.board import Board, Builds, Built, board
+from firmware.line import Relay, scripted_agent
+
+NAME = "qemu-mps2-an386"
+LARGE, SMALL = 7000, 4000
+APPLICATION = f"""\
+version: 1
+profiles: [pure_sender]
+liveliness: none
+transport: {{type: serial, mtu: 512}}
+pools: {{history: 2}}
+nodes:
+  - name: large
+    publishers:
+      - {{topic: text, type: std_msgs/msg/String}}
+      - {{topic: count, type: std_msgs/msg/Int32, qos: {{reliability: best_effort, depth: 1}}}}
+limits: {{std_msgs/msg/String: {{data: {LARGE}}}}}
+"""
+REPORT = (
+    "ready",
+    "published",
+    "done",
+    "large_taken",
+    "small_taken",
+    "large_ticks",
+    "small_ticks",
+    "dropped",
+)
+TICKS_PER_MS = 25_000
+
+
+def counted(built: Built) -> Built:
+    """Return a board whose clock follows its instructions: 32 ns each, 0.8 of a tick."""
+    emulator = built.target.emulator
+    assert emulator is not None
+    slow = replace(emulator, arguments=(*emulator.arguments, "-icount", "shift=5"))
+    return replace(built, target=replace(built.target, emulator=slow))
+
+
+def said(running: Board) -> dict[str, int]:
+    return dict(zip(REPORT, running.words("large_report", len(REPORT)), strict=True))
+
+
+def fragments(agent: FakeAgent) -> Iterator[tuple[bool, bytes]]:
+    """Yield what each FRAGMENT of the reliable stream carries, once and in order, and whether it is the last."""
+    found = {int.from_bytes(m[2:4], "little"): m for m in agent.log if m[1] == 0x80 and m[4] == 0x0D}
+    for _, message in sorted(found.items()):
+        size = int.from_bytes(message[6:8], "little")
+        yield bool(message[5] & 2), message[8 : 8 + size]
+
+
+def test_a_publish_returns_at_once_when_the_line_takes_nothing(builds: Builds) -> None:
+    """A fragment alone takes 45 ms on a line of 115,200 baud, and the 15 of a message 0.6 s."""
+    built = counted(builds.build(NAME, APPLICATION))
+    image = builds.application(built, "large.c")
+    agent = FakeAgent()
+    with board(built, image) as running, Relay(running.device) as relay:
+        with scripted_agent(relay.device, agent):
+            running.go_on()
+            running.wait_for(lambda: said(running)["ready"], 60)
+            relay.stopped = True
+            running.wait_for(lambda: said(running)["published"], 60)
+            stopped = said(running)
+            relay.stopped = False
+            running.wait_for(lambda: said(running)["done"], 60)
+    assert stopped["large_taken"] == 2, "the stream has two slots"
+    assert 0 < stopped["small_taken"] < SMALL
+    assert stopped["dropped"] == (SMALL - stopped["small_taken"]) + 1, "each refused one is counted"
+    assert stopped["small_ticks"] < 0.3 * TICKS_PER_MS, stopped
+    assert stopped["large_ticks"] < 2 * TICKS_PER_MS, stopped
+    text = bytes(ord("!") + i % 90 for i in range(LARGE))
+    joined = [part for _, part in fragments(agent)]
+    assert b"".join(joined).count(text) == 2, "what was taken arrives whole"
+    assert len(joined) >= 2 * 14
