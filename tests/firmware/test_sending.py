@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A publish of a board waits for no line: what it costs while the line takes nothing, and what becomes of the messages."""
+"""A publish of a board waits for no line: what it costs while that stands still, what becomes of the messages."""
 
 from __future__ import annotations
 
@@ -64,15 +64,14 @@ def test_a_publish_returns_at_once_when_the_line_takes_nothing(builds: Builds) -
     built = counted(builds.build(NAME, APPLICATION))
     image = builds.application(built, "large.c")
     agent = FakeAgent()
-    with board(built, image) as running, Relay(running.device) as relay:
-        with scripted_agent(relay.device, agent):
-            running.go_on()
-            running.wait_for(lambda: said(running)["ready"], 60)
-            relay.stopped = True
-            running.wait_for(lambda: said(running)["published"], 60)
-            stopped = said(running)
-            relay.stopped = False
-            running.wait_for(lambda: said(running)["done"], 60)
+    with board(built, image) as running, Relay(running.device) as relay, scripted_agent(relay.device, agent):
+        running.go_on()
+        running.wait_for(lambda: said(running)["ready"], 60)
+        relay.stopped = True
+        running.wait_for(lambda: said(running)["published"], 60)
+        stopped = said(running)
+        relay.stopped = False
+        running.wait_for(lambda: said(running)["done"], 60)
     assert stopped["large_taken"] == 2, "the stream has two slots"
     assert 0 < stopped["small_taken"] < SMALL
     assert stopped["dropped"] == (SMALL - stopped["small_taken"]) + 1, "each refused one is counted"

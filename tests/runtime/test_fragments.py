@@ -273,3 +273,16 @@ def test_what_is_dropped_spoils_nothing(
     programs: ProgramFactory, operations: list[tuple[str, int]], seed: int
 ) -> None:
     run(programs, True, operations, seed)
+
+
+def test_fragments_that_the_transport_refused_go_out_in_the_next_pump(bench: Bench) -> None:
+    client = bench.connected(LARGE)
+    client.tell("send_fails 1")
+    client.ok("large 0 200 3")
+    client.spin(3, 20)
+    assert reliable(client.sent) == []
+    client.tell("send_fails 0")
+    client.spin()
+    assert len([d for d in reliable(client.sent) if d[4] == FRAGMENT]) == 9, "208 bytes"
+    client.ok("flush 1000")
+    assert bodies(client.agent) == [body(200, 3)]

@@ -189,3 +189,18 @@ def test_custom_that_was_never_set(tmp_path: Path) -> None:
     done = _run(_program(tmp_path, CUSTOM["either"], "custom.c"))
     assert done.returncode == 2
     assert done.stdout == "rmw_uros_set_custom_transport was not called before, or refused its arguments\n"
+
+
+@pytest.mark.parametrize("way", ["off", "either"])
+def test_a_call_uses_a_transport_of_packets_once(way: str, tmp_path: Path) -> None:
+    """One fragment a call, since the write function may wait; and no read, which waits, while somebody else reads."""
+    plan = replace(
+        CUSTOM[way], fragments=True, reliable_slots=4, reliable_slot_size=1024, liveliness_period_ms=5000
+    )
+    agent = UdpAgent()
+    agent.start()
+    done = _run(_program(tmp_path, plan, "custom_turns.c"), [str(agent.port)])
+    agent.socket.close()
+    assert (done.returncode, done.stdout) == (0, "1 0\n"), done.stderr
+    sent = {m[2:4]: m for m in agent.agent.log if m[:2] == b"\x81\x80" and m[4] == 0x0D}
+    assert len(sent) == 9, "an empty one and 912 bytes in fragments of 120"

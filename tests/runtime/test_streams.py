@@ -154,6 +154,36 @@ def test_a_transport_that_takes_nothing(bench: Bench) -> None:
     assert client.statistics()["dropped"] == 1
 
 
+def test_what_a_transport_refused_goes_out_in_the_next_pump(bench: Bench) -> None:
+    """Nobody waits for a HEARTBEAT and an ACKNACK to find out what was not even sent."""
+    client = bench.connected()
+    client.tell("send_fails 1")
+    client.ok("publish 0 1")
+    client.ok("publish 0 2")
+    client.spin(3, 20)
+    client.tell("send_fails 0")
+    before = len(client.sent)
+    client.spin()
+    sent = [d[4] for d in client.sent[before:] if d[1] == 0x80 or d[4] == HEARTBEAT]
+    assert sent[:2] == [WRITE_DATA, WRITE_DATA]
+    client.ok("flush 500")
+    assert client.agent.values() == [1, 2]
+
+
+def test_blocking_waits_for_the_line_too(bench: Bench) -> None:
+    """A best-effort message that finds no room is sent within the time of `on_full: block`, or refused and counted."""
+    client = bench.connected(BLOCK, qos="best_effort")
+    client.tell("send_fails 1")
+    result = client.call("publish 0 1")
+    assert (result.code, result.error) == (1, "publisher /chatter: the transport has no room for it")
+    assert BLOCK.on_full_block_ms <= result.slept <= BLOCK.on_full_block_ms + 1
+    assert client.statistics()["dropped"] == 1
+    client.on_sleep = lambda: client.tell("send_fails 0")
+    assert client.ok("publish 0 2").slept == 1
+    client.spin()
+    assert client.agent.values() == [2]
+
+
 def test_all_acked_waits_for_the_agent(bench: Bench) -> None:
     client = bench.connected()
     client.agent.silent = True
