@@ -145,7 +145,7 @@ def test_the_commands_of_the_page(built: Built) -> None:
     """They build again, then for a board from the interfaces of the sourced workspace; and `rosidl` generates."""
     done = shell(built.folder, built.environment, "set -e\n" + "".join(COMMANDS))
     assert done.returncode == 0, done.stdout + done.stderr
-    assert re.search(r"^Image \S*/firmware for host: \d+ bytes of flash", done.stdout, re.MULTILINE)
+    assert re.search(r"^Image .*/firmware for host: \d+ bytes of flash", done.stdout, re.MULTILINE)
     image = built.folder / "install_m4/robot_firmware/lib/robot_firmware/firmware.elf"
     assert image.read_bytes()[:4] == b"\x7fELF"
     manifest = json.loads((built.folder / "build_m4/robot_firmware/robot-microros/manifest.json").read_text())
