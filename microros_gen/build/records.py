@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -22,9 +22,12 @@ _ABOVE = 4
 
 @dataclass(frozen=True)
 class LibraryRecord:
-    """A library that CMake builds from the output folder `output`; `arguments` are those of `generate`."""
+    """A library that CMake builds from the output folder `output`; `arguments` are those of `generate`.
 
-    name: str
+    `key` is its target's name and CMake's configuration (Debug), of which a build folder may have several.
+    """
+
+    key: tuple[str, str]
     output: Path
     archive: Path
     objects: tuple[Path, ...]
@@ -36,15 +39,14 @@ class LibraryRecord:
 class ImageRecord:
     """An image of a user. `map` is where the linker was told to describe it, `folders` where it may have run.
 
-    `objects` are those of the executable itself; empty where nobody said.
+    `objects` are those of the executable itself; empty where nobody said. `library` is the key of its library.
     """
 
-    name: str
     image: Path
     map: Path
     objects: tuple[Path, ...]
     folders: tuple[Path, ...]
-    library: str = ""
+    library: tuple[str, str] = ("", "")
 
 
 @dataclass(frozen=True)
@@ -69,8 +71,8 @@ def locate(path: Path, image: Path | None = None, linker_map: Path | None = None
         libraries = tuple(r for r in libraries if _same(r.output, path))
     elif not libraries:
         raise _nothing(path)
-    names = {r.name for r in libraries}
-    images = tuple(r for r in images if r.library in names)
+    keys = {r.key for r in libraries}
+    images = tuple(r for r in images if r.library in keys)
     if image is not None:
         return _given(path if is_output else None, libraries, images, image, linker_map)
     if is_output and (not libraries or _has_example(path)):
@@ -91,16 +93,21 @@ def _given(
             return Located(library.output, library)
     for record in images:
         if _same(record.image, image):
-            library = next(r for r in libraries if r.name == record.library)
+            library = next(r for r in libraries if r.key == record.library)
             known = record if linker_map is None else _unrecorded(image, linker_map, record)
             return Located(library.output, library, known)
-    if len(libraries) > 1:
-        names = ", ".join(str(r.output) for r in libraries)
+    if len({r.output for r in libraries}) > 1:
         message = f"{image} is no image of this build folder, which has several libraries"
-        raise UserError([Diagnostic(message, hint=f"Give the output folder of its library: {names}")])
-    found = libraries[0] if libraries else None
+        raise UserError(
+            [Diagnostic(message, hint=f"Give the output folder of its library: {_outputs(libraries)}")]
+        )
+    found = next((r for r in libraries if r.archive.is_file()), libraries[0] if libraries else None)
     place = output or (found.output if found else Path())
     return Located(place, found, _unrecorded(image, linker_map))
+
+
+def _outputs(libraries: Iterable[LibraryRecord]) -> str:
+    return ", ".join(sorted({str(r.output) for r in libraries}))
 
 
 def _unrecorded(image: Path, linker_map: Path | None, known: ImageRecord | None = None) -> ImageRecord:
@@ -108,28 +115,28 @@ def _unrecorded(image: Path, linker_map: Path | None, known: ImageRecord | None 
     beside = (image.with_suffix(".map"), image.with_name(f"{image.name}.map"))
     path = linker_map or next((p for p in beside if p.is_file()), beside[0])
     if known is not None:
-        return ImageRecord(known.name, image, path, known.objects, known.folders, known.library)
+        return replace(known, map=path)
     folders = (image.parent, Path(), *list(whole.parents)[1:_ABOVE])
-    return ImageRecord(str(image), image, path, (), folders)
+    return ImageRecord(image, path, (), folders)
 
 
 def _chosen(path: Path, libraries: tuple[LibraryRecord, ...], images: tuple[ImageRecord, ...]) -> Located:
     built = [record for record in images if record.image.is_file()]
     if len(built) == 1:
-        library = next(r for r in libraries if r.name == built[0].library)
+        library = next(r for r in libraries if r.key == built[0].library)
         return Located(library.output, library, built[0])
     if built:
         options = ", ".join(f"--image {record.image}" for record in built)
         raise UserError([Diagnostic(f"{path} has {len(built)} images", hint=f"Say which: {options}")])
     if images:
         raise _not_built(path, images[0].image)
-    if len(libraries) > 1:
-        names = ", ".join(str(r.output) for r in libraries)
-        message = f"{path} has {len(libraries)} libraries and no image"
-        raise UserError([Diagnostic(message, hint=f"Say which: {names}")])
-    if not libraries[0].archive.is_file():
+    if len({r.output for r in libraries}) > 1:
+        message = f"{path} has several libraries and no image"
+        raise UserError([Diagnostic(message, hint=f"Say which: {_outputs(libraries)}")])
+    made = [r for r in libraries if r.archive.is_file()]
+    if not made:
         raise _not_built(path, libraries[0].archive)
-    return Located(libraries[0].output, libraries[0])
+    return Located(made[0].output, made[0])
 
 
 def _not_built(path: Path, missing: Path) -> UserError:
@@ -177,7 +184,7 @@ def _load(path: Path) -> LibraryRecord | ImageRecord:
 
 def _library(data: Mapping[str, Any]) -> LibraryRecord:
     return LibraryRecord(
-        str(data["name"]),
+        (str(data["name"]), str(data["config"])),
         Path(data["output"]),
         Path(data["archive"]),
         _paths(data["objects"]),
@@ -188,12 +195,11 @@ def _library(data: Mapping[str, Any]) -> LibraryRecord:
 
 def _image(data: Mapping[str, Any]) -> ImageRecord:
     return ImageRecord(
-        str(data["name"]),
         Path(data["image"]),
         Path(data["map"]),
         _paths(data["objects"]),
         _paths(data["folders"]),
-        str(data["library"]),
+        (str(data["library"]), str(data["config"])),
     )
 
 

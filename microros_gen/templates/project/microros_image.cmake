@@ -87,7 +87,7 @@ function(_microros_record name members)
   if(several)
     string(APPEND name "-$<CONFIG>")
   endif()
-  file(GENERATE OUTPUT "${folder}/${name}.json" CONTENT "{\"version\": 1, ${members}}\n")
+  file(GENERATE OUTPUT "${folder}/${name}.json" CONTENT "{\"version\": 1, \"config\": \"$<CONFIG>\", ${members}}\n")
 endfunction()
 
 # Checks the budgets whenever `name` is made, as `microros-gen build` does.
