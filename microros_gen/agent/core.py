@@ -136,7 +136,8 @@ class Agent:
                 self._guarded(partial(self._look_after, client, now))
 
     def _look_after(self, client: Client, now: float) -> None:
-        if self._turns.waits(client):
+        waits = self._turns.waits(client)
+        if waits and client.asleep:
             return
         silent = now - client.heard
         self._turns.start(self._clock())
@@ -146,6 +147,8 @@ class Agent:
             return
         for message in client.session.heartbeats(now):
             client.send(message)
+        if waits:
+            return
         if silent > client.timeout_s:
             if self._graph.allows(client.account, now):
                 self._lobby.put_to_sleep(client)

@@ -14,7 +14,7 @@ from microros_gen.agent.fairness import TURN_S, Fairness
 from microros_gen.agent.graph_work import GraphWork
 from microros_gen.agent.steps import finish
 
-PAUSE_S = 0.02
+PAUSE_S = 0.05
 """Seconds until a job is tried again that may not change the ROS graph now."""
 INBOX_BYTES = 65_536
 """What may wait for the next turn of one client, beyond the message that it was stopped in."""

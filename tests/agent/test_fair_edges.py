@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fairness at the edges of the agent: what it asks of ROS 2, and which socket it reads."""
+"""Fairness at the edges of the agent: the order of clients, what ROS 2 is asked, and which socket is read."""
 
 from __future__ import annotations
 
+import io
 import socket
 import time
 from collections.abc import Iterator
@@ -10,14 +11,54 @@ from typing import Any
 
 import pytest
 
-from microros_gen.agent.fairness import Account
+from microros_gen.agent.fairness import CREDIT_S, Account, Fairness
+from microros_gen.agent.log import EventLog
 from microros_gen.agent.ros.bridge import BusyError, GraphReport
 from microros_gen.agent.ros.endpoints import FULL_S, RawWriter
 from microros_gen.agent.ros.graph import Comparison, Endpoint, TopicTypes
 from microros_gen.agent.ros.wakeups import Wakeups
-from microros_gen.agent.transport.sockets import UDP4
+from microros_gen.agent.transport.sockets import TCP4, UDP4
+from microros_gen.agent.transport.tcp import Tcp
 from microros_gen.agent.transport.udp import BATCH, Udp
 from microros_gen.diagnostics import UserError
+
+# Order
+
+
+class Paid:
+    def __init__(self, name: str, used: float) -> None:
+        self.name = name
+        self.account = Account(used)
+
+
+def test_who_cost_least_is_first_and_who_rested_has_only_a_small_credit() -> None:
+    fair = Fairness()
+    flood, other = Paid("flood", 5.0), Paid("other", 5.5)
+    both = [other, flood]
+    fair.order(both)
+    assert both == [flood, other]
+    rested = Paid("rested", 0.0)
+    three = [flood, other, rested]
+    fair.order(three)
+    assert three[0] is rested
+    assert rested.account.used == 5.0 - CREDIT_S, "what it did not use for long is not its own"
+    rested.account.used += 2 * CREDIT_S
+    fair.order(three)
+    assert three == [flood, rested, other]
+
+
+def test_shares_are_equal_whatever_a_piece_of_work_costs() -> None:
+    fair = Fairness()
+    cheap, dear = Paid("cheap", 0.0), Paid("dear", 0.0)
+    done = dict.fromkeys((cheap, dear), 0.0)
+    for _ in range(10_000):
+        both = [dear, cheap]
+        fair.order(both)
+        cost = 0.02 if both[0] is dear else 0.0001
+        both[0].account.used += cost
+        done[both[0]] += cost
+    assert abs(done[cheap] - done[dear]) <= 0.02 + CREDIT_S
+
 
 # ROS 2 is not asked more than it must be
 
@@ -143,6 +184,53 @@ def test_nothing_is_lost_or_mixed_up_while_clients_come_and_go(udp: Udp) -> None
     assert {place: sorted(numbers) for place, numbers in got.items()} == {
         place: list(range(100)) for place in got
     }
+
+
+def test_what_was_refused_before_does_not_take_the_next_datagram_along(udp: Udp) -> None:
+    """A connected socket tells of an earlier datagram that nobody took when it is to send the next one."""
+    gone = peer(udp)
+    place = gone.getsockname()
+    udp.claim((udp, place), Account())
+    gone.close()
+    udp.send(b"nobody", (udp, place))
+    again = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    again.bind(place)
+    again.settimeout(5)
+    udp.send(b"somebody", (udp, place))
+    assert again.recv(100) == b"somebody"
+
+
+def test_of_connections_the_one_that_cost_least_is_read_first() -> None:
+    transport = Tcp(TCP4, "127.0.0.1", 0, EventLog(io.StringIO()))
+    made = [socket.create_connection(("127.0.0.1", transport.port)) for _ in range(3)]
+    got: list[tuple[int, Any]] = []
+
+    def take(data: bytes, address: Any, _: object) -> None:
+        got.append((data[0], address))
+
+    def say(number: int, connection: socket.socket) -> None:
+        connection.sendall(b"\1\0" + bytes((number,)))
+
+    for number, connection in enumerate(made):
+        say(number, connection)
+    end = time.monotonic() + 10
+    while len(got) < 3 and time.monotonic() < end:
+        transport.pump(take)
+    by_number = dict(got)
+    for number, used in ((0, 3.0), (1, 1.0), (2, 2.0)):
+        transport.claim(by_number[number], Account(used))
+        say(number, made[number])
+    by_number[1].account.busy = True
+    got.clear()
+    time.sleep(0.05)
+    transport.pump(take)
+    assert [number for number, _ in got] == [2, 0], "who is not done with what it said is not read"
+    by_number[1].account.busy = False
+    transport.pump(take)
+    assert got[2][0] == 1
+    for connection in made:
+        connection.close()
+    transport.close()
 
 
 def test_another_agent_does_not_get_the_port(udp: Udp) -> None:

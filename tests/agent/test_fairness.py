@@ -17,7 +17,7 @@ from agent.fakes import Bench
 from agent.test_core import entities, message
 from agent.test_core_full import acknacks
 from agent.test_core_reading import FOREVER, reader_entities, sample
-from microros_gen.agent.fairness import CREDIT_S, TURN_S, Account, Fairness
+from microros_gen.agent.fairness import TURN_S, Account
 from microros_gen.agent.graph_work import BURST_S, MEMORY_S, GraphWork
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.turns import INBOX_BYTES
@@ -118,44 +118,6 @@ def application(writers: int, last: str, last_type: str = "std_msgs/msg/Int32") 
 def statuses(sent: list[bytes]) -> list[int]:
     """Return the statuses of all STATUS among messages."""
     return [data[12] for data in sent if data[4] == 5]
-
-
-# Order
-
-
-class Paid:
-    def __init__(self, name: str, used: float) -> None:
-        self.name = name
-        self.account = Account(used)
-
-
-def test_who_cost_least_is_first_and_who_rested_has_only_a_small_credit() -> None:
-    fair = Fairness()
-    flood, other = Paid("flood", 5.0), Paid("other", 5.5)
-    both = [other, flood]
-    fair.order(both)
-    assert both == [flood, other]
-    rested = Paid("rested", 0.0)
-    three = [flood, other, rested]
-    fair.order(three)
-    assert three[0] is rested
-    assert rested.account.used == 5.0 - CREDIT_S, "what it did not use for long is not its own"
-    rested.account.used += 2 * CREDIT_S
-    fair.order(three)
-    assert three == [flood, rested, other]
-
-
-def test_shares_are_equal_whatever_a_piece_of_work_costs() -> None:
-    fair = Fairness()
-    cheap, dear = Paid("cheap", 0.0), Paid("dear", 0.0)
-    done = dict.fromkeys((cheap, dear), 0.0)
-    for _ in range(10_000):
-        both = [dear, cheap]
-        fair.order(both)
-        cost = 0.02 if both[0] is dear else 0.0001
-        both[0].account.used += cost
-        done[both[0]] += cost
-    assert abs(done[cheap] - done[dear]) <= 0.02 + CREDIT_S
 
 
 # Changes of the graph
@@ -317,6 +279,20 @@ def test_a_long_sequence_is_published_once_each_and_in_order() -> None:
     assert bench.agent.samples == count + 1
     seen = [data for label, data in bench.bridge.published if label.startswith("/a ")]
     assert seen == [sample(n) for n in range(count - len(seen), count)]
+
+
+def test_a_client_that_waits_for_its_turn_is_told_again_what_it_has_not_acknowledged() -> None:
+    bench = costly(Limits(graph_ms_per_second=10))
+    for create in reader_entities(1, topic="r"):
+        bench.say(message(create, stream=0))
+        turns(bench)
+    bench.say(message(ReadData(7, 0x16, 0x80, delivery=FOREVER), stream=0))
+    bench.bridge.source("/r [std_msgs/msg/Int32]").put(sample(1))
+    assert len(bench.take()) == 1
+    bench.say(message(application(WRITERS, "rt/z"), stream=0))
+    bench.wait(0.5)
+    assert bench.agent._turns._waiting, "it may not change the graph so much at once"
+    assert any(sent.startswith("81 00 00 00 0b") for sent in bench.wait(2)), "no HEARTBEAT"
 
 
 def test_who_leaves_in_the_middle_leaves_nothing() -> None:

@@ -126,7 +126,7 @@ class Udp:
             if queue is None:
                 self._socket.sendto(data, peer)
             else:
-                queue.socket.send(data)
+                _send(queue.socket, data)
         except OSError:
             return  # a datagram may always be lost
 
@@ -165,3 +165,10 @@ class Udp:
                 self._strays.append(ends.recvfrom(MAXIMUM_DATAGRAM))
             except OSError:
                 return
+
+
+def _send(connected: socket.socket, data: bytes) -> None:
+    try:
+        connected.send(data)
+    except ConnectionRefusedError:  # so it went with an earlier one, and this was not sent
+        connected.send(data)
