@@ -7,7 +7,9 @@ import ctypes
 import gc
 import multiprocessing
 import os
+import time
 import tracemalloc
+from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
@@ -77,19 +79,31 @@ def live(agent: Agent, domain: int, transport: FakeTransport) -> None:
         )
         agent.receive(message(0x80, place, create), "a", transport)
     (client,) = agent.clients
-    assert len(client.objects) == len(OBJECTS)
+    _until(agent, lambda: len(client.objects) == len(OBJECTS))
     agent.receive(message(0, 0, Delete(2, 0xFFFE)), "a", transport)
+    _until(agent, lambda: not agent._turns.waits(client))
     agent.flush()
     agent.take()
     assert not len(agent.clients)
     transport.sent.clear()
 
 
+def _until(agent: Agent, done: Callable[[], bool]) -> None:
+    """Let the agent go on: who creates and leaves all the time has to wait now and then."""
+    end = time.monotonic() + 60
+    while not done():
+        assert time.monotonic() < end
+        time.sleep(0.001)
+        agent.tick()
+
+
 def measured() -> tuple[float, float]:
     """Return what a life leaves, in bytes of Python's and of the heap of C."""
     transport = FakeTransport()
     with opened(own_domain()) as bridged, Path(os.devnull).open("w") as out:
-        core = Agent(bridged.bridge, EventLog(out), Limits(operations_per_second=1_000_000))
+        core = Agent(
+            bridged.bridge, EventLog(out), Limits(operations_per_second=1_000_000, graph_ms_per_second=1_000)
+        )
         tracemalloc.start()
         try:
             _lives(core, bridged, transport)
