@@ -11,7 +11,8 @@ from microros_gen.adopt.meta_reasons import NOT_HERE_WHEN_ON, NOT_NEEDED, OF_A_B
 from microros_gen.diagnostics import nearest
 from microros_gen.model.application import MOST_HISTORY
 from microros_gen.model.draft import Draft, DraftValue, Flow, Remark, Setting, place
-from microros_gen.parse.application import LONGEST_BLOCK_MS, LONGEST_SILENCE_MS, SHORTEST_SILENCE_MS
+from microros_gen.parse.application import LONGEST_BLOCK_MS
+from microros_gen.parse.session_times import LONGEST_SILENCE_MS, SHORTEST_SILENCE_MS
 
 MOST_ENTITIES = 250
 _ON = ("ON", "TRUE", "YES", "Y", "1")

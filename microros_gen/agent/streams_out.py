@@ -12,7 +12,9 @@ from microros_gen.agent.wire.entity_messages import Heartbeat
 from microros_gen.agent.wire.message import SUBMESSAGE_HEADER, header_bytes, submessage_bytes
 
 HEARTBEAT_PERIOD_S = 0.2
-"""Seconds between two HEARTBEATs while something is unacknowledged."""
+"""Seconds that a message waits for its acknowledgement before a HEARTBEAT asks for it, at least."""
+SILENT_PERIOD_S, SLOW_PERIOD_S = 1.0, 5.0
+"""The same at most: where the client is silent, and where its answers take long."""
 
 NEVER = float("-inf")
 REPEAT_S = 0.01
@@ -83,6 +85,10 @@ class ReliableOut:
         self._largest = max(largest, backlog_bytes)
         self._room = link.room()
         self._heartbeat_at = 0.0
+        self._round_trip = 0.0
+        self._timed: tuple[int, float] | None = None
+        """The number and moment of a message whose acknowledgement will say how long a round trip takes."""
+        self._progress_at = 0.0
         self._repeated: dict[int, float] = {}
         """When messages of the window were sent again."""
 
@@ -109,8 +115,22 @@ class ReliableOut:
             return []  # older than what is known, or never sent
         for _ in range(done):
             self._unacknowledged.popleft()
+        if done:
+            self._went_on(first, now)
         again = self._repeat(first, missing, now) if missing else []
         return again + self._release(now)
+
+    def _went_on(self, first: int, now: float) -> None:
+        """Note that the client has everything before `first` since now."""
+        if self._timed is not None and 0 < (first - self._timed[0]) & 0xFFFF < HALF:
+            self._round_trip, self._timed = now - self._timed[1], None
+        self._progress_at = now
+        self._heartbeat_at = now + self._pause()
+
+    def _pause(self, silent: float = 0.0) -> float:
+        """Return how long to wait for an answer: longer than the last one took, and than a quarter of the silence."""
+        slow = min(1.5 * self._round_trip, SLOW_PERIOD_S)
+        return max(HEARTBEAT_PERIOD_S, slow, min(silent / 4, SILENT_PERIOD_S))
 
     def _repeat(self, first: int, missing: int, now: float) -> list[bytes]:
         """Return what is asked for again; not what just was: a client says of every message what it still lacks."""
@@ -119,7 +139,8 @@ class ReliableOut:
         for i, message in enumerate(self._unacknowledged):
             sequence = (first + i) & 0xFFFF
             before = self._repeated.get(sequence, NEVER)
-            if missing >> i & 1 and now - before >= REPEAT_S:
+            if missing >> i & 1 and now - before >= max(REPEAT_S, 0.8 * self._round_trip):
+                self._timed = None  # its acknowledgement comes with that of this one, or is for this one
                 again.append(message)
                 before = now
             repeated[sequence] = before
@@ -130,7 +151,7 @@ class ReliableOut:
         """Return the HEARTBEAT that is due at `now` (seconds, monotonic), if one is."""
         if not self._unacknowledged or now < self._heartbeat_at:
             return None
-        self._heartbeat_at = now + HEARTBEAT_PERIOD_S
+        self._heartbeat_at = now + self._pause(now - self._progress_at)
         return self.probe()
 
     def probe(self) -> Heartbeat:
@@ -156,7 +177,10 @@ class ReliableOut:
         message = self._link.header(self.stream, self._sequence) + body
         self._sequence = (self._sequence + 1) & 0xFFFF
         if not self._unacknowledged:
-            self._heartbeat_at = now + HEARTBEAT_PERIOD_S
+            self._progress_at = now
+            self._heartbeat_at = now + self._pause()
+        if self._timed is None:
+            self._timed = (self._sequence - 1) & 0xFFFF, now
         self._unacknowledged.append(message)
         return message
 

@@ -215,6 +215,20 @@ class TargetRef:
 
 
 @dataclass(frozen=True)
+class SessionTimes:
+    """Times of the protocol, milliseconds; None: as the plan derives it from `round_trip` and the transport."""
+
+    round_trip: int | None = None
+    retry_max: int | None = None
+    heartbeat: int | None = None
+    liveliness_period: int | None = None
+    liveliness_timeout: int | None = None
+    connect_timeout: int | None = None
+    create_timeout: int | None = None
+    close_timeout: int | None = None
+
+
+@dataclass(frozen=True)
 class Application:
     """The whole file. `interfaces` are `pkg` or `pkg/msg/Type`.
 
@@ -235,6 +249,7 @@ class Application:
     transport: Transport = Transport()
     session_key: int | str | None = None
     hard_liveliness_ms: int = 0
+    times: SessionTimes = SessionTimes()
     target: TargetRef = TargetRef()
     nodes: tuple[NodeDecl, ...] = ()
     interfaces: tuple[Named, ...] = ()

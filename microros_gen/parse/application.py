@@ -20,6 +20,7 @@ from microros_gen.model.application import (
 from microros_gen.parse.application_nodes import parse_nodes
 from microros_gen.parse.limits import application_limits
 from microros_gen.parse.schema import validate_application
+from microros_gen.parse.session_times import hard_liveliness, session_times
 from microros_gen.parse.tree_read import component_change
 from microros_gen.parse.tree_values import (
     bool_of,
@@ -31,12 +32,8 @@ from microros_gen.parse.tree_values import (
     size_of,
     span_of,
     text_of,
-    time_of,
 )
 from microros_gen.parse.yaml_tree import MappingNode, ScalarNode, YamlNode, parse_yaml
-
-SHORTEST_SILENCE_MS, LONGEST_SILENCE_MS = 100, 999_000
-"""What `session.hard_liveliness` can be, milliseconds; agents are told six digits."""
 
 LONGEST_BLOCK_MS = 60_000
 """Longest time that `on_full: block …` may take, milliseconds."""
@@ -90,7 +87,8 @@ def _application(tree: MappingNode, diagnostics: Diagnostics) -> Application:
         liveliness=named_of(child(tree, "liveliness")),
         transport=_transport(child(tree, "transport"), diagnostics),
         session_key=_session_key(child(child(tree, "session"), "key")),
-        hard_liveliness_ms=_hard_liveliness(child(tree, "session"), diagnostics),
+        hard_liveliness_ms=hard_liveliness(child(tree, "session"), diagnostics),
+        times=session_times(child(tree, "session"), diagnostics),
         target=_target(child(tree, "target")),
         nodes=nodes,
         interfaces=_names(child(tree, "interfaces")),
@@ -229,15 +227,6 @@ def _check_ipv6(host: str, span: Span | None, diagnostics: Diagnostics) -> bool:
 def _session_key(node: YamlNode | None) -> int | str | None:
     number = int_of(node)
     return number if number is not None else text_of(node)
-
-
-def _hard_liveliness(node: YamlNode | None, diagnostics: Diagnostics) -> int:
-    time = child(node, "hard_liveliness")
-    milliseconds = (time_of(time) or 0) // 1000
-    if time_of(time) is not None and not SHORTEST_SILENCE_MS <= milliseconds <= LONGEST_SILENCE_MS:
-        message = f"'session.hard_liveliness' must be between 100 ms and 999 s; it is {text_of(time)}"
-        diagnostics.error(message, span_of(time), "Write `hard_liveliness: 10 s`")
-    return milliseconds
 
 
 def _target(node: YamlNode | None) -> TargetRef:

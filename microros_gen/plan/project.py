@@ -22,6 +22,7 @@ from microros_gen.plan.receiving import plan_receiving
 from microros_gen.plan.running import plan_running
 from microros_gen.plan.runtime import DISCOVERY_GROUP, NodePlan, PublisherPlan, RuntimePlan, SubscriptionPlan
 from microros_gen.plan.serving import Serving, plan_serving
+from microros_gen.plan.session_times import plan_times
 from microros_gen.plan.streams import StreamPlan, Written, plan_streams
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_own_limits import LimitSet
@@ -128,6 +129,8 @@ def plan_project(
     receivers -= 1 if selection.has(CLOCK_ROS) else 0  # nobody adds the subscription of /clock to an executor
     running = plan_running(application, selection, receivers, diagnostics)
     agent = _agent(application.transport, selection)
+    baud = application.transport.baud if selection.transport == "serial" else None
+    times = plan_times(application.times, baud, streams.mtu, streams.input_size)
     runtime = RuntimePlan(
         plan_id="",
         error_text_size=ERROR_TEXT_SIZE if application.error_text else 0,
@@ -149,6 +152,7 @@ def plan_project(
         arena_size=application.memory.arena,
         on_full=application.on_full,
         on_full_block_ms=application.on_full_block_ms,
+        **vars(times),
         entities=selection.entities,
         creation=application.creation.name if application.creation else "best_effort",
         transport=selection.transport,

@@ -10,6 +10,7 @@ from microros_gen.model.types import TypeName
 from microros_gen.plan.names import dds_type
 from microros_gen.plan.runtime_rows import EndpointRow, QueueRow
 from microros_gen.plan.services import ServicePlan
+from microros_gen.plan.session_times import TimesPlan
 from microros_gen.plan.types_names import include_path, type_files
 
 DISCOVERY_GROUP = "239.255.0.2"
@@ -120,8 +121,8 @@ class TimerPlan:
     kind: str = "clock"
 
 
-@dataclass(frozen=True)
-class RuntimePlan:
+@dataclass(frozen=True, kw_only=True)
+class RuntimePlan(TimesPlan):
     """Sizes are bytes, times are milliseconds.
 
     `declared` is false for an application without `nodes:`: then names come from the calls and are kept in
@@ -163,14 +164,6 @@ class RuntimePlan:
     arena_size: int
     on_full: str
     on_full_block_ms: int
-    connect_timeout_ms: int = 1000
-    create_timeout_ms: int = 1000
-    close_timeout_ms: int = 300
-    heartbeat_period_ms: int = 100
-    liveliness_period_ms: int = 1000
-    liveliness_attempts: int = 3
-    retry_first_ms: int = 100
-    retry_most_ms: int = 1000
     entities: str = "binary"
     creation: str = "best_effort"
     transport: str = "udp"

@@ -490,7 +490,7 @@ def test_what_a_silent_client_is_sent_over_time(kind: str) -> None:
     apart = [later - earlier for earlier, later in itertools.pairwise(times)]
     if kind == "unacknowledged":
         assert 0.15 <= times[0] <= 0.3
-        assert 115 <= len(times) <= 156, "heartbeats as often as before, and questions"
+        assert 30 <= len(times) <= 50, "heartbeats that grow apart, up to a second, and questions"
     else:
         assert 14.9 <= times[0] <= 18.2
         assert len(times) in (4, 5)

@@ -192,6 +192,33 @@ def test_heartbeats_until_acknowledged() -> None:
     assert (stream.probe().first, stream.probe().last) == (2, 1)
 
 
+def test_heartbeats_wait_for_a_slow_client() -> None:
+    """Three seconds of round trip: it is not asked for what is on its way, and what was lost goes once more."""
+    stream, now, beats, sent = ReliableOut(LINK, 0x80, 1000), 0.0, 0, 0
+    coming: list[tuple[float, int, int]] = []
+    for step in range(600):
+        now = step * 0.1
+        if step % 50 == 0:
+            stream.push(b"a", now)
+            lost = step == 300
+            if not lost:
+                coming.append((now + 3.0, stream.probe().last + 1, 0))
+        if stream.heartbeat(now) is not None:
+            beats += step >= 100
+            if step > 300:
+                coming.append((now + 3.0, stream.probe().first, 1))
+        for answer in [answer for answer in coming if answer[0] <= now]:
+            coming.remove(answer)
+            again = stream.acknowledge(answer[1], answer[2], now)
+            sent += len(again)
+            coming += [(now + 3.0, stream.probe().last + 1, 0) for _ in again]
+        if step == 290:
+            assert beats == 0, "each acknowledgement comes in its time"
+    assert sent == 1
+    assert beats <= 3
+    assert stream.probe().first == 12
+
+
 def test_fragments_fill_the_announced_size() -> None:
     """As the public pair does it: full messages are as large as the MTU, the last one takes the rest."""
     stream = ReliableOut(Link(0x81, b"", 508), 0x80, 65536)

@@ -268,6 +268,26 @@ _TOP = {
         "1:28",
         "'session.hard_liveliness' must be a time with its unit",
     ),
+    **{
+        f"session.{name}": KeyCase(
+            f"session: {{{name}: 2 s}}",
+            lambda a, n=name: getattr(a.times, n),
+            2000,
+            f"session: {{{name}: 2}}",
+            f"1:{13 + len(name)}",
+            f"'session.{name}' must be a time with its unit",
+        )
+        for name in (
+            "round_trip",
+            "retry_max",
+            "heartbeat",
+            "liveliness_period",
+            "liveliness_timeout",
+            "connect_timeout",
+            "create_timeout",
+            "close_timeout",
+        )
+    },
     "session.key": KeyCase(
         "session: {key: 0xAABBCCDD}",
         lambda a: a.session_key,

@@ -35,6 +35,18 @@ ERRORS: dict[str, tuple[str, str]] = {
         "session: {hard_liveliness: 3600 s}\n",
         "f:1:28: error: 'session.hard_liveliness' must be between 100 ms and 999 s; it is 3600 s",
     ),
+    "a round trip of a moment": (
+        "session: {round_trip: 1 ms}\n",
+        "f:1:23: error: 'session.round_trip' must be between 10 ms and 60 s; it is 1 ms. Write `round_trip: 300 ms`",
+    ),
+    "a time-out of a day": (
+        "session: {create_timeout: 86400 s}\n",
+        "f:1:27: error: 'session.create_timeout' must be between 1 ms and 3600 s; it is 86400 s",
+    ),
+    "pauses that shrink": (
+        "session: {round_trip: 3 s, retry_max: 200 ms}\n",
+        "f:1:39: error: 'session.retry_max' is 200 ms, less than `round_trip`. Write `retry_max: 3 s` or more",
+    ),
     "unknown key": (
         "profles: [a]\n",
         "f:1:1: error: the file has no key 'profles'. Did you mean 'profiles'?",

@@ -26,6 +26,14 @@ session: {key: device}
 """
 
 
+IMPATIENT = """\
+version: 1
+profiles: [pure_sender]
+interfaces: [std_msgs/msg/Int32]
+session: {liveliness_period: 200 ms, liveliness_timeout: 300 ms, retry_max: 500 ms}
+"""
+
+
 @pytest.mark.parametrize("name", BOARDS)
 def test_the_example_publishes_from_each_board(builds: Builds, name: str) -> None:
     built = builds.build(name)
@@ -93,6 +101,32 @@ def test_a_main_that_returns_restarts_the_board_until_there_is_an_agent(builds: 
     with board(built) as running:
         running.go_on()
         assert running.process.wait(timeout=20) == 0
+
+
+@pytest.mark.parametrize("loop", ["keeps the session", "begins anew"])
+def test_the_usual_loops_outlive_an_outage_of_the_agent(builds: Builds, loop: str) -> None:
+    """The one line is the session's: a ping while it is looked for must not close it."""
+    built = builds.build("qemu-mps2-an385", IMPATIENT)
+    keeps = loop == "keeps the session"
+    image = builds.application(built, "usual_loop.c", *(["-DLOOP_KEEPS"] if keeps else []))
+    agent = FakeAgent()
+
+    def silent_pings() -> int:
+        return running.words("loop_report", 3)[2]
+
+    with board(built, image) as running, scripted_agent(running.device, agent):
+        running.go_on()
+        for _ in range(2):
+            before, silent = len(agent.values()), silent_pings()
+            running.wait_for(lambda before=before: len(agent.values()) > before + 5)  # type: ignore[misc]
+            agent.silent = True
+            running.wait_for(lambda silent=silent: silent_pings() >= silent + 4)  # type: ignore[misc]
+            agent.restart()
+            agent.silent = False
+        before = len(agent.values())
+        running.wait_for(lambda: len(agent.values()) > before + 5)
+        begun = running.words("loop_report", 4)[3]
+    assert (begun == 1) == keeps
 
 
 def test_bytes_that_nobody_reads_in_time_are_counted_and_the_line_recovers(builds: Builds) -> None:

@@ -64,6 +64,7 @@ POOL = RuntimePlan(
     create_timeout_ms=400,
     close_timeout_ms=200,
     liveliness_period_ms=100,
+    liveliness_wait_ms=100,
     retry_first_ms=40,
     retry_most_ms=160,
     type_name_size=32,

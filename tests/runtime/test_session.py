@@ -23,7 +23,7 @@ def test_no_agent_is_a_timeout_that_says_where(bench: Bench) -> None:
     assert result.code == 2
     assert result.error == "no agent answers at 127.0.0.1:8888 within 400 ms"
     assert POOL.connect_timeout_ms <= result.slept <= POOL.connect_timeout_ms + 1
-    assert [d[:6] for d in client.sent] == [LOGIN] * 4, "at 0, 40, 120 and 280 ms"
+    assert [d[:6] for d in client.sent] == [LOGIN] * 5, "at 0, 40, 80, 160 and 320 ms"
     client.agent.silent = False
     client.ok("init")
 

@@ -75,7 +75,7 @@ static void any_session(void)
   session->now_ms = proof_u32();
   session->due_ms = proof_u32();
   session->heard_ms = proof_u32();
-  session->retry_ms = proof_u16();
+  session->since_ms = proof_u32();
   session->request = proof_u16();
   session->state = (uint8_t)Frama_C_interval(XRCE_CLOSED, XRCE_CLOSING);
   session->refusal = proof_u8();
@@ -90,6 +90,7 @@ static void any_streams(void)
 
   proof_any(out->message, sizeof(out->message));
   out->heartbeat_ms = proof_u32();
+  out->since_ms = proof_u32();
   out->held_until_ms = proof_u32();
   out->held = proof_bool();
   out->count = (uint8_t)Frama_C_interval(0, MICROROS_RELIABLE_SLOTS);

@@ -24,6 +24,8 @@ typedef struct datagram_t {
 int64_t agent_now_ns = INT64_C(0xffffff00) * MS;
 int64_t agent_epoch_ns;
 uint32_t agent_waits;
+bool agent_silent;
+void (*agent_asked)(uint8_t id);
 int64_t agent_event_ns = INT64_MAX;
 void (*agent_event)(void);
 port_timer_tick_t agent_ticks[4];
@@ -243,6 +245,12 @@ void port_udp_close(port_udp_t * udp)
 bool port_udp_send(port_udp_t * udp, const uint8_t * data, size_t size)
 {
   (void)udp;
+  if (agent_asked != NULL) {
+    agent_asked(data[HEADER]);
+  }
+  if (agent_silent) {
+    return true;
+  }
   if (data[1] == RELIABLE) {
     memcpy(unacknowledged, data, sizeof(unacknowledged));
   }

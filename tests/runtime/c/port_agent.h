@@ -18,6 +18,10 @@ extern int64_t agent_epoch_ns;
 /* How often port_wait was called since the unit set this to 0. */
 extern uint32_t agent_waits;
 
+/* The agent is gone: it takes nothing and says nothing. `agent_asked` is called for each message that it would get. */
+extern bool agent_silent;
+extern void (*agent_asked)(uint8_t id);
+
 /* Called once when this time is reached by waiting; then the unit may set the next one. */
 extern int64_t agent_event_ns;
 extern void (*agent_event)(void);

@@ -68,6 +68,18 @@ void port_serial_close(port_serial_t * serial)
   line_close();
 }
 
+size_t port_serial_room(port_serial_t * serial)
+{
+  (void)serial;
+  return SIZE_MAX;
+}
+
+bool port_serial_is_idle(port_serial_t * serial)
+{
+  (void)serial;
+  return true;
+}
+
 bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size)
 {
   (void)serial;

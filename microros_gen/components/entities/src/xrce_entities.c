@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-enum { NO_PLACE = 0xffff, STATUS_SIZE = 6 };
+enum { NO_PLACE = 0xffff, STATUS_SIZE = 6, MOST_REFUSALS = 16 };
 
 /* Submessage header, request id, object id; then kind, format, padding and the description's length. */
 enum {
@@ -86,6 +86,7 @@ static void entities_next_place(xrce_entities_t * entities)
 static void entities_wake(xrce_entities_t * entities, uint32_t now)
 {
   entities->pending = true;
+  entities->refusals = 0;
   if (!entities->outstanding) {
     entities->due_ms = now;
   }
@@ -119,8 +120,10 @@ static void entities_refuse(xrce_client_t * client, uint8_t status, uint32_t now
     entities->refused_place = entities->cursor;
     entities->refused_status = status;
   }
-  entities->due_ms = now + MICROROS_RETRY_FIRST_MS;
-  entities_next_place(entities); /* others first */
+  /* Others first; then again, after pauses that grow, since it is a mistake or a lack that may last. */
+  entities->due_ms = now + xrce_session_pause((uint32_t)MICROROS_RETRY_FIRST_MS << entities->refusals);
+  entities->refusals = (uint8_t)(entities->refusals + (entities->refusals < MOST_REFUSALS ? 1u : 0u));
+  entities_next_place(entities);
 }
 
 /* Behind the description: a participant's domain, at an even place; the parent's id of other objects. */
@@ -161,8 +164,7 @@ static uint8_t * entities_put_object(
   return entities_put_owner(client, place, kind, end, (size & 1u) != 0u);
 }
 
-/* Sends the outstanding request. There is a session: what does not come was a lost datagram, and a caller waits. So the
- * pause before it is sent again does not grow. */
+/* Sends the outstanding request. */
 static void entities_send(xrce_client_t * client, uint32_t now)
 {
   enum { CREATE_FLAGS = XRCE_FLAG_LITTLE_ENDIAN | XRCE_FLAG_REUSE | XRCE_FLAG_REPLACE };
@@ -175,7 +177,7 @@ static void entities_send(xrce_client_t * client, uint32_t now)
   uint8_t * room = xrce_creation_room(client);
   uint8_t * end = &room[DELETE_SIZE];
 
-  entities->due_ms = now + MICROROS_RETRY_FIRST_MS;
+  entities->due_ms = now + xrce_session_short_pause(now - entities->asked_ms);
   if (!entities->deleting) {
     end = entities_put_object(client, place, kind, room);
   }
@@ -203,6 +205,7 @@ static bool entities_begin(xrce_client_t * client, uint32_t now)
       }
       entities->deleting = level > goal;
       entities->outstanding = true;
+      entities->asked_ms = now;
       entities->request = xrce_session_next_request(&client->session);
       entities_send(client, now);
       return true;
@@ -245,6 +248,7 @@ void xrce_entities_on_status(xrce_client_t * client, const uint8_t * payload, si
     --state->level; /* whatever the agent says: an unknown object is what we wanted */
   } else if (payload[4] <= XRCE_STATUS_OK_MATCHED) {
     ++state->level;
+    entities->refusals = 0;
   } else {
     entities_refuse(client, payload[4], now);
   }

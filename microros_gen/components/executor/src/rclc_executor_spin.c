@@ -3,6 +3,7 @@
 #include "microros/executor_handles.h"
 #include "microros/port.h"
 #include "microros/rcl_waiting.h"
+#include "microros_config.h"
 
 /* Between rounds that end with an error at once. */
 enum { PAUSE_AFTER_ERROR_NS = 1000000 };
@@ -144,13 +145,25 @@ static void executor_rest(int64_t duration_ns)
   }
 }
 
+/*
+ * How long a round may wait of which nobody hears that it has ended. Nothing becomes ready by a time-out, so it is only for what
+ * the trigger function may look at, and for another task that ends the context.
+ */
+static uint64_t executor_patience(const rclc_executor_t * executor)
+{
+  const bool for_nothing =
+    MICROROS_TASKS_SHARE == 0u && executor->trigger_function == rclc_executor_trigger_any;
+
+  return for_nothing ? UINT64_MAX : executor->timeout_ns;
+}
+
 rcl_ret_t rclc_executor_spin(rclc_executor_t * executor)
 {
   if (executor == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "executor");
   }
   for (;;) {
-    const rcl_ret_t result = rclc_executor_spin_some(executor, executor->timeout_ns);
+    const rcl_ret_t result = rclc_executor_spin_some(executor, executor_patience(executor));
 
     if (!executor_goes_on(executor, result)) {
       return result;

@@ -46,13 +46,13 @@ void xrce_ping_step(xrce_client_t * client, uint32_t now)
   }
   xrce_ping_ask(client);
   ++ping->unanswered;
-  ping->due_ms = now + MICROROS_LIVELINESS_PERIOD_MS;
+  ping->due_ms = now + MICROROS_LIVELINESS_WAIT_MS;
 }
 
 /* An agent is there: the session need not wait for it any longer. */
 static void ping_hasten(xrce_session_t * session, uint32_t now)
 {
-  session->retry_ms = MICROROS_RETRY_FIRST_MS;
+  session->since_ms = now;
   if (!xrce_is_due(now + MICROROS_RETRY_FIRST_MS, session->due_ms)) {
     session->due_ms = now + MICROROS_RETRY_FIRST_MS;
   }

@@ -84,7 +84,7 @@ static void read_send(xrce_client_t * client, uint32_t now)
   }
   message[CONTROLLED_AT] = 1;
   xrce_put_le16(&message[SAMPLES_AT], reading->samples);
-  reading->due_ms = now + MICROROS_RETRY_FIRST_MS;
+  reading->due_ms = now + xrce_session_short_pause(now - reading->asked_ms);
   (void)xrce_session_send(
     &client->session, message, sizeof(message)); /* a loss is what the repetition is for */
 }
@@ -126,6 +126,7 @@ static void read_begin(xrce_client_t * client, uint16_t samples, uint32_t now)
   xrce_receiver_t * receiver = &client->receivers[reading->receiver];
 
   reading->outstanding = true;
+  reading->asked_ms = now;
   reading->request = xrce_session_next_request(&client->session);
   reading->samples = samples;
   if (receiver->request != XRCE_REQUEST_NONE) {

@@ -53,7 +53,7 @@ void xrce_stream_reliable_commit(
 
   stream->size[stream_slot(stream, i)] = (uint16_t)size;
   if (i == 0u) {
-    stream->heartbeat_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
+    xrce_stream_reliable_goes_on(stream, now);
   }
   stream->count = (uint8_t)(i + 1u);
   stream->unsent = (uint16_t)(stream->unsent | (uint32_t)1u << i);
@@ -99,7 +99,7 @@ void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now)
 static void stream_release(xrce_stream_reliable_t * stream, xrce_session_t * session, uint32_t now)
 {
   stream->held = false;
-  stream->heartbeat_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
+  xrce_stream_reliable_goes_on(stream, now);
   session->statistics.resent += stream->count;
 }
 
@@ -117,8 +117,7 @@ void xrce_stream_reliable_step(
   }
   stream_flow(stream, session);
   if (stream->unsent == 0u && xrce_is_due(now, stream->heartbeat_ms)) {
-    xrce_stream_reliable_heartbeat(session, stream->first, stream->count);
-    stream->heartbeat_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
+    xrce_stream_reliable_heartbeat(stream, session, stream->count, now);
   }
 }
 
@@ -141,6 +140,9 @@ bool xrce_stream_reliable_on_acknack(
   place = (uint16_t)(expected - stream->first);
   if (place <= stream->count) {
     stream_free(stream, (uint8_t)place);
+    if (place != 0u) {
+      xrce_stream_reliable_goes_on(stream, now);
+    }
     place = 0;
   } else if (missing != 0u) {
     stream->heartbeat_ms = now; /* it waits for what was dropped: tell it not to */

@@ -155,7 +155,7 @@ static void stream_flow(xrce_stream_reliable_t * stream, xrce_session_t * sessio
     return;
   }
   if (stream->sent == 0u) {
-    stream->heartbeat_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
+    xrce_stream_reliable_goes_on(stream, now);
   }
   outcome = stream_repeat(stream, session);
   while (outcome == STREAM_SENT && stream->sent < WINDOW) {
@@ -260,8 +260,7 @@ void xrce_stream_reliable_step(
   }
   stream_flow(stream, session, now);
   if (stream->sent != 0u && !stream->held && !stream->blocked && xrce_is_due(now, stream->heartbeat_ms)) {
-    xrce_stream_reliable_heartbeat(session, stream->first, stream->sent);
-    stream->heartbeat_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
+    xrce_stream_reliable_heartbeat(stream, session, stream->sent, now);
     stream->again = 0;
   }
 }
@@ -283,6 +282,9 @@ bool xrce_stream_reliable_on_acknack(
   missing = xrce_get_be16(&payload[2]);
   if (place <= stream->sent) {
     stream_free(stream, (uint8_t)place);
+    if (place != 0u) {
+      xrce_stream_reliable_goes_on(stream, now);
+    }
     place = 0;
   } else if (missing != 0u) {
     stream->heartbeat_ms = now; /* it waits for what was dropped: tell it not to */

@@ -32,7 +32,7 @@ static bool sync_wait(xrce_client_t * client, uint32_t timeout_ms)
     over = now - start >= timeout_ms;
     if (client->session.state == (uint8_t)XRCE_READY && xrce_is_due(now, due) && (!over || due == start)) {
       xrce_time_sync_ask(client);
-      due = now + MICROROS_RETRY_FIRST_MS;
+      due = now + xrce_session_short_pause(now - start);
     }
     if (over || client->session.state == (uint8_t)XRCE_CLOSED) {
       return false;

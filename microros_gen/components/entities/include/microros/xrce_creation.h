@@ -20,10 +20,12 @@ extern "C" {
 
 typedef struct xrce_entities_t {
   uint32_t due_ms;
+  uint32_t asked_ms; /* when the outstanding request was sent first */
   uint16_t request;
   uint16_t cursor;        /* the place that the request is about */
   uint16_t refused_place; /* the last place that was refused, and why */
   uint8_t refused_status;
+  uint8_t refusals; /* in a row */
   bool outstanding;
   bool deleting;
   bool pending; /* something may have to be created or deleted */

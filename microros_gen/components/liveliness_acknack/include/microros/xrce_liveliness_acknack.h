@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "microros/xrce_session.h"
+#include "microros_config.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -18,8 +19,14 @@ typedef struct xrce_liveliness_acknack_t {
 
 void xrce_liveliness_acknack_reset(xrce_liveliness_acknack_t * liveliness, uint32_t now);
 
-/* Loses the session after MICROROS_LIVELINESS_PERIOD_MS times MICROROS_LIVELINESS_ATTEMPTS. */
+/* Loses the session after MICROROS_LIVELINESS_WAIT_MS times MICROROS_LIVELINESS_ATTEMPTS. */
 void xrce_liveliness_acknack_step(xrce_client_t * client, uint32_t now);
+
+/* Returns when the session is lost if nothing is acknowledged until then. */
+static inline uint32_t xrce_liveliness_acknack_due(const xrce_liveliness_acknack_t * liveliness)
+{
+  return liveliness->since_ms + MICROROS_LIVELINESS_WAIT_MS * MICROROS_LIVELINESS_ATTEMPTS;
+}
 
 #ifdef __cplusplus
 }

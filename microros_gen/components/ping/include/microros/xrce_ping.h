@@ -26,8 +26,8 @@ void xrce_ping_reset(xrce_ping_t * ping);
 /* Asks once, in the session or, where there is none, outside of it. The session is not closed. */
 void xrce_ping_ask(xrce_client_t * client);
 
-/* Asks when MICROROS_LIVELINESS_PERIOD_MS went by in silence; after MICROROS_LIVELINESS_ATTEMPTS without an
- * answer the session is lost. */
+/* Asks when MICROROS_LIVELINESS_PERIOD_MS went by in silence; after MICROROS_LIVELINESS_ATTEMPTS without an answer
+ * within MICROROS_LIVELINESS_WAIT_MS the session is lost. */
 void xrce_ping_step(xrce_client_t * client, uint32_t now);
 
 /* An answer that says "not in a session" loses it, too: the agent has started anew. One that comes while the session is

@@ -53,12 +53,13 @@ typedef struct xrce_receiver_t {
   uint8_t status;   /* with which the agent refused READ_DATA, until this was told; 0: none */
   uint8_t head;     /* the oldest sample's slot */
   uint8_t count;
-  bool resting;     /* the agent refused READ_DATA a moment ago */
+  bool resting; /* the agent refused READ_DATA a moment ago */
 } xrce_receiver_t;
 
 /* The READ_DATA that is not acknowledged yet. */
 typedef struct xrce_reading_t {
   uint32_t due_ms;   /* when to send it again */
+  uint32_t asked_ms; /* when it was sent first */
   uint16_t sequence; /* its number, or the next one's */
   uint16_t request;
   uint16_t samples;

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Slow links: three seconds of round trip over UDP, and a line of 2,400 baud; image, agent and rclpy.
+
+What runs here in real time, tests/runtime/test_times.py has with a clock that is made.
+"""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+import pytest
+from agent.observer import Observer
+from agent.process import AgentProcess, running_agent
+
+from e2e.images import C_FILES, QUICK, Images, started
+from e2e.line_relay import LineRelay
+from e2e.relay import Relay
+from e2e.test_serving import await_line
+
+pytestmark = [pytest.mark.ros, pytest.mark.long]
+
+APPLICATION = """\
+version: 1
+profiles: [pure_sender]
+components: [+subscribe, +services, +executor, +time_sync]
+nodes:
+  - name: slow
+    publishers: [{{topic: slow_out, type: std_msgs/msg/Int32}}]
+    subscriptions: [{{topic: slow_in, type: std_msgs/msg/Int32}}]
+    services: [{{service: slow_sum, type: example_interfaces/srv/AddTwoInts}}]
+{more}
+"""
+CREATE_CLIENT, CREATE = 0, 1
+SAMPLES, SUMS = [3, 4, 5], [[1, 2], [30, 40]]
+
+
+def exchange(observer: Observer, program: Path, timeout_s: float) -> dict[str, int]:
+    """Let samples and requests go through the device; return what it counted."""
+    observer.subscribe("/slow_out", "std_msgs/msg/Int32")
+    observer.ask(do="publish", topic="/slow_in", type="std_msgs/msg/Int32", values=[])
+    began = time.monotonic()
+    with started(program, str(len(SAMPLES) + len(SUMS)), str(int(timeout_s))) as process:
+        said = float(await_line(process, "time").split()[1]) / 1000
+        print(await_line(process, "ready"), f"time is off by {time.time() - said:.1f} s")
+        assert abs(time.time() - said) < 5
+        values = [{"data": value} for value in SAMPLES]
+        observer.ask(do="publish", topic="/slow_in", type="std_msgs/msg/Int32", values=values)
+        observer.ask(do="ask_sums", service="/slow_sum", pairs=SUMS)
+        out, errors = process.communicate(timeout=timeout_s)
+    assert (process.returncode, errors) == (0, "")
+    assert observer.ask(do="sums") == [sum(pair) for pair in SUMS]
+    came = [value["data"] for topic, value in observer.ask(do="samples") if topic == "/slow_out"]
+    assert came == SAMPLES
+    print(f"{time.monotonic() - began:.0f} s: {out.strip()}")
+    return {key: int(value) for key, value in (pair.split("=") for pair in out.split())}
+
+
+def test_three_seconds_of_round_trip(
+    images: Images, observer: Observer, agent: AgentProcess, relay: Relay
+) -> None:
+    application = APPLICATION.format(more="session: {round_trip: 3500 ms}")
+    image = images.build(relay.port, application, "gcc", QUICK)
+    program = image.application(
+        C_FILES / "slow.c", image.out.parent / "slow", "-std=gnu99", "-Wall", "-Werror"
+    )
+    relay.connect(agent.port)
+    relay.fault = lambda: [1.5]
+    relay.sent.clear()
+    counted = exchange(observer, program, 120)
+    assert counted["left"] == counted["reconnects"] == counted["resent"] == counted["dropped"] == 0
+    assert relay.sent[CREATE_CLIENT] == 1
+    assert relay.sent[CREATE] == 1 + 3 + 3 + 1, "none is asked for a second time"
+
+
+def test_a_line_of_2400_baud(images: Images, observer: Observer, domain: int, tmp_path: Path) -> None:
+    device = tmp_path / "line"
+    transport = f'transport: {{type: serial, device: "{device}", baud: 2400}}'
+    image = images.build(0, APPLICATION.format(more=transport), "gcc", QUICK)
+    program = image.application(C_FILES / "slow.c", tmp_path / "slow", "-std=gnu99", "-Wall", "-Werror")
+    with (
+        LineRelay(device, 2400, 0.0, 1) as line,
+        running_agent(
+            domain, "--domain", str(domain), transport=("serial", "--device", line.agent, "--baud", "2400")
+        ),
+    ):
+        counted = exchange(observer, program, 90)
+    assert counted["left"] == counted["reconnects"] == counted["resent"] == counted["dropped"] == 0

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What ping, time and the search for agents put on the stack, as the compiler reports it: no input buffer."""
+
+from __future__ import annotations
+
+import subprocess
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from runtime.harness import EXECUTOR, components, render
+
+FILES = (
+    "rmw_ping.c",
+    "xrce_ping.c",
+    "rmw_inquiry.c",
+    "rmw_discovery.c",
+    "xrce_discovery.c",
+    "xrce_discovery_info.c",
+    "rmw_time_sync.c",
+    "xrce_time_sync.c",
+)
+LARGEST = 4096
+INFO = 40
+"""What is kept of an agent's answer."""
+
+
+def frames(folder: Path, transport: str, size: int) -> dict[str, int]:
+    """Return the bytes of each function's frame, for an image whose messages have `size` bytes."""
+    discovers = transport in ("udp", "tcp")
+    plan = replace(EXECUTOR, transport=transport, has_time_sync=True, has_discovery=discovers)
+    plan = replace(plan, mtu=size, input_size=size, reliable_input_slot_size=size, best_effort_size=size)
+    tree = render(folder, plan, components(plan))
+    for source in tree.sources:
+        if source.name in FILES:
+            flags = ["-std=c99", "-Os", "-fno-inline", "-fstack-usage", f"-I{tree.include}"]
+            command = ["gcc", *flags, "-c", str(source), "-o", str(folder / f"{source.stem}.o")]
+            subprocess.run(command, check=True)
+    lines = [line.split("\t") for report in folder.glob("*.su") for line in report.read_text().splitlines()]
+    return {name.rpartition(":")[2]: int(size) for name, size, _ in lines}
+
+
+@pytest.mark.parametrize("transport", ["udp", "tcp", "serial", "custom"])
+def test_no_frame_grows_with_the_largest_message(transport: str, tmp_path: Path) -> None:
+    small = frames(tmp_path / "small", transport, 64)
+    large = frames(tmp_path / "large", transport, LARGEST)
+    assert {"rmw_uros_ping_agent", "rmw_inquiry_ask", "rmw_uros_sync_session"} <= set(small)
+    grown = {name for name, size in large.items() if size != small[name]}
+    # A connection has what waits to be sent in it, also one of its own for a question.
+    assert grown == ({"ping_place", "discovery_reaches"} if transport == "tcp" else set())
+    assert small["rmw_inquiry_ask"] <= INFO + 80, "the answer, and what the function saves"
