@@ -24,10 +24,52 @@ OPTIONAL_REGISTERS = ("finisher",)
 
 @dataclass(frozen=True)
 class Region:
-    """A part of the address space: where it begins and how many bytes it has."""
+    """A part of the address space: where it begins and how many bytes it has.
+
+    `offset`: bytes at its beginning that are not the image's (flash with a bootloader).
+    """
 
     origin: int
     size: int
+    offset: int = 0
+
+    @property
+    def first(self) -> int:
+        """The first address that the image may use."""
+        return self.origin + self.offset
+
+
+@dataclass(frozen=True)
+class Memory:
+    """A further memory; `holds`: `stack`, `serial` (the rings of the line), or sections of the program (`.dma`)."""
+
+    name: str
+    region: Region
+    holds: tuple[str, ...] = ()
+
+    @property
+    def sections(self) -> tuple[str, ...]:
+        """Patterns of the sections that it holds, as a linker script names them."""
+        rings = ("*(.bss.port_ring .bss.port_output)",) if "serial" in self.holds else ()
+        return (*rings, *(f"*({name} {name}.*)" for name in self.holds if name.startswith(".")))
+
+    @property
+    def has_stack(self) -> bool:
+        """Whether the stack is here."""
+        return "stack" in self.holds
+
+
+@dataclass(frozen=True)
+class Stdio:
+    """Where the C library's standard output goes: `to` is none, semihosting, uart or application.
+
+    `driver`, `base` and `baud` are those of the uart.
+    """
+
+    to: str
+    driver: str = "none"
+    base: int = 0
+    baud: int = 115_200
 
 
 @dataclass(frozen=True)
@@ -78,7 +120,8 @@ class Target:
     an operating system with standard input and output is below. A target without an operating system that knows
     its board has `flash` and `ram`, and so an image; without them it has the library alone. `clock_hz` counts the
     system timer. `interrupts` are handlers of the application by their number, `registers` addresses by name
-    (REGISTERS). `data_model` is lp64 or ilp32. `transport` is what holds where neither application nor profile say.
+    (REGISTERS). `memories` are those besides flash and RAM; the hooks are functions of the application, empty: none.
+    `data_model` is lp64 or ilp32. `transport` is what holds where neither application nor profile say.
     """
 
     name: str
@@ -102,6 +145,10 @@ class Target:
     emulator: Emulator | None = None
     interrupts: tuple[tuple[int, str], ...] = ()
     registers: tuple[tuple[str, int], ...] = ()
+    memories: tuple[Memory, ...] = ()
+    clocks_hook: str = ""
+    watchdog_hook: str = ""
+    stdio: Stdio | None = None
 
     @property
     def has_image(self) -> bool:
@@ -111,6 +158,16 @@ class Target:
     def has_register(self, name: str) -> bool:
         """Whether the target says where `name` is."""
         return any(known == name for known, _ in self.registers)
+
+    @property
+    def stack_memory(self) -> str:
+        """The name of the memory of the stack, as the linker script has it."""
+        return next((memory.name.upper() for memory in self.memories if memory.has_stack), "RAM")
+
+    @property
+    def stack_region(self) -> Region | None:
+        """The memory of the stack."""
+        return next((memory.region for memory in self.memories if memory.has_stack), self.ram)
 
     @property
     def has_unique_id(self) -> bool:

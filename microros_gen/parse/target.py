@@ -3,8 +3,21 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from microros_gen.diagnostics import Diagnostics, Source, reads
-from microros_gen.model.target import OWN_DRIVER, PORTS, REGISTERS, Emulator, Region, Target, Uart, UniqueId
+from microros_gen.model.target import (
+    OWN_DRIVER,
+    PORTS,
+    REGISTERS,
+    Emulator,
+    Memory,
+    Region,
+    Stdio,
+    Target,
+    Uart,
+    UniqueId,
+)
 from microros_gen.parse.tree_values import bool_of, child, entries, int_of, items, size_of, text_of
 from microros_gen.parse.yaml_tree import Entry, MappingNode, SequenceNode, YamlNode, parse_yaml
 
@@ -13,6 +26,7 @@ _ADDED = ("c_flags", "link_flags", "libraries")
 _ADDRESS_SPACE = 1 << 32
 # Where the transmit interrupt is when nobody says: CMSDK systems have it next to the one that receives.
 _TX_AFTER_RX = {"cmsdk": 1}
+_STDIO_DRIVERS = ("cmsdk", "ns16550")
 
 
 @reads
@@ -77,13 +91,31 @@ def _target(node: MappingNode) -> Target:
             sorted((int(e.key), text_of(e.value) or "") for e in entries(node.get("interrupts")))
         ),
         registers=tuple(sorted((e.key, int_of(e.value) or 0) for e in entries(node.get("registers")))),
+        memories=tuple(_memory(e) for e in entries(node.get("memories"))),
+        clocks_hook=text_of(child(node.get("hooks"), "clocks")) or "",
+        watchdog_hook=text_of(child(node.get("hooks"), "watchdog")) or "",
+        stdio=_stdio(node.get("stdio")),
     )
 
 
 def _region(node: YamlNode | None) -> Region | None:
     if node is None:
         return None
-    return Region(int_of(child(node, "origin")) or 0, size_of(child(node, "size")) or 0)
+    origin, size, offset = child(node, "origin"), child(node, "size"), child(node, "offset")
+    return Region(int_of(origin) or 0, size_of(size) or 0, size_of(offset) or 0)
+
+
+def _memory(entry: Entry) -> Memory:
+    region = _region(entry.value) or Region(0, 0)
+    return Memory(entry.key, region, _texts(child(entry.value, "holds")))
+
+
+def _stdio(node: YamlNode | None) -> Stdio | None:
+    if node is None:
+        return None
+    base, baud = (int_of(child(node, key)) for key in ("base", "baud"))
+    driver = text_of(child(node, "driver")) or Stdio.driver
+    return Stdio(text_of(child(node, "to")) or "", driver, base or 0, baud or Stdio.baud)
 
 
 def _uart(node: YamlNode | None) -> Uart | None:
@@ -117,6 +149,8 @@ def _check(node: MappingNode, diagnostics: Diagnostics) -> None:
     _check_memory(node, diagnostics)
     _check_uart(node, port, diagnostics)
     _check_interrupts(node, diagnostics)
+    _check_stdio(node, port, diagnostics)
+    _check_image_keys(node, diagnostics)
     if node.get("flash") is None or bool_of(node.get("hosted")):
         return
     for name in REGISTERS.get(port, ()):
@@ -155,15 +189,63 @@ def _check_memory(node: MappingNode, diagnostics: Diagnostics) -> None:
     if node.get("clock_hz") is None:
         hint = "Add `clock_hz: …`: what the system timer counts in a second"
         diagnostics.error("an image needs the key 'clock_hz'", node.span, hint)
-    regions = {name: _region(node.get(name)) or Region(0, 0) for name in ("flash", "ram")}
-    for name, region in regions.items():
+    _check_regions(node, diagnostics)
+
+
+def _check_regions(node: MappingNode, diagnostics: Diagnostics) -> None:
+    """Report memories that end beyond the address space, overlap, or hold what another one holds."""
+    parts = [(name, value) for name in ("flash", "ram") if (value := node.get(name)) is not None]
+    parts += [(f"memories.{e.key}", e.value) for e in entries(node.get("memories"))]
+    regions = sorted(((_region(value) or Region(0, 0), name, value) for name, value in parts), key=_origin_of)
+    for region, name, value in regions:
         if region.origin + region.size > _ADDRESS_SPACE:
-            span = (node.get(name) or node).span
-            diagnostics.error(f"'{name}' ends beyond 32 bits of address", span, "Lower its size")
-    first, second = sorted(regions.values(), key=lambda region: region.origin)
-    if first.origin + first.size > second.origin:
-        hint = "Lower a size, or move an origin"
-        diagnostics.error("'flash' and 'ram' overlap", ram.span, hint)
+            diagnostics.error(f"'{name}' ends beyond 32 bits of address", value.span, "Lower its size")
+        if region.offset >= region.size:
+            diagnostics.error(f"'{name}.offset' leaves nothing of it", value.span, "Lower the offset")
+    for (first, name, value), (second, other, after) in pairwise(regions):
+        if first.origin + first.size > second.origin:
+            names = " and ".join(f"'{n}'" for n in sorted((name, other)))
+            later = max(value, after, key=lambda part: (part.span.line, part.span.column))
+            diagnostics.error(f"{names} overlap", later.span, "Lower a size, or move an origin")
+    held: dict[str, str] = {}
+    for entry in entries(node.get("memories")):
+        for item in items(child(entry.value, "holds")):
+            what = text_of(item) or ""
+            if held.setdefault(what, entry.key) != entry.key:
+                message = f"'{what}' lies in 'memories.{held[what]}' already"
+                diagnostics.error(message, item.span, "Remove it here or there")
+
+
+def _origin_of(part: tuple[Region, str, YamlNode]) -> int:
+    return part[0].origin
+
+
+def _check_image_keys(node: MappingNode, diagnostics: Diagnostics) -> None:
+    """Report keys that only an image has."""
+    if node.get("flash") is not None and not bool_of(node.get("hosted")):
+        return
+    for owner, key in (("memories", None), ("stdio", None), ("hooks", "clocks")):
+        found = node.get(owner) if key is None else child(node.get(owner), key)
+        if found is not None:
+            name = owner if key is None else f"{owner}.{key}"
+            hint = "Add `flash` and `ram`, or remove it"
+            diagnostics.error(f"'{name}' has no effect without an image of this project", found.span, hint)
+
+
+def _check_stdio(node: MappingNode, port: str, diagnostics: Diagnostics) -> None:
+    stdio = node.get("stdio")
+    to = text_of(child(stdio, "to"))
+    for key in ("driver", "base", "baud"):
+        found = child(stdio, key)
+        if found is not None and to != "uart":
+            diagnostics.error(f"stdio: {to} has no `{key}`", found.span, f"Remove `{key}`, or take to: uart")
+        if found is None and to == "uart" and key != "baud":
+            diagnostics.error(f"'stdio' lacks the key '{key}'", (stdio or node).span, f"Add `{key}: …`")
+    driver = child(stdio, "driver")
+    if driver is not None and to == "uart" and text_of(driver) not in PORTS.get(port, ()):
+        has = ", ".join(name for name in PORTS.get(port, ()) if name in _STDIO_DRIVERS) or "none"
+        hint = f"Its drivers for output are: {has}. With `to: application` the program has one"
+        diagnostics.error(f"{port} has no driver '{text_of(driver)}'", driver.span, hint)
 
 
 def _check_interrupts(node: MappingNode, diagnostics: Diagnostics) -> None:

@@ -15,6 +15,8 @@ _STACK_ALIGNMENT = 16  # RISC-V; the Arm procedure call standard asks for 8
 _FREQUENCY_TOLERANCE = (
     0.025  # a frame of ten bits is sampled in the middle of its bits: each side may err by half of 5 %
 )
+_FIRST_INTERRUPT = 16  # words of a Cortex-M's vector table before that of interrupt 0
+_LEAST_TABLE = 128  # bytes; the lowest bits of VTOR are 0
 _LINE_USERS = ("serial", "custom")
 # OMG DDS-XRCE 1.0: a header of 4, a submessage of 4 and 5 (ACKNACK); and around it a frame, stuffed at the worst.
 _ACKNACK = 13
@@ -57,6 +59,14 @@ class BoardPlan:
     first: str = ""
     first_section: str = ""
     application_functions: tuple[str, ...] = ()
+    stdio: str = "absent"
+    stdio_driver: str = "none"
+    stdio_divisor: int = 0
+
+    @property
+    def has_stdio(self) -> bool:
+        """Whether the port has what the C library's standard output needs."""
+        return self.stdio != "absent"
 
     @property
     def has_serial_driver(self) -> bool:
@@ -89,7 +99,12 @@ def plan_board(
         )
     uart = target.uart if driver not in ("none", OWN_DRIVER) else None
     entry, first, section, handler, unused = _NAMES[target.port]
+    _check_vectors(target, uart, application, diagnostics)
+    stdio = target.stdio
     return BoardPlan(
+        stdio=stdio.to if stdio else "absent",
+        stdio_driver=stdio.driver if stdio else "none",
+        stdio_divisor=_stdio_divisor(target, uart, runtime, application, diagnostics),
         stack_size=_stack_size(application, target, diagnostics),
         ring_size=ring_size(runtime),
         output_size=runtime.send_buffer,
@@ -105,7 +120,9 @@ def plan_board(
         entry=entry,
         first=first,
         first_section=section,
-        application_functions=functions,
+        application_functions=functions
+        + tuple(name for name in (target.clocks_hook, target.watchdog_hook) if name)
+        + (("port_stdio_put",) if stdio and stdio.to == "application" else ()),
     )
 
 
@@ -164,14 +181,66 @@ def _check_unique_id(application: Application, target: Target, diagnostics: Diag
         )
 
 
+def _check_vectors(
+    target: Target, uart: Uart | None, application: Application, diagnostics: Diagnostics
+) -> None:
+    """Report a vector table where the processor cannot have one (Armv6-M, Armv7-M: VTOR, "TBLOFF")."""
+    flash = target.flash
+    if flash is None or not flash.offset or target.port != "port_cortex_m":
+        return
+    words = _FIRST_INTERRUPT + len(_vectors(target, uart, "", ""))
+    alignment = max(_LEAST_TABLE, 1 << (4 * words - 1).bit_length())
+    if "-mcpu=cortex-m0" in target.c_flags:
+        diagnostics.error(
+            f"the Cortex-M0 of {target.name} has no vector table offset register: 'flash.offset' has no effect",
+            application.target.span,
+            "Let the bootloader hand interrupts on, or remove it",
+        )
+    elif flash.first % alignment:
+        upwards = (flash.first + alignment - 1) // alignment * alignment - flash.origin
+        diagnostics.error(
+            f"the vector table of {target.name} would begin at {flash.first:#x}, which is no multiple of {alignment}",
+            application.target.span,
+            f"Set flash.offset: {upwards}",
+        )
+
+
+def _stdio_divisor(
+    target: Target,
+    uart: Uart | None,
+    runtime: RuntimePlan,
+    application: Application,
+    diagnostics: Diagnostics,
+) -> int:
+    stdio = target.stdio
+    if stdio is None or stdio.to != "uart":
+        return 0
+    if uart is not None and uart.base == stdio.base and runtime.transport == "serial":
+        diagnostics.error(
+            f"'stdio' of {target.name} prints to the UART of the agent",
+            application.target.span,
+            "Give it another base, or take `stdio: {to: semihosting}`",
+        )
+    clock_hz = target.uart.clock_hz if target.uart else 0
+    found = _nearest_divisor(stdio.driver, clock_hz or target.clock_hz, stdio.baud)
+    if found.error > _FREQUENCY_TOLERANCE:
+        diagnostics.error(
+            f"{stdio.baud} baud cannot be had from {clock_hz or target.clock_hz} Hz by the UART of 'stdio'",
+            application.target.span,
+            f"The nearest rate is {found.nearest}: `stdio: {{baud: {found.nearest}}}`",
+        )
+    return found.divisor
+
+
 def _stack_size(application: Application, target: Target, diagnostics: Diagnostics) -> int:
     asked = application.memory.stack
     size = DEFAULT_STACK if asked is None else asked
     size = (size + _STACK_ALIGNMENT - 1) // _STACK_ALIGNMENT * _STACK_ALIGNMENT
-    assert target.ram is not None
-    if size >= target.ram.size:
+    region = target.stack_region
+    assert region is not None
+    if size > region.size or (region is target.ram and size == region.size):
         diagnostics.error(
-            f"a stack of {size} bytes leaves nothing of the {target.ram.size} bytes of RAM of {target.name}",
+            f"a stack of {size} bytes leaves nothing of the {region.size} bytes of RAM of {target.name}",
             application.memory.stack_span or application.target.span,
             "Lower memory.stack",
         )
@@ -184,13 +253,26 @@ def _divisor(uart: Uart, target: Target, application: Application, diagnostics: 
     if uart.driver == "nrf51":
         # nRF51 Reference Manual, BAUDRATE: 32 bits of fraction of 16 MHz, of which the upper 20 count.
         return ((baud << 32) // 16_000_000 + 0x800) & 0xFFFFF000
-    step, lowest, largest = {"cmsdk": (1, 16, 0xFFFFF), "ns16550": (16, 1, 0xFFFF)}[uart.driver]
-    divisor = min(max(round(clock / (step * baud)), lowest), largest)
-    if abs(clock / (step * divisor) / baud - 1) > _FREQUENCY_TOLERANCE:
-        nearest = clock // (step * divisor)
+    found = _nearest_divisor(uart.driver, clock, baud)
+    if found.error > _FREQUENCY_TOLERANCE:
         diagnostics.error(
             f"{baud} baud cannot be had from {clock} Hz by the UART of {target.name}",
             application.transport.span or application.target.span,
-            f"The nearest rate is {nearest}: `transport: {{baud: {nearest}}}`",
+            f"The nearest rate is {found.nearest}: `transport: {{baud: {found.nearest}}}`",
         )
-    return divisor
+    return found.divisor
+
+
+@dataclass(frozen=True)
+class _Divisor:
+    """A divisor, the rate that it gives, and how far that is from what was asked, as a share."""
+
+    divisor: int
+    nearest: int
+    error: float
+
+
+def _nearest_divisor(driver: str, clock: int, baud: int) -> _Divisor:
+    step, lowest, largest = {"cmsdk": (1, 16, 0xFFFFF), "ns16550": (16, 1, 0xFFFF)}[driver]
+    divisor = min(max(round(clock / (step * baud)), lowest), largest)
+    return _Divisor(divisor, clock // (step * divisor), abs(clock / (step * divisor) / baud - 1))

@@ -132,7 +132,9 @@ def test_an_application_brings_the_serial_line_of_its_board(own_board: Built, tm
 def test_without_it_the_linker_says_what_is_missing(own_board: Built, tmp_path: Path) -> None:
     with pytest.raises(AssertionError) as error:
         own_board.link(C_FILES / "own_serial.c", tmp_path / "own.elf")
-    assert "port_serial_open is missing: the target file has no uart" in str(error.value)
+    assert "port_serial_open is missing: the application provides it, as the target file says" in str(
+        error.value
+    )
 
 
 REFUSED = [

@@ -19,7 +19,11 @@ from microros_gen.sources.components import components_folder
 from microros_gen.sources.targets import read_target
 
 COMPONENTS = components_folder()
-BOARD = "#define PORT_BOARD_RING_SIZE 64u\n#define PORT_BOARD_OUTPUT_SIZE 61u\n#define PORT_BOARD_UART_BAUD 115200u\n"
+BOARD = (
+    "#pragma once\n#define PORT_BOARD_RING_SIZE 64u\n"
+    "#define PORT_BOARD_OUTPUT_SIZE 61u\n#define PORT_BOARD_UART_BAUD 115200u\n"
+    "static inline void port_board_watchdog(void)\n{\n}\n"
+)
 SANITIZE = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/port.h"
 #include "microros/port_bare.h"
+#include "microros/port_board.h"
 #include "microros/port_bare_wait.h"
 
 /* The millisecond timer wakes the processor as well, so an interrupt between a question and the wait costs a millisecond
@@ -11,6 +12,7 @@ void port_wait(intptr_t handle, uint32_t timeout_ms)
 
   (void)handle; /* there is one line */
   while (!port_bare_woken() && !port_bare_serial_arrived() && port_time_ms() - start < timeout_ms) {
+    port_board_watchdog();
     port_bare_wait();
   }
 }

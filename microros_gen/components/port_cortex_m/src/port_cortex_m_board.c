@@ -8,6 +8,7 @@
 #define SYST_RVR 0xe000e014u
 #define SYST_CVR 0xe000e018u
 #define NVIC_ISER 0xe000e100u
+#define SCB_VTOR 0xe000ed08u
 #define SCB_AIRCR 0xe000ed0cu
 #define SCB_CPACR 0xe000ed88u
 
@@ -17,6 +18,10 @@ static const uint32_t fpu_access = 0x00f00000u;    /* CP10 and CP11 */
 
 void port_bare_board_init(void)
 {
+  if (PORT_BOARD_VECTORS != 0u) { /* after a bootloader, with a table of its own */
+    PORT_CORTEX_M_REGISTER(SCB_VTOR) = PORT_BOARD_VECTORS;
+    port_cortex_m_barrier();
+  }
   if (PORT_BOARD_HAS_FPU != 0u) {
     PORT_CORTEX_M_REGISTER(SCB_CPACR) |= fpu_access;
     port_cortex_m_barrier();

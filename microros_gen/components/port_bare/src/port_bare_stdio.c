@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What the C library needs for printf: `stdio` of the target file. Linked when the program prints, and not else. There is no
+ * heap: newlib's three streams take 436 bytes of a block of their own the first time, and whatever asks for more gets
+ * nothing, so %f, which newlib formats with malloc, is not for here. picolibc takes no memory at all.
+ */
+#include "microros/port_stdio.h"
+
+#include <errno.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <sys/stat.h>
+
+const char port_stdio_here = 0;
+
+#ifdef __PICOLIBC__
+
+static int stdio_put(char character, FILE * file)
+{
+  (void)file;
+  port_stdio_put((uint8_t)character);
+  return (unsigned char)character;
+}
+
+static FILE stdio_file = FDEV_SETUP_STREAM(stdio_put, NULL, NULL, _FDEV_SETUP_WRITE);
+
+FILE * const stdout = &stdio_file;
+FILE * const stderr = &stdio_file;
+
+#else
+
+#include "microros/port_bare.h"
+
+/* newlib's names for what it asks of a system (The Red Hat newlib C Library, "System Calls"). */
+int _write(int file, const char * data, int size);
+int _read(int file, char * data, int size);
+int _close(int file);
+int _lseek(int file, int offset, int whence);
+int _fstat(int file, struct stat * status);
+int _isatty(int file);
+void * _sbrk(ptrdiff_t increment);
+void _exit(int status);
+int _kill(int process, int number);
+int _getpid(void);
+
+enum { POOL_SIZE = 512 };
+
+/* Only the streams of newlib: a buffer for each would take 1024 more, and without one each byte goes at once. */
+static union {
+  uint64_t alignment;
+  char bytes[POOL_SIZE];
+} port_stdio_pool;
+
+void * _sbrk(ptrdiff_t increment)
+{
+  static ptrdiff_t used;
+  const ptrdiff_t first = used;
+
+  if (increment < 0 || increment > (ptrdiff_t)POOL_SIZE - used) {
+    errno = ENOMEM;
+    return (void *)-1;
+  }
+  used += increment;
+  return &port_stdio_pool.bytes[first];
+}
+
+int _write(int file, const char * data, int size)
+{
+  (void)file;
+  for (int i = 0; i < size; ++i) {
+    port_stdio_put((uint8_t)data[i]);
+  }
+  return size;
+}
+
+int _read(int file, char * data, int size)
+{
+  (void)file;
+  (void)data;
+  (void)size;
+  return 0; /* the end of the file */
+}
+
+int _close(int file)
+{
+  (void)file;
+  return -1;
+}
+
+int _lseek(int file, int offset, int whence)
+{
+  (void)file;
+  (void)offset;
+  (void)whence;
+  return 0;
+}
+
+int _fstat(int file, struct stat * status)
+{
+  (void)file;
+  status->st_mode = S_IFCHR;
+  return 0;
+}
+
+int _isatty(int file)
+{
+  (void)file;
+  return 1;
+}
+
+/* For abort() as well. */
+void _exit(int status)
+{
+  (void)status;
+  port_bare_reset();
+  for (;;) {
+    port_bare_wait();
+  }
+}
+
+int _kill(int process, int number)
+{
+  (void)process;
+  (void)number;
+  return -1;
+}
+
+int _getpid(void)
+{
+  return 1;
+}
+
+#endif

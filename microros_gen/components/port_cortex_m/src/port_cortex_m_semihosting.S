@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The instruction that stops for the debugger, with its number for semihosting. */
+  .syntax unified
+  .thumb
+
+  .section .text.port_bare_semihosting, "ax", %progbits
+  .global port_bare_semihosting
+  .type port_bare_semihosting, %function
+  .thumb_func
+port_bare_semihosting:
+  bkpt 0xab
+  bx lr
+  .size port_bare_semihosting, . - port_bare_semihosting
