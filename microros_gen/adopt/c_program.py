@@ -27,14 +27,29 @@ class Function:
 
 
 @dataclass(frozen=True)
+class Loop:
+    """`for (variable = 0; variable < limit; …)`: its body is from token `first` to `last`; `inclusive` is `<=`."""
+
+    variable: str
+    limit: Tokens
+    inclusive: bool
+    first: int
+    last: int
+
+
+@dataclass(frozen=True)
 class Call:
-    """`name(arguments)` in `function`; `index` orders what stands in one file."""
+    """`name(arguments)` in `function`; `index` orders what stands in one file. `loops` are around it, outermost first;
+    `turn`: of these loops, where it is one of several calls.
+    """
 
     name: str
     arguments: tuple[Tokens, ...]
     function: Function
     index: int
     token: Token
+    loops: tuple[Loop, ...] = ()
+    turn: tuple[int, ...] = ()
 
     @property
     def span(self) -> Span:
@@ -150,13 +165,36 @@ def _head(tokens: Sequence[Token], starts: Mapping[int, int], body: int) -> tupl
     return begin - 1, begin
 
 
+def _loops(tokens: Sequence[Token], ends: Mapping[int, int]) -> Iterator[Loop]:
+    """Yield the loops that count from 0 to a limit."""
+    for index, token in enumerate(tokens[:-2]):
+        if token.kind != "name" or token.text != "for" or index + 1 not in ends:
+            continue
+        end = ends[index + 1]
+        head = tokens[index + 2 : end]
+        stops = [at for at, inside in enumerate(head) if inside.text == ";" and inside.kind == "punct"]
+        if len(stops) != 2 or end + 1 >= len(tokens):
+            continue
+        start, test = head[: stops[0]], tuple(head[stops[0] + 1 : stops[1]])
+        counts = [t.text for t in start[-2:]] == ["=", "0"] and len(test) > 2 and len(start) > 2
+        if counts and test[0].text == start[-3].text and test[1].text in ("<", "<=", "!="):
+            last = ends.get(end + 1) if tokens[end + 1].text == "{" else _end_of_statement(tokens, end + 1)
+            yield Loop(test[0].text, test[2:], test[1].text == "<=", end + 1, last or end + 1)
+
+
+def _end_of_statement(tokens: Sequence[Token], begin: int) -> int:
+    return next((at for at in range(begin, len(tokens)) if tokens[at].text == ";"), len(tokens) - 1)
+
+
 def _calls(tokens: Sequence[Token], ends: Mapping[int, int], functions: Sequence[Function]) -> Iterator[Call]:
+    loops = tuple(_loops(tokens, ends))
     for function in functions:
         for index in range(function.first, function.last):
             token, after = tokens[index], tokens[index + 1]
             if token.kind == "name" and after.text == "(" and token.text not in _NO_CALLS:
                 inside = tuple(tokens[index + 2 : ends[index + 1]])
-                yield Call(token.text, split_arguments(inside), function, index, token)
+                around = tuple(loop for loop in loops if loop.first <= index <= loop.last)
+                yield Call(token.text, split_arguments(inside), function, index, token, around)
 
 
 def _assignments(tokens: Sequence[Token], functions: Sequence[Function]) -> Iterator[Assignment]:

@@ -147,11 +147,25 @@ class Values:
             and assignment.target.startswith(f"{prefix}.")
         ]
 
+    def _element(self, tokens: Tokens, call: Call) -> Tokens | None:
+        """Return the element that `name[3]` is of an array with a list of values; None for anything else."""
+        if len(tokens) != 4 or tokens[1].text != "[" or tokens[2].kind != "number":
+            return None
+        start = self.before(tokens[0].text, call)
+        listed = start.value if start is not None else ()
+        if not listed or listed[0].text != "{" or not tokens[2].text.isdecimal():
+            return None
+        elements, index = split_arguments(listed[1:-1]), int(tokens[2].text)
+        return elements[index] if index < len(elements) else None
+
     def _renamed(self, name: str) -> str:
         macro = self._macros.get(name)
         return macro.body[0].text if macro and len(macro.body) == 1 else name
 
     def _variable(self, tokens: Tokens, call: Call) -> Tokens | Unknown:
+        element = self._element(tokens, call)
+        if element is not None:
+            return element
         name = handle_of(tokens)
         if not name or _is_worked_out(tokens):
             return Unknown(f"`{shown(tokens)}` is worked out when the program runs")

@@ -19,6 +19,15 @@ from microros_gen.model.types import (
 )
 
 DEFAULT_LIMITS = DraftValue(Flow("{string: 64, sequence: 16}"), "what nothing else says")
+"""The rule for "*" that is proposed."""
+
+LOWER_LIMITS = tuple(
+    DraftValue(
+        Flow(f"{{string: {string}, sequence: {sequence}}}"), "what nothing else says, and fits a message"
+    )
+    for string, sequence in ((32, 8), (32, 4), (16, 4), (16, 2), (8, 2), (8, 1))
+)
+"""What is proposed instead, where a message would be larger than a stream takes."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +58,7 @@ def limits_of(
                 numbers[key] = max(number, numbers.get(key, 0))
                 notes.setdefault(fact.type, place(fact.span))
     table = {
-        str(kind): DraftValue(Flow(_text(_tree(kind, numbers))), notes[kind])
+        str(kind): DraftValue(Flow(_text(_tree(kind, numbers, _texts(kind, messages)))), notes[kind])
         for kind in sorted({kind for kind, _, _ in numbers})
     }
     open_leaves = [
@@ -130,8 +139,17 @@ def _follow(fact: Capacity, messages: Mapping[TypeName, Message]) -> tuple[tuple
 _Tree = dict[str, "int | _Tree"]
 
 
-def _tree(kind: TypeName, numbers: Mapping[_Key, int]) -> _Tree:
-    """Return the numbers of one type as the application file nests them."""
+def _texts(kind: TypeName, messages: Mapping[TypeName, Message]) -> frozenset[tuple[str, ...]]:
+    """Return the paths of sequences of strings: there one number could be either."""
+    found = list(leaves(kind, messages))
+    strings, sequences = (
+        {leaf.path for leaf in found if leaf.is_string is wanted} for wanted in (True, False)
+    )
+    return frozenset(strings & sequences)
+
+
+def _tree(kind: TypeName, numbers: Mapping[_Key, int], texts: frozenset[tuple[str, ...]]) -> _Tree:
+    """Return the numbers of one type as the application file nests them; those of `texts` with their kind."""
     root: _Tree = {}
     paths = sorted({path for name, path, _ in numbers if name == kind})
     for path in paths:
@@ -147,7 +165,7 @@ def _tree(kind: TypeName, numbers: Mapping[_Key, int]) -> _Tree:
                 below = inner[name] = {"sequence": below}
             inner = below
         known = inner.get(path[-1])
-        if len(values) == 1 and known is None:
+        if len(values) == 1 and known is None and path not in texts:
             inner[path[-1]] = next(iter(values.values()))
         else:
             inner[path[-1]] = {**values, **(known if isinstance(known, dict) else {})}

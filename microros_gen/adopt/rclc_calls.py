@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from microros_gen.adopt.c_program import Call, Tokens
 from microros_gen.adopt.c_values import TypeSupport, Unknown, Values, handle_of, shown
@@ -34,6 +34,7 @@ ENDPOINT_CALLS = {
     **{f"rclc_{kind}_init": (kind, "argument") for kind in _KINDS},
     **{f"rcl_{kind}_init": (kind, "options") for kind in _KINDS},
 }
+_MOST_TURNS = 64
 NODE_CALLS = ("rclc_node_init_default", "rclc_node_init_with_options", "rcl_node_init")
 # Function → which argument is the period.
 TIMER_CALLS = {
@@ -77,10 +78,39 @@ def find_nodes(calls: Iterable[Call], values: Values) -> list[FoundNode]:
 
 
 def find_endpoints(calls: Iterable[Call], values: Values) -> list[FoundEndpoint]:
-    """Return publishers, subscriptions, services and clients in the order of the sources."""
+    """Return publishers, subscriptions, services and clients in the order of the sources.
+
+    A call in a loop whose count is known gives one for each turn.
+    """
     return [
-        _endpoint(call, values) for call in calls if call.name in ENDPOINT_CALLS and len(call.arguments) >= 4
+        _endpoint(turn, values)
+        for call in calls
+        if call.name in ENDPOINT_CALLS and len(call.arguments) >= 4
+        for turn in turns(call, values)
     ]
+
+
+def turns(call: Call, values: Values) -> list[Call]:
+    """Return a call for each turn of the loops around it, with numbers for their variables.
+
+    The call itself where a count is not known, or too large to be a number of entities.
+    """
+    found = [call]
+    for loop in call.loops:
+        count = values.number(loop.limit, call)
+        if isinstance(count, Unknown) or not 0 < count + loop.inclusive <= _MOST_TURNS:
+            return [call]
+        found = [_with(one, loop.variable, n) for one in found for n in range(count + loop.inclusive)]
+    return found if len(found) <= _MOST_TURNS else [call]
+
+
+def _with(call: Call, variable: str, number: int) -> Call:
+    """Return the call with a number in place of a variable."""
+    arguments = tuple(
+        tuple(replace(t, kind="number", text=str(number)) if t.text == variable else t for t in argument)
+        for argument in call.arguments
+    )
+    return replace(call, arguments=arguments, turn=(*call.turn, number))
 
 
 def find_timers(calls: Iterable[Call], values: Values) -> list[FoundTimer]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from microros_gen.adopt.c_program import Call, CFile, read_program
 from microros_gen.adopt.c_tokens import read_c
-from microros_gen.adopt.c_values import Values
+from microros_gen.adopt.c_values import Values, handle_of
 from microros_gen.adopt.capacities import Fact, find_capacities
 from microros_gen.adopt.rclc_calls import (
     ENDPOINT_CALLS,
@@ -23,10 +23,10 @@ from microros_gen.adopt.rclc_calls import (
 from microros_gen.adopt.rclc_settings import find_settings
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.model.component import Catalogue
-from microros_gen.model.draft import Draft, DraftEndpoint, DraftNode, Remark, place
+from microros_gen.model.draft import Draft, DraftNode, DraftValue, Remark, place
 
 _STARTS = ("main", "appMain", "app_main", "setup")
-_PREFIXES = ("rcl_", "rclc_", "rmw_", "rcutils_", "rosidl_runtime_c__", "micro_ros_", "uxr_")
+_PREFIXES = ("RCUTILS_LOG_", "rcl_", "rclc_", "rmw_", "rcutils_", "rosidl_runtime_c__", "micro_ros_", "uxr_")
 # What begins so needs a component that there is not yet, unless some component declares it.
 _LATER = {
     "rclc_action_": "actions",
@@ -39,7 +39,24 @@ _LATER = {
     "rclc_make_node_a_lifecycle_node": "life cycles",
     "rclc_lifecycle_": "life cycles",
     "rcl_lifecycle_": "life cycles",
+    "RCUTILS_LOG_": "log messages",
+    "rcutils_logging_": "log messages",
+    "rcutils_log": "log messages",
 }
+_EXECUTORS = ("rclc_executor_init",)
+# What starts a second task: POSIX, FreeRTOS, Zephyr, CMSIS-RTOS, NuttX
+_TASKS = frozenset(
+    (
+        "pthread_create",
+        "xTaskCreate",
+        "xTaskCreateStatic",
+        "xTaskCreatePinnedToCore",
+        "k_thread_create",
+        "osThreadNew",
+        "task_create",
+    )
+)
+_THREADS = frozenset(("std", "thread"))
 _AXES = ("transport_", "entities_", "port_", "liveliness_", "clock_ros", "ping", "stream_")
 _GIVEN = (("publish", "pure_sender"), ("subscribe", "pure_reader"))
 _PROFILES = (("pure_sender", "publisher"), ("pure_reader", "subscription"))
@@ -75,19 +92,20 @@ def rclc_draft(
     called = [call for call in calls if call.name not in own and call.name.startswith(_PREFIXES)]
     remarks += _missing(called, declared)
     remarks += _macros(files)
-    groups, more = find_settings(calls, values)
+    settings, more = find_settings(calls, values)
+    groups = {**settings, **_executors(calls)}
     draft = Draft(
         profiles=profiles,
-        components=_components(called, declared, catalogue, profiles),
+        components=_components(_wanted(files, called, declared, catalogue), catalogue, profiles),
         interfaces=_types_without_entity(nodes),
         nodes=nodes,
         groups=groups,
         remarks=(*remarks, *more),
     )
-    if not nodes:
+    if not nodes and not called:
         diagnostics.error(
-            "these sources create no node",
-            hint="Give the folder of one application: it calls rclc_node_init_default",
+            "these sources call nothing of rclc or rcl",
+            hint="Give the folder of one application: it calls rclc_support_init",
         )
     return Adopted(draft, tuple(find_capacities(files, calls, values)))
 
@@ -128,7 +146,7 @@ def _nodes(calls: list[Call], values: Values) -> tuple[tuple[DraftNode, ...], li
         owned[index or 0].append(endpoint)
     nodes: list[DraftNode] = []
     for index, node in enumerate(found):
-        own = tuple(_once(endpoint.draft for endpoint in owned[index]))
+        own = tuple(endpoint.draft for endpoint in _once(owned[index]))
         domain = _domain(calls, values, remarks) if index == 0 else nodes[0].domain_id
         nodes.append(replace(node.draft, endpoints=own, timers=() if index else timers, domain_id=domain))
     return tuple(nodes), remarks
@@ -143,11 +161,13 @@ def _unique(found: list[FoundNode]) -> list[FoundNode]:
     return list(kept.values())
 
 
-def _once(endpoints: Iterable[DraftEndpoint]) -> Iterable[DraftEndpoint]:
+def _once(endpoints: Iterable[FoundEndpoint]) -> Iterable[FoundEndpoint]:
+    """Yield each endpoint once: an application that connects again creates it again; turns of a loop are several."""
     seen = set()
     for endpoint in endpoints:
-        key = (endpoint.kind, endpoint.name, endpoint.type)
-        if key not in seen or not all(key):
+        draft = endpoint.draft
+        key = (draft.kind, draft.name, draft.type, endpoint.call.turn)
+        if key not in seen or not all(key[:3]):
             seen.add(key)
             yield endpoint
 
@@ -201,13 +221,32 @@ def _macros(files: Iterable[CFile]) -> list[Remark]:
     ]
 
 
-def _components(
-    called: Iterable[Call], declared: Mapping[str, str], catalogue: Catalogue, profiles: tuple[str, ...]
-) -> tuple[str, ...]:
-    """Return the components that declare what is called, without those that others bring along."""
-    wanted = {declared[call.name] for call in called if call.name in declared}
-    wanted |= {"node"}
-    wanted = {name for name in wanted if catalogue[name].ready and not name.startswith(_AXES)}
+def _executors(calls: Iterable[Call]) -> dict[str, dict[str, DraftValue]]:
+    """Return `pools.executors` where the sources have more than one: a declared application has one by default."""
+    inits = {
+        handle_of(call.arguments[0]): call for call in calls if call.name in _EXECUTORS and call.arguments
+    }
+    if len(inits) < 2:
+        return {}
+    last = list(inits.values())[-1]
+    return {"pools": {"executors": DraftValue(len(inits), f"{last.name} ({place(last.span)})")}}
+
+
+def _wanted(
+    files: Iterable[CFile], called: Iterable[Call], declared: Mapping[str, str], catalogue: Catalogue
+) -> set[str]:
+    """Return the components that declare what is called, have the headers that are included, or serve several tasks."""
+    headers = {header: component.name for component in catalogue.values() for header in component.headers}
+    found = {declared[call.name] for call in called if call.name in declared}
+    found |= {headers[name] for file in files for name in file.text.includes if name in headers}
+    starts = {call.name for file in files for call in file.calls} & _TASKS
+    names = {token.text for file in files for token in file.text.tokens if token.kind == "name"}
+    return found | ({"multithread"} if starts or names >= _THREADS else set())
+
+
+def _components(wanted: set[str], catalogue: Catalogue, profiles: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the components that have to be named: without those that others bring along."""
+    wanted = {name for name in wanted | {"node"} if catalogue[name].ready and not name.startswith(_AXES)}
     given = {component for component, profile in _GIVEN if profile in profiles}
     given |= {"node"} if profiles else set()
     brought = {below for name in wanted | given for below in _below(name, catalogue)}

@@ -35,6 +35,12 @@ from microros_gen.cli.options import interface_path_option
     metavar="FILE",
     help="Read the settings of a colcon.meta (RMW_UXRCE_*, UCLIENT_*, …); of several the last one wins.",
 )
+@click.option(
+    "--ci",
+    "checked",
+    is_flag=True,
+    help="Add a golden copy of the generated code and a workflow that compares it.",
+)
 @interface_path_option
 def command(
     folder: Path,
@@ -42,9 +48,10 @@ def command(
     target: str | None,
     sources: Path | None,
     metas: tuple[Path, ...],
+    checked: bool,
     interface_paths: tuple[Path, ...],
 ) -> int:
-    """Write a new application folder: microros.yaml, main.c, CMakeLists.txt, a CI workflow with its golden copy.
+    """Write a new application folder: microros.yaml, main.c, CMakeLists.txt, README.md.
 
     No file that is there already is changed. What could not be decided is marked in microros.yaml, with the file and
     line that it is about, and told as a warning.
@@ -57,5 +64,5 @@ def command(
     from microros_gen.cli.init_folder import write_folder
     from microros_gen.cli.init_sources import Wish, draft_of
 
-    wish = Wish(folder, profiles, target, sources, metas, interface_paths)
+    wish = Wish(folder, profiles, target, sources, metas, interface_paths, checked)
     return write_folder(wish, draft_of(wish))

@@ -13,6 +13,7 @@ from pathlib import Path
 import click
 
 from microros_gen import __version__
+from microros_gen.adopt.limits import LOWER_LIMITS
 from microros_gen.cli.init_sources import Wish
 from microros_gen.cli.pipeline import Planned, plan_request, render_request, request_of, resolve_request
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, UserError
@@ -53,6 +54,7 @@ class _View:
     agent: str
     undecided: int
     golden: bool
+    checked: bool
 
 
 def write_folder(wish: Wish, draft: Draft) -> int:
@@ -60,11 +62,9 @@ def write_folder(wish: Wish, draft: Draft) -> int:
 
     Raises UserError, and writes nothing, where a file is in the way or where a profile alone does not plan.
     """
-    text = draft_text(draft, _heading(wish))
     undecided = [remark for remark in draft.all_remarks if remark.undecided]
-    found = Diagnostics()
     with _made(wish.folder):
-        planned = _plan(wish, text, found)
+        text, planned, found = _planned(wish, draft)
         if planned is None and not wish.adopts:
             found.check()
         files = _files(wish, text, planned, len(undecided))
@@ -74,7 +74,7 @@ def write_folder(wish: Wish, draft: Draft) -> int:
         found.warning(remark.text, remark.span)
     for diagnostic in found:
         click.echo(diagnostic.render(), err=True)
-    _tell(wish, files, len(undecided), planned is not None)
+    _tell(wish, files, len(undecided))
     return 0 if planned is not None else 2
 
 
@@ -105,6 +105,22 @@ def _heading(wish: Wish) -> list[str]:
     return lines
 
 
+def _planned(wish: Wish, draft: Draft) -> tuple[str, Planned | None, Diagnostics]:
+    """Return the text of the proposal, its plan and what was found; the first limits for "*" with which it plans."""
+    first: tuple[str, Planned | None, Diagnostics] | None = None
+    for lower in (None, *(LOWER_LIMITS if "*" in draft.limits else ())):
+        limits = draft.limits if lower is None else {**draft.limits, "*": lower}
+        text, found = draft_text(replace(draft, limits=limits), _heading(wish)), Diagnostics()
+        planned = _plan(wish, text, found)
+        if planned is not None:
+            return text, planned, found
+        first = first or (text, planned, found)
+        if not any("takes up to" in diagnostic.message for diagnostic in found):
+            break
+    assert first is not None
+    return first
+
+
 def _plan(wish: Wish, text: str, diagnostics: Diagnostics) -> Planned | None:
     """Return the plan of the proposal, or None with what is against it in `diagnostics`."""
     source = Source(str(wish.folder / APPLICATION_FILE), text)
@@ -123,7 +139,8 @@ def _files(wish: Wish, text: str, planned: Planned | None, undecided: int) -> di
     toolchain = None
     if planned is not None:
         rendered = render_request(planned)
-        files |= {f"golden/{name}": content for name, content in rendered.items()}
+        if wish.checked:
+            files |= {f"golden/{name}": content for name, content in rendered.items()}
         toolchain = rendered.get("toolchain.cmake")
         if wish.sources is None:
             heading = f"What {wish.name} does."
@@ -133,6 +150,8 @@ def _files(wish: Wish, text: str, planned: Planned | None, undecided: int) -> di
         files["toolchain.cmake"] = toolchain
     view_of_folder = _view(wish, planned, toolchain is not None, undecided)
     for name, template in _TEMPLATES.items():
+        if name == WORKFLOW and not wish.checked:
+            continue
         files[name] = environment.get_template(f"init/{template}").render(view=view_of_folder).encode()
     return files
 
@@ -160,6 +179,7 @@ def _view(wish: Wish, planned: Planned | None, toolchain: bool, undecided: int) 
         agent="udp4 --port 8888" + (" --discovery" if discovery else ""),
         undecided=undecided,
         golden=planned is not None,
+        checked=wish.checked,
     )
 
 
@@ -177,10 +197,10 @@ def _refuse_to_overwrite(folder: Path, files: Mapping[str, bytes]) -> None:
         )
 
 
-def _tell(wish: Wish, files: Mapping[str, bytes], undecided: int, planned: bool) -> None:
+def _tell(wish: Wish, files: Mapping[str, bytes], undecided: int) -> None:
     own = sorted(name for name in files if not name.startswith("golden/"))
     click.echo(f"{wish.folder}: {', '.join(own)}")
-    if planned:
+    if len(own) < len(files):
         click.echo(f"golden copy of {len(files) - len(own)} files in {wish.folder / 'golden'}")
     if undecided:
         click.echo(

@@ -36,7 +36,7 @@ DEFAULT_SERVICE = "example_interfaces/srv/AddTwoInts"
 
 @dataclass(frozen=True)
 class Wish:
-    """The arguments of `init`."""
+    """The arguments of `init`; `checked`: with a golden copy and the workflow that compares it."""
 
     folder: Path
     profiles: tuple[str, ...]
@@ -44,6 +44,7 @@ class Wish:
     sources: Path | None
     metas: tuple[Path, ...]
     interface_paths: tuple[Path, ...]
+    checked: bool = False
 
     @property
     def name(self) -> str:

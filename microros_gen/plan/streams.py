@@ -164,7 +164,7 @@ def _send_buffer(
 ) -> int:
     """Return the bytes that a serial line needs for its output, of which one is never used."""
     session = _SESSION_MESSAGE_HARD if application.hard_liveliness_ms else _SESSION_MESSAGE
-    largest = max(session, *(min(_datagram(message), ceiling) for message in messages))
+    largest = max((session, *(min(_datagram(message), ceiling) for message in messages)))
     frames = [_FRAME_FLAG + 2 * (size + _FRAME_REST) - text for size, text in ((largest, 0), create)]
     least = max(frames) + 1
     at_once = sum(_usual_frame(_datagram(message)) for message in messages if message.best_effort)

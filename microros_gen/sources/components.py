@@ -18,6 +18,8 @@ _FUNCTION = re.compile(
     r"(?:\b|#define )((?:rclc?|rmw|rcutils|rosidl|micro_ros|uxr)_\w+)(?=\(| \w+$)", re.MULTILINE
 )
 
+_COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*|\{#.*?#\}", re.DOTALL)
+
 
 def components_folder() -> Path:
     """Return the folder of the components that ship with the tool."""
@@ -52,7 +54,7 @@ def declared_functions(catalogue: Catalogue) -> Mapping[str, str]:
             path = folder / header
             path = path if path.exists() else path.with_name(f"{path.name}.j2")
             if path.exists():
-                for name in _FUNCTION.findall(read_text(path)):
+                for name in _FUNCTION.findall(_COMMENT.sub("", read_text(path))):
                     found.setdefault(name, component.name)
     return MappingProxyType(found)
 

@@ -46,7 +46,7 @@ def check_schema(schema: str, path: Path) -> None:
 def application(tmp_path: Path, installed: Installed) -> Path:
     """Return a new application folder under version control, with a name that a shell must quote."""
     folder = tmp_path / "An app"
-    done = installed.run("init", str(folder), "--profile", "pure_sender", folder=tmp_path)
+    done = installed.run("init", str(folder), "--profile", "pure_sender", "--ci", folder=tmp_path)
     assert done.returncode == 0, done.stderr
     commit(folder)
     return folder

@@ -50,7 +50,7 @@ def test_the_commands_of_init(folder: Path, capfd: pytest.CaptureFixture[str]) -
 
 
 def test_the_commands_of_check(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert call("microros-gen init app") == 0
+    assert call("microros-gen init app --ci") == 0
     monkeypatch.chdir(folder / "app")
     (lines,) = (block.splitlines() for block in texts("check", "sh"))
     (folder / "app/golden/sources.txt").write_text("")

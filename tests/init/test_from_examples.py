@@ -47,8 +47,9 @@ def test_the_proposal_is_what_the_example_declares(name: str, init: Init, tmp_pa
     assert {p.name for p in proposed.profiles} == {p.name for p in declared.profiles}
     limits = {rule.path: (rule.string, rule.sequence) for rule in proposed.limits}
     assert limits == LIMITS.get(name, {})
-    # It was planned and rendered: the golden copy is there, and the sources stay where they are.
-    assert (tmp_path / "app/golden/manifest.json").is_file()
+    # The sources stay where they are, and nobody asked for a golden copy.
+    assert not (tmp_path / "app/golden").exists()
+    assert not (tmp_path / "app/.github").exists()
     assert not (tmp_path / "app/main.c").exists()
 
 
@@ -99,3 +100,30 @@ def test_a_package_that_is_not_found_is_an_error_in_the_proposal(init: Init, tmp
         '"../src/main.c"',
         '"../src"',
     ]
+
+
+JOINTS = """#include <rcl/rcl.h>
+#include <sensor_msgs/msg/joint_state.h>
+#include <rcl_interfaces/msg/parameter_event.h>
+static sensor_msgs__msg__JointState joints;
+int main(void)
+{
+  rclc_node_init_default(&node, "n", "", &support);
+  rclc_publisher_init_default(&p, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(sensor_msgs, msg, JointState), "joints");
+  rclc_publisher_init_default(&e, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(rcl_interfaces, msg, ParameterEvent), "events");
+  joints.name.capacity = 4;
+  joints.position.capacity = 6;
+}
+"""
+
+
+def test_what_is_proposed_is_taken(init: Init, tmp_path: Path) -> None:
+    """One number for a sequence of strings is two things, and 64 and 16 make events larger than a message can be."""
+    (tmp_path / "main.c").write_text(JOINTS)
+    status, _, err = init("app", "--from", "main.c")
+    assert (status, err) == (0, "")
+    application = application_in(tmp_path / "app/microros.yaml")
+    limits = {rule.path: (rule.string, rule.sequence) for rule in application.limits}
+    assert limits["sensor_msgs/msg/JointState", "name"] == (None, 4)
+    assert limits["sensor_msgs/msg/JointState", "position"] == (6, 6)
+    assert limits["*",] == (32, 8)

@@ -316,7 +316,7 @@ def test_functions_of_the_programs_own_are_no_missing_ones() -> None:
     ],
 )
 def test_what_creates_no_node_is_refused(text: str) -> None:
-    with pytest.raises(Exception, match="these sources create no node"):
+    with pytest.raises(Exception, match="these sources call nothing of rclc or rcl"):
         adopted(text)
 
 
@@ -333,3 +333,78 @@ PIECES = st.sampled_from(
 def test_any_text_is_read_to_its_end(pieces: list[str]) -> None:
     found = adopted(program("") + " ".join(pieces))
     assert found.draft.nodes[0].name == "n"
+
+
+def test_a_header_that_is_included_selects_its_component() -> None:
+    """Nothing of it need be called: an unselected header is one #error."""
+    assert adopted(program("", "#include <rclc/executor.h>")).draft.components == ("+executor",)
+    assert adopted(program("", '#include "rmw_microros/time_sync.h"')).draft.components == (
+        "+node",
+        "+time_sync",
+    )
+    assert adopted(program("", "#include <rclc/rclc.h>")).draft.components == ("+node",)
+
+
+@pytest.mark.parametrize(
+    "call", ["rcl_context_get_rmw_context(&context)", "rcl_get_error_string()", "rcl_reset_error()"]
+)
+def test_what_a_comment_of_a_header_names_selects_nothing(call: str) -> None:
+    assert adopted(program(f"{call};")).draft.components == ("+node",)
+
+
+def test_several_executors_get_their_places() -> None:
+    both = "rclc_executor_init(&one, &context, 1, &allocator);\nrclc_executor_init(&two, &context, 1, &allocator);"
+    pools = adopted(program(both)).draft.groups["pools"]
+    assert pools["executors"].value == 2
+    again = both.replace("&two", "&one")
+    assert "pools" not in adopted(program(again)).draft.groups, "one that is made again is one"
+
+
+@pytest.mark.parametrize(
+    ("body", "before"),
+    [
+        ("pthread_create(&thread, NULL, work, NULL);", ""),
+        ('xTaskCreate(work, "w", 512, NULL, 1, NULL);', ""),
+        ("std::thread worker(work);", "#include <thread>"),
+    ],
+)
+def test_a_second_task_needs_its_component(body: str, before: str) -> None:
+    assert "+multithread" in adopted(program(body, before)).draft.components
+
+
+LOOP = (
+    "for (size_t i = 0; i < {limit}; i++) {{ rclc_publisher_init_default(&p[i], &node, {type}, {topic}); }}"
+)
+
+
+@pytest.mark.parametrize(
+    ("limit", "topic", "before", "found"),
+    [
+        ("3", '"a"', "", ["a", "a", "a"]),
+        ("COUNT", "names[i]", '#define COUNT 2\nconst char * names[] = {"a", "b"};', ["a", "b"]),
+        ("n", "names[i]", 'unsigned n = 2;\nconst char * names[3] = {"a", "b", "c"};', ["a", "b"]),
+    ],
+)
+def test_what_a_loop_creates(limit: str, topic: str, before: str, found: list[str]) -> None:
+    body = LOOP.format(limit=limit, topic=topic, type=INT32)
+    assert endpoints(program(body, before)) == [("publisher", name, "std_msgs/msg/Int32") for name in found]
+    inclusive = body.replace("<", "<=")
+    if topic == '"a"':
+        assert len(endpoints(program(inclusive, before))) == len(found) + 1
+
+
+def test_a_loop_without_a_known_limit_is_marked() -> None:
+    body = LOOP.format(limit="argc", topic="names[i]", type=INT32)
+    assert any("the topic of the publisher" in reason for reason in reasons(program(body)))
+    assert len(endpoints(program(LOOP.format(limit="1000000", topic='"a"', type=INT32)))) == 1
+
+
+def test_log_macros_are_marked() -> None:
+    found = reasons(program('RCUTILS_LOG_INFO_NAMED("n", "text");'))
+    assert any("log messages are not in this version (RCUTILS_LOG_INFO_NAMED)" in reason for reason in found)
+
+
+def test_a_program_without_a_node_is_taken() -> None:
+    """It may ping, or synchronize its clock, and no more."""
+    draft = adopted("int main(void) { rmw_uros_ping_agent(100, 1); return 0; }").draft
+    assert draft.nodes == ()
