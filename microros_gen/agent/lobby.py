@@ -139,7 +139,7 @@ class Lobby:
         """Note that `client` sends from another address now."""
         before = client.place
         self._rivals.moved(client, transport, address, now)
-        client.transport.release(client.address)
+        client.transport.release(client.address, moved=True)
         client.claimed = False
         evicted = self._clients.move(client, transport, address)
         if evicted is not None:

@@ -208,7 +208,7 @@ class FakeTransport:
     def claim(self, address: Hashable, account: Account) -> None:
         """All are read alike."""
 
-    def release(self, address: Hashable) -> None:
+    def release(self, address: Hashable, moved: bool = False) -> None:
         """All are read alike."""
 
     def send(self, data: bytes, address: Hashable) -> None:

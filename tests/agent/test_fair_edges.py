@@ -11,6 +11,8 @@ from typing import Any
 
 import pytest
 
+from agent.captured import CREATE_CLIENT_KEYED
+from agent.fakes import Bench
 from microros_gen.agent.fairness import CREDIT_S, Account, Fairness
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.ros.bridge import BusyError, GraphReport
@@ -20,6 +22,9 @@ from microros_gen.agent.ros.wakeups import Wakeups
 from microros_gen.agent.transport.sockets import TCP4, UDP4
 from microros_gen.agent.transport.tcp import Tcp
 from microros_gen.agent.transport.udp import BATCH, Udp
+from microros_gen.agent.wire.entity_messages import Heartbeat
+from microros_gen.agent.wire.message import Header, join
+from microros_gen.agent.wire.submessages import encode
 from microros_gen.diagnostics import UserError
 
 # Order
@@ -231,6 +236,43 @@ def test_of_connections_the_one_that_cost_least_is_read_first() -> None:
     for connection in made:
         connection.close()
     transport.close()
+
+
+def test_what_a_client_said_before_it_had_a_queue_comes_first(udp: Udp) -> None:
+    client = peer(udp)
+    address = (udp, client.getsockname())
+    for number in range(3):
+        client.send(bytes((number,)))
+    got: list[int] = []
+
+    def take(data: bytes, _address: object, _transport: object) -> None:
+        got.append(data[0])
+        if data[0] == 0:
+            udp.claim(address, Account(-1.0))
+            client.send(b"\3")
+
+    for _ in range(3):
+        udp.pump(take)
+    assert got == [0, 1, 2, 3]
+
+
+def test_what_a_client_said_where_it_was_does_not_make_it_move_back(udp: Udp) -> None:
+    bench, before, after = Bench(), peer(udp), peer(udp)
+    head = Header(1, 0, 0, bytes.fromhex("a1b2c3d4"))
+    before.send(bytes.fromhex(CREATE_CLIENT_KEYED))
+    udp.pump(bench.agent.receive)
+    before.send(join(head, [encode(Heartbeat(0, 0, 0x80))]))
+    udp.pump(bench.agent.receive)
+    (client,) = bench.agent.clients
+    client.account.busy = True  # so what it says now is not read before it says more from elsewhere
+    before.send(join(head, [encode(Heartbeat(0, 0, 0x80))]))
+    after.send(join(head, [encode(Heartbeat(0, 0, 0x80))]))
+    udp.pump(bench.agent.receive)
+    client.account.busy = False
+    for _ in range(3):
+        udp.pump(bench.agent.receive)
+    assert client.address == (udp, after.getsockname())
+    assert bench.text.getvalue().count(" moved from ") == 1
 
 
 def test_another_agent_does_not_get_the_port(udp: Udp) -> None:

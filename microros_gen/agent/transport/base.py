@@ -38,8 +38,11 @@ class Transport(Protocol):
     def claim(self, address: Hashable, account: Account) -> None:
         """Note that a client is in session at an address: what comes from there is read in its turn. Never raises."""
 
-    def release(self, address: Hashable) -> None:
-        """Note that none is there any more. Never raises."""
+    def release(self, address: Hashable, moved: bool = False) -> None:
+        """Note that none is there any more; `moved`: it sends from elsewhere now, and what is unread is too old.
+
+        Never raises.
+        """
 
     def send(self, data: bytes, address: Hashable) -> None:
         """Send one message without waiting; one that cannot go out is lost. Never raises."""

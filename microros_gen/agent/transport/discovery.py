@@ -112,7 +112,7 @@ class Discovery:
     def claim(self, address: Hashable, account: Account) -> None:
         """See Transport: nobody has a session here."""
 
-    def release(self, address: Hashable) -> None:
+    def release(self, address: Hashable, moved: bool = False) -> None:
         """See Transport: nobody has a session here."""
 
     def send(self, data: bytes, address: Hashable) -> None:

@@ -85,7 +85,7 @@ class Line:
     def claim(self, address: Hashable, account: Account) -> None:
         """See Transport: who shares a line is read as it comes."""
 
-    def release(self, address: Hashable) -> None:
+    def release(self, address: Hashable, moved: bool = False) -> None:
         """See Transport: likewise."""
 
     def send(self, data: bytes, address: Hashable) -> None:

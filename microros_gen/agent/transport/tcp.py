@@ -177,7 +177,7 @@ class Tcp:
         assert isinstance(address, Connection)
         address.account = account
 
-    def release(self, address: Hashable) -> None:
+    def release(self, address: Hashable, moved: bool = False) -> None:
         """See Transport."""
         assert isinstance(address, Connection)
         address.account = self._strangers

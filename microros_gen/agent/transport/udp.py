@@ -104,18 +104,20 @@ class Udp:
             twin = open_twin(self._socket, peer)
         except OSError:
             return  # no descriptor is left: it is read with everybody's
+        self._keep(self._socket)  # what it said before comes before what it says from now on
         self._keep(twin)
         queue = self._by_peer[peer] = self._queues[twin.fileno()] = Queue(twin, account, peer)
         self._epoll.register(queue.socket, select.EPOLLIN)
 
-    def release(self, address: Hashable) -> None:
+    def release(self, address: Hashable, moved: bool = False) -> None:
         """See Transport."""
         queue = self._by_peer.pop(address[1], None)  # type: ignore[index]
         if queue is None:
             return
         self._epoll.unregister(queue.socket)
         del self._queues[queue.socket.fileno()]
-        self._keep(queue.socket)
+        if not moved:
+            self._keep(queue.socket)
         queue.socket.close()
 
     def send(self, data: bytes, address: Hashable) -> None:
