@@ -171,7 +171,7 @@ class Target:
 
     @property
     def has_unique_id(self) -> bool:
-        """Whether `session: {key: device}` can be had."""
+        """Whether the port supplies a client key that no other device has (`session: {key: device}`)."""
         return self.hosted or self.unique_id is not None
 
     @property

@@ -85,7 +85,7 @@ def plan_board(
     """Decide what start-up, linker script and drivers print; for a hosted target nothing of it matters."""
     if target.hosted:
         return BoardPlan()
-    _check_unique_id(application, target, diagnostics)
+    _check_unique_id(application, target, runtime, diagnostics)
     has_line = target.has_image or target.uart_driver == OWN_DRIVER
     driver = target.uart_driver if has_line and runtime.transport in _LINE_USERS else "none"
     functions = _application_functions(runtime.transport, driver)
@@ -171,7 +171,17 @@ def _application_functions(transport: str, driver: str) -> tuple[str, ...]:
     return _UDP_FUNCTIONS if transport == "udp" else ()
 
 
-def _check_unique_id(application: Application, target: Target, diagnostics: Diagnostics) -> None:
+def _check_unique_id(
+    application: Application, target: Target, runtime: RuntimePlan, diagnostics: Diagnostics
+) -> None:
+    if application.session_key is None and not target.has_unique_id and runtime.entities != "preconfigured":
+        diagnostics.warning(
+            "all boards with this image have the same client key, and two of them take each other's session: the "
+            f"target {target.name} names no unique id",
+            application.target.span,
+            "Write where it is into the target file: `unique_id: {address: 0x1FFF7A10, words: 3}`, or give each "
+            f"board a key of its own: `session: {{key: 0x{runtime.client_key or 0:08X}}}`",
+        )
     if isinstance(application.session_key, str) and not target.has_unique_id:
         diagnostics.error(
             f"session.key: device needs a number that no other device has, and the target {target.name} names none",

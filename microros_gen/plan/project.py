@@ -138,7 +138,7 @@ def plan_project(
         agent_port=agent[1],
         mtu=streams.mtu,
         input_size=streams.input_size,
-        client_key=_client_key(application, name),
+        client_key=_client_key(application, selection, target, name),
         session_id=SESSION_ID,
         best_effort_size=streams.best_effort_size,
         reliable_slots=streams.reliable_slots,
@@ -314,16 +314,19 @@ def _publishers_max(
     return max(pool(application, "publishers", default, diagnostics), least)
 
 
-def _client_key(application: Application, name: str) -> int | None:
-    """Return the fixed key, or None where the port supplies it.
+def _client_key(application: Application, selection: Selection, target: Target, name: str) -> int | None:
+    """Return the fixed key, or None where the port supplies it: no two devices share that one.
 
-    Without `session.key` it follows from the application, so that different applications do not take each
-    other's session; several boards with one application need `session: {key: device}`.
+    The key is fixed where the file names it, where the agent knows the client by it (`entities: preconfigured`), and
+    where the target has no unique id (`plan_board` warns). Then it follows from the application, so that
+    different applications do not take each other's session.
     """
     if isinstance(application.session_key, str):
         return None
     if application.session_key is not None:
         return application.session_key
+    if target.has_unique_id and selection.entities != "preconfigured":
+        return None
     text = "/".join([name, *(participant_name(n.name, n.namespace) for n in application.nodes)])
     return int.from_bytes(hashlib.sha256(text.encode()).digest()[:4], "big") or 1
 

@@ -251,11 +251,6 @@ class RuntimePlan(TimesPlan):
         return f"{host}:{self.agent_port}"
 
     @property
-    def has_steady_time(self) -> bool:
-        """Whether something asks the port for the time since its start."""
-        return self.has_clocks or self.has_executors or self.has_time_sync
-
-    @property
     def has_rtos_timers(self) -> bool:
         """Whether a timer of the system drives a declared one."""
         return any(timer.kind == "rtos" for timer in self.timers)

@@ -37,6 +37,15 @@ def test_time_sleep_epoch_and_ring(tmp_path: Path) -> None:
     check([str(program)])
 
 
+def test_timers_and_steady_time_over_sixty_days(tmp_path: Path) -> None:
+    (tmp_path / "microros_config.h").write_text("#define MICROROS_TIMERS_MAX 2u\n")
+    bare, support = COMPONENTS / "port_bare", COMPONENTS / "support"
+    includes = [f"-I{path}" for path in (tmp_path, bare / "src", bare / "include", support / "include")]
+    program = tmp_path / "unit"
+    check(["gcc", *WARNINGS, *SANITIZE, *includes, str(C_FILES / "unit_bare_timers.c"), "-o", str(program)])
+    check([str(program)])
+
+
 def plan(reliable_slots: int, input_size: int) -> RuntimePlan:
     return RuntimePlan(
         plan_id="", error_text_size=0, agent_host="", agent_port=0, mtu=0, input_size=input_size, client_key=1,

@@ -32,7 +32,8 @@ def programs(tmp_path_factory: pytest.TempPathFactory) -> ProgramFactory:
         read += ["client_serve.c" if plan.serves else "client_no_serve.c"]
         epoch = "client_time.c" if plan.has_time_sync else "client_no_time.c"
         extra = "client_extra.c" if plan.has_session_state and plan.has_sleep else "client_no_extra.c"
-        return build(tree, ["port_fake.c", "client.c", ping, epoch, extra, *read], "client")
+        port = ["port_fake.c", *(["port_fake_lines.c"] if plan.has_discovery else [])]
+        return build(tree, [*port, "client.c", ping, epoch, extra, *read], "client")
 
     return compiled
 

@@ -324,3 +324,16 @@ def test_a_publisher_of_an_ended_context(bench: Bench) -> None:
     client.ok("publisher 0 0 Int32 chatter reliable")
     client.ok("publish 0 2")
     assert client.agent.values() == [2]
+
+
+def test_a_status_of_another_object_is_no_answer(bench: Bench) -> None:
+    """The ids of requests come again; the first one is not that of a ping."""
+    client = bench.start()
+    client.ok("init")
+    client.agent.silent = True
+    client.sent.clear()
+    client.on_sleep = lambda: client.queued.append(
+        bytes.fromhex("81010000 05010600") + client.sent[0][8:10] + bytes.fromhex("fffd 00 00")
+    )
+    assert client.call("node 0 n -").code != 0, "nobody has said anything of the node"
+    assert client.sent[0][8:12] == bytes.fromhex("000b 0001")

@@ -35,6 +35,7 @@ UNITS = {
     "unit_timer.c": EXECUTOR,
     "unit_executor.c": EXECUTOR,
     "unit_executor_changes.c": CHANGES,
+    "unit_days.c": EXECUTOR,
     "unit_ticks.c": TICKS,
     "unit_clock_ros.c": ROS_TIME,
 }

@@ -359,7 +359,13 @@ def test_when_a_sample_arrived(bench: Bench) -> None:
     reader.client.spin()
     reader.client.wait(250)
     result = reader.client.ok("read_take 0 info")
-    assert result.lines == ("value 1", "info 0 -250000000 0"), "the test's clock stands at 0"
+    assert result.lines == ("value 1", "info 0 0 0"), "nobody has set the time of day"
+    reader.client.tell("epoch 1790000000000")
+    reader.number(2)
+    reader.client.spin(2)
+    reader.client.wait(250)
+    result = reader.client.ok("read_take 0 info")
+    assert result.lines == ("value 2", "info 0 1789999999750000000 0")
 
 
 MALFORMED = [

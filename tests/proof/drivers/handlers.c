@@ -102,6 +102,8 @@ static void any_streams(void)
   proof_any(in->message, sizeof(in->message));
   in->next = proof_u16();
   in->announced = proof_u16();
+  in->asked = proof_u16();
+  in->refused = proof_u16();
   for (size_t i = 0; i < XRCE_RELIABLE_INPUT_HELD; ++i) {
     in->sequence[i] = proof_u16();
     in->size[i] = (uint16_t)Frama_C_interval(0, MICROROS_RELIABLE_INPUT_SLOT_SIZE);
@@ -118,6 +120,7 @@ static void any_entities(void)
   entities->refused_place = proof_u16();
   entities->refused_status = proof_u8();
   entities->pending = proof_bool();
+  entities->resting = proof_bool();
   for (uint16_t place = 0; place < XRCE_PLACES; ++place) {
     xrce_object_state_t * state = &client.states[place];
 

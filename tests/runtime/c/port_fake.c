@@ -25,6 +25,7 @@ static uint32_t fake_now_ms = 0xffffff00u;  /* soon begins again at 0: every tes
 static int64_t fake_steady_ms = 5000000123; /* a device that has been on for eight weeks */
 static unsigned lock_depth;
 static bool lock_used; /* there is a lock */
+static int64_t fake_epoch_ms; /* stands still; 0: not set */
 static bool send_fails;
 static bool open_fails;
 
@@ -60,6 +61,8 @@ bool fake_take_line(const char * line)
     read_hex(&group_answer, &line[6]);
   } else if (strncmp(line, "time ", 5) == 0) {
     fake_pass((uint32_t)strtoul(&line[5], NULL, 10));
+  } else if (strncmp(line, "epoch ", 6) == 0) {
+    fake_epoch_ms = strtoll(&line[6], NULL, 10);
   } else if (strncmp(line, "send_fails ", 11) == 0) {
     send_fails = line[11] == '1';
   } else if (strncmp(line, "open_fails ", 11) == 0) {
@@ -93,7 +96,7 @@ int64_t port_time_steady_ns(void)
 
 int64_t port_time_epoch_ns(void)
 {
-  return 0;
+  return fake_epoch_ms * 1000000;
 }
 
 void port_lock(void)

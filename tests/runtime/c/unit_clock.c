@@ -5,6 +5,7 @@
 
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>
+#include <uxr/client/util/time.h>
 
 #include <string.h>
 
@@ -134,12 +135,33 @@ static void test_difference(void)
   CHECK(rcl_difference_times(&early, NULL, &delta) == RCL_RET_INVALID_ARGUMENT);
 }
 
+/* The loop of every micro-ROS example: what is to be done every 10 ms is done, whether the time of day is known or not. */
+static void test_the_time_of_the_xrce_client(void)
+{
+  int64_t last = uxr_millis();
+  int fired = 0;
+
+  CHECK(agent_epoch_ns == 0 && uxr_nanos() == agent_now_ns && last == agent_now_ns / 1000000);
+  for (int i = 0; i < 100; ++i) {
+    agent_now_ns += 1000000;
+    if (uxr_millis() - last >= 10) {
+      last = uxr_millis();
+      ++fired;
+    }
+  }
+  CHECK(fired == 10);
+  agent_epoch_ns = INT64_C(1790000000123456789);
+  CHECK(uxr_nanos() == agent_epoch_ns && uxr_millis() == 1790000000123);
+  agent_epoch_ns = 0;
+}
+
 int main(void)
 {
   rcl_clock_t clock;
 
   allocator = rcl_get_default_allocator();
   test_kinds();
+  test_the_time_of_the_xrce_client();
   test_pool_of_ros_clocks();
   CHECK(rcl_ros_clock_init(&clock, &allocator) == RCL_RET_OK);
   test_override(&clock);

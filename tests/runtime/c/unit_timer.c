@@ -275,6 +275,35 @@ static void test_ros_time(void)
   CHECK(rcl_timer_fini(&timer) == RCL_RET_OK && rcl_clock_fini(&clock) == RCL_RET_OK);
 }
 
+/* Times and periods at the ends of 64 bits: nothing overflows (the unit is built with sanitizers), nothing hangs. */
+static void test_the_ends_of_time(void)
+{
+  rcl_clock_t clock;
+  rcl_timer_t timer;
+  rcl_timer_t longest = timer_on(&support.clock, INT64_MAX);
+  int64_t time = 0;
+
+  CHECK(until(&longest) == INT64_MAX - agent_now_ns && rcl_timer_call(&longest) == RCL_RET_OK);
+  CHECK(until(&longest) == INT64_MAX - agent_now_ns && rcl_timer_reset(&longest) == RCL_RET_OK);
+  CHECK(rcl_timer_fini(&longest) == RCL_RET_OK);
+  CHECK(rcl_clock_init(RCL_ROS_TIME, &clock, &allocator) == RCL_RET_OK);
+  CHECK(rcl_set_ros_time_override(&clock, INT64_MAX - 5) == RCL_RET_OK);
+  CHECK(rcl_enable_ros_time_override(&clock) == RCL_RET_OK);
+  timer = timer_on(&clock, 10);
+  CHECK(until(&timer) == 5 && !ready(&timer));
+  CHECK(rcl_set_ros_time_override(&clock, INT64_MAX) == RCL_RET_OK && ready(&timer));
+  calls = 0;
+  CHECK(rcl_timer_call(&timer) == RCL_RET_OK && calls == 1 && since == 5 && until(&timer) == 0);
+  CHECK(rcl_timer_call(&timer) == RCL_RET_OK && calls == 2 && rcl_timer_reset(&timer) == RCL_RET_OK);
+  CHECK(rcl_set_ros_time_override(&clock, INT64_MIN) == RCL_RET_OK);
+  CHECK(rcl_timer_get_time_since_last_call(&timer, &time) == RCL_RET_OK && time == 0);
+  CHECK(until(&timer) == 10 && rcl_timer_call(&timer) == RCL_RET_ERROR);
+  CHECK(rcl_set_ros_time_override(&clock, INT64_MAX) == RCL_RET_OK && ready(&timer));
+  CHECK(rcl_timer_call(&timer) == RCL_RET_OK && since == INT64_MAX && until(&timer) == 0);
+  CHECK(rcl_disable_ros_time_override(&clock) == RCL_RET_OK);
+  CHECK(rcl_timer_fini(&timer) == RCL_RET_OK && rcl_clock_fini(&clock) == RCL_RET_OK);
+}
+
 int main(void)
 {
   allocator = rcl_get_default_allocator();
@@ -288,6 +317,7 @@ int main(void)
   test_exchanges();
   test_cancel();
   test_ros_time();
+  test_the_ends_of_time();
   CHECK(rclc_support_fini(&support) == RCL_RET_OK);
   return 0;
 }

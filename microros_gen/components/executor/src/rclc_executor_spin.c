@@ -3,6 +3,7 @@
 #include "microros/executor_handles.h"
 #include "microros/port.h"
 #include "microros/rcl_waiting.h"
+#include "microros/time_math.h"
 #include "microros_config.h"
 
 /* Between rounds that end with an error at once. */
@@ -186,8 +187,8 @@ rcl_ret_t rclc_executor_spin_one_period(rclc_executor_t * executor, const uint64
   }
   result = rclc_executor_spin_some(executor, executor->timeout_ns);
   if (executor_goes_on(executor, result)) {
-    executor->invocation_time += (int64_t)period;
-    executor_rest(executor->invocation_time - port_time_steady_ns());
+    executor->invocation_time = microros_time_after(executor->invocation_time, (int64_t)period);
+    executor_rest(executor->invocation_time - port_time_steady_ns()); /* neither is negative */
   }
   return result;
 }

@@ -10,7 +10,7 @@ static volatile uint32_t port_bare_now_ms;
 /* `tick` is written last when a timer starts, and first when it stops. The interrupt alone writes `due_ms` between. */
 typedef struct port_bare_timer_t {
   volatile port_timer_tick_t tick; /* NULL: it rests */
-  uint32_t period_ms;
+  volatile uint32_t period_ms;
   volatile uint32_t due_ms;
 } port_bare_timer_t;
 
@@ -52,8 +52,9 @@ bool port_timer_start(uint16_t timer, int64_t period_ns, port_timer_tick_t tick)
   if (period_ms <= 0 || period_ms > (int64_t)INT32_MAX) {
     return false;
   }
+  place->tick = NULL; /* one that runs already must not tick halfway */
+  place->due_ms = port_time_ms() + (uint32_t)period_ms;
   place->period_ms = (uint32_t)period_ms;
-  place->due_ms = port_time_ms() + place->period_ms;
   place->tick = tick;
   return true;
 }

@@ -76,10 +76,11 @@ rmw_ret_t rmw_service_report(
 
 void rmw_service_describe(const xrce_sample_t * sample, rmw_service_info_t * info)
 {
-  const uint32_t age_ms = port_time_ms() - sample->arrived_ms;
+  const int64_t age_ns = (int64_t)(port_time_ms() - sample->arrived_ms) * NS_PER_MS;
+  const int64_t epoch_ns = port_time_epoch_ns();
 
-  info->source_timestamp = 0; /* XRCE does not carry it */
-  info->received_timestamp = port_time_epoch_ns() - (int64_t)age_ms * NS_PER_MS;
+  info->source_timestamp = 0;                                       /* XRCE does not carry it */
+  info->received_timestamp = epoch_ns != 0 ? epoch_ns - age_ns : 0; /* nobody has set the time of day yet */
 }
 
 rmw_ret_t rmw_service_decode(

@@ -3,6 +3,7 @@
 #include "microros/port.h"
 #include "microros/rcl_guard_condition.h"
 #include "microros/rcl_timer.h"
+#include "microros/time_math.h"
 
 #include <string.h>
 
@@ -41,7 +42,7 @@ static rcl_ret_t timer_begin(
   timer->callback = callback;
   timer->period = period;
   timer->last_call_time = now;
-  timer->next_call_time = now + period;
+  timer->next_call_time = microros_time_after(now, period);
   timer->canceled = !autostart;
   if (autostart && !rcl_timer_source_start(timer)) {
     timer->clock = NULL;
@@ -135,7 +136,7 @@ rcl_ret_t rcl_timer_reset(rcl_timer_t * timer)
   }
   impl = timer->impl;
   rcl_timer_source_stop(impl);
-  impl->next_call_time = now + impl->period;
+  impl->next_call_time = microros_time_after(now, impl->period);
   impl->canceled = !rcl_timer_source_start(impl);
   if (impl->canceled) {
     return microros_error_named(RCL_RET_ERROR, microros_error_timer, "the system starts none");

@@ -2,6 +2,7 @@
 #include "microros/error.h"
 #include "microros/rcl_clock.h"
 #include "microros/rcl_timer.h"
+#include "microros/time_math.h"
 
 /*
  * Returns when the next call is due after one that was due at `due`: periods that have gone by are left out. It goes forward
@@ -10,17 +11,17 @@
  */
 static int64_t call_next(int64_t due, int64_t period, int64_t now)
 {
-  int64_t next = due + period;
+  int64_t next = microros_time_after(due, period);
   uint64_t step = (uint64_t)period;
 
   if (period == 0) {
     return next > now ? next : now;
   }
-  while (next <= now) {
-    if (step > (uint64_t)(now - next)) {
+  while (next <= now && next != INT64_MAX) {
+    if (step > (uint64_t)microros_time_between(next, now)) {
       step = (uint64_t)period;
     }
-    next += (int64_t)step;
+    next = microros_time_after(next, (int64_t)step);
     step += step;
   }
   return next;
@@ -39,7 +40,7 @@ static rcl_ret_t call_now(rcl_timer_t * timer, rcl_timer_call_info_t * call_info
   if (now < 0) {
     return microros_error_named(RCL_RET_ERROR, microros_error_timer, "the time of its clock is negative");
   }
-  since_last_call = now - impl->last_call_time;
+  since_last_call = microros_time_between(impl->last_call_time, now);
   call_info->expected_call_time = impl->next_call_time;
   call_info->actual_call_time = now;
   impl->last_call_time = now;
@@ -90,7 +91,7 @@ rcl_ret_t rcl_timer_get_time_until_next_call(const rcl_timer_t * timer, int64_t 
   }
   result = rcl_clock_get_now(timer->impl->clock, &now);
   if (result == RCL_RET_OK) {
-    *time_until_next_call = timer->impl->next_call_time - now;
+    *time_until_next_call = microros_time_between(now, timer->impl->next_call_time);
   }
   return result;
 }

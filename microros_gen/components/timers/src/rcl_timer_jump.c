@@ -2,6 +2,7 @@
 /* Timers on a clock whose time jumps; linked with the ROS clock alone. */
 #include "microros/port.h"
 #include "microros/rcl_timer.h"
+#include "microros/time_math.h"
 
 static bool jump_changes_time(const rcl_time_jump_t * jump)
 {
@@ -19,10 +20,10 @@ static void jump_carry_over(size_t index, int64_t now, bool before_jump)
   int64_t * credit = &credits[index];
 
   if (before_jump) {
-    *credit = now != 0 ? timer->next_call_time - now : 0;
+    *credit = now != 0 ? microros_time_between(now, timer->next_call_time) : 0;
   } else if (now != 0 && *credit != 0) {
-    timer->last_call_time = now - *credit;
-    timer->next_call_time = timer->last_call_time + timer->period;
+    timer->last_call_time = microros_time_between(*credit, now);
+    timer->next_call_time = microros_time_after(timer->last_call_time, timer->period);
   }
 }
 
@@ -32,7 +33,7 @@ static void jump_settle(rcl_timer_impl_t * timer, int64_t now)
   if (timer->next_call_time <= now) {
     rcl_timer_wake(timer);
   } else if (now < timer->last_call_time) {
-    timer->next_call_time = now + timer->period;
+    timer->next_call_time = microros_time_after(now, timer->period);
     timer->last_call_time = now;
   }
 }

@@ -2,6 +2,7 @@
 /* What a timer has. */
 #include "microros/error.h"
 #include "microros/rcl_timer.h"
+#include "microros/time_math.h"
 
 rcl_ret_t rcl_timer_clock(const rcl_timer_t * timer, rcl_clock_t ** clock)
 {
@@ -28,7 +29,7 @@ rcl_ret_t rcl_timer_get_time_since_last_call(const rcl_timer_t * timer, int64_t 
   }
   result = rcl_clock_get_now(timer->impl->clock, &now);
   if (result == RCL_RET_OK) {
-    *time_since_last_call = now - timer->impl->last_call_time;
+    *time_since_last_call = microros_time_between(timer->impl->last_call_time, now);
   }
   return result;
 }

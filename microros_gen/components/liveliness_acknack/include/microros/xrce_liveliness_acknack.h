@@ -14,6 +14,7 @@ extern "C" {
 
 typedef struct xrce_liveliness_acknack_t {
   uint32_t since_ms; /* when the agent acknowledged last, or had nothing to acknowledge */
+  uint32_t heard_ms; /* of the session then */
   uint16_t first;    /* the oldest unacknowledged message then */
 } xrce_liveliness_acknack_t;
 

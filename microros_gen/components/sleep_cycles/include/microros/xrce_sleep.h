@@ -32,7 +32,7 @@ bool xrce_sleep_can_begin(const xrce_client_t * client);
 /* Makes the client ready to be copied; only xrce_session_close may follow on this one. */
 void xrce_sleep_begin(xrce_client_t * client);
 
-/* Whether the client was taken from memory and is the one with this key; true once. */
+/* Whether the client was taken from memory and is the one with this key, or any where `key` is 0; true once. */
 bool xrce_sleep_is_over(xrce_client_t * client, uint32_t key);
 
 /* Goes on with the session, for which session.transport is prepared: without a word, but a question to the agent where

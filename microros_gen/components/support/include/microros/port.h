@@ -69,7 +69,8 @@ void port_hardware_timer_stop(uint16_t timer);
 
 /* --- unique id --- */
 
-/* Returns a number that no other device has and that stays over a restart; never 0. */
+/* Returns a number that no other device has, never 0: of a board the same over a restart, of a program on a host drawn
+ * when it starts. The client key where the application file has none. */
 uint32_t port_unique_id(void);
 
 /* --- UDP --- */
