@@ -14,7 +14,8 @@ from microros_gen.cli.pipeline import Planned, plan_request, read_request, resol
 from microros_gen.cli.resolve_format import format_selection, format_table, selection_data
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.plan.streams import StreamPlan
-from microros_gen.plan.types import TypePlan
+from microros_gen.plan.layout import ILP32
+from microros_gen.plan.types import DATA_MODELS, TypePlan
 
 
 @click.command()
@@ -71,10 +72,26 @@ def pool_rows(planned: Planned) -> list[tuple[str, str, str]]:
             "errors: text" if runtime.error_text_size else "errors: code",
         ),
         ("arena", f"{runtime.arena_size} bytes", "memory.arena"),
+        *_storage_rows(planned),
     ]
     if not runtime.declared:
         rows.insert(2, ("names", f"{runtime.name_size} bytes each", "pools.name_size"))
     return rows
+
+
+def _storage_rows(planned: Planned) -> list[tuple[str, str, str]]:
+    """Return the blocks of messages that are sent: what they take on 32 bits."""
+    runtime, model = planned.project.runtime, DATA_MODELS.index(ILP32)
+    why = "memory.messages of each sender, under its limits; where a function that needs it is called"
+    return [
+        (
+            f"storage of {pool.kind}",
+            f"{', '.join(f'{b.count} x {b.elements}' for b in pool.blocks)}: {pool.bytes(model)} bytes",
+            why,
+        )
+        for pool in runtime.message_pools
+        if not pool.of_messages
+    ]
 
 
 def _receiving_rows(planned: Planned) -> list[tuple[str, str, str]]:

@@ -192,9 +192,10 @@ class NodeDecl:
 
 @dataclass(frozen=True)
 class Memory:
-    """Budgets and the arena, bytes; None: no budget."""
+    """Budgets and the arena, bytes; None: no budget. `messages` of each sender get storage; None: not said."""
 
     arena: int = 0
+    messages: int | None = None
     ram_budget: int | None = None
     flash_budget: int | None = None
     stack: int | None = None

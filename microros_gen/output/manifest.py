@@ -35,6 +35,7 @@ def manifest(project: Project, inputs: Mapping[str, bytes], outputs: Mapping[str
         "selection": _selection(project),
         "entities": _entities(project),
         "pools": _pools(project),
+        "message_storage": _message_storage(project),
         "memory": _memory(project.application.memory),
         "inputs": {name: _sha256(content) for name, content in inputs.items()},
         "outputs": {name: _sha256(content) for name, content in outputs.items()},
@@ -181,6 +182,13 @@ def _memory(memory: Memory) -> dict[str, Any]:
         for key, value, span in budgets
         if value is not None
     }
+
+
+def _message_storage(project: Project) -> dict[str, Any]:
+    """Return the blocks for strings and sequences of messages that are sent: pairs of elements and how many."""
+    runtime = project.runtime
+    pools = {p.kind: [[b.elements, b.count] for b in p.blocks] for p in runtime.message_pools}
+    return {"messages": runtime.kept_messages, "blocks": pools}
 
 
 def _pools(project: Project) -> dict[str, int]:

@@ -240,6 +240,7 @@ def _memory(node: YamlNode | None) -> Memory:
     parts = {key: child(node, key) for key in ("arena", "ram_budget", "flash_budget", "stack")}
     return Memory(
         arena=size_of(parts["arena"]) or 0,
+        messages=int_of(child(node, "messages")),
         ram_budget=size_of(parts["ram_budget"]),
         flash_budget=size_of(parts["flash_budget"]),
         stack=size_of(parts["stack"]),

@@ -21,6 +21,7 @@ from microros_gen.plan.names import dds_topic, dds_type, participant_name
 from microros_gen.plan.receiving import plan_receiving
 from microros_gen.plan.running import plan_running
 from microros_gen.plan.runtime import DISCOVERY_GROUP, NodePlan, PublisherPlan, RuntimePlan, SubscriptionPlan
+from microros_gen.plan.senders import plan_sent_storage
 from microros_gen.plan.serving import Serving, plan_serving
 from microros_gen.plan.session_times import plan_times
 from microros_gen.plan.streams import StreamPlan, Written, plan_streams
@@ -128,6 +129,7 @@ def plan_project(
     receivers = receiving.subscriptions_max + serving.services_max + serving.clients_max
     receivers -= 1 if selection.has(CLOCK_ROS) else 0  # nobody adds the subscription of /clock to an executor
     running = plan_running(application, selection, receivers, diagnostics)
+    storage = plan_sent_storage(application, selection, by_name, roots, services)
     agent = _agent(application.transport, selection)
     baud = application.transport.baud if selection.transport == "serial" else None
     times = plan_times(application.times, baud, streams.mtu, streams.input_size)
@@ -189,6 +191,8 @@ def plan_project(
         has_ros_time=selection.has(CLOCK_ROS),
         fixed_messages=all(plan.fixed_size for plan in types if plan.wire is not None),
         timed_qos=timed_qos(application, selection.entities, diagnostics),
+        kept_messages=storage.kept,
+        message_pools=storage.pools,
         reassembly_size=streams.reassembly_size,
         fragments=streams.fragments,
         reliable_input_slots=streams.reliable_input_slots,

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from microros_gen.model.application import DISCOVERY_PORT, MOST_HISTORY
 from microros_gen.model.types import TypeName
+from microros_gen.plan.message_pools import MessagePool, PoolPointer, pool_pointers
 from microros_gen.plan.names import dds_type
 from microros_gen.plan.runtime_rows import EndpointRow, QueueRow
 from microros_gen.plan.services import ServicePlan
@@ -139,6 +140,7 @@ class RuntimePlan(TimesPlan):
     that comes in fragments, with its header; 0: none does.
     `timers_max` to `jump_callbacks_max`: places of each; 0 timers, executors or clocks: the component is not selected.
     `has_ros_time`: the first subscription is that of /clock, which the library opens itself.
+    `message_pools`: storage of `kept_messages` messages of each sender.
     `fixed_messages`: no message that is sent has a string or sequence. `timed_qos`: one has a deadline or lifespan.
     `hard_liveliness_ms`: after so long a silence the agent gives the client up; 0: as it likes.
     `error_text_size` 0: codes only. `best_effort_size` 0 or `reliable_slots` 0: there is no such stream.
@@ -203,6 +205,8 @@ class RuntimePlan(TimesPlan):
     discovery_port: int = DISCOVERY_PORT
     fixed_messages: bool = False
     timed_qos: bool = False
+    kept_messages: int = 0
+    message_pools: tuple[MessagePool, ...] = ()
 
     @property
     def has_subscriptions(self) -> bool:
@@ -394,3 +398,13 @@ class RuntimePlan(TimesPlan):
     def memory_mode(self) -> str:
         """`arena` or `none`: what is behind the default allocator."""
         return "arena" if self.arena_size else "none"
+
+    @property
+    def message_memory(self) -> str:
+        """`pools` or `allocator`: where strings and sequences get their memory."""
+        return "pools" if self.message_pools else "allocator"
+
+    @property
+    def pool_pointers(self) -> tuple[PoolPointer, ...]:
+        """What functions of rosidl_runtime_c name for each kind of element."""
+        return pool_pointers(self.message_pools)

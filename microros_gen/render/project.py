@@ -70,10 +70,11 @@ def render_project(
     `#error` each.
     """
     rendered = _component_files(project, files, environment)
-    rendered |= render_types(project.types, environment, project.selection.has("services"))
+    pools = frozenset(pool.kind for pool in project.runtime.message_pools)
+    rendered |= render_types(project.types, environment, project.selection.has("services"), pools)
     rendered |= render_decoders(project.types, environment)
     if project.selection.has("micro_ros_utilities"):
-        rendered |= render_members(project.types, environment)
+        rendered |= render_members(project.types, environment, pools)
     rendered |= render_agent_files(project)
     for path, content in _unselected_headers(unselected, environment):
         rendered.setdefault(path, content)

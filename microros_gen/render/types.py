@@ -6,7 +6,7 @@ A file holds one message, or every message of a service or an action, as rosidl_
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, fields
 from pathlib import PurePosixPath
 from typing import Any
@@ -33,16 +33,20 @@ class ServiceView:
 
 
 def render_types(
-    type_plans: Sequence[TypePlan], environment: Environment, services: bool = False
+    type_plans: Sequence[TypePlan],
+    environment: Environment,
+    services: bool = False,
+    pools: Collection[str] = (),
 ) -> dict[str, bytes]:
     """Return path → contents of every file of the types, in the order of the plans.
 
     `type_plans` must hold every type that one of them is made of. `services`: service types get handles.
+    `pools` are the kinds of elements that messages which are sent have storage for.
     """
     files: dict[str, list[TypePlan]] = {}
     for plan in type_plans:
         files.setdefault(plan.files.header, []).append(plan)
-    renderer = _Renderer(type_plans, environment, services)
+    renderer = _Renderer(type_plans, environment, services, pools)
     for plans in files.values():
         renderer.add(plans)
     return renderer.files
@@ -51,18 +55,25 @@ def render_types(
 class _Renderer:
     """Prints views through templates."""
 
-    def __init__(self, type_plans: Sequence[TypePlan], environment: Environment, services: bool) -> None:
+    def __init__(
+        self,
+        type_plans: Sequence[TypePlan],
+        environment: Environment,
+        services: bool,
+        pools: Collection[str],
+    ) -> None:
         self.files: dict[str, bytes] = {}
         self._plans = {plan.name: plan for plan in type_plans}
         self._encoders = EncoderViews(self._plans)
         self._environment = environment
         self._services = services
+        self._pools = frozenset(pools)
 
     def add(self, plans: Sequence[TypePlan]) -> None:
         """Print every file of the messages that share one header."""
         paths = plans[0].files
         own = [paths.functions, paths.struct]
-        functions = [functions_view(plan) for plan in plans]
+        functions = [functions_view(plan, self._plans, self._pools) for plan in plans]
         self._print(paths.struct, "struct.h", _file(plans, paths.struct, map(struct_view, plans)))
         self._print(paths.functions, "functions.h", _file(plans, paths.functions, functions))
         self._print(paths.functions_source, "functions.c", _file(plans, paths.functions, functions))

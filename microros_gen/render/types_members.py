@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from jinja2 import Environment
@@ -19,6 +19,7 @@ from microros_gen.plan.types_members import (
     table_members,
 )
 from microros_gen.plan.types_names import c_name, include_path
+from microros_gen.render.types_struct import pool_pointer
 
 
 @dataclass(frozen=True)
@@ -37,11 +38,15 @@ class TableView:
     name: str
     ros_name: str
     dds_name: str
+    pool: str
     members: tuple[MemberView, ...]
 
 
-def render_members(type_plans: Sequence[TypePlan], environment: Environment) -> dict[str, bytes]:
-    """Return path → contents of the tables of all types; `type_plans` are in dependency order."""
+def render_members(
+    type_plans: Sequence[TypePlan], environment: Environment, pools: Collection[str]
+) -> dict[str, bytes]:
+    """Return path → contents of the tables of all types; `type_plans` are in dependency order, `pools` as of
+    render_types."""
     files: dict[str, list[TypePlan]] = {}
     for plan in type_plans:
         files.setdefault(members_source(plan.files), []).append(plan)
@@ -50,7 +55,7 @@ def render_members(type_plans: Sequence[TypePlan], environment: Environment) -> 
     for path, plans in files.items():
         title = str(declaring_name(plans[0].name))
         struct = include_path(plans[0].files.struct)
-        text = template.render(title=title, struct=struct, tables=[_table(plan) for plan in plans])
+        text = template.render(title=title, struct=struct, tables=[_table(plan, pools) for plan in plans])
         rendered[path] = text.encode()
     view = {
         "depth": nesting_depth({plan.name: plan.message for plan in type_plans}),
@@ -62,9 +67,9 @@ def render_members(type_plans: Sequence[TypePlan], environment: Environment) -> 
     return rendered
 
 
-def _table(plan: TypePlan) -> TableView:
+def _table(plan: TypePlan, pools: Collection[str]) -> TableView:
     views = tuple(_member(plan.c_name, member) for member in table_members(plan.message))
-    return TableView(plan.c_name, str(plan.name), plan.dds_name, views)
+    return TableView(plan.c_name, str(plan.name), plan.dds_name, pool_pointer(plan.c_name, pools), views)
 
 
 def _member(owner: str, member: TableMember) -> MemberView:

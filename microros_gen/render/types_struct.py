@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 
 from microros_gen.model.types import (
@@ -16,8 +16,10 @@ from microros_gen.model.types import (
     ScalarValue,
     SequenceType,
     StringType,
+    TypeName,
     element_of,
 )
+from microros_gen.plan.message_pools import message_pool
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_names import (
     element_c_type,
@@ -95,7 +97,11 @@ class WideDefault:
 
 @dataclass(frozen=True)
 class FunctionsView:
-    """functions.h.j2 and functions.c.j2."""
+    """functions.h.j2 and functions.c.j2.
+
+    `init_fails`: __init needs memory, for default values. `pool` is the C expression of the pool of sequences of this
+    message, `message_pool` of that of messages of __create.
+    """
 
     guard: str
     ros_name: str
@@ -111,6 +117,9 @@ class FunctionsView:
     equal: tuple[CallView, ...]
     number_copies: tuple[str, ...]
     copy: tuple[CallView, ...]
+    init_fails: bool
+    pool: str
+    message_pool: str
 
 
 def struct_view(plan: TypePlan) -> StructView:
@@ -181,8 +190,10 @@ def _bounds(plan: TypePlan, field: Field) -> Iterator[BoundView]:
         yield BoundView(f"{prefix}__MAX_STRING_SIZE", element.bound, comment)
 
 
-def functions_view(plan: TypePlan) -> FunctionsView:
-    """Return the view of the functions' header and source."""
+def functions_view(
+    plan: TypePlan, plans: Mapping[TypeName, TypePlan], pools: Collection[str]
+) -> FunctionsView:
+    """Return the view of the functions' header and source; `pools` are the kinds of elements that have one."""
     fields = members(plan.message)
     init = tuple(call for field in fields for call in _init(field))
     needs_math = any("INFINITY" in line or "NAN" in line for field in fields for line in _numbers(field))
@@ -201,11 +212,34 @@ def functions_view(plan: TypePlan) -> FunctionsView:
         equal=tuple(call for field in fields for call in _equal(field)),
         number_copies=tuple(line for field in fields for line in _number_copy(field)),
         copy=tuple(call for field in fields for call in _all(field, "copy", "input", "output")),
+        init_fails=_needs_memory(plan, plans),
+        pool=pool_pointer(plan.c_name, pools),
+        message_pool=pool_pointer(message_pool(plan.name), pools),
     )
 
 
+def pool_pointer(kind: str, pools: Collection[str]) -> str:
+    """Return the C expression of the pool of a kind of elements: NULL where there is none."""
+    return f"&microros_pool_{kind}" if kind in pools else "NULL"
+
+
+def _needs_memory(plan: TypePlan, plans: Mapping[TypeName, TypePlan]) -> bool:
+    """Return whether __init needs memory: for default values of strings and sequences, also of nested messages."""
+    for field in plan.message.fields:
+        element = element_of(field.type)
+        if isinstance(field.type, SequenceType):
+            needed = bool(defaults(field))
+        elif isinstance(element, NamedType):
+            needed = _needs_memory(plans[element.name], plans)
+        else:
+            needed = isinstance(element, StringType) and any(defaults(field))
+        if needed:
+            return True
+    return False
+
+
 def _function_includes(fields: tuple[Field, ...]) -> tuple[str, ...]:
-    found = {"rcutils/allocator.h"}
+    found = {"microros/message_pools.h", "rcutils/allocator.h"}
     for field in fields:
         element = element_of(field.type)
         if isinstance(element, NamedType):
@@ -262,9 +296,10 @@ def _init(field: Field) -> Iterator[CallView]:
         lines: tuple[str, ...] = ()
         if isinstance(element, Primitive):
             lines = tuple(x for i, v in enumerate(values) for x in _assign(field, target, i, v))
-        yield CallView(
-            f"{sequence_c_type(field.type)}__init(&msg->{field.name}, {len(values)}U)", guarded=lines
-        )
+        if values:  # an empty one is zero
+            yield CallView(
+                f"{sequence_c_type(field.type)}__init(&msg->{field.name}, {len(values)}U)", guarded=lines
+            )
     elif not isinstance(element, Primitive):
         index = "[i]" if count else ""
         yield CallView(f"{element_c_type(element)}__init(&msg->{field.name}{index})", count)

@@ -21,6 +21,7 @@ from microros_gen.model.types import (
     element_of,
 )
 from microros_gen.plan.capacity import Capacities, Defaults, Root, plan_capacities
+from microros_gen.plan.message_pools import pool_pointers
 from microros_gen.plan.types import TypePlan, plan_types
 from microros_gen.plan.types_size import is_fixed_field
 from microros_gen.render.environment import shared_environment
@@ -92,10 +93,17 @@ def generate(
     plans = plan_types(found.messages, capacities, found.type_hash, diagnostics, received)
     diagnostics.check()
     files = render_types(plans, shared_environment()) | render_decoders(plans, shared_environment())
+    files |= {"include/microros/message_pools.h": no_pools()}
     for path, content in files.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_bytes(content)
     return Generated(folder, found.messages, capacities, plans, files)
+
+
+def no_pools() -> bytes:
+    """Return the header of the pools of an application that sends nothing."""
+    template = shared_environment().get_template("memory/include/microros/message_pools.h.j2")
+    return template.render(plan={"message_pools": (), "pool_pointers": pool_pointers(())}).encode()
 
 
 def differing_rules(found: InterfaceSet) -> tuple[LimitRule, ...]:
@@ -147,6 +155,7 @@ static rcutils_allocator_t test_allocator;
 void test_set_allocator(const rcutils_allocator_t * allocator);
 void test_set_allocator(const rcutils_allocator_t * allocator) { test_allocator = *allocator; }
 rcutils_allocator_t rcutils_get_default_allocator(void) { return test_allocator; }
+void microros_memory_refuse(void) { }
 """
 
 
@@ -158,6 +167,7 @@ def compile_shared(generated: Generated) -> ctypes.CDLL:
     source = unity(generated, "all.c", ".c", extra=ALLOCATOR)
     output = generated.folder / "libeverything.so"
     runtime = [*sorted((COMPONENTS / "rosidl_runtime" / "src").glob("*.c")), *DECODING]
+    runtime.append(COMPONENTS / "memory" / "src" / "message_memory_allocator.c")
     command = ["gcc", "-O0", *WARNINGS, "-fPIC", "-shared", "-Wl,-Bsymbolic", "-Wl,-z,defs"]
     run([*command, *generated.includes, source, *runtime, "-o", output])
     return ctypes.CDLL(str(output))

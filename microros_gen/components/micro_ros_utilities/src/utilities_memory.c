@@ -2,6 +2,7 @@
 /* Sizes, creation and destruction: one walk each, over the same members in the same order. */
 #include "microros/arena.h"
 #include "microros/error.h"
+#include "microros/message_pools.h"
 #include "microros/utilities_walk.h"
 
 #include <string.h>
@@ -49,14 +50,20 @@ static size_t memory_aligned(size_t position, size_t alignment)
   return (position + (alignment - 1u)) & ~(alignment - 1u);
 }
 
-static bool memory_allocate(const memory_t * memory, size_t size, uint8_t ** given)
+static bool memory_allocate(
+  const memory_t * memory, const microros_pool_t * pool, size_t size, uint8_t ** given)
 {
+  size_t room = size;
+
+  if (
+    memory->allocator.allocate ==
+    microros_arena_allocate) { /* the default one: messages have storage of their own */
+    *given = microros_memory_take(pool, &room);
+    return *given != NULL;
+  }
   *given = memory->allocator.allocate(size, memory->allocator.state);
   if (*given == NULL) {
-    if (
-      memory->allocator.allocate != microros_arena_allocate) { /* which tells by itself, and names its key */
-      microros_error_set(microros_error_memory_given, NULL, NULL, (uint32_t)size, 0);
-    }
+    microros_error_set(microros_error_memory_given, NULL, NULL, (uint32_t)size, 0);
     return false;
   }
   (void)memset(*given, 0, size);
@@ -64,7 +71,8 @@ static bool memory_allocate(const memory_t * memory, size_t size, uint8_t ** giv
 }
 
 /* Takes memory for `count` elements; *given is NULL where there are none, or only sizes are asked. */
-static bool memory_take(memory_t * memory, size_t count, size_t element, uint8_t ** given)
+static bool memory_take(
+  memory_t * memory, const microros_pool_t * pool, size_t count, size_t element, uint8_t ** given)
 {
   const size_t alignment = memory_alignment(element);
   size_t start = memory->used;
@@ -85,13 +93,15 @@ static bool memory_take(memory_t * memory, size_t count, size_t element, uint8_t
   if (memory->way == MEMORY_PLACE) {
     *given = &memory->buffer[start];
   }
-  return memory->way != MEMORY_ALLOCATE || memory_allocate(memory, count * element, given);
+  return memory->way != MEMORY_ALLOCATE || memory_allocate(memory, pool, count * element, given);
 }
 
 /* Takes memory for one string or sequence and writes where it is to `place`; *given is what the elements get. */
-static bool memory_give(memory_t * memory, uint8_t * place, size_t count, size_t element, uint8_t ** given)
+static bool memory_give(
+  memory_t * memory, const microros_pool_t * pool, uint8_t * place, size_t count, size_t element,
+  uint8_t ** given)
 {
-  if (!memory_take(memory, count, element, given)) {
+  if (!memory_take(memory, pool, count, element, given)) {
     return false;
   }
   if (place != NULL) {
@@ -113,6 +123,28 @@ static size_t memory_unit(const microros_type_member_t * member)
   return member->type == (uint8_t)MICROROS_MEMBER_WSTRING ? sizeof(uint_least16_t) : 1u;
 }
 
+/* Returns the pool of the characters of a string. */
+static const microros_pool_t * memory_text_pool(const microros_type_member_t * member)
+{
+  return member->type == (uint8_t)MICROROS_MEMBER_WSTRING ? MICROROS_POOL_u16text : MICROROS_POOL_text;
+}
+
+/* Returns the pool of the elements of a sequence. */
+static const microros_pool_t * memory_pool(const microros_type_member_t * member)
+{
+  static const microros_pool_t * const pools[] = {
+    [MICROROS_MEMBER_FLOAT] = MICROROS_POOL_float,     [MICROROS_MEMBER_DOUBLE] = MICROROS_POOL_double,
+    [MICROROS_MEMBER_CHAR] = MICROROS_POOL_char,       [MICROROS_MEMBER_WCHAR] = MICROROS_POOL_wchar,
+    [MICROROS_MEMBER_BOOLEAN] = MICROROS_POOL_boolean, [MICROROS_MEMBER_OCTET] = MICROROS_POOL_octet,
+    [MICROROS_MEMBER_UINT8] = MICROROS_POOL_uint8,     [MICROROS_MEMBER_INT8] = MICROROS_POOL_int8,
+    [MICROROS_MEMBER_UINT16] = MICROROS_POOL_uint16,   [MICROROS_MEMBER_INT16] = MICROROS_POOL_int16,
+    [MICROROS_MEMBER_UINT32] = MICROROS_POOL_uint32,   [MICROROS_MEMBER_INT32] = MICROROS_POOL_int32,
+    [MICROROS_MEMBER_UINT64] = MICROROS_POOL_uint64,   [MICROROS_MEMBER_INT64] = MICROROS_POOL_int64,
+    [MICROROS_MEMBER_STRING] = MICROROS_POOL_string,   [MICROROS_MEMBER_WSTRING] = MICROROS_POOL_u16string};
+
+  return member->nested != NULL ? member->nested->pool : pools[member->type];
+}
+
 /* Gives the member at hand its memory, and enters the messages that it consists of. */
 static bool memory_of_member(memory_t * memory, utilities_walk_t * walk)
 {
@@ -123,7 +155,7 @@ static bool memory_of_member(memory_t * memory, utilities_walk_t * walk)
 
   if (utilities_is_sequence(member)) {
     count = utilities_sequence_capacity(walk, memory->conf);
-    if (!memory_give(memory, walk->place, count, size, &elements)) {
+    if (!memory_give(memory, memory_pool(member), walk->place, count, size, &elements)) {
       return false;
     }
   }
@@ -134,7 +166,8 @@ static bool memory_of_member(memory_t * memory, utilities_walk_t * walk)
       uint8_t * characters;
 
       if (!memory_give(
-            memory, memory_element(elements, i, size), capacity, memory_unit(member), &characters)) {
+            memory, memory_text_pool(member), memory_element(elements, i, size), capacity,
+            memory_unit(member), &characters)) {
         return false;
       }
     }
@@ -206,13 +239,18 @@ size_t micro_ros_utilities_get_static_size(
 }
 
 /* Gives back what a string or sequence at `place` has. */
-static void memory_free(const rcutils_allocator_t * allocator, const uint8_t * place)
+static void memory_free(
+  const rcutils_allocator_t * allocator, const microros_pool_t * pool, const uint8_t * place)
 {
   microros_type_sequence_t sequence;
 
   (void)memcpy(&sequence, place, sizeof(sequence));
-  if (sequence.data != NULL) {
+  if (allocator->deallocate == microros_arena_deallocate) {
+    microros_memory_give_back(pool, sequence.data);
+  } else if (sequence.data != NULL) {
     allocator->deallocate(sequence.data, allocator->state);
+  } else {
+    /* it has none */
   }
 }
 
@@ -239,11 +277,11 @@ static void memory_free_member(const rcutils_allocator_t * allocator, const util
 
   if (utilities_is_text(walk->member)) {
     for (size_t i = 0; i < count; ++i) {
-      memory_free(allocator, &elements[i * size]);
+      memory_free(allocator, memory_text_pool(walk->member), &elements[i * size]);
     }
   }
   if (utilities_is_sequence(walk->member)) {
-    memory_free(allocator, walk->place);
+    memory_free(allocator, memory_pool(walk->member), walk->place);
   }
 }
 

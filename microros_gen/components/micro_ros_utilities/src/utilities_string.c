@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "micro_ros_utilities/string_utilities.h"
 
-#include "rcutils/allocator.h"
+#include "microros/message_pools.h"
+#include "rosidl_runtime_c/string_functions.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -15,7 +16,7 @@ static size_t utilities_length(const char * text)
 /* Makes room for `size` bytes and the terminator, and keeps the text. False: nothing is changed. */
 static bool utilities_string_reserve(rosidl_runtime_c__String * str, size_t size)
 {
-  const rcutils_allocator_t allocator = rcutils_get_default_allocator();
+  size_t room = size + 1u;
   char * data;
 
   if (str->data != NULL && size < str->capacity) {
@@ -25,16 +26,18 @@ static bool utilities_string_reserve(rosidl_runtime_c__String * str, size_t size
     return false;
   }
   /* Not reallocate: what lies in static storage is no block of the allocator, and its size is known here alone. */
-  data = allocator.allocate(size + 1u, allocator.state);
+  data = microros_memory_take(MICROROS_POOL_text, &room);
   if (data == NULL) {
     return false;
   }
   if (str->data != NULL) {
-    (void)memcpy(data, str->data, str->size);
-    allocator.deallocate(str->data, allocator.state);
+    rosidl_runtime_c__String old = *str;
+
+    (void)memcpy(data, old.data, old.size);
+    rosidl_runtime_c__String__fini(&old);
   }
   str->data = data;
-  str->capacity = size + 1u;
+  str->capacity = room;
   return true;
 }
 
@@ -99,15 +102,5 @@ rosidl_runtime_c__String micro_ros_string_utilities_remove_tail_chars(
 
 void micro_ros_string_utilities_destroy(rosidl_runtime_c__String * const str)
 {
-  const rcutils_allocator_t allocator = rcutils_get_default_allocator();
-
-  if (str == NULL) {
-    return;
-  }
-  if (str->data != NULL) {
-    allocator.deallocate(str->data, allocator.state);
-  }
-  str->data = NULL;
-  str->size = 0;
-  str->capacity = 0;
+  rosidl_runtime_c__String__fini(str);
 }

@@ -3,6 +3,8 @@
 #ifndef MICROROS_TYPE_MEMBERS_H
 #define MICROROS_TYPE_MEMBERS_H
 
+#include "microros/message_memory.h"
+
 #include <stddef.h>
 #include <stdint.h>
 
@@ -53,7 +55,8 @@ typedef struct microros_type_member_t {
 typedef struct microros_type_members_t {
   const char * dds_type_name; /* "std_msgs::msg::dds_::Int32_" */
   const microros_type_member_t * members;
-  uint32_t size; /* of the struct, bytes */
+  const microros_pool_t * pool; /* of sequences of this type, or NULL */
+  uint32_t size;                /* of the struct, bytes */
   uint32_t count;
 } microros_type_members_t;
 

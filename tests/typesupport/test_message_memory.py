@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Storage of messages that are sent: what sources for rclc do with strings and sequences; how blocks are planned."""
+
+from __future__ import annotations
+
+import itertools
+import random
+import shutil
+import subprocess
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import pytest
+
+from microros_gen.cli import main as cli
+from microros_gen.plan.message_pools import BlockSize, block_sizes
+from microros_gen.sources.interfaces import shipped_folder
+
+PROGRAM = Path(__file__).parent / "message_memory.c"
+PACKAGE = {
+    "msg/Pair.msg": "string brief\nstring text\n",
+    "msg/Part.msg": "string label\nfloat32[] values\nstring<=22 bounded\nwstring<=4 wide_bounded\n"
+    "string<=5[<=2] codes\n",
+    "msg/Tree.msg": "Part[] parts\nstring[2] pair\n",
+    "msg/Wide.msg": "wstring text\nwstring[] texts\n",
+    "msg/Defaults.msg": 'string name "gripper"\nint16[] values [3, 4]\nuint8 number 5\n',
+    "srv/Ask.srv": "int32[] numbers\n---\nuint8[] data\n",
+}
+APPLICATION = """\
+version: 1
+profiles: [pure_sender]
+components: [+micro_ros_utilities, +cdr_decode, +services]
+nodes:
+  - name: sender
+    publishers:
+      - {topic: joint_states, type: sensor_msgs/msg/JointState}
+      - {topic: pair, type: memory_msgs/msg/Pair}
+      - {topic: tree, type: memory_msgs/msg/Tree}
+      - {topic: part, type: memory_msgs/msg/Part}
+      - {topic: wide, type: memory_msgs/msg/Wide}
+      - {topic: defaults, type: memory_msgs/msg/Defaults}
+    services: [{name: ask, type: memory_msgs/srv/Ask}]
+    clients: [{name: others, type: memory_msgs/srv/Ask}]
+limits:
+  "*": {string: 16, sequence: 6}
+  memory_msgs/msg/Part: {bounded: 22}
+  memory_msgs/msg/Pair: {brief: 8, text: 64}
+  memory_msgs/msg/Wide: {text: 10, texts: {sequence: 2, string: 4}}
+  memory_msgs/srv/Ask_Request: {numbers: 4}
+  memory_msgs/srv/Ask_Response: {data: 5}
+memory: {messages: 2}
+"""
+SANITIZE = ("-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+VARIANTS: Mapping[str, Sequence[str]] = {
+    "gcc": ("gcc", *SANITIZE),
+    "clang": ("clang", *SANITIZE),
+    "gcc -m32": ("gcc", "-m32", "-O1", "-fsanitize=undefined", "-fno-sanitize-recover=all"),
+}
+
+
+@pytest.fixture(scope="module")
+def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The tree of an application that sends everything that the program fills."""
+    place = tmp_path_factory.mktemp("memory")
+    for name, text in PACKAGE.items():
+        (place / "memory_msgs" / name).parent.mkdir(parents=True, exist_ok=True)
+        (place / "memory_msgs" / name).write_text(text)
+    (place / "microros.yaml").write_text(APPLICATION)
+    paths = ["--interface-path", str(place / "memory_msgs"), "--interface-path", str(shipped_folder())]
+    with pytest.raises(SystemExit) as done:
+        cli.main(["generate", "-c", str(place / "microros.yaml"), *paths, "-o", str(place / "out")])
+    assert done.value.code in (0, None)
+    return place / "out"
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_what_sources_do_with_messages(out: Path, variant: str) -> None:
+    """Initialize, assign, copy, create, the utilities, buffers and an allocator of their own: line by line in C."""
+    command = VARIANTS[variant]
+    if shutil.which(command[0]) is None:
+        pytest.skip(f"no {command[0]}")
+    image = out.parent / variant.replace(" ", "")
+    folders = (
+        "cdr",
+        "cdr_decode",
+        "memory",
+        "micro_ros_utilities",
+        "rosidl_runtime",
+        "memory_msgs",
+        "sensor_msgs",
+    )
+    folders += ("std_msgs", "builtin_interfaces", "service_msgs")
+    sources = [s for f in folders for s in sorted((out / "src" / f).glob("*.c")) if "rmw" not in s.name]
+    sources += sorted((out / "src" / "support").glob("error_*.c"))
+    built = subprocess.run(
+        [
+            *command,
+            "-std=c99",
+            "-Wall",
+            "-Wextra",
+            "-Werror",
+            f"-I{out}/include",
+            PROGRAM,
+            *sources,
+            "-o",
+            image,
+        ],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if built.returncode != 0 and "-m32" in command and "cannot find" in built.stderr:
+        pytest.skip("no 32-bit C library")
+    assert built.returncode == 0, built.stderr
+    done = subprocess.run([image], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+def test_equal_limits_take_what_they_need() -> None:
+    assert block_sizes({17: 7}) == (BlockSize(17, 7),)
+    assert block_sizes({}) == ()
+
+
+def test_sizes_are_the_cheapest() -> None:
+    """Against every choice of sizes."""
+    chance = random.Random(3)
+    for _ in range(200):
+        wanted = {chance.randint(1, 300): chance.randint(1, 9) for _ in range(chance.randint(1, 7))}
+        best = min(_cost(wanted, sizes) for sizes in _choices(wanted))
+        assert sum(b.elements * b.count for b in block_sizes(wanted)) == best
+
+
+def test_no_order_of_requests_is_refused() -> None:
+    """Members take, change and give back blocks at random, as message_memory_pools.c does."""
+    chance = random.Random(5)
+    for _ in range(60):
+        limits = [chance.choice((1, 5, 9, 17, 33, 120)) for _ in range(chance.randint(1, 12))]
+        blocks = block_sizes({limit: limits.count(limit) for limit in limits})
+        free = {b.elements: b.count for b in blocks}
+        held = dict.fromkeys(range(len(limits)), 0)
+        for _ in range(400):
+            member = chance.randrange(len(limits))
+            size = chance.randint(0, limits[member])
+            if size == 0:
+                free[held[member]] = free.get(held[member], 0) + 1
+                held[member] = 0
+            elif size > held[member]:
+                fitting = min(s for s in (b.elements for b in blocks) if s >= size)
+                assert free[fitting] > 0
+                free[fitting] -= 1
+                free[held[member]] = free.get(held[member], 0) + 1
+                held[member] = fitting
+
+
+def _choices(wanted: Mapping[int, int]) -> list[tuple[int, ...]]:
+    *others, largest = sorted(wanted)
+    found = (c for n in range(len(others) + 1) for c in itertools.combinations(others, n))
+    return [(*choice, largest) for choice in found]
+
+
+def _cost(wanted: Mapping[int, int], sizes: Sequence[int]) -> int:
+    below = (0, *sizes)
+    return sum(s * sum(n for x, n in wanted.items() if x > b) for b, s in zip(below, sizes, strict=False))
