@@ -11,16 +11,20 @@ from microros_gen.adopt.c_values import Unknown, Values
 from microros_gen.model.draft import DraftValue, Remark, Setting, place
 
 _Groups = dict[str, dict[str, DraftValue]]
-# What hands memory out, which comes from the arena (design.md, 7); its contract is to return memory.
+# What hands memory out. For messages that are sent it has storage of its own; for others it comes from the arena.
 _TAKES_MEMORY = re.compile(
     r"micro_ros_utilities_create_message_memory|micro_ros_string_utilities_init\w*|\w+__(create|Sequence__init)"
 )
+_ARENA_ALONE = re.compile(r"micro_ros_utilities_type_info|\w+__Sequence__create")
+_RECEIVES = re.compile(r"rclc?_(subscription|service|client)_init\w*")
 _ARENA = 4096
 
 
 def _arena(calls: Iterable[Call], groups: _Groups, remarks: list[Remark]) -> None:
+    calls = tuple(calls)
+    receives = any(_RECEIVES.fullmatch(call.name) for call in calls)
     for call in calls:
-        if _TAKES_MEMORY.fullmatch(call.name):
+        if _ARENA_ALONE.fullmatch(call.name) or (receives and _TAKES_MEMORY.fullmatch(call.name)):
             groups["memory"] = {"arena": DraftValue(_ARENA, f"{call.name} ({place(call.span)})")}
             text = (
                 f"{call.name} takes memory from `memory.arena`: {_ARENA} is a guess, it depends on the calls"

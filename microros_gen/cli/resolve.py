@@ -13,8 +13,8 @@ from microros_gen.cli.options import SelectionOptions, selection_options
 from microros_gen.cli.pipeline import Planned, plan_request, read_request, resolve_request, warnings_text
 from microros_gen.cli.resolve_format import format_selection, format_table, selection_data
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.plan.streams import StreamPlan
 from microros_gen.plan.layout import ILP32
+from microros_gen.plan.streams import StreamPlan
 from microros_gen.plan.types import DATA_MODELS, TypePlan
 
 

@@ -9,8 +9,12 @@ from pathlib import Path
 from microros_gen.build.compile import BuildReport
 from microros_gen.build.measure import Usage
 from microros_gen.cli.pipeline import Planned
-from microros_gen.plan.runtime import PublisherPlan, SubscriptionPlan
+from microros_gen.plan.message_pools import open_members
+from microros_gen.plan.runtime import PublisherPlan, RuntimePlan, SubscriptionPlan
 from microros_gen.plan.services import ServicePlan
+
+_SHOWN = 6
+"""Members that a line names."""
 
 
 def plan_summary(planned: Planned) -> str:
@@ -30,9 +34,31 @@ def plan_summary(planned: Planned) -> str:
             f" best effort {runtime.best_effort_size}, input {runtime.input_size}",
         ),
     ]
+    lines += (("refuses", line) for line in refused_assigns(planned))
     if planned.capacities.defaulted:
         lines.append(("limits", _defaults(planned)))
     return _table(lines)
+
+
+def refused_assigns(planned: Planned) -> list[str]:
+    """Return for each declared sender of unbounded strings or sequences from which length on `__assign` is refused.
+
+    Where nothing is kept for its messages, that is every length.
+    """
+    runtime = planned.project.runtime
+    return [
+        f"{sender.topic}: {_refused(open_members(sender, planned.project.messages), runtime)}"
+        for sender in planned.project.storage.senders
+        if sender.topic and open_members(sender, planned.project.messages)
+    ]
+
+
+def _refused(members: Sequence[tuple[str, int]], runtime: RuntimePlan) -> str:
+    if not runtime.kept_messages and not runtime.arena_size:
+        return "each __assign and __Sequence__init: memory.messages is 0 (buffers of your own are filled)"
+    shown = ", ".join(f"{path} above {most}" for path, most in members[:_SHOWN])
+    more = len(members) - _SHOWN
+    return f"__assign and __Sequence__init of {shown}{f' and {more} more' if more > 0 else ''}"
 
 
 def built_summary(out: Path, report: BuildReport, usage: Usage | None, lacks_image: str = "") -> str:

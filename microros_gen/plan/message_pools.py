@@ -158,6 +158,30 @@ def block_sizes(wanted: Mapping[int, int]) -> tuple[BlockSize, ...]:
     return tuple(found)
 
 
+def open_members(sender: Sender, messages: Mapping[TypeName, Message]) -> tuple[tuple[str, int], ...]:
+    """Return strings and sequences of a sender's message without a bound in the interface file, with their limits.
+
+    Strings of a sequence, and members of its messages, have `[]` behind its name.
+    """
+    found: list[tuple[str, int]] = []
+
+    def walk(name: TypeName, limits: TypeLimits, before: str) -> None:
+        for field, entry in zip(messages[name].fields, limits.fields, strict=True):
+            element, path = element_of(field.type), before + field.name
+            if entry is not None and isinstance(field.type, SequenceType):
+                if field.type.bound is None:
+                    found.append((path, entry.sequence or 0))
+                path += "[]"
+            if entry is not None and isinstance(element, StringType) and element.bound is None:
+                found.append((path, entry.string or 0))
+            elif entry is not None and entry.nested is not None and isinstance(element, NamedType):
+                walk(element.name, entry.nested, f"{path}.")
+
+    if sender.limits is not None:
+        walk(sender.type, sender.limits, "")
+    return tuple(found)
+
+
 class _Demand:
     """Counts what the members of all kept messages can need at most, by kind."""
 

@@ -21,7 +21,7 @@ from microros_gen.plan.names import dds_topic, dds_type, participant_name
 from microros_gen.plan.receiving import plan_receiving
 from microros_gen.plan.running import plan_running
 from microros_gen.plan.runtime import DISCOVERY_GROUP, NodePlan, PublisherPlan, RuntimePlan, SubscriptionPlan
-from microros_gen.plan.senders import plan_sent_storage
+from microros_gen.plan.senders import SentStorage, plan_sent_storage
 from microros_gen.plan.serving import Serving, plan_serving
 from microros_gen.plan.session_times import plan_times
 from microros_gen.plan.streams import StreamPlan, Written, plan_streams
@@ -53,6 +53,7 @@ class Project:
     streams: StreamPlan
     runtime: RuntimePlan
     board: BoardPlan
+    storage: SentStorage
     services: tuple[TypeName, ...] = ()
 
     @cached_property
@@ -203,7 +204,9 @@ def plan_project(
     own_line = runtime.transport == "serial" and not target.hosted and not board.has_serial_driver
     runtime = replace(runtime, own_line=own_line)
     runtime = replace(runtime, plan_id=_plan_id(runtime, selection, types))
-    return Project(name, application, selection, target, types, roots, streams, runtime, board, services)
+    return Project(
+        name, application, selection, target, types, roots, streams, runtime, board, storage, services
+    )
 
 
 def _declared(

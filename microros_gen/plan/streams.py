@@ -22,6 +22,8 @@ WRITE_SIDE_INPUT = 64
 # transports are those that micro-ROS has.
 DEFAULT_MTU = {"udp": 1472, "tcp": 1460, "serial": 512, "custom": 512}
 DEFAULT_HISTORY = 4
+LEAST_DEFAULT_HISTORY = 2
+DEFAULT_HISTORY_BYTES = 1024
 LARGEST_MTU = 0xFFFF  # application.schema.json says it too
 DEFAULT_INPUT_HISTORY = 1
 # A frame around a message on a serial line: flag, addresses, length, CRC; all but the flag may be stuffed, and are
@@ -93,6 +95,14 @@ class StreamPlan:
         return self.best_effort_size + reliable + inputs + self.creation_size + self.reassembly_size
 
 
+def default_history(slot_size: int) -> int:
+    """Return how many reliable messages are kept unless the application file says it: of large ones fewer.
+
+    While one is under way a second can be written; more of them are worth their memory where they are small.
+    """
+    return min(DEFAULT_HISTORY, max(LEAST_DEFAULT_HISTORY, DEFAULT_HISTORY_BYTES // slot_size))
+
+
 def plan_streams(
     application: Application,
     transport: str,
@@ -123,8 +133,8 @@ def plan_streams(
     least = min(asked, ceiling)
     best_effort = max((_datagram(m) for m in messages if m.best_effort), default=0)
     reliable = max((_datagram(m) for m in messages if m.reliable), default=0)
-    slots = application.pools.get("history", DEFAULT_HISTORY) if reliable else 0
     reliable = max(reliable, asked) if reliable else 0
+    slots = application.pools.get("history", default_history(reliable)) if reliable else 0
     fragments = reliable > ceiling
     if fragments and slots == 1 and application.on_full == "drop_oldest":
         diagnostics.error(

@@ -75,6 +75,7 @@ class ExampleView:
     publishers: tuple[PublisherView, ...]
     subscriptions: tuple[SubscriptionView, ...]
     services: tuple[ServiceView, ...]
+    puts_text: bool
     uses_time: bool
     hosted: bool
     ros_time: bool
@@ -95,8 +96,9 @@ def example_view(project: Project) -> ExampleView:
     shows_time = project.runtime.has_ros_time and not (views or subscriptions or project.runtime.serves)
     services = service_views(project, tuple(node.variable for node in nodes))
     includes |= {include for service in services for include in service.includes}
-    if any(view.texts for view in views) or any(service.filling.texts for service in services):
-        includes.add("rosidl_runtime_c/string_functions.h")
+    puts_text = any(view.texts for view in views) or any(service.filling.texts for service in services)
+    if puts_text:
+        includes.add("rosidl_runtime_c/string.h")
     return ExampleView(
         title=project.name,
         heading=f"An application for {project.name}, to start from: copy it out of this folder and change it.",
@@ -106,6 +108,7 @@ def example_view(project: Project) -> ExampleView:
         publishers=views,
         subscriptions=tuple(view for _, view in subscriptions),
         services=services,
+        puts_text=puts_text,
         uses_time=any(view.stamps for view in views) or any(s.filling.stamps for s in services),
         hosted=project.target.hosted,
         ros_time=project.runtime.has_ros_time,

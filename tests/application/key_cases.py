@@ -413,6 +413,14 @@ _TOP = {
         "'memory.arena' must be a size in bytes such as 8192, 8 KiB or 2 kB (units B, kB, KiB, "
         "MB, MiB); it is -1",
     ),
+    "memory.messages": KeyCase(
+        "memory: {messages: 3}",
+        lambda a: a.memory.messages,
+        3,
+        "memory: {messages: -1}",
+        "1:20",
+        "'memory.messages' must be",
+    ),
     "memory.ram_budget": KeyCase(
         "memory: {ram_budget: 8 KiB}",
         lambda a: a.memory.ram_budget,

@@ -73,3 +73,24 @@ def test_with_the_buffers_of_the_existing_stack(builds: Builds) -> None:
     of_buffers = buffers(built)
     assert of_buffers >= 4 * 512 + 2 * 512
     assert sections(built).ram - of_buffers <= 1500
+
+
+JOINTS = """\
+version: 1
+profiles: [pure_sender]
+errors: code
+nodes: [{name: arm, publishers: [{topic: joint_states, type: sensor_msgs/msg/JointState}]}]
+limits:
+  sensor_msgs/msg/JointState:
+    {header: {frame_id: 16}, name: {sequence: 6, string: 16}, position: 6, velocity: 6, effort: 6}
+"""
+
+
+def test_the_memory_of_a_message_is_there_once(builds: Builds) -> None:
+    """A JointState of six joints bound to storage, on a reliable stream as planned: no blocks for __assign besides."""
+    need(CORTEX_M4)
+    built = builds.build(CORTEX_M4, JOINTS)
+    size = sections(built)
+    assert size.text + size.data <= 10_000
+    assert size.ram <= 2_000
+    assert not [symbol for symbol in built.symbols() if symbol.startswith("microros_pool_")]

@@ -292,11 +292,23 @@ def test_settings_of_transport_session_and_domain() -> None:
         ("rclc_action_server_init_default(&a, &node, &support, T, n);", "actions are not in this version"),
         ("rcl_get_node_names(&node, a, &b, &c);", "rcl_get_node_names is not in this version"),
         ("set_microros_serial_transports(Serial);", "set_microros_serial_transports() is of another library"),
-        ("std_msgs__msg__Header__create();", "takes memory from `memory.arena`"),
+        ("std_msgs__msg__Header__Sequence__create(2);", "takes memory from `memory.arena`"),
+        (
+            "std_msgs__msg__Header__create(); rclc_subscription_init_default(&s, &node, T, n);",
+            "takes memory from `memory.arena`",
+        ),
     ],
 )
 def test_calls_that_need_somebody_are_told(call: str, reason: str) -> None:
     assert any(reason in told for told in reasons(program(call)))
+
+
+def test_messages_that_are_sent_need_no_arena() -> None:
+    """They have storage that follows from their limits."""
+    told = reasons(
+        program("std_msgs__msg__Header__create(); rosidl_runtime_c__double__Sequence__init(&s, 6);")
+    )
+    assert not any("memory.arena" in reason for reason in told)
 
 
 def test_functions_of_the_programs_own_are_no_missing_ones() -> None:

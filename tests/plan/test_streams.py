@@ -137,6 +137,16 @@ def test_no_advice_to_take_an_mtu_that_a_datagram_cannot_have() -> None:
     assert "Set transport.mtu: 65512, or lower its limits" in line
 
 
+@pytest.mark.parametrize(
+    ("size", "history"), [(4, 4), (256 - 12, 4), (256, 3), (356 - 12, 2), (1400, 2), (30_000, 2)]
+)
+def test_fewer_large_messages_are_kept(size: int, history: int) -> None:
+    """Four, as long as they take 1 KiB, and two of any; what the application file says counts."""
+    assert plan(large(size, reliable=True))[0].reliable_slots == history
+    asked = Application(pools={"history": 5})
+    assert plan(large(size, reliable=True), application=asked)[0].reliable_slots == 5
+
+
 def test_the_settings_of_another_stack() -> None:
     """MTU 512, output history 4, input history 1, slots of the MTU."""
     asked = Application(

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import itertools
 import random
+import re
 import shutil
 import subprocess
 from collections.abc import Mapping, Sequence
@@ -80,18 +81,7 @@ def test_what_sources_do_with_messages(out: Path, variant: str) -> None:
     if shutil.which(command[0]) is None:
         pytest.skip(f"no {command[0]}")
     image = out.parent / variant.replace(" ", "")
-    folders = (
-        "cdr",
-        "cdr_decode",
-        "memory",
-        "micro_ros_utilities",
-        "rosidl_runtime",
-        "memory_msgs",
-        "sensor_msgs",
-    )
-    folders += ("std_msgs", "builtin_interfaces", "service_msgs")
-    sources = [s for f in folders for s in sorted((out / "src" / f).glob("*.c")) if "rmw" not in s.name]
-    sources += sorted((out / "src" / "support").glob("error_*.c"))
+    sources = _sources(out)
     built = subprocess.run(
         [
             *command,
@@ -114,6 +104,58 @@ def test_what_sources_do_with_messages(out: Path, variant: str) -> None:
     assert built.returncode == 0, built.stderr
     done = subprocess.run([image], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+CALLS: Mapping[str, set[str]] = {
+    "nothing": set(),
+    "sensor_msgs__msg__JointState__init(&msg)": set(),
+    'rosidl_runtime_c__String__assign(&msg.header.frame_id, "a")': {"text"},
+    "rosidl_runtime_c__double__Sequence__init(&msg.position, 2)": {"double"},
+    "sensor_msgs__msg__JointState__copy(&msg, &msg)": {"text", "string", "double"},
+    "sensor_msgs__msg__JointState__create()": {"sensor_msgs__msg__JointState__message"},
+}
+
+
+def test_an_image_has_the_blocks_of_what_it_calls_alone(out: Path) -> None:
+    """The linker drops every pool that nobody takes from."""
+    objects = out.parent / "objects"
+    objects.mkdir()
+    split = ("-O1", "-ffunction-sections", "-fdata-sections", f"-I{out}/include")
+    subprocess.run(["gcc", *split, "-c", *_sources(out)], check=True, cwd=objects)
+    library = sorted(objects.glob("*.o"))
+    for call, kinds in CALLS.items():
+        statement = "" if call == "nothing" else f"(void){call};"
+        program = (
+            "#include <rosidl_runtime_c/string_functions.h>\n#include <sensor_msgs/msg/joint_state.h>\n"
+            f"static sensor_msgs__msg__JointState msg;\nint main(void)\n{{\n  (void)msg;\n  {statement}\n}}\n"
+        )
+        link = [
+            "gcc",
+            *split,
+            "-x",
+            "c",
+            "-",
+            "-x",
+            "none",
+            *library,
+            "-Wl,--gc-sections",
+            "-o",
+            out.parent / "image",
+        ]
+        subprocess.run(link, input=program, text=True, check=True)
+        names = subprocess.run(
+            ["nm", out.parent / "image"], capture_output=True, text=True, check=True
+        ).stdout
+        assert set(re.findall(r" [bB] (\w+)_blocks_\d+$", names, re.MULTILINE)) == kinds, call
+
+
+def _sources(out: Path) -> list[Path]:
+    """Return what messages need, without sessions."""
+    folders = ("cdr", "cdr_decode", "memory", "micro_ros_utilities", "rosidl_runtime", "memory_msgs")
+    types = ("sensor_msgs", "std_msgs", "builtin_interfaces", "service_msgs")
+    sources = [s for f in (*folders, *types) for s in sorted((out / "src" / f).glob("*.c"))]
+    sources += sorted((out / "src" / "support").glob("error_*.c"))
+    return [source for source in sources if "rmw" not in source.name]
 
 
 def test_equal_limits_take_what_they_need() -> None:

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Strings that own their characters. Memory comes from rcutils_get_default_allocator() and belongs to the string:
- * micro_ros_string_utilities_destroy gives it back. A function that takes a string by value consumes it: go on with
+ * Strings that own their characters. Memory comes from the storage of messages that are sent, as that of
+ * rosidl_runtime_c__String__assign, and belongs to the string: micro_ros_string_utilities_destroy gives it back. A function that takes a string by value consumes it: go on with
  * what it returns, `text = micro_ros_string_utilities_append(text, "more");`.
  *
  * Without memory nothing is written: the two that make a string return {NULL, 0, 0}, the others the string that
  * they were given, unchanged. The reason is behind rcl_get_error_string(). Characters that lie in a buffer of the
  * application, or in static storage, may be given as long as the text fits their capacity; where it does not, the
- * arena of this library copies them and any other allocator must not be given them.
+ * storage of this library gets a copy; an allocator that the application set must not be given them.
  *
  * No call waits. Not thread-safe for the same string, nor where the allocator is not.
  */
@@ -23,7 +23,7 @@
 extern "C" {
 #endif
 
-/* Returns a string with a copy of `data` (NULL counts as empty); its capacity is one more than its size. */
+/* Returns a string with a copy of `data` (NULL counts as empty); its capacity is at least one more than its size. */
 rosidl_runtime_c__String micro_ros_string_utilities_init(const char * data);
 
 /* Returns an empty string with room for `size` bytes and the terminator, all zero. */

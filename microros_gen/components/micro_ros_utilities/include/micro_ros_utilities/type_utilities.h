@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Memory for the strings and sequences of a message, by rules that the application gives at run time: from an
- * allocator, or from a buffer. (pkg__msg__Type__bind needs neither: it has the limits of the application file.)
+ * Memory for the strings and sequences of a message, by rules that the application gives at run time: from the storage
+ * of messages that are sent (where the default allocator is asked; a capacity above the limits of the application file
+ * is refused there), from another allocator, or from a buffer. (pkg__msg__Type__bind needs neither: it has the limits of the application file.)
  *
  * Capacities, for a member of variable length:
  * - the first rule that names it. A rule is the path of a member, its parts joined by points: "name",
@@ -11,9 +12,9 @@
  * - the bound in the interface file, for a string one more;
  * - the number of the configuration for its kind, or of micro_ros_utilities_memory_conf_default where that is 0.
  *
- * A capacity of a string counts the terminator: 20 bytes hold a text of 19. A rule may be above the bound of the
- * interface file or the limits of the application file; the memory is there then, and a message that uses it is
- * refused when it is published, with the name of the member and its limit.
+ * A capacity of a string counts the terminator: 20 bytes hold a text of 19. In a buffer, or from an allocator of the
+ * application's, a rule may be above the bound of the interface file or the limits of the application file; the memory is
+ * there then, and a message that uses it is refused when it is published, with the name of the member and its limit.
  *
  * `type_support` is what ROSIDL_GET_MSG_TYPE_SUPPORT gives for a type that the application declares. Every function
  * that fails leaves the reason behind rcl_get_error_string(): memory, a buffer that is too small (with the size that
