@@ -13,7 +13,7 @@ from typing import Any
 
 from microros_gen.build.attribution import Piece
 from microros_gen.build.compile import OBJECTS
-from microros_gen.build.entities import RamPart
+from microros_gen.build.entities import MESSAGE_STORAGE, RamPart
 from microros_gen.build.folder import Folder
 from microros_gen.build.stack import Bound, StackReport
 from microros_gen.sources.files import read_json
@@ -61,12 +61,16 @@ class BudgetLine:
 def budget_lines(
     folder: Folder, pieces: Sequence[Piece], parts: Sequence[RamPart], stack: StackReport
 ) -> tuple[BudgetLine, ...]:
-    """Return a line for each budget of the application; that of the stack only where a bound is known."""
+    """Return a line for each budget of the application; that of the stack only where a bound is known.
+
+    Storage of messages that are sent counts in an image: a library alone has it for functions that may never be called.
+    """
     budgets = folder.manifest["memory"]
     where = "in the image" if folder.image is not None else "of the library, before unused parts are dropped"
     found = []
     if "ram_budget" in budgets:
-        uses = _sum((p.use, p.size) for p in parts if p.group in _LIBRARY)
+        counted = [p for p in parts if p.group in _LIBRARY and (folder.image or p.use != MESSAGE_STORAGE)]
+        uses = _sum((p.use, p.size) for p in counted)
         advice = (*planned_advice(folder), *_ram_advice(folder, parts))
         found.append(_line(budgets, "ram_budget", f"static RAM {where}", uses, advice))
     if "flash_budget" in budgets:
@@ -143,6 +147,10 @@ def _ram_advice(folder: Folder, parts: Iterable[RamPart]) -> tuple[Advice, ...]:
     pools, found = folder.manifest["pools"], []
     if pools["error_text"]:
         found.append(Advice("errors: code", uses.get("error text", 0), False))
+    kept = int(folder.manifest.get("message_storage", {}).get("messages", 0))
+    if kept and MESSAGE_STORAGE in uses:
+        saves = uses[MESSAGE_STORAGE] // kept
+        found.append(Advice(f"memory.messages {kept} → {kept - 1}", saves, False))
     if pools["arena"]:
         found.append(Advice(f"memory.arena {pools['arena']} → 0", int(pools["arena"]), False))
     return (

@@ -13,6 +13,8 @@ from microros_gen.build.dwarf import Facts
 from microros_gen.build.folder import Folder
 from microros_gen.plan.types_own_limits import without_topic
 
+MESSAGE_STORAGE = "storage of messages sent"
+_SOURCES = {"error_state": "error text", "message_pools": MESSAGE_STORAGE}
 SHARED_STREAMS = ("reliable stream", "best-effort stream", "input stream", "input buffer")
 
 
@@ -151,9 +153,7 @@ def _use(manifest: Mapping[str, Any], piece: Piece, kind: str, path: str) -> str
         member = path.removeprefix(".").partition(".")[0].partition("[")[0]
         return _MEMBERS.get(member, member.replace("_", " ") or "client")
     if piece.owner.group == "component":
-        return {"error_state": "error text"}.get(
-            (piece.source or "").rpartition("/")[2][:-2], piece.owner.name
-        )
+        return _SOURCES.get((piece.source or "").rpartition("/")[2][:-2], piece.owner.name)
     return piece.owner.name if piece.owner.group == "start-up" else piece.owner.group
 
 

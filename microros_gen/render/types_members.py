@@ -43,7 +43,7 @@ class TableView:
 
 
 def render_members(
-    type_plans: Sequence[TypePlan], environment: Environment, pools: Collection[str]
+    type_plans: Sequence[TypePlan], environment: Environment, pools: Collection[str] = ()
 ) -> dict[str, bytes]:
     """Return path → contents of the tables of all types; `type_plans` are in dependency order, `pools` as of
     render_types."""

@@ -17,10 +17,12 @@ from matrix import has
 from size_images import APPLICATION, BOARDS, PROBE, build, tool
 
 from microros_gen.build.attribution import attribute, attribute_library
+from microros_gen.build.budget import budget_lines
 from microros_gen.build.callgraph import parse_call_graph
 from microros_gen.build.compile import CALL_GRAPH, MAP, compile_tree
 from microros_gen.build.disassembly import parse_disassembly
 from microros_gen.build.elf import Elf
+from microros_gen.build.entities import MESSAGE_STORAGE
 from microros_gen.build.folder import read_folder
 from microros_gen.build.linker_map import parse_map
 from microros_gen.build.pointers import read_pointers
@@ -122,10 +124,27 @@ def test_the_library_alone_adds_up(measured: Measured) -> None:
     assert list(kinds.values()) == [int(n) for n in last[:3]]
 
 
+def check_message_storage(report: SizeReport) -> None:
+    """Blocks of messages that are sent have a line of their own, count in the budget, and fewer messages save them."""
+    blocks = report.folder.manifest["message_storage"]["blocks"]
+    assert blocks == {"std_msgs__msg__Int32__message": [[1, 2]], "std_msgs__msg__UInt8__message": [[1, 2]]}
+    storage = sum(p.size for p in report.ram if p.use == MESSAGE_STORAGE)
+    assert storage == 2 * 4 + 1 + 2 * 1 + 1
+    budget = {"memory": {"ram_budget": {"bytes": 1, "place": None}}}
+    folder = replace(report.folder, manifest={**report.folder.manifest, **budget})
+    image = replace(folder, outside=(folder.path / "bin/image", folder.path / "bin/image.map"))
+    (without,) = budget_lines(folder, report.pieces, report.ram, report.stack)
+    (line,) = budget_lines(image, report.pieces, report.ram, report.stack)
+    assert line.used == without.used + storage, (
+        "the library alone has it for functions that may never be called"
+    )
+    assert {a.change: a.saves for a in line.advice}["memory.messages 2 → 1"] == storage // 2
+
+
 @pytest.mark.skipif(not has("arm-none-eabi-gcc"), reason="no compiler for Cortex-M")
 def test_a_target_without_an_image_is_measured_by_its_library(tmp_path: Path) -> None:
     text = PROBE.replace("nodes:", "transport: {type: custom}\nnodes:")
-    report = measure(build(tmp_path, text + "memory: {ram_budget: 4 KiB}\n", "cortex-m4"))
+    report = measure(build(tmp_path, text + "memory: {ram_budget: 4 KiB, messages: 2}\n", "cortex-m4"))
     assert report.folder.image is None
     last = tool("arm-none-eabi-size", "-t", report.folder.path / "lib/libmicroros.a").splitlines()[-1].split()
     assert list(report.totals.values()) == [int(n) for n in last[:3]]
@@ -133,6 +152,7 @@ def test_a_target_without_an_image_is_measured_by_its_library(tmp_path: Path) ->
     assert "no image" in report.stack.why
     assert [(b.key, b.exceeded) for b in report.budgets] == [("ram_budget", False)]
     assert all(e.ram for e in report.entities), "the objects' own DWARF splits the pools"
+    check_message_storage(report)
     assert size_table(report, every=False).startswith(
         "Library for cortex-m4, before unused parts are dropped"
     )

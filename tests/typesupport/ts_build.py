@@ -93,8 +93,7 @@ def generate(
     plans = plan_types(found.messages, capacities, found.type_hash, diagnostics, received)
     diagnostics.check()
     files = render_types(plans, shared_environment()) | render_decoders(plans, shared_environment())
-    files |= {"include/microros/message_pools.h": no_pools()}
-    for path, content in files.items():
+    for path, content in {**files, "include/microros/message_pools.h": no_pools()}.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_bytes(content)
     return Generated(folder, found.messages, capacities, plans, files)

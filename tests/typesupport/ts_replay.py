@@ -23,7 +23,7 @@ COMMON = """
 #include <stdlib.h>
 #include <string.h>
 #include "microros/cdr_decode.h"
-#include "rcutils/allocator.h"
+#include "microros/message_memory.h"
 typedef struct test_type_t {
   const char * name;
   const rosidl_message_type_support_t * (*handle)(void);
@@ -31,7 +31,10 @@ typedef struct test_type_t {
   size_t message_size;
   size_t storage_size;
 } test_type_t;
-rcutils_allocator_t rcutils_get_default_allocator(void) { abort(); } /* nothing here may need memory */
+/* nothing here may need memory */
+void * microros_memory_take(const microros_pool_t * pool, size_t * size) { (void)pool; (void)size; abort(); }
+size_t microros_memory_room(const microros_pool_t * pool, const void * memory) { (void)pool; (void)memory; abort(); }
+void microros_memory_give_back(const microros_pool_t * pool, void * memory) { (void)pool; (void)memory; abort(); }
 static void * test_block(size_t size) {
   void * const block = malloc(size ? size : 1u);
   if (block == NULL) { abort(); }

@@ -3,14 +3,18 @@
 #include "microros/message_memory.h"
 #include "rcutils/allocator.h"
 
+#include <string.h>
+
 void * microros_memory_take(const microros_pool_t * pool, size_t * size)
 {
   const rcutils_allocator_t allocator = rcutils_get_default_allocator();
-  void * memory = allocator.zero_allocate(1, *size, allocator.state);
+  void * memory = allocator.allocate(*size, allocator.state);
 
   (void)pool;
   if (memory == NULL) {
     microros_memory_refuse();
+  } else {
+    (void)memset(memory, 0, *size);
   }
   return memory;
 }

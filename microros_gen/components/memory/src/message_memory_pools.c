@@ -86,13 +86,24 @@ static void * pool_take(const microros_pool_t * pool, size_t * size)
   return memory;
 }
 
+static void * allocator_take(const rcutils_allocator_t * allocator, size_t size)
+{
+  void * memory = allocator->allocate(size, allocator->state);
+
+  if (memory != NULL) {
+    (void)memset(memory, 0, size);
+  }
+  return memory;
+}
+
 void * microros_memory_take(const microros_pool_t * pool, size_t * size)
 {
   const rcutils_allocator_t allocator = rcutils_get_default_allocator();
-  void * memory = allocator.allocate == microros_arena_allocate ? pool_take(pool, size) : NULL;
+  const bool is_default = allocator.allocate == microros_arena_allocate;
+  void * memory = is_default ? pool_take(pool, size) : NULL;
 
-  if (memory == NULL && (allocator.allocate != microros_arena_allocate || MICROROS_ARENA_SIZE != 0u)) {
-    memory = allocator.zero_allocate(1, *size, allocator.state);
+  if (memory == NULL && (!is_default || MICROROS_ARENA_SIZE != 0u)) {
+    memory = allocator_take(&allocator, *size);
   }
   if (memory == NULL) {
     microros_memory_refuse();
