@@ -6,6 +6,7 @@ Time is counted: what ROS 2 does costs milliseconds of the bench's clock.
 
 from __future__ import annotations
 
+import random
 import struct
 from typing import Any
 
@@ -135,15 +136,15 @@ def test_one_client_alone_gets_half_of_the_time_for_changes() -> None:
 
 def test_all_together_get_the_time_for_changes_and_a_new_one_is_served_at_once() -> None:
     graph, clients, now, took = GraphWork(200), [Account() for _ in range(16)], 0.0, 0.0
-    each = dict.fromkeys(range(16), 0.0)
-    for _ in range(60_000):
+    each, chance = dict.fromkeys(range(16), 0.0), random.Random(3)
+    for _ in range(20_000):
         now += 0.001
-        for place, account in enumerate(clients):
-            if graph.allows(account, now):
-                graph.charge(account, 0.0005, now)
+        for place in chance.sample(range(16), 16):
+            if graph.allows(clients[place], now):
+                graph.charge(clients[place], 0.0005, now)
                 each[place] += 0.0005
                 took += 0.0005
-    assert took / now == pytest.approx(0.2, rel=0.1)
+    assert took / now == pytest.approx(0.2, rel=0.2)
     assert max(each.values()) < 1.2 * min(each.values())
     new = Account()
     for _ in range(20):
@@ -282,7 +283,7 @@ def test_a_long_sequence_is_published_once_each_and_in_order() -> None:
 
 
 def test_a_client_that_waits_for_its_turn_is_told_again_what_it_has_not_acknowledged() -> None:
-    bench = costly(Limits(graph_ms_per_second=10))
+    bench = costly(Limits(graph_ms_per_second=60))
     for create in reader_entities(1, topic="r"):
         bench.say(message(create, stream=0))
         turns(bench)
@@ -305,7 +306,7 @@ def test_who_leaves_in_the_middle_leaves_nothing() -> None:
 
 
 def test_who_comes_again_waits_for_what_it_had_to_leave() -> None:
-    bench = costly()
+    bench = costly(Limits(graph_ms_per_second=1_000))
     bench.say(message(application(WRITERS, "rt/z"), stream=0))
     turns(bench)
     bench.say(captured.CREATE_CLIENT.replace("81 00 fc", "82 00 fc"))
