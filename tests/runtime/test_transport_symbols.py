@@ -80,7 +80,7 @@ def _text(plan: RuntimePlan, folder: Path) -> int:
 @pytest.mark.skipif(not shutil.which("arm-none-eabi-gcc"), reason="no cross compiler")
 @pytest.mark.parametrize(
     ("transport", "framing", "most"),
-    [("serial", "either", 520), ("custom", "on", 760), ("custom", "off", 200)],
+    [("serial", "either", 520), ("custom", "on", 860), ("custom", "off", 280)],
 )
 def test_size_beside_udp(transport: str, framing: str, most: int, tmp_path: Path) -> None:
     udp = replace(DECLARED, best_effort_size=92, reliable_slot_size=16)

@@ -56,9 +56,10 @@ void xrce_stream_reliable_commit(
     xrce_stream_reliable_goes_on(stream, now);
   }
   stream->count = (uint8_t)(i + 1u);
-  stream->unsent = (uint16_t)(stream->unsent | (uint32_t)1u << i);
-  if (session->state == XRCE_READY && !stream->held) {
-    stream_flow(stream, session);
+  if (
+    stream->unsent != 0u || session->state != XRCE_READY || stream->held ||
+    !stream_send(stream, session, i)) {
+    stream->unsent = (uint16_t)(stream->unsent | (uint32_t)1u << i); /* for the next pump */
   }
 }
 
