@@ -48,6 +48,7 @@ def test_an_honest_client_notices_nothing(name: str, domain: int, quiet: Line) -
     print(f"\n{line}", flush=True)
     assert line.sessions_lost == 0
     assert line.lost == 0
+    assert line.memory_mb < line.limit_mb
     if quiet.trip_ms(0.99) < QUIET_MS:  # else others use the machine, and its times say nothing of the agent
         assert line.trip_ms(0.99) < P99_MS
 

@@ -59,6 +59,8 @@ class Line:
     descriptors: int
     processor: float
     log_bytes: int
+    limit_mb: float
+    """The memory that the agent said at its start not to exceed; infinite: none."""
 
     def trip_ms(self, share: float) -> float:
         """Return the round trip that this share of all is not slower than; what never came is infinite."""
@@ -184,6 +186,12 @@ class AgentUnderTest:
         status = Path(f"/proc/{self.process.pid}/status").read_text()
         return int(status.partition("VmHWM:")[2].split()[0]) * 1024 / 1e6
 
+    def limit_mb(self) -> float:
+        """Return the limit of memory that its log begins with."""
+        events = (json.loads(line) for line in self.log.read_text().splitlines() if line.startswith("{"))
+        limits: dict[str, float] = next(event for event in events if event["event"] == "limits")
+        return limits.get("memory_bytes", math.inf) / 1e6
+
     def look(self) -> None:
         """Count its descriptors."""
         with contextlib.suppress(OSError):
@@ -290,6 +298,7 @@ def measure(
             agent.descriptors,
             processor,
             agent.log.stat().st_size - log_before,
+            agent.limit_mb(),
         )
 
 
@@ -347,8 +356,9 @@ def bench_attacks(seconds: float = 6.0, names: Sequence[str] = ()) -> None:
     with echo(domain):
         for name in names or ("none", *ATTACKS, ALL):
             attacks = {"none": [], ALL: list(ATTACKS)}.get(name, [name])
-            print(measure(attacks, name, domain, seconds), flush=True)
-    print()
+            line = measure(attacks, name, domain, seconds)
+            print(line, flush=True)
+    print(f"  memory that the agent says at its start not to exceed: {line.limit_mb:.0f} MB\n")
 
 
 if __name__ == "__main__":
