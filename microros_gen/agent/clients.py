@@ -8,6 +8,7 @@ from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from microros_gen.agent.budgets import Shares
 from microros_gen.agent.fairness import Account
 from microros_gen.agent.objects import ObjectTree
 from microros_gen.agent.rates import Rate
@@ -49,6 +50,17 @@ class Client:
     opened: float = 0.0
     """When its session began; times of samples count from there."""
     probed: float = 0.0
+    """When it was last asked for a sign of life."""
+    asked: int = 0
+    """How often, since it was known to answer."""
+    loss: float = 0.0
+    """Part of such questions that stayed without an answer."""
+    kept: bool = False
+    """It is asleep, and samples that it has not got are kept."""
+    credit: int = 0
+    """Bytes of configurations that it may still be told."""
+    shares: Shares = field(default_factory=Shares.unlimited)
+    """What it holds."""
     asleep: bool = False
     """Not heard for `timeout_s`: its entities are not in the ROS graph, and return when it is heard."""
     adopted: bool = False
@@ -146,7 +158,3 @@ class ClientTable:
         self._by_key.pop(client.session.link.key, None)
         if self._by_address.get(client.address) is client:
             del self._by_address[client.address]
-
-    def longest_asleep(self) -> Client | None:
-        """Return the sleeping client that was heard least recently, or None."""
-        return min((c for c in self._by_key.values() if c.asleep), key=lambda c: c.heard, default=None)

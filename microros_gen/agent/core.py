@@ -12,15 +12,18 @@ from collections.abc import Callable, Hashable
 from functools import partial
 from pathlib import Path
 
+from microros_gen.agent.budgets import Budgets
 from microros_gen.agent.clients import Client, ClientTable
 from microros_gen.agent.deliveries import Deliveries
 from microros_gen.agent.fairness import Account, Fairness
 from microros_gen.agent.graph_work import GraphWork
 from microros_gen.agent.input_pool import InputPool
-from microros_gen.agent.limits import PROBES, Limits
+from microros_gen.agent.limits import Limits
+from microros_gen.agent.liveliness import Verdict, ask, judge
 from microros_gen.agent.lobby import Held, Lobby
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.manifests import Manifests
+from microros_gen.agent.memory import MemoryGuard, Relief
 from microros_gen.agent.operations import Operations
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.processing import Processor
@@ -32,6 +35,12 @@ from microros_gen.agent.wire.constants import STREAM_RELIABLE
 from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.message import header_size, is_cut
 
+WORDS = {
+    "no_session": "message from {peer} ignored: it is of a session that this agent does not know ({detail}),"
+    " perhaps of the agent before this one; a client with liveliness notices that, and opens a session here",
+    "client_resources": "message from {peer} ignored: {detail}",
+}
+"""What is said of messages that are not malformed."""
 TICK_S = 0.05
 """Seconds between two looks at time-outs while there are clients."""
 
@@ -52,6 +61,8 @@ class Agent:
         fair: Fairness | None = None,
         strangers: Account | None = None,
         processor: Callable[[], float] | None = None,
+        memory: MemoryGuard | None = None,
+        budgets: Budgets | None = None,
     ) -> None:
         """`pool` is shared with the transports that hold input too; default: one for the clients alone.
 
@@ -73,7 +84,10 @@ class Agent:
         self._turns = Turns(clock, turn_s, fair, graph, self._inner_fault, processor or time.thread_time)
         self._deliveries = Deliveries(log, self._inner_fault, fair, clock)
         pool = pool or InputPool(limits.input_bytes, limits.clients)
-        self._lobby = Lobby(self.clients, bridge, log, limits, held, self._deliveries, pool, self._turns)
+        self._lobby = Lobby(
+            self.clients, bridge, log, limits, held, self._deliveries, pool, self._turns, budgets
+        )
+        self._relief = Relief(memory, self.clients, self._lobby.gate, self._lobby.dismiss, log)
         self._operations = Operations(log, self._deliveries, self._turns)
         self._processor = Processor(
             self.clients, limits, self._operations, self._lobby, self._turns, fair, graph, self._refuse_of
@@ -135,6 +149,10 @@ class Agent:
             for client in self.clients:
                 self._guarded(partial(self._look_after, client, now))
 
+    def care(self, now: float) -> None:
+        """Look at the memory of the process; to be called some ten times a second. Never raises."""
+        self._guarded(partial(self._relief.look, now))
+
     def _look_after(self, client: Client, now: float) -> None:
         waits = self._turns.waits(client)
         if waits and client.asleep:
@@ -144,17 +162,24 @@ class Agent:
         if client.asleep:
             if silent > self._limits.sleep_timeout_s:
                 self._lobby.dismiss(client, "forgotten: it was not heard any more")
+            elif client.kept and silent > self._limits.keep_s:
+                client.kept = False
+                self._lobby.keeping.forget_old(client, now)
             return
         for message in client.session.heartbeats(now):
             client.send(message)
         if waits:
             return
-        if silent > client.timeout_s:
+        verdict = judge(client, now, self._patience_s())
+        if verdict is Verdict.GONE:
             if self._graph.allows(client.account, now):
                 self._lobby.put_to_sleep(client)
-        elif silent > client.timeout_s / 2 and now - client.probed > client.timeout_s / (2 * PROBES):
-            client.probed = now
-            client.send(client.session.probe())
+        elif verdict is Verdict.ASK:
+            ask(client, now)
+
+    def _patience_s(self) -> float:
+        """Return after which time to ask for signs of life; where places are rare, not later than usual."""
+        return self._limits.client_timeout_s if len(self.clients) >= self._limits.clients else float("inf")
 
     def close(self) -> None:
         """Take all clients and their entities out of the ROS graph. Never raises."""
@@ -215,7 +240,7 @@ class Agent:
         if isinstance(error, MalformedError):
             self._log.count(
                 error.kind,
-                "malformed message from {peer} ignored: {detail}",
+                WORDS.get(error.kind, "malformed message from {peer} ignored: {detail}"),
                 peer=transport.name_of(address),
                 detail=error.detail or error.kind,
             )

@@ -146,6 +146,7 @@ class Deliveries:
         reading = client.readings.pop(object_id, None)
         if reading is not None:
             reading.over = True
+            reading.give_back()
             self._attach(reading, None)
             if reading.waiting:
                 client.waiting.remove(reading)

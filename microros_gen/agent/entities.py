@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
+from microros_gen.agent.budgets import Shares
+from microros_gen.agent.history import ReaderHistory, WriterHistory
 from microros_gen.agent.representation import Description, Endpoint, Participant, Service, Topic
 from microros_gen.agent.ros.bridge import (
     Bridge,
@@ -34,6 +36,8 @@ class Home:
     bridge: Bridge
     fallback_name: str
     hash_of: Callable[[str], HashOf | None] = lambda node: None
+    shares: Shares = field(default_factory=Shares.unlimited)
+    """What the client may hold."""
 
     def node(self, participant: Participant) -> Node:
         """Create the node of a participant; may raise BridgeError."""
@@ -54,12 +58,18 @@ class Entity:
     """What ROS 2 gives data to: a reader, a replier or a requester."""
     representation: Representation | None = None
     """How the client described it; None for one that the agent's files gave it."""
+    cost: int = 0
+    """Bytes that are counted for it, without samples."""
+    history: WriterHistory | ReaderHistory | None = None
+    """What Fast DDS keeps for it."""
     written: int = 0
     """Samples, requests or replies that a client sent through it."""
-    held: bytes | None = None
-    """A sample that was taken from ROS and did not fit the message before."""
+    kept: list[bytes] = field(default_factory=list)
+    """Samples that were taken from ROS and are still to go to the client, the next one last."""
     delivered: int = 0
     """Samples, requests or replies that went to the client."""
+    calls_bytes: int = 0
+    """Bytes that are counted for what is outstanding."""
     outstanding: dict[bytes | int, bytes] = field(default_factory=dict)
     """What waits for an answer, the oldest first: numbers of requests with the ids (request, object) that a client gave
     them, or identities of requests that a client is to answer."""
@@ -92,8 +102,41 @@ class Entity:
         """Least time between two samples that are handed on (time-based filter), in seconds; 0: none."""
         return self.description.separation_ms / 1000 if isinstance(self.description, Endpoint) else 0.0
 
+    @property
+    def keeps(self) -> bool:
+        """Whether its samples are kept for a client that is away: those of a reliable reader."""
+        about = self.description
+        return self.kind == ObjectKind.DATAREADER and isinstance(about, Endpoint) and about.qos.reliable
+
+    def keep(self, samples: Sequence[bytes], shares: Shares, behind: bool = False) -> int:
+        """Keep samples, in order, before or behind what is kept; return how many there was no room for."""
+        taken = [sample for sample in samples if shares.history.take(len(sample))]
+        lost = len(samples) - len(taken)
+        taken.reverse()
+        self.kept = [*taken, *self.kept] if behind else [*self.kept, *taken]
+        return lost
+
+    def next_kept(self, shares: Shares) -> bytes:
+        """Return the next of what is kept."""
+        sample = self.kept.pop()
+        shares.history.add(-len(sample))
+        return sample
+
+    def drop_kept(self, shares: Shares) -> None:
+        """Keep nothing."""
+        shares.history.add(-sum(map(len, self.kept)))
+        self.kept.clear()
+
+    def forget_calls(self, shares: Shares) -> None:
+        """Let nothing wait for an answer."""
+        self.outstanding.clear()
+        shares.calls.add(-self.calls_bytes)
+        self.calls_bytes = 0
+
     def publish(self, serialized: bytes) -> None:
         """Publish a sample of a data writer: encapsulation header, then CDR body. May raise BridgeError."""
+        if not self.history.fits(len(serialized)):  # type: ignore[union-attr]
+            self.history.make_room(len(serialized), self.writer)  # type: ignore[union-attr, arg-type]
         self.writer.publish(serialized)  # type: ignore[union-attr]
         self.written += 1
 
@@ -105,7 +148,7 @@ class Entity:
         if isinstance(description, Participant):
             self.node = home.node(description)
         elif isinstance(description, Endpoint):
-            self._enter_endpoint(description)
+            self._enter_endpoint(description, home.shares)
         elif isinstance(description, Service):
             node = self._home()
             replier = self.kind == ObjectKind.REPLIER
@@ -114,24 +157,33 @@ class Entity:
             )
             self.source = make(description)
 
-    def leave(self) -> None:
+    def leave(self, shares: Shares) -> None:
         """Leave the ROS graph; what waits for an answer gets none."""
         side = self.writer or self.source or self.node
         if side is not None:
             side.destroy()
         self.writer = self.source = self.node = None
-        self.held = None
-        self.outstanding.clear()
+        if self.history is not None:
+            self.history.give_back()
+            self.history = None
+        self.forget_calls(shares)
 
-    def _enter_endpoint(self, description: Endpoint) -> None:
+    def _enter_endpoint(self, description: Endpoint, shares: Shares) -> None:
         topic = description.topic or self.sources[1].description
         node = self._home()
         if not isinstance(topic, Topic):
             raise BridgeError("its topic is not there")
-        if self.kind == ObjectKind.DATAWRITER:
-            self.writer = node.create_writer(topic, description.qos)
-        else:
-            self.source = node.create_reader(topic, description.qos)
+        writes = self.kind == ObjectKind.DATAWRITER
+        history = (WriterHistory if writes else ReaderHistory)(description.qos, shares)
+        try:
+            if writes:
+                self.writer = node.create_writer(topic, description.qos)
+            else:
+                self.source = node.create_reader(topic, description.qos)
+        except BridgeError:
+            history.give_back()
+            raise
+        self.history = history
 
     def _home(self) -> Node:
         node = self.participant.node

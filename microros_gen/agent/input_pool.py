@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What unfinished and waiting input takes of all clients and connections together.
+"""What one kind of thing (unfinished input, objects, histories) takes of all clients and connections together.
 
 Half of the total is for whoever comes first. The other half is divided: each holder has its share for itself, so those
-who take all that they can get keep nobody else from talking.
+who take all that they can get keep nobody else from having something.
 """
 
 from __future__ import annotations
@@ -20,17 +20,25 @@ class InputPool:
 class Holder:
     """What one client, or one connection, holds of a pool; without a pool it is not limited."""
 
-    def __init__(self, pool: InputPool | None = None) -> None:
+    def __init__(self, pool: InputPool | None = None, most: int = 1 << 62) -> None:
+        """It holds no more than `most` bytes of what can be refused."""
         self._pool = pool
+        self._most = most
         self.held = 0
 
     def take(self, size: int) -> bool:
         """Hold `size` bytes more; False when there is no room for them."""
-        more = self._beyond(self.held + size) - self._beyond(self.held)
-        if self._pool is not None and more > max(0, self._pool.free):
+        if not self.has_room(size):
             return False
         self.add(size)
         return True
+
+    def has_room(self, size: int) -> bool:
+        """Return whether `take` would take `size` bytes."""
+        if self._pool is None:
+            return True
+        more = self._beyond(self.held + size) - self._beyond(self.held)
+        return self.held + size <= self._most and more <= max(0, self._pool.free)
 
     def add(self, size: int) -> None:
         """Hold `size` bytes more, which cannot be refused, or fewer (below 0)."""

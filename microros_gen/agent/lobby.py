@@ -7,14 +7,17 @@ from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import partial
 
+from microros_gen.agent.budgets import Budgets
 from microros_gen.agent.clients import Client, ClientTable, Job
 from microros_gen.agent.deliveries import Deliveries
 from microros_gen.agent.entities import Home
 from microros_gen.agent.fairness import Accounts
 from microros_gen.agent.input_pool import Holder, InputPool
+from microros_gen.agent.keeping import Keeping
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.manifests import Manifests
+from microros_gen.agent.newcomers import Newcomer, Newcomers, Strangers, check, timeout_of, who_gives_way
 from microros_gen.agent.objects import ObjectTree
 from microros_gen.agent.operations import agent_info, tell_outcome
 from microros_gen.agent.preconfigured import Preconfigured
@@ -29,11 +32,9 @@ from microros_gen.agent.streams_out import Link
 from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.turns import Turns
 from microros_gen.agent.wire.constants import (
-    COOKIE,
     SESSION_NONE_WITH_KEY,
     SESSION_NONE_WITHOUT_KEY,
     STREAM_NONE,
-    VERSION,
     ObjectKind,
     Status,
     is_reliable,
@@ -46,8 +47,10 @@ from microros_gen.agent.wire.session_messages import CreateClient, GetInfo, Stat
 from microros_gen.agent.wire.submessages import Submessage, decode, encode
 
 OUT_OF_SESSION = (SESSION_NONE_WITH_KEY, SESSION_NONE_WITHOUT_KEY)
-HARD_LIVELINESS = "uxr_hl"
-"""Property by which a client asks for a time-out of its own, in ms."""
+SILENT_PART = 0.75
+"""Of the time-out: who was silent for so long, and asked for a sign of life, may lose its place."""
+LOOK_AGAIN_S = 0.1
+"""Seconds until somebody who could give way is looked for again, after there was nobody."""
 
 
 @dataclass(frozen=True)
@@ -72,6 +75,7 @@ class Lobby:
         deliveries: Deliveries,
         pool: InputPool,
         turns: Turns,
+        budgets: Budgets | None = None,
     ) -> None:
         self._clients = clients
         self._turns = turns
@@ -82,13 +86,17 @@ class Lobby:
         self._held = held
         self._deliveries = deliveries
         self._pool = pool
+        self.keeping = Keeping(limits.keep_s, deliveries, log)
+        self._budgets = budgets or Budgets(limits)
+        self.gate = self._budgets.gate
         self._rates = Rates(limits.operations_per_second, limits.clients)
         self._rivals = Rivals(log, limits.clients)
+        self._newcomers = Newcomers(limits.newcomers)
+        self._full_until = 0.0
         self._answered = 0
         self._second = 0.0
         self._never_adopted: set[bytes] = set()
-        self._strangers: dict[tuple[Transport, Hashable], float] = {}
-        """Who sends samples without a session, and since when; the oldest first."""
+        self._strangers = Strangers(limits.adopt_after_s, limits.clients)
 
     def visit(
         self,
@@ -102,13 +110,17 @@ class Lobby:
         """Answer a message outside of any session: CREATE_CLIENT, GET_INFO, and DELETE of a client long gone.
 
         `client` is who is known at this address. Everything else is counted, and not answered; but what comes from
-        a client that is to be adopted is not dealt with here, and that client returned.
+        a client that is to be adopted, or is the first word of a newcomer, is not dealt with here, and that client
+        returned.
         """
+        header = Header.decode(data)
+        newcomer = self._newcomers.proved(header, address)
+        if newcomer is not None:
+            return self._let_in(newcomer, now)
         if client is None:
             self._count_stranger(now)
         elif not client.rate.take(now):
             raise MalformedError("too_many_operations", "a client says too much outside of its session")
-        header = Header.decode(data)
         # What is out of session may be another client's by now: systems give a port to one after another.
         left = client is None and header.session not in OUT_OF_SESSION
         key = self._rivals.heard(transport, address, now) if left else None
@@ -119,9 +131,9 @@ class Lobby:
             submessage = decode(identifier, flags, data, at, end)
             if isinstance(submessage, WriteData | Heartbeat) and client is None:
                 return self._adopt(header, submessage, address, transport, now)
-            self._strangers.pop((transport, address), None)  # it knows how to help itself
+            self._strangers.forget(transport, address)  # it knows how to help itself
             if isinstance(submessage, GetInfo):
-                known = client is not None and header.session in OUT_OF_SESSION
+                known = header.session in OUT_OF_SESSION and bool(client or self._newcomers.at(address))
                 if client is not None and known:
                     client.heard = now
                 answer = agent_info(submessage, known)
@@ -179,7 +191,8 @@ class Lobby:
 
     def put_to_sleep(self, client: Client) -> None:
         """Take the entities of a client that is not heard out of the ROS graph; its session stays."""
-        client.asleep = True
+        client.asleep = client.kept = True
+        self.keeping.before_sleep(client)
         self._turns.begin(client, Job(client.objects.suspending(), adds=False))
         for _ in range(client.session.rest()):
             text = "client {client} fell silent within a message in fragments, which is lost"
@@ -204,9 +217,11 @@ class Lobby:
     def _enter(
         self, header: Header, wanted: CreateClient, address: Hashable, transport: Transport, now: float
     ) -> None:
-        status = self._check(wanted)
+        status = check(wanted, self._limits.minimum_mtu)
         if status is Status.OK:
-            status = self._admit(wanted, address, transport, now)
+            link = Link(wanted.session, wanted.key, wanted.mtu)
+            newcomer = Newcomer(link, timeout_of(wanted, self._limits.client_timeout_s), address, transport)
+            status = self._admit(newcomer, now) if self._is_known(newcomer) else self._note(newcomer, now)
         key = wanted.key if wanted.session < SESSION_NONE_WITHOUT_KEY else b""
         answer: Submessage = StatusAgent(status)
         transport.send(Header(wanted.session, STREAM_NONE, 0, key).encode() + encode(answer), address)
@@ -218,32 +233,50 @@ class Lobby:
                 status=status.name,
             )
 
-    def _check(self, wanted: CreateClient) -> Status:
-        if wanted.cookie != COOKIE or wanted.key == bytes(4) or wanted.session in OUT_OF_SESSION:
-            return Status.INVALID_DATA
-        if wanted.version[0] != VERSION[0]:
-            return Status.INCOMPATIBLE
-        return Status.OK if wanted.mtu >= self._limits.minimum_mtu else Status.INVALID_DATA
+    def _is_known(self, newcomer: Newcomer) -> bool:
+        """Return whether somebody is at the address of a newcomer: by its transport, or as a client in session."""
+        return not newcomer.transport.forgeable or self._clients.at(newcomer.address) is not None
 
-    def _admit(self, wanted: CreateClient, address: Hashable, transport: Transport, now: float) -> Status:
-        link = Link(wanted.session, wanted.key, wanted.mtu)
+    def _note(self, newcomer: Newcomer, now: float) -> Status:
+        """Remember who may not be where it says to be, if there would be a place for it."""
+        there = self._clients.with_key(newcomer.link.key) is not None
+        if not there and now >= self._full_until and not self._has_room(now):
+            self._full_until = now + LOOK_AGAIN_S
+        if not there and now < self._full_until:
+            return Status.RESOURCES
+        self._newcomers.note(newcomer)
+        return Status.OK
+
+    def _let_in(self, newcomer: Newcomer, now: float) -> Client:
+        """Return the client that a newcomer is, after its first word in session."""
+        if self._admit(newcomer, now) is not Status.OK:
+            raise MalformedError("client_resources", "its place is taken by now")
+        client = self._clients.at(newcomer.address)
+        assert client is not None
+        return client
+
+    def _admit(self, newcomer: Newcomer, now: float) -> Status:
+        link, address, transport = newcomer.link, newcomer.address, newcomer.transport
+        self._newcomers.forget(address)
         neighbour = self._clients.at(address)
-        if neighbour is not None and neighbour.session.link.key != wanted.key:
+        if neighbour is not None and neighbour.session.link.key != link.key:
             self.dismiss(neighbour, "replaced by another at its address")
-        client = self._clients.with_key(wanted.key)
-        if client is not None and client.session.link.session == wanted.session:
+        client, heritage = self._clients.with_key(link.key), {}
+        if client is not None and client.session.link.session == link.session:
             self._welcome_back(client, link, address, transport, now)
             return Status.OK
         if client is not None:
             if client.address != address:
                 self._rivals.moved(client, transport, address, now)
+            heritage = self.keeping.heritage(client, now)
             self.dismiss(client, "replaced: it came with another session id")
-        new = self._add(link, address, transport, self._timeout(wanted), now)
+        new = self._add(link, address, transport, newcomer.timeout_s, now)
         if new is None:
             return Status.RESOURCES
+        new.objects.inherit(heritage)
         text = "client {client} connected from {peer} (session {session}, MTU {mtu})"
         self._tell(
-            new, "client_connected", text, peer=new.place, session=f"{wanted.session:#04x}", mtu=wanted.mtu
+            new, "client_connected", text, peer=new.place, session=f"{link.session:#04x}", mtu=link.mtu
         )
         if client is not None and client.work:  # what it had still leaves the ROS graph: that comes first
             self._turns.begin(new, client.work[0])
@@ -253,16 +286,29 @@ class Lobby:
     def _add(
         self, link: Link, address: Hashable, transport: Transport, timeout_s: float, now: float
     ) -> Client | None:
-        if not self._has_room():
+        if not self._make_room(now):
             return None
         name = f"xrce_client_{link.key.hex().upper()}"
-        home = Home(self._bridge, name, partial(self._held.manifests.hash_of, link.key))
+        shares = self._budgets.of_client()
+        home = Home(self._bridge, name, partial(self._held.manifests.hash_of, link.key), shares)
         objects = ObjectTree(home, self._held.references, self._limits.objects)
-        calls = Calls(self._log, self._limits.requests, link.key.hex().upper())
-        session = Session(link, self._limits, Holder(self._pool))
+        calls = Calls(self._log, self._limits.requests, link.key.hex().upper(), shares.calls)
+        session = Session(link, self._limits, Holder(self._pool), shares.output)
         rate = self._rates.of(link.key)
         account = self._accounts.of(link.key)
-        new = Client(session, objects, transport, address, timeout_s, now, calls, rate, account, opened=now)
+        new = Client(
+            session,
+            objects,
+            transport,
+            address,
+            timeout_s,
+            now,
+            calls,
+            rate,
+            account,
+            opened=now,
+            shares=shares,
+        )
         self._clients.add(new)
         return new
 
@@ -294,7 +340,7 @@ class Lobby:
         key = self._held.preconfigured.to_adopt(header.key, writer, known)
         if key is None or not fits or self._clients.at(address) or header.session in OUT_OF_SESSION:
             raise MalformedError("no_session", f"{submessage.ID.name} without a session")
-        if not header.key and not self._listened_to(address, transport, now):
+        if not header.key and not self._strangers.listened_to(transport, address, now):
             return None
         link = Link(header.session, key, self._limits.minimum_mtu)
         client = self._add(link, address, transport, self._limits.client_timeout_s, now)
@@ -308,20 +354,10 @@ class Lobby:
         self._give(client)
         return client
 
-    def _listened_to(self, address: Hashable, transport: Transport, now: float) -> bool:
-        """Return whether a sender of samples without a session was listened to for long enough."""
-        since = self._strangers.setdefault((transport, address), now)
-        if len(self._strangers) > self._limits.clients:
-            del self._strangers[next(iter(self._strangers))]
-        enough = now - since >= self._limits.adopt_after_s
-        if enough:
-            self._strangers.pop((transport, address), None)
-        return enough
-
     def _welcome_back(
         self, client: Client, link: Link, address: Hashable, transport: Transport, now: float
     ) -> None:
-        self._deliveries.forget(client)  # whoever starts again has not asked for anything yet
+        self.keeping.begin_again(client, now)  # whoever starts again has not asked for anything yet
         client.session.reset(link)
         client.unacknowledged.clear()
         client.objects.forget_requests()
@@ -344,20 +380,19 @@ class Lobby:
                 "too_many_strangers", f"more than {self._limits.strangers_per_second} without a session"
             )
 
-    def _has_room(self) -> bool:
-        if len(self._clients) < self._limits.clients:
-            return True
-        sleeper = self._clients.longest_asleep()
-        if sleeper is None:
+    def _has_room(self, now: float) -> bool:
+        full = len(self._clients) >= self._limits.clients
+        return not (self.gate.closed or (full and self._who_gives_way(now) is None))
+
+    def _make_room(self, now: float) -> bool:
+        if not self._has_room(now):
             return False
-        self.dismiss(sleeper, "forgotten: its place is needed")
+        if len(self._clients) >= self._limits.clients and (found := self._who_gives_way(now)):
+            self.dismiss(found, "forgotten: its place is needed")
         return True
 
-    def _timeout(self, wanted: CreateClient) -> float:
-        text = dict(wanted.properties or ()).get(HARD_LIVELINESS, "")
-        if text.isascii() and text.isdigit() and len(text) < 9 and int(text) > 0:
-            return int(text) / 1000
-        return self._limits.client_timeout_s
+    def _who_gives_way(self, now: float) -> Client | None:
+        return who_gives_way(self._clients, now, self._limits.client_timeout_s * SILENT_PART)
 
     def _tell(self, client: Client, event: str, text: str, **fields: str | int | float) -> None:
         self._log.emit(Level.INFO, event, text, client=client.name, **fields)

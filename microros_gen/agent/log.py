@@ -6,7 +6,8 @@ from __future__ import annotations
 import json
 import time
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from enum import IntEnum
 from typing import TextIO, Union
 
@@ -27,6 +28,14 @@ class Level(IntEnum):
 
 BURST, SUSTAINED = 1_000, 100
 """Lines of one event that are written at once, and how many more each second; those of -v are not counted."""
+LONGEST = 400
+"""Characters of a text in a line: what is longer came from the network, and its middle is left out; not with -v."""
+BYTES_AT_ONCE, BYTES_PER_SECOND = 1 << 20, 16_384
+"""Bytes of lines that are written at once, and how many more each second; those of -v are not counted."""
+REPEATED_S, REPEATED = 10.0, 3
+"""For so long a warning that is the same as the one of its event before is written so often; then it is counted."""
+ALWAYS = ("stopped", "memory_tight", "memory_relieved")
+"""Events that are written whatever was written before."""
 
 
 def printable(text: str) -> str:
@@ -34,11 +43,32 @@ def printable(text: str) -> str:
     return "".join(c if c.isprintable() else "?" for c in text)
 
 
+def _short(text: str) -> str:
+    """Return `text`, or its beginning, how long it is, and its end."""
+    if len(text) <= LONGEST:
+        return text
+    return f"{text[: LONGEST // 2]}… ({len(text)} characters) …{text[-LONGEST // 2 :]}"
+
+
+@dataclass
+class _Repeated:
+    """A warning, when it was written, and how often it came again since."""
+
+    message: str
+    since: float
+    count: int = 0
+
+
 class EventLog:
     """Writes events to one stream. A stream that is gone is ignored: the agent goes on serving."""
 
     def __init__(
-        self, out: TextIO, as_json: bool = False, verbosity: int = 0, clock: Callable[[], float] = time.time
+        self,
+        out: TextIO,
+        as_json: bool = False,
+        verbosity: int = 0,
+        clock: Callable[[], float] = time.time,
+        bytes_per_second: int = BYTES_PER_SECOND,
     ) -> None:
         self._out = out
         self._json = as_json
@@ -47,6 +77,10 @@ class EventLog:
         self._seen: set[str] = set()
         self._credit: dict[str, tuple[float, float]] = {}
         self._withheld: Counter[str] = Counter()
+        self._bytes_per_second = bytes_per_second
+        self._bytes, self._bytes_at = float(BYTES_AT_ONCE), clock()
+        self._before: dict[str, _Repeated] = {}
+        """The last warning of each event."""
         self.counters: Counter[str] = Counter()
 
     @property
@@ -63,29 +97,73 @@ class EventLog:
 
         Nobody can fill a disk by it, or hold up the agent: see `BURST`. What was not written is told afterwards.
         """
-        if level > self._limit or (level <= Level.INFO and not self._may_write(event)):
+        if level > self._limit:
             return
+        if level > Level.INFO:
+            self._write(level, event, text, fields)
+            return
+        if not self._may_write(event):
+            self._withheld[event] += 1
+            return
+        short = {key: _short(value) if isinstance(value, str) else value for key, value in fields.items()}
+        if level is Level.WARNING and self._is_repeated(event, text.format(**short)):
+            return
+        self._pay(event)
         if self._withheld[event]:
             count = self._withheld.pop(event)
             told = "{count} events '{of}' before this one were not written: too many at once"
-            self.emit(Level.WARNING, "withheld", told, of=event, count=count)
+            self._write(Level.WARNING, "withheld", told, {"of": event, "count": count})
+        self._write(level, event, text, short)
+
+    def finish(self) -> None:
+        """Tell how often warnings were repeated that were not written again."""
+        for event in list(self._before):
+            self._tell_repeated(event)
+
+    def _write(self, level: Level, event: str, text: str, fields: Mapping[str, Json]) -> None:
         shown = {key: printable(value) if isinstance(value, str) else value for key, value in fields.items()}
         message = text.format(**shown)
         if self._json:
             moment = round(self._clock(), 6)
             head: dict[str, Json] = {"time": moment, "level": level.name.lower(), "event": event}
-            self.line(json.dumps({**head, **fields, "message": message}))
+            line = json.dumps({**head, **fields, "message": message})
         else:
-            self.line(message if level is Level.INFO else f"{level.name.lower()}: {message}")
+            line = message if level is Level.INFO else f"{level.name.lower()}: {message}"
+        if level <= Level.INFO:
+            self._bytes -= len(line)
+        self.line(line)
+
+    def _is_repeated(self, event: str, message: str) -> bool:
+        """Return whether a warning is the same as the one of its event before, which is counted then."""
+        before, now = self._before.get(event), self._clock()
+        if before is not None and before.message == message and now - before.since < REPEATED_S:
+            before.count += 1
+            return before.count >= REPEATED
+        if before is not None:
+            self._tell_repeated(event)
+        self._before[event] = _Repeated(message, now)
+        return False
+
+    def _tell_repeated(self, event: str) -> None:
+        before = self._before.pop(event)
+        if before.count >= REPEATED:
+            count = before.count - REPEATED + 1
+            fields: dict[str, Json] = {"of": event, "count": count, "what": before.message}
+            self._write(Level.WARNING, "repeated", "{what} … repeated {count} times", fields)
 
     def _may_write(self, event: str) -> bool:
+        """Return whether there is room for one more line of an event, by their number and by all bytes."""
         now = self._clock()
+        passed = max(0.0, now - self._bytes_at)
+        self._bytes = min(BYTES_AT_ONCE, self._bytes + passed * self._bytes_per_second)
+        self._bytes_at = now
         credit, since = self._credit.get(event, (float(BURST), now))
-        credit = min(BURST, credit + max(0.0, now - since) * SUSTAINED)
-        allowed = credit >= 1
-        self._credit[event] = credit - allowed, now
-        self._withheld[event] += not allowed
-        return allowed
+        self._credit[event] = min(BURST, credit + max(0.0, now - since) * SUSTAINED), now
+        return event in ALWAYS or (self._credit[event][0] >= 1 and self._bytes > 0)
+
+    def _pay(self, event: str) -> None:
+        credit, since = self._credit[event]
+        self._credit[event] = credit - 1, since
 
     def count(self, kind: str, text: str, /, **fields: Value) -> None:
         """Count a fault of input; write it the first time that its `kind` occurs."""

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
+from microros_gen.agent.budgets import cost_of
 from microros_gen.agent.checks import RefusedError, check_application, check_object, part_ids
 from microros_gen.agent.entities import Entity, Home, Outcome
 from microros_gen.agent.representation import (
@@ -61,6 +62,10 @@ _CONTAINER = {
 }
 
 
+Heritage = dict[int, tuple[object, list[bytes]]]
+"""Samples that readers of an earlier session with the same key had not got, by object id, and what those were."""
+
+
 @dataclass(frozen=True)
 class _Wanted:
     """An object that is to be made, and what is to happen when one with its id is there."""
@@ -70,6 +75,8 @@ class _Wanted:
     description: Description
     reuse: bool
     replace: bool
+    representation: int = 0
+    """Bytes of what describes it."""
     within: Entity | None = None
     """The application that it is a part of."""
 
@@ -82,7 +89,8 @@ class ObjectTree:
         self._references = references
         self._maximum = maximum
         self._objects: dict[int, Entity] = {}
-        self._gone_with_container: set[int] = set()
+        self._gone_with_container: dict[int, None] = {}
+        self._heritage: Heritage = {}
         self.publish: dict[int, Publish] = {}
         """How to publish for each data writer, by object id."""
 
@@ -91,6 +99,21 @@ class ObjectTree:
 
     def __iter__(self) -> Iterator[Entity]:
         return iter(self._objects.values())
+
+    def inherit(self, heritage: Heritage) -> None:
+        """Take over what another session had not got, as far as there is room."""
+        self._heritage = {
+            object_id: (about, samples)
+            for object_id, (about, samples) in heritage.items()
+            if self._home.shares.history.take(sum(map(len, samples)))
+        }
+
+    def _claim(self, entity: Entity) -> None:
+        """Give a new object what another session had not got from the same."""
+        about, samples = self._heritage.pop(entity.id, (None, []))
+        self._home.shares.history.add(-sum(map(len, samples)))
+        if about == described(entity):
+            entity.keep(samples, self._home.shares)
 
     def find(self, object_id: int) -> Entity | None:
         """Return the object with an id, or None."""
@@ -135,10 +158,12 @@ class ObjectTree:
         if entity is not None:
             contained = [e for e in self if e.inside(entity)]
             yield from self._remove([entity, *contained])
-            self._gone_with_container.update(e.id for e in contained)
+            self._gone_with_container.update((e.id, None) for e in contained)
+            while len(self._gone_with_container) > self._maximum:
+                del self._gone_with_container[next(iter(self._gone_with_container))]
             return Status.OK
         if object_id in self._gone_with_container:
-            self._gone_with_container.remove(object_id)
+            del self._gone_with_container[object_id]
             return Status.OK
         return Status.UNKNOWN_REFERENCE
 
@@ -148,6 +173,8 @@ class ObjectTree:
 
     def clearing(self) -> Steps[None]:
         """Drop everything, in steps."""
+        self._home.shares.history.add(-sum(len(s) for _, samples in self._heritage.values() for s in samples))
+        self._heritage.clear()
         yield from self._remove(list(self._objects.values()))
         self._gone_with_container.clear()
 
@@ -155,7 +182,7 @@ class ObjectTree:
         """Let nobody wait for the replies to requests any more: the client does not know of them."""
         for entity in self:
             if entity.kind == ObjectKind.REQUESTER:
-                entity.outstanding.clear()
+                entity.forget_calls(self._home.shares)
 
     def suspend(self) -> None:
         """Leave the ROS graph and keep the descriptions."""
@@ -192,10 +219,11 @@ class ObjectTree:
         if create.kind not in _SERVED:
             raise RefusedError(Status.DENIED, f"objects of kind {_kind_name(create.kind)} are not served")
         description = describe(create, self._references, self._known(create.parent))
-        wanted = _Wanted(object_id, create.parent, description, create.reuse, create.replace)
+        size = len(create.representation.body)
+        wanted = _Wanted(object_id, create.parent, description, create.reuse, create.replace, size)
         outcome = yield from self._place(wanted)
         if outcome.status is Status.OK and outcome.entity is not None:
-            fits = len(create.representation.body) <= LARGEST_REPRESENTATION
+            fits = size <= LARGEST_REPRESENTATION
             outcome.entity.representation = create.representation if fits else None
         return outcome
 
@@ -221,9 +249,11 @@ class ObjectTree:
             yield from self._remove([present, *self._made_from(present)])
         elif len(self._objects) >= self._maximum:
             raise RefusedError(Status.RESOURCES, f"the client has {self._maximum} objects already")
+        self._charge(entity, wanted.representation)
         self._enter(entity)
         self._objects[object_id] = entity
-        self._gone_with_container.discard(object_id)
+        self._claim(entity)
+        self._gone_with_container.pop(object_id, None)
         if isinstance(wanted.description, Application):
             yield from self._fill(entity, wanted.description, wanted.replace)
         return Outcome(Status.OK, entity=entity)
@@ -272,18 +302,38 @@ class ObjectTree:
         return found
 
     def _enter(self, entity: Entity) -> None:
-        entity.enter(self._home)
+        try:
+            entity.enter(self._home)
+        except BridgeError:
+            if entity.id not in self._objects:
+                self._discharge(entity)
+            raise
         if entity.writer is not None:
             self.publish[entity.id] = entity.publish
 
+    def _charge(self, entity: Entity, representation: int) -> None:
+        """Count what an object takes until it is removed; it is not there yet."""
+        if self._home.shares.gate.closed:
+            raise RefusedError(Status.RESOURCES, "the agent's memory is nearly all taken")
+        cost = cost_of(entity.id, representation)
+        if not self._home.shares.objects.take(cost):
+            raise RefusedError(Status.RESOURCES, "the objects of all clients take what they may")
+        entity.cost = cost
+
+    def _discharge(self, entity: Entity) -> None:
+        self._home.shares.objects.add(-entity.cost)
+        entity.cost = 0
+
     def _leave(self, entity: Entity) -> None:
         self.publish.pop(entity.id, None)
-        entity.leave()
+        entity.leave(self._home.shares)
 
     def _remove(self, entities: list[Entity]) -> Steps[None]:
         """Take objects away, what was made from others before those: so it may end midway."""
         for entity in reversed(entities):
             self._objects.pop(entity.id, None)
+            self._discharge(entity)
+            entity.drop_kept(self._home.shares)
             self._leave(entity)
             yield
 
@@ -297,3 +347,8 @@ class ObjectTree:
 
 def _kind_name(kind: int) -> str:
     return ObjectKind(kind).name.lower()
+
+
+def described(entity: Entity) -> object:
+    """Return what an object and those that it was made from are, to be compared."""
+    return entity.description, tuple(source.description for source in entity.sources)

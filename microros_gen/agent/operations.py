@@ -11,7 +11,8 @@ from types import MappingProxyType
 from microros_gen.agent.clients import Client
 from microros_gen.agent.deliveries import Deliveries
 from microros_gen.agent.entities import Entity, Outcome
-from microros_gen.agent.log import EventLog, Level
+from microros_gen.agent.history import HistoryFullError
+from microros_gen.agent.log import EventLog, Json, Level
 from microros_gen.agent.representation import Endpoint
 from microros_gen.agent.ros.bridge import BridgeError, BusyError
 from microros_gen.agent.services import ENCAPSULATION
@@ -38,6 +39,7 @@ from microros_gen.agent.wire.entity_messages import (
     Delete,
     Fragment,
     Heartbeat,
+    Representation,
     Reset,
     StatusReply,
 )
@@ -57,6 +59,8 @@ from microros_gen.agent.wire.submessages import Submessage, encode
 
 Handler = Callable[[Client, Submessage, float], "Steps[None] | None"]
 """What it returns is still to be done, step by step."""
+TOLD_AGAIN, MOST_CREDIT = 2, 262_144
+"""How often a client whose address may be forged is told what it said of an object, and how many bytes of it."""
 CALLS = (ObjectKind.REQUESTER, ObjectKind.REPLIER)
 READABLE = (ObjectKind.DATAREADER, *CALLS)
 NAMES = {
@@ -113,6 +117,7 @@ class Operations:
 
     def _create(self, client: Client, submessage: Submessage, now: float) -> Steps[None]:
         assert isinstance(submessage, Create)
+        client.credit = min(MOST_CREDIT, client.credit + TOLD_AGAIN * len(submessage.representation.body))
         stream = client.stream
         outcome = yield from client.objects.creating(submessage)
         client.stream = stream
@@ -174,7 +179,8 @@ class Operations:
 
     def not_written(self, client: Client, error: BridgeError) -> None:
         """Count a sample that ROS 2 refused."""
-        self._log.count("publish", "client {client}: {reason}", client=client.name, reason=str(error))
+        kind = "history_full" if isinstance(error, HistoryFullError) else "publish"
+        self._log.count(kind, "client {client}: {reason}", client=client.name, reason=str(error))
 
     def waits(self, client: Client, kind: str, error: BusyError) -> None:
         """Count that a reliable stream of `client` stopped for now."""
@@ -236,6 +242,8 @@ class Operations:
             client.send(client.session.unnumbered(agent_info(submessage, in_session=True)))
             return
         info = object_info(client, submessage)
+        if info.config is not None and not self._may_tell(client, info.config):
+            info = replace(info, config=None)
         entity = client.objects.find(submessage.object)
         little = entity is None or entity.representation is None or entity.representation.little
         if len(encode(info, little)) > client.session.link.room() and not is_reliable(client.stream):
@@ -244,6 +252,21 @@ class Operations:
             client.send(client.session.unnumbered(info, little))
         else:
             self._send(client, info, now, little)
+
+    def _may_tell(self, client: Client, config: object) -> bool:
+        """Return whether a client gets a configuration of this size: over UDP it may be somebody else who has to take
+        it, so not more is told than twice of what was said."""
+        if not client.transport.forgeable or not isinstance(config, Representation):
+            return True
+        size = len(config.body)
+        if size > client.credit:
+            text = (
+                "client {client} at {peer} is told the configuration of an object no more: it asks too often"
+            )
+            self._log.count("info_withheld", text, client=client.name, peer=client.place)
+            return False
+        client.credit -= size
+        return True
 
     def _acknack(self, client: Client, submessage: Submessage, now: float) -> None:
         assert isinstance(submessage, Acknack)
@@ -351,13 +374,18 @@ def tell_outcome(log: EventLog, client: Client, object_id: int, outcome: Outcome
             reason=outcome.reason,
         )
     elif outcome.entity and outcome.entity.label and outcome.status == Status.OK:
-        about = outcome.entity.description
+        about, node = outcome.entity.description, outcome.entity.node
+        more: dict[str, Json] = {"qos": str(about.qos) if isinstance(about, Endpoint) else ""}
+        if node is not None:
+            more["domain"] = node.domain
         log.emit(
             Level.INFO,
             "created",
-            "client {client}: {kind} {label}" + (" ({qos})" if isinstance(about, Endpoint) else ""),
+            "client {client}: {kind} {label}"
+            + (" ({qos})" if isinstance(about, Endpoint) else "")
+            + (" in ROS domain {domain}" if node is not None else ""),
             client=client.name,
             kind=NAMES.get(kind, kind),
             label=outcome.entity.label,
-            qos=str(about.qos) if isinstance(about, Endpoint) else "",
+            **more,
         )

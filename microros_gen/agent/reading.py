@@ -42,6 +42,8 @@ from microros_gen.agent.wire.samples import (
 if TYPE_CHECKING:
     from microros_gen.agent.clients import Client
 
+MOST_SAVED = 256
+"""Samples that are kept for a client when it is given up: to take them takes some milliseconds."""
 TURN = 64
 """Messages that one reading sends before it is somebody else's turn."""
 RETRY_S = 0.1
@@ -73,6 +75,11 @@ class Reading:
         """It waits for room on its stream."""
         self.scheduled = False
         """A moment is noted at which it goes on."""
+        self._pending: tuple[bytes, int] | None = None
+        """A DATA for which there was no room, and how many samples it has."""
+        self._raw: tuple[bytes, ...] = ()
+        """The samples of the DATA that was made last."""
+        self._keeps = entity.keeps and is_reliable(self.stream)
         self._log = log
         self._calls = entity.kind != ObjectKind.DATAREADER
         self._format = wanted.format
@@ -113,7 +120,7 @@ class Reading:
                 self._wait()
                 return None
             try:
-                submessage, count = self._next(now)
+                submessage, count = self._pending or self._next(now)
             except BridgeError as error:
                 self._log.count("take", "client {client}: {reason}", client=client.name, reason=str(error))
                 return now + RETRY_S
@@ -121,10 +128,16 @@ class Reading:
                 return None
             if not count:
                 continue
-            messages = output.push(submessage, now)
+            kept = (self.entity.id, self._raw) if self._keeps else None
+            messages = output.push(submessage, now, kept)
             if messages is None:
+                if output.may_take(len(submessage)):  # what waits for all clients takes too much now
+                    self._pending = submessage, count
+                    self._wait()
+                    return None
                 self._too_large(len(submessage))
                 continue
+            self._pending = None
             for message in messages:
                 send(message, client.address)
             self.entity.delivered += count
@@ -132,6 +145,25 @@ class Reading:
             if self._limited:
                 self._spend(len(submessage), now)
         return now
+
+    def give_back(self) -> None:
+        """Keep what was taken for a DATA for which there was no room: this reading is over, another may follow."""
+        if self._pending is not None and self._keeps:
+            self.entity.keep(self._raw, self.client.shares)
+        self._pending = None
+
+    def save(self) -> int:
+        """Keep what ROS has for a client that is given up for now; return how many there was no room for."""
+        if not self._keeps or self.source is None:
+            return 0
+        taken: list[bytes] = []
+        while len(taken) < MOST_SAVED and (sample := self._from_ros()) is not None:
+            taken.append(sample)
+        return self.entity.keep(taken, self.client.shares, behind=True)
+
+    def _put_back(self, sample: bytes) -> None:
+        self.client.shares.history.add(len(sample))
+        self.entity.kept.append(sample)
 
     def _next(self, now: float) -> tuple[bytes, int]:
         """Return the next DATA and how many samples it has; empty: ROS has nothing; 0: one was skipped."""
@@ -146,14 +178,13 @@ class Reading:
             self._heard_at = now
         if self._format:
             return self._gather(taken, now)
+        self._raw = (taken,)
         return self._data(b"", taken), 1
 
     def _take(self) -> bytes | None:
         """Return the next sample of a reader."""
-        entity = self.entity
-        if entity.held is not None:
-            held, entity.held = entity.held, None
-            return held
+        if self.entity.kept:
+            return self.entity.next_kept(self.client.shares)
         return self._from_ros()  # type: ignore[no-any-return]
 
     def _next_call(self) -> tuple[bytes, int]:
@@ -179,7 +210,7 @@ class Reading:
     def _gather(self, first: bytes, now: float) -> tuple[bytes, int]:
         """Return a DATA in one of the other formats, as full as the client's message size allows."""
         little = first[1] & FLAG_LITTLE
-        samples = [self._sample(first, 0, now)]
+        samples, raw = [self._sample(first, 0, now)], [first]
         fixed, each = overhead(self._format)
         room = self.client.session.link.room() - 8 - fixed - each - (len(first) - 4)
         while self._format in SEQUENCES and len(samples) < self._left:
@@ -189,9 +220,11 @@ class Reading:
             sample = self._sample(taken, len(samples), now)
             room -= each + len(sample.body)
             if room < 0 or taken[1] & FLAG_LITTLE != little or not packs(samples[0].info, sample.info):
-                self.entity.held = taken
+                self._put_back(taken)
                 break
             samples.append(sample)
+            raw.append(taken)
+        self._raw = tuple(raw)
         writer = Writer(bool(little))
         write_samples(writer, self._format, samples)
         body = writer.content()

@@ -89,6 +89,7 @@ class Server:
         """Nothing: `_stop` says it."""
 
     def _care(self, now: float, ready: Ready) -> None:
+        self._agent.care(now)
         for transport in self._transports:
             transport.tick(now)
         if self._waiting:
@@ -102,6 +103,7 @@ class Server:
         self._agent.close()
         for transport in self._transports:
             transport.close()
+        self._log.finish()
         faults = sum(self._log.counters.values())
         self._log.emit(
             Level.INFO,

@@ -7,7 +7,9 @@ their SampleIdentity, which comes back with the reply. What waits is bounded: th
 
 from __future__ import annotations
 
+from microros_gen.agent.budgets import CALL_BYTES
 from microros_gen.agent.entities import Entity
+from microros_gen.agent.input_pool import Holder
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.ros.bridge import Replier, Requester
 from microros_gen.agent.wire.constants import FLAG_LITTLE, ObjectKind
@@ -20,10 +22,11 @@ ENCAPSULATION = (b"\x00\x00\x00\x00", b"\x00\x01\x00\x00")
 
 
 class Calls:
-    """The open requests of a client; at most `limit` of each requester and replier."""
+    """The open requests of a client; at most `limit` of each requester and replier, and what `holder` has room for."""
 
-    def __init__(self, log: EventLog, limit: int, name: str) -> None:
+    def __init__(self, log: EventLog, limit: int, name: str, holder: Holder | None = None) -> None:
         self._log = log
+        self._holder = holder or Holder()
         self._limit = limit
         self._name = name
 
@@ -53,7 +56,9 @@ class Calls:
     def answered(self, requester: Entity, number: int) -> bytes:
         """Return the ids of the request that a reply is for; empty when nobody waits for it any more."""
         ids = requester.outstanding.pop(number, b"")
-        if not ids:
+        if ids:
+            self._count(requester)
+        else:
             self._log.count(
                 "late_reply",
                 "client {client}: a reply from {label} came for a request that nobody waits for; it was dropped",
@@ -74,20 +79,33 @@ class Calls:
                 label=entity.label,
             )
             return False
+        self._count(entity)
         replier.reply(identity, ENCAPSULATION[little] + payload[IDENTITY:])
         return True
 
     def _note(self, entity: Entity, key: bytes | int, ids: bytes) -> None:
         entity.outstanding[key] = ids
-        if len(entity.outstanding) > self._limit:
+        if len(entity.outstanding) > self._limit or not self._count(entity):
             del entity.outstanding[next(iter(entity.outstanding))]
             self._log.count(
                 "request_forgotten",
-                "client {client}: {label} has more than {limit} requests without a reply; the oldest is forgotten",
+                "client {client}: {label} has {count} requests without a reply, too many; the oldest is forgotten",
                 client=self._name,
                 label=entity.label,
-                limit=self._limit,
+                count=len(entity.outstanding) + 1,
             )
+            self._count(entity)
+
+    def _count(self, entity: Entity) -> bool:
+        """Count the open requests of an object anew; False when they would be more than the client may have."""
+        size = CALL_BYTES * len(entity.outstanding)
+        more = size - entity.calls_bytes
+        if more > 0 and not self._holder.take(more):
+            return False
+        if more < 0:
+            self._holder.add(more)
+        entity.calls_bytes = size
+        return True
 
 
 def swapped(identity: bytes) -> bytes:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from microros_gen.agent.input_pool import Holder
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.streams_in import BestEffortIn, Reassembly, ReliableIn
-from microros_gen.agent.streams_out import BestEffortOut, Link, ReliableOut
+from microros_gen.agent.streams_out import BestEffortOut, Kept, Link, ReliableOut
 from microros_gen.agent.wire.constants import (
     FLAG_LITTLE,
     INFO_ACTIVITY,
@@ -32,14 +32,18 @@ of that submessage went to ROS 2 already. What fragments made goes before the re
 class Session:
     """Session `link.session` of the client `link.key`; streams come into being when they are first used."""
 
-    def __init__(self, link: Link, limits: Limits, holder: Holder | None = None) -> None:
-        """`holder` holds what of its input is not complete, or waits."""
+    def __init__(
+        self, link: Link, limits: Limits, holder: Holder | None = None, output: Holder | None = None
+    ) -> None:
+        """`holder` holds what of its input is not complete, or waits; `output` what the client has not acknowledged."""
         self._limits = limits
         self._holder = holder or Holder()
+        self._output = output or Holder()
         self._open(link)
 
     def _open(self, link: Link) -> None:
         self._holder.clear()
+        self._output.clear()
         self.link = link
         self._best_effort_in: dict[int, BestEffortIn] = {}
         self._reliable_in: dict[int, ReliableIn] = {}
@@ -72,6 +76,11 @@ class Session:
         if not reliable.stopped:
             self._drop_unfinished(heartbeat.stream)  # given up by the client
         return ready
+
+    @property
+    def held(self) -> int:
+        """Bytes of input that are not complete, or wait."""
+        return self._holder.held
 
     @property
     def stopped(self) -> bool:
@@ -172,6 +181,16 @@ class Session:
         due = (output.heartbeat(now) for output in self._outputs.values())
         return [self.unnumbered(heartbeat) for heartbeat in due if heartbeat]
 
+    def undelivered(self) -> list[Kept]:
+        """Return what was sent, or waits to be sent, on reliable streams and is not acknowledged."""
+        streams = (output for output in self._outputs.values() if isinstance(output, ReliableOut))
+        return [kept for stream in streams for kept in stream.undelivered()]
+
+    def repeated_part(self) -> float:
+        """Return which part of the reliable messages to the client are repetitions, by the stream with most of them."""
+        streams = (output for output in self._outputs.values() if isinstance(output, ReliableOut))
+        return max((stream.repeated_part() for stream in streams), default=0.0)
+
     def probe(self) -> bytes:
         """Return a message that makes a client answer: HEARTBEAT on a reliable stream, else GET_INFO."""
         if self._reliable_in or any(isinstance(o, ReliableOut) for o in self._outputs.values()):
@@ -183,7 +202,7 @@ class Session:
     def _open_output(self, stream: int) -> BestEffortOut | ReliableOut:
         limits = self._limits
         self._outputs[stream] = (
-            ReliableOut(self.link, stream, limits.backlog_bytes, limits.message_bytes)
+            ReliableOut(self.link, stream, limits.backlog_bytes, limits.message_bytes, self._output)
             if is_reliable(stream)
             else BestEffortOut(self.link, stream)
         )

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections import deque
 from dataclasses import dataclass
 
+from microros_gen.agent.input_pool import Holder
 from microros_gen.agent.streams_in import HALF
 from microros_gen.agent.wire.constants import FLAG_LAST_FRAGMENT, FLAG_LITTLE, RELIABLE_WINDOW, SubmessageId
 from microros_gen.agent.wire.entity_messages import Heartbeat
@@ -17,8 +18,15 @@ SILENT_PERIOD_S, SLOW_PERIOD_S = 1.0, 5.0
 """The same at most: where the client is silent, and where its answers take long."""
 
 NEVER = float("-inf")
+STEP_BYTES = 4_096
+"""What a stream may have without asking: that is shared by all clients."""
+MANY = 512
+"""Messages after which it is counted anew how many of them are sent again."""
 REPEAT_S = 0.01
 """Seconds in which a message is not sent again a second time."""
+
+Kept = tuple[int, tuple[bytes, ...]]
+"""Which object's samples a submessage has, and the samples: it is known by them until all of it is acknowledged."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +59,11 @@ class BestEffortOut:
         """Return whether a submessage can be taken: always."""
         return True
 
-    def push(self, submessage: bytes, now: float = 0.0) -> list[bytes] | None:
+    def may_take(self, size: int) -> bool:
+        """Return whether a submessage of `size` bytes is not too large."""
+        return size <= self._room
+
+    def push(self, submessage: bytes, now: float = 0.0, kept: Kept | None = None) -> list[bytes] | None:
         """Return the message that carries `submessage`, or None when it does not fit one message."""
         if len(submessage) > self._room:
             return None
@@ -74,12 +86,22 @@ class ReliableOut:
     A submessage of up to `largest` bytes is taken nevertheless when nothing waits.
     """
 
-    def __init__(self, link: Link, stream: int, backlog_bytes: int, largest: int = 0) -> None:
+    def __init__(
+        self, link: Link, stream: int, backlog_bytes: int, largest: int = 0, holder: Holder | None = None
+    ) -> None:
+        """`holder` says whether there is room among all clients; one submessage may wait in any case."""
+        self._holder = holder or Holder()
+        self._bytes = 0
+        """What is in the window and the backlog, with the samples in it; the holder counts `_told` of it."""
+        self._told = 0
         self._link = link
+        self._head = len(link.header(0, 0))
         self.stream = stream
         self._sequence = 0
         self._unacknowledged: deque[bytes] = deque()
         self._backlog: deque[bytes] = deque()
+        self._kept: deque[tuple[int, Kept, int]] = deque()
+        """Each with how many messages were numbered when its last one was, and its bytes."""
         self._backlog_bytes = 0
         self._backlog_limit = backlog_bytes
         self._largest = max(largest, backlog_bytes)
@@ -89,23 +111,51 @@ class ReliableOut:
         self._timed: tuple[int, float] | None = None
         """The number and moment of a message whose acknowledgement will say how long a round trip takes."""
         self._progress_at = 0.0
+        self._numbered = 0
+        """Messages that were sent, and of recent ones how many again."""
+        self._recent = 0
+        self._again = 0
         self._repeated: dict[int, float] = {}
         """When messages of the window were sent again."""
 
     def has_room(self) -> bool:
         """Return whether the next submessage, if it fits one message, would go out at once."""
-        return not self._backlog and len(self._unacknowledged) < RELIABLE_WINDOW
+        if self._backlog or len(self._unacknowledged) >= RELIABLE_WINDOW:
+            return False
+        return self._bytes < STEP_BYTES or self._holder.has_room(STEP_BYTES)
 
-    def push(self, submessage: bytes, now: float) -> list[bytes] | None:
-        """Take a submessage of any size; return the messages to send now, None when there is no room."""
+    def may_take(self, size: int) -> bool:
+        """Return whether a submessage of `size` bytes is not too large, if it may be taken now or not."""
+        return size <= self._largest
+
+    def push(self, submessage: bytes, now: float, kept: Kept | None = None) -> list[bytes] | None:
+        """Take a submessage of any size; return the messages to send now, None when there is no room.
+
+        `kept` is what `undelivered` returns until the client has acknowledged all of it.
+        """
         size = len(submessage)
+        if self._bytes + size > STEP_BYTES and self._bytes and not self._holder.has_room(size):
+            return None
         if size <= self._room and not self._backlog and len(self._unacknowledged) < RELIABLE_WINDOW:
-            return [self._number(submessage, now)]
+            message = self._number(submessage, now)
+            if kept is not None:
+                self._kept.append((self._numbered, kept, size))
+                size += size
+            self._bytes += size
+            if self._bytes - self._told >= STEP_BYTES:
+                self._tell()
+            return [message]
         if self._backlog_bytes + size > (self._backlog_limit if self._backlog else self._largest):
             return None
         pieces = self._fragments(submessage) if size > self._room else [submessage]
+        taken = sum(map(len, pieces))
         self._backlog.extend(pieces)
-        self._backlog_bytes += sum(map(len, pieces))
+        self._backlog_bytes += taken
+        if kept is not None:
+            self._kept.append((self._numbered + len(self._backlog), kept, size))
+            taken += size
+        self._bytes += taken
+        self._tell()
         return self._release(now)
 
     def acknowledge(self, first: int, missing: int, now: float) -> list[bytes]:
@@ -113,9 +163,17 @@ class ReliableOut:
         done = (first - self._first()) & 0xFFFF
         if done > len(self._unacknowledged):
             return []  # older than what is known, or never sent
-        for _ in range(done):
-            self._unacknowledged.popleft()
         if done:
+            unacknowledged, kept = self._unacknowledged, self._kept
+            size = -done * self._head
+            for _ in range(done):
+                size += len(unacknowledged.popleft())
+            arrived = self._numbered - len(unacknowledged)
+            while kept and kept[0][0] <= arrived:
+                size += kept.popleft()[2]
+            self._bytes -= size
+            if self._told - self._bytes >= STEP_BYTES:
+                self._tell()
             self._went_on(first, now)
         again = self._repeat(first, missing, now) if missing else []
         return again + self._release(now)
@@ -145,7 +203,17 @@ class ReliableOut:
                 before = now
             repeated[sequence] = before
         self._repeated = repeated
+        self._again += len(again)
         return again
+
+    def repeated_part(self) -> float:
+        """Return which part of what was sent of late was sent again; a few messages say nothing."""
+        sent = self._numbered - self._recent + self._again
+        part = self._again / sent if sent >= RELIABLE_WINDOW else 0.0
+        if sent >= MANY:  # what was long ago counts less
+            self._recent += (self._numbered - self._recent) // 2
+            self._again //= 2
+        return part
 
     def heartbeat(self, now: float) -> Heartbeat | None:
         """Return the HEARTBEAT that is due at `now` (seconds, monotonic), if one is."""
@@ -165,6 +233,15 @@ class ReliableOut:
         """Return the sequence number before the first message that is not acknowledged."""
         return (self._first() - 1) & 0xFFFF
 
+    def undelivered(self) -> list[Kept]:
+        """Return what the client has not acknowledged, or not all of it, in order."""
+        return [kept for _, kept, _ in self._kept]
+
+    def _tell(self) -> None:
+        """Tell the holder what is here: in steps, as this changes with each message."""
+        self._holder.add(self._bytes - self._told)
+        self._told = self._bytes
+
     def _release(self, now: float) -> list[bytes]:
         released = []
         while self._backlog and len(self._unacknowledged) < RELIABLE_WINDOW:
@@ -181,6 +258,7 @@ class ReliableOut:
             self._heartbeat_at = now + self._pause()
         if self._timed is None:
             self._timed = (self._sequence - 1) & 0xFFFF, now
+        self._numbered += 1
         self._unacknowledged.append(message)
         return message
 

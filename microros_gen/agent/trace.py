@@ -29,6 +29,7 @@ class TracedTransport:
         self._inner = inner
         self._log = log
         self.label = inner.label
+        self.forgeable = inner.forgeable
         self.fileno = inner.fileno
         self.name_of = inner.name_of
         self.tick = inner.tick

@@ -13,11 +13,14 @@ from typing import Any
 
 import click
 
+from microros_gen.agent.budgets import Budgets, most_bytes
 from microros_gen.agent.core import Agent
 from microros_gen.agent.fairness import Account, Fairness
 from microros_gen.agent.input_pool import InputPool
+from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.manifests import Manifests
+from microros_gen.agent.memory import MemoryGuard
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.readiness import notify
 from microros_gen.agent.representation import References
@@ -41,7 +44,7 @@ def serve(options: AgentOptions) -> None:
     _check_system()
     files = _files(options)
     as_json = options.log_format == "json"
-    log = EventLog(sys.stderr, as_json, options.verbose)
+    log = EventLog(sys.stderr, as_json, options.verbose, bytes_per_second=options.limits.log_bytes_per_second)
     for name in files.hashes.differences(files.clients):
         text = (
             "{type}: its definition on this machine is not the one that a client was generated with; ROS 2 nodes that"
@@ -49,8 +52,10 @@ def serve(options: AgentOptions) -> None:
         )
         log.emit(Level.WARNING, "type_hash_differs", text, type=name)
     limits = options.limits
-    pool = InputPool(limits.input_bytes, limits.clients + connections(options.transports))
-    shared = Shared(pool, Fairness(), Account())
+    streams = connections(options.transports)
+    check_memory(limits)
+    pool, budgets = InputPool(limits.input_bytes, limits.clients + streams), Budgets(limits, streams)
+    shared = Shared(pool, budgets.output, Fairness(), Account())
     transports = open_transports(options.transports, options.discovery, log, shared)
     try:
         report, wait_s = graph_reporter(log), limits.request_wait_s
@@ -69,7 +74,10 @@ def serve(options: AgentOptions) -> None:
         pool=pool,
         fair=shared.fair,
         strangers=shared.strangers,
+        memory=MemoryGuard(limits.memory_bytes, trim=bridge.trim),
+        budgets=budgets,
     )
+    _tell_memory(log, limits)
     if options.verbose:
         transports = [TracedTransport(transport, log) for transport in transports]
     told = ", ".join(f"{name} {value:g}" for name, value in asdict(limits).items())
@@ -83,15 +91,41 @@ def serve(options: AgentOptions) -> None:
         server.run(lambda transport: _announce(announcements, transport), time.monotonic)
 
 
+def check_memory(limits: Limits) -> None:
+    """Raise UserError when the pools do not fit the memory that the agent may take."""
+    wanted = most_bytes(limits)
+    if wanted > limits.memory_bytes:
+        message = f"the limits allow {wanted} bytes together, and memory_bytes {limits.memory_bytes}"
+        pools = "history_bytes, object_bytes, input_bytes, output_bytes or call_bytes"
+        raise UserError([Diagnostic(message, hint=f"Lower {pools}, or set memory_bytes: {wanted}")])
+
+
+def _tell_memory(log: EventLog, limits: Limits) -> None:
+    text = (
+        "memory: at most {limit} MiB, of them for clients {history} of histories, {objects} of objects, {input} of"
+        " input, {output} of output, {calls} of open requests (limits: memory_bytes, …)"
+    )
+    mib = {
+        "limit": limits.memory_bytes,
+        "history": limits.history_bytes,
+        "objects": limits.object_bytes,
+        "input": limits.input_bytes,
+        "output": limits.output_bytes,
+        "calls": limits.call_bytes,
+    }
+    log.emit(Level.INFO, "memory", text, **{name: round(size / (1 << 20), 1) for name, size in mib.items()})
+
+
 @dataclass(frozen=True)
 class Shared:
     """What the agent and its transports have in common.
 
-    What all hold of messages that are not complete counts in `pool`; `fair` says whose turn it is; `strangers` pays for
-    who has no session.
+    What all hold of messages that are not complete counts in `pool`, what waits to be sent in `output`; `fair` says
+    whose turn it is; `strangers` pays for who has no session.
     """
 
     pool: InputPool
+    output: InputPool
     fair: Fairness
     strangers: Account
 
@@ -140,7 +174,17 @@ def _open(choice: TransportChoice, log: EventLog, shared: Shared) -> Transport:
         return Udp(protocol, host, choice.port, shared.fair, shared.strangers)
     limits: dict[str, Any] = dict(choice.limits)
     tcp_limits = replace(TcpLimits(), **limits)
-    return Tcp(protocol, host, choice.port, log, tcp_limits, shared.pool, shared.fair, shared.strangers)
+    return Tcp(
+        protocol,
+        host,
+        choice.port,
+        log,
+        tcp_limits,
+        shared.pool,
+        shared.output,
+        shared.fair,
+        shared.strangers,
+    )
 
 
 def _discovery(opened: Sequence[Transport], log: EventLog, port: int) -> Transport:

@@ -23,7 +23,7 @@ from microros_gen.parse.yaml_tree import YamlNode, parse_yaml
 
 SCHEMA = "agent.schema.json"
 DISCOVERY_PORT = 7400
-_TCP_LIMITS = ("connections", "output_bytes", "patience_s")
+_TCP_LIMITS = ("connections", "connections_per_host", "output_bytes", "patience_s")
 
 
 @reads

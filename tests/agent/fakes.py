@@ -40,6 +40,9 @@ class FakeWriter:
             self.bridge.room -= 1
         self.bridge.published.append((self.label, serialized))
 
+    def settled(self) -> bool:
+        return self.bridge.settled
+
     def destroy(self) -> None:
         self.bridge.graph.remove(self.label)
 
@@ -67,6 +70,9 @@ class FakeSource:
             return self.waiting.popleft()
         self.idle = True
         return None
+
+    def unread(self) -> int:
+        return len(self.waiting)
 
     def destroy(self) -> None:
         self.bridge.graph.remove(self.label)
@@ -106,6 +112,7 @@ SERVICE_TYPE = re.compile(r"([a-z0-9_]+)::srv::dds_::([A-Za-z0-9]+)_Request_")
 class FakeNode:
     bridge: FakeBridge
     label: str
+    domain: int = 0
 
     def create_writer(self, topic: Topic, qos: Qos) -> FakeWriter:
         return FakeWriter(self.bridge, self._topic(topic), qos)
@@ -151,7 +158,10 @@ class FakeBridge:
     named: list[FakeSource] = field(default_factory=list)
     hashes: list[HashOf | None] = field(default_factory=list)
     closed: bool = False
+    trimmed: int = 0
     descriptor: int = -1
+    settled: bool = True
+    """Whether readers have everything that was published."""
     room: int | None = None
     """How many samples its writers take before they are full; None: any number."""
 
@@ -160,7 +170,7 @@ class FakeBridge:
         self.hashes.append(hash_of)
         label = f"{domain}:{namespace.rstrip('/')}/{node}"
         self.graph.append(label)
-        return FakeNode(self, label)
+        return FakeNode(self, label, domain)
 
     def source(self, label: str) -> Any:
         """Return the source with a label."""
@@ -183,6 +193,9 @@ class FakeBridge:
             os.eventfd_read(self.descriptor)
         return list(named)
 
+    def trim(self) -> None:
+        self.trimmed += 1
+
     def close(self) -> None:
         self.closed = True
         if self.descriptor >= 0:
@@ -195,6 +208,7 @@ class FakeTransport:
     label: str = "fake"
     writing: bool = False
     ready: bool = True
+    forgeable: bool = False
 
     def tick(self, now: float) -> None:
         """Time brings nothing."""

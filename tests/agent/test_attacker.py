@@ -23,7 +23,7 @@ from agent.test_core import entities, message
 from agent.test_core_reading import FOREVER, reader_entities, sample
 from agent.test_core_storm import services
 from microros_gen.agent.limits import Limits
-from microros_gen.agent.log import BURST, EventLog, Level
+from microros_gen.agent.log import BURST, BYTES_AT_ONCE, BYTES_PER_SECOND, EventLog, Level
 from microros_gen.agent.objects import LARGEST_REPRESENTATION
 from microros_gen.agent.wire.cdr import MOST_ELEMENTS
 from microros_gen.agent.wire.constants import Format
@@ -523,10 +523,35 @@ def test_memory_stays_where_it_is() -> None:
 
 def test_the_log_is_bounded_and_says_so(stage: Stage) -> None:
     """A line for each refusal would fill disks, and hold up the agent where nobody reads."""
+    for number in range(3 * BURST):
+        stage.say(ReadData(1, 0x1000 + number, 0x80), stream=0)
+    refused = stage.bench.text.getvalue().count("reading from 0x")
+    assert BURST <= refused < 3 * BURST
+
+
+def test_a_refusal_that_is_repeated_is_counted(stage: Stage) -> None:
     for _ in range(3 * BURST):
         stage.say(Delete(1, 0x99), ReadData(1, 0x99, 0x80), stream=0)
-    refused = stage.bench.text.getvalue().count("reading from 0x0099 refused")
-    assert BURST <= refused < 3 * BURST
+    stage.say(ReadData(1, 0x98, 0x80), stream=0)
+    lines = [line for line in stage.bench.text.getvalue().splitlines() if "reading from" in line]
+    assert lines[0] == lines[1] == lines[2]
+    assert lines[3] == f"{lines[0]} … repeated {3 * BURST - 3} times"
+    assert "0x0098" in lines[4]
+
+
+def test_lines_are_short_and_not_too_many_bytes() -> None:
+    """S8: refused CREATEs with filters of 60 kB, all different, were 14.5 MB/s of log."""
+    out, moment = io.StringIO(), [0.0]
+    log = EventLog(out, clock=lambda: moment[0])
+    for number in range(20_000):
+        moment[0] += 0.001
+        for event in ("create_refused", "read_refused"):
+            log.emit(Level.WARNING, event, "refused: {reason}", reason=f"{number} " + "x" * 60_000)
+    assert max(map(len, out.getvalue().splitlines())) < 500
+    assert len(out.getvalue()) < BYTES_AT_ONCE + 20 * BYTES_PER_SECOND + 10_000
+    assert f"x… ({60_000 + len('0 ')} characters) …x" in out.getvalue().splitlines()[0]
+    log.emit(Level.INFO, "stopped", "the last words are said")
+    assert "the last words are said" in out.getvalue()
 
 
 def test_what_was_withheld_is_told() -> None:

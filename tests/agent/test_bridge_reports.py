@@ -22,6 +22,7 @@ from microros_gen.agent.ros.bridge import (
     Matched,
     NoClient,
     NoServer,
+    OtherDomain,
     ServerFound,
     TypeMismatch,
 )
@@ -141,3 +142,16 @@ def test_reports_in_the_log(told: Any, level: str, event: str) -> None:
     out = io.StringIO()
     graph_reporter(EventLog(out))(told)
     assert out.getvalue() == {"debug": "", "info": f"{told}\n"}.get(level, f"{level}: {told}\n")
+
+
+def test_a_domain_that_is_not_the_shells_is_told_once(bridged: Bridged) -> None:
+    """A client of domain 0 where ROS_DOMAIN_ID is another: nothing is wrong, and `ros2` sees nothing of it."""
+    other = bridged.domain % 100 + 101
+    nodes = [bridged.bridge.create_node(f"elsewhere_{n}", other) for n in range(2)]
+    own = bridged.bridge.create_node("here", bridged.domain)
+    assert [node.domain for node in (*nodes, own)] == [other, other, bridged.domain]
+    told = [report for report in bridged.reports if isinstance(report, OtherDomain)]
+    assert told == [OtherDomain("/elsewhere_0", other, bridged.domain)]
+    assert f"Start the agent with --domain {bridged.domain}" in str(told[0])
+    for node in (*nodes, own):
+        node.destroy()

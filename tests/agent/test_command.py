@@ -51,6 +51,7 @@ def test_json_events() -> None:
     with running_agent(DOMAIN, "--log-format", "json") as agent, XrceClient(agent.port) as client:
         assert json.loads(agent.log[-1])["address"] == f"127.0.0.1:{agent.port}"
         client.connect()
+        client.ping()
         event = json.loads(agent.wait_for("client_connected"))
         assert (event["client"], event["level"]) == ("A1B2C3D4", "info")
         client.socket.send(b"x")

@@ -74,6 +74,7 @@ def test_a_configuration_file(tmp_path: Path) -> None:
         assert json.loads(agent.wait_for('"ready"'))["address"] == f"{GROUP}:{port}"
         with XrceClient(agent.port) as client, XrceClient(agent.port, key=2) as other:
             assert client.connect() == 0
+            assert client.ping() == 1
             assert other.connect() == 0x87  # RESOURCES: the file allows one
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asker:
             asker.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton("127.0.0.1"))

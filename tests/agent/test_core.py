@@ -582,7 +582,7 @@ def test_what_a_person_reads() -> None:
     bench.say("81 01 04 00 01 01 10 00 00 0c 00 23 03 03 00 00 02 00 00 00 00 00 00 21")
     assert bench.text.getvalue().splitlines() == [
         "client A1B2C3D4 connected from a (session 0x81, MTU 508)",
-        "client A1B2C3D4: node 0:/a",
+        "client A1B2C3D4: node 0:/a in ROS domain 0",
         "client A1B2C3D4: publisher /a [std_msgs/msg/Int32] (reliable, volatile, keep_last 10)",
         "warning: client A1B2C3D4: publisher 0x0023 refused (UNKNOWN_REFERENCE): "
         "the client has no participant 0x002",

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from agent import captured
@@ -246,3 +248,21 @@ def test_nothing_is_read_by_one_that_sleeps_for_good() -> None:
     assert bench.bridge.graph == []
     assert bench.agent._deliveries._by_source == {}
     assert GRAPH[0] not in bench.bridge.graph
+
+
+def test_the_domain_of_a_node_is_told() -> None:
+    bench = connected()
+    bench.say(message(replace(entities()[0], domain=7), stream=0))
+    assert "client A1B2C3D4: node 7:/a in ROS domain 7" in bench.text.getvalue()
+
+
+def test_clients_of_an_agent_before_this_one_are_not_called_malformed() -> None:
+    """After a restart they go on sending, until they notice."""
+    bench = Bench()
+    for sequence in range(5):
+        assert bench.say(message(WriteData(1, 0x15, b"1234"), stream=0x80, sequence=sequence)) == []
+    (line,) = bench.text.getvalue().splitlines()
+    assert "it is of a session that this agent does not know (WRITE_DATA without a session)" in line
+    assert "perhaps of the agent before this one" in line
+    assert "malformed" not in line
+    assert bench.log.counters == {"no_session": 5}

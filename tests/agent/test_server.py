@@ -78,6 +78,9 @@ class Recorder:
     def flush(self) -> None:
         self.turns += 1
 
+    def care(self, now: float) -> None:
+        """There is memory."""
+
     def tick(self) -> None:
         self.note("tick")
         self.wanted = None

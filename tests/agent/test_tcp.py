@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import itertools
 import random
@@ -21,7 +22,7 @@ from agent.served import Served, wait_until
 from agent.tcp_link import TcpLink
 from microros_gen.agent.framing import LengthDecoder
 from microros_gen.agent.transport.sockets import PROTOCOLS, TCP4, TCP6, UDP4, Protocol
-from microros_gen.agent.transport.tcp import Connection, Tcp, TcpLimits
+from microros_gen.agent.transport.tcp import Connection, Tcp, TcpLimits, host_of
 from microros_gen.agent.transport.udp import Udp
 from microros_gen.diagnostics import UserError
 
@@ -265,6 +266,63 @@ def test_a_flood_of_connections() -> None:
         assert served.count("tcp_refused") >= 1
         for each in flood:
             each.close()
+
+
+def from_host(host: str, transport: Tcp) -> socket.socket:
+    """Return a connection from an address of this machine."""
+    return socket.create_connection(("127.0.0.1", transport.port), timeout=10, source_address=(host, 0))
+
+
+def test_half_open_connections_keep_nobody_waiting() -> None:
+    """S7: 500 that say nothing or nonsense, opened anew when they are closed; a new client is served at once."""
+    bench = Bench()
+    transport = tcp(bench, connections=64, connections_per_host=32)
+    with Served(transport, bench=bench) as served:
+        before = XrceClient(TcpLink("127.0.0.1", transport.port))  # type: ignore[arg-type]
+        served.publish(before, range(3))
+        flood = [from_host("127.0.0.2", transport) for _ in range(500)]
+        for each in flood[::2]:
+            with contextlib.suppress(OSError):
+                each.sendall(b"\x04\x00\x81\x80\x00\x00")
+        began = time.monotonic()
+        for number in range(5):
+            client = XrceClient(TcpLink("127.0.0.1", transport.port), key=10 + number)  # type: ignore[arg-type]
+            served.publish(client, range(3))
+        assert time.monotonic() - began < 5.0
+        assert len(transport) <= 32 + 6
+        assert before.ping() == 1
+        for each in flood:
+            each.close()
+
+
+def test_a_host_that_has_all_that_it_may_displaces_its_own() -> None:
+    bench = Bench()
+    transport = tcp(bench, connections=8, connections_per_host=4)
+    with Served(transport, bench=bench) as served:
+        links = [TcpLink("127.0.0.1", transport.port) for _ in range(4)]
+        for link in links:
+            link.send(CREATE_CLIENT)
+            assert link.recv(0) == STATUS_AGENT
+        refused = TcpLink("127.0.0.1", transport.port)
+        with pytest.raises(ConnectionError):
+            refused.recv(0)
+        assert served.count("tcp_refused") == 1
+        with from_host("127.0.0.2", transport):
+            wait_until(lambda: len(transport) == 5, "another host has its own")
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "same"),
+    [
+        ("127.0.0.1", "127.0.0.2", False),
+        ("10.0.0.1", "10.0.0.1", True),
+        ("fd00::1", "fd00::2", True),
+        ("fd00::1", "fd00:0:0:1::1", False),
+        ("fe80::1%eth0", "fe80::2%eth0", True),
+    ],
+)
+def test_what_a_host_is(first: str, second: str, same: bool) -> None:
+    assert (host_of(first) == host_of(second)) == same
 
 
 def test_no_descriptors_left(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -109,6 +109,22 @@ class HashUnknown:
 
 
 @dataclass(frozen=True)
+class OtherDomain:
+    """A client asked for another ROS domain than that of the agent's shell. Told once for each domain."""
+
+    node: str
+    domain: int
+    own: int
+
+    def __str__(self) -> str:
+        return (
+            f"node {self.node} is in ROS domain {self.domain}, as its client asks, and ROS_DOMAIN_ID is {self.own}"
+            f" here: programs of domain {self.own} do not see it. Start the agent with --domain {self.own} to have all"
+            f" clients there, or say `domain_id: {self.own}` at the node in the application file of the client"
+        )
+
+
+@dataclass(frozen=True)
 class NoServer:
     """A request was dropped; `lost`: how many were since the service was last there."""
 
@@ -152,7 +168,15 @@ class NoClient:
 
 
 GraphReport = (
-    NoServer | ServerFound | NoClient | Matched | Incompatible | HashMismatch | TypeMismatch | HashUnknown
+    NoServer
+    | ServerFound
+    | NoClient
+    | Matched
+    | Incompatible
+    | HashMismatch
+    | TypeMismatch
+    | HashUnknown
+    | OtherDomain
 )
 """What a bridge tells about the ROS graph, from within `ready` and when an entity is made; its text is for people."""
 
@@ -171,6 +195,9 @@ class Writer(Protocol):
         asking DDS. BridgeError when it never will be.
         """
 
+    def settled(self) -> bool:
+        """Return whether all readers have acknowledged everything, now."""
+
     def destroy(self) -> None:
         """Leave the ROS graph; nothing else is called afterwards."""
 
@@ -185,6 +212,9 @@ class Source(Protocol):
     @property
     def label(self) -> str:
         """Names and types on the ROS side, for the log."""
+
+    def unread(self) -> int:
+        """Return about how many have come since it was last seen empty; to be asked seldom."""
 
     def destroy(self) -> None:
         """Leave the ROS graph; nothing else is called afterwards."""
@@ -231,6 +261,10 @@ class Node(Protocol):
     def label(self) -> str:
         """Fully qualified name, for the log."""
 
+    @property
+    def domain(self) -> int:
+        """ROS domain that it is in."""
+
     def create_writer(self, topic: Topic, qos: Qos) -> Writer:
         """Create a publisher; BridgeError when names or type are not possible."""
 
@@ -261,6 +295,9 @@ class Bridge(Protocol):
 
     def ready(self) -> list[Source]:
         """Return the sources that got something since they were last named here, each once. Never waits."""
+
+    def trim(self) -> None:
+        """Give memory that is free back to the system; takes some milliseconds."""
 
     def close(self) -> None:
         """Give everything back; nodes are destroyed before."""

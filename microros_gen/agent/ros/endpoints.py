@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import time
 from collections.abc import Callable
@@ -68,10 +69,13 @@ class Entity:
 class RawWriter(Entity):
     """See Writer."""
 
-    def __init__(self, handle: Any, events: Events, endpoints: tuple[Endpoint, ...], keeps_all: bool) -> None:
+    def __init__(
+        self, handle: Any, ros: Ros, events: Events, endpoints: tuple[Endpoint, ...], keeps_all: bool
+    ) -> None:
         """`keeps_all`: it waits for its readers (reliable, KEEP_ALL): then DDS may have no room for a sample."""
         super().__init__(handle, events, endpoints)
         self._publish = handle.publish_raw
+        self._libraries = ros.libraries
         self._keeps_all = keeps_all
         self._full_s = 0.0
         """How long DDS is not asked again; 0: it took the last sample."""
@@ -94,6 +98,13 @@ class RawWriter(Entity):
     def _busy(self) -> BusyError:
         return BusyError(f"{self.label}: a reader does not take what it was sent, and DDS is full")
 
+    def settled(self) -> bool:
+        """See Writer."""
+        if self._libraries.all_acknowledged(self._handle.pointer, 0) == OK:
+            return True
+        self._libraries.error()  # forget it: it only says that time is over
+        return False
+
 
 class RawSource(Entity):
     """What ROS 2 wakes up the agent for, until it is destroyed."""
@@ -101,6 +112,9 @@ class RawSource(Entity):
     def __init__(
         self, handle: Any, ros: Ros, notify: Notify, events: Events, endpoints: tuple[Endpoint, ...]
     ) -> None:
+        self._empty = True
+        """It was seen empty since it was last asked what is unread."""
+        self._arrived = 0
         self._pointer: int = handle.pointer
         self._libraries = ros.libraries
         self._wakeups = ros.wakeups
@@ -118,6 +132,15 @@ class RawSource(Entity):
         descriptor, self._descriptor = self._descriptor, -1
         super()._leave()
         self._wakeups.remove(descriptor)
+
+    def unread(self) -> int:
+        """See Source."""
+        if self._empty:
+            self._empty, self._arrived = False, 0
+        if self._descriptor >= 0:
+            with contextlib.suppress(BlockingIOError):
+                self._arrived += os.eventfd_read(self._descriptor)
+        return self._arrived
 
     def failed(self, doing: str) -> BridgeError:
         """Return the error that ROS 2 gave while `doing` something."""
@@ -141,5 +164,6 @@ class RawReader(RawSource):
         if result == OK:
             return new_bytes(self._message.buffer, self._message.length)
         if result == SUBSCRIPTION_TAKE_FAILED:
+            self._empty = True
             return None
         raise self.failed("take")

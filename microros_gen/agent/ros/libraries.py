@@ -107,6 +107,7 @@ class Libraries:
         self.send_response = _function(
             rcl, "rcl_send_response", c_int, c_void_p, POINTER(RequestId), c_void_p
         )
+        self.all_acknowledged = _function(rcl, "rcl_publisher_wait_for_all_acked", c_int, c_void_p, c_int64)
         notify = (c_int, c_void_p, c_void_p, c_void_p)
         self.notify_subscription = _function(rcl, "rcl_subscription_set_on_new_message_callback", *notify)
         self.notify_service = _function(rcl, "rcl_service_set_on_new_request_callback", *notify)

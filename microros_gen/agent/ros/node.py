@@ -40,6 +40,7 @@ class RawNode:
         hash_of: HashOf,
         comparison: Comparison,
         patience: Patience,
+        domain: int,
         topics: TopicTypes,
         leave: Callable[[], None],
     ) -> None:
@@ -50,13 +51,16 @@ class RawNode:
         self._leave = leave
         self._events = Events(handles, handle, ros.wakeups, ros.libraries, comparison, topics, ros.report)
         self._patience = patience
+        self.domain = domain
         self.label: str = handle.get_fully_qualified_name()
 
     def create_writer(self, topic: Topic, qos: Qos) -> Writer:
         """See Node."""
         handle, endpoints = self._create_topic("publisher", self._handles.Publisher, topic, qos)
         keeps_all = qos.reliable and not qos.keep_last
-        return self._attach(handle, endpoints, lambda: RawWriter(handle, self._events, endpoints, keeps_all))
+        return self._attach(
+            handle, endpoints, lambda: RawWriter(handle, self._ros, self._events, endpoints, keeps_all)
+        )
 
     def create_reader(self, topic: Topic, qos: Qos) -> Reader:
         """See Node."""

@@ -15,7 +15,16 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from microros_gen.agent.ros.bridge import Bridge, BridgeError, GraphReport, HashOf, HashUnknown, Node, Source
+from microros_gen.agent.ros.bridge import (
+    Bridge,
+    BridgeError,
+    GraphReport,
+    HashOf,
+    HashUnknown,
+    Node,
+    OtherDomain,
+    Source,
+)
 from microros_gen.agent.ros.endpoints import Ros
 from microros_gen.agent.ros.graph import Comparison, TopicTypes
 from microros_gen.agent.ros.libraries import FAILURES, INSTALL, first_line
@@ -111,6 +120,7 @@ class RclpyBridge:
         self._maximum_domains = maximum_domains
         self._contexts: dict[int, _Context] = {}
         self._without_hash: set[str] = set()
+        self._told_domains: set[int] = set()
         self._left = 0
         self._trimmed_at = time.monotonic()
 
@@ -125,6 +135,7 @@ class RclpyBridge:
         except FAILURES as error:
             raise BridgeError(f"node '{name}': {first_line(error)}") from error
         context.nodes += 1
+        self._tell_domain(handle.get_fully_qualified_name(), context.domain)
 
         def known_hash(type_name: str) -> str | None:
             return self._known_hash(type_name, hash_of)
@@ -136,9 +147,18 @@ class RclpyBridge:
             known_hash,
             self._comparison,
             self._patience,
+            context.domain,
             context.topics,
             partial(self._leave, context),
         )
+
+    def _tell_domain(self, node: str, domain: int) -> None:
+        """Tell once of each domain that is not the one of this shell, unless somebody chose it for all clients."""
+        own = _own_domain()
+        set_here = bool(os.environ.get("ROS_DOMAIN_ID", "").strip())
+        if self._domain is None and set_here and domain != own and domain not in self._told_domains:
+            self._told_domains.add(domain)
+            self._ros.report(OtherDomain(node, domain, own))
 
     def fileno(self) -> int:
         """See Bridge."""
@@ -154,6 +174,10 @@ class RclpyBridge:
                 sources.append(woken)
         return sources
 
+    def trim(self) -> None:
+        """See Bridge."""
+        self._ros.libraries.trim_heap(0)
+
     def close(self) -> None:
         """See Bridge."""
         for context in self._contexts.values():
@@ -166,7 +190,7 @@ class RclpyBridge:
         self._left += 1
         if self._left >= TRIM_AFTER and time.monotonic() >= self._trimmed_at + TRIM_EVERY_S:
             self._left, self._trimmed_at = 0, time.monotonic()
-            self._ros.libraries.trim_heap(0)
+            self.trim()
 
     def _known_hash(self, type_name: str, hash_of: HashOf | None) -> str | None:
         """Return a type's hash: by the client's manifest, else by the interface files; None is told once."""
@@ -207,6 +231,7 @@ class _Context:
     def __init__(self, handles: Any, domain: int) -> None:
         context_class = importlib.import_module("rclpy.context").Context
         self._context = context_class()
+        self.domain = domain
         self.nodes = 0
         self.topics = TopicTypes()
         try:

@@ -15,6 +15,7 @@ from microros_gen.agent.ros.bridge import (
     Matched,
     NoClient,
     NoServer,
+    OtherDomain,
     ServerFound,
     TypeMismatch,
 )
@@ -28,6 +29,7 @@ _EVENTS = {
     ServerFound: (Level.INFO, "server_found"),
     NoClient: (Level.INFO, "no_client"),
     HashUnknown: (Level.WARNING, "type_hash_unknown"),
+    OtherDomain: (Level.WARNING, "other_domain"),
 }
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import os
 import struct
@@ -145,6 +146,13 @@ class RawService(RawSource):
             if result not in (SERVICE_TAKE_FAILED, CLIENT_TAKE_FAILED):
                 raise self.failed("take")
         return None
+
+    def unread(self) -> int:
+        """See Source."""
+        if self._descriptor >= 0:
+            with contextlib.suppress(BlockingIOError):
+                self._told += os.eventfd_read(self._descriptor)
+        return self._told
 
     def _compare(self) -> None:
         """ROS 2 has no events of services: the first message shows that somebody is there to compare with."""

@@ -23,6 +23,10 @@ class Transport(Protocol):
     def ready(self) -> bool:
         """Whether messages are taken: not before a serial device is there."""
 
+    @property
+    def forgeable(self) -> bool:
+        """Whether a message may come from elsewhere than its address says."""
+
     def fileno(self) -> int:
         """Return the descriptor that is readable while `pump` has something to do.
 

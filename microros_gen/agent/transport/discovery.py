@@ -80,6 +80,11 @@ class Discovery:
         """See Transport: when an interface is there."""
         return bool(self._joined)
 
+    @property
+    def forgeable(self) -> bool:
+        """See Transport: as UDP."""
+        return True
+
     def fileno(self) -> int:
         """See Transport."""
         return self._socket.fileno()

@@ -59,6 +59,11 @@ class Line:
         """Whether something waits for the line to take it."""
         return bool(self._outbox)
 
+    @property
+    def forgeable(self) -> bool:
+        """See Transport: what comes over a line comes from its other end."""
+        return False
+
     def fileno(self) -> int:
         """See Transport."""
         return self._epoll.fileno()

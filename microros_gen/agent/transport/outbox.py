@@ -12,6 +12,7 @@ from collections import deque
 from collections.abc import Callable
 from itertools import islice
 
+from microros_gen.agent.input_pool import Holder
 from microros_gen.agent.wire.constants import STREAM_NONE, STREAM_RELIABLE, SubmessageId
 
 SHARE = 8
@@ -29,9 +30,11 @@ def is_sample(message: bytes) -> bool:
 class Outbox:
     """Frames in order; one that the limit has no room for is not taken, so the stream stays well-formed."""
 
-    def __init__(self, limit: int, dropped: Callable[[], None]) -> None:
-        """Hold at most `limit` bytes; `dropped` is told of each sample that gives way to a newer one."""
+    def __init__(self, limit: int, dropped: Callable[[], None], holder: Holder | None = None) -> None:
+        """Hold at most `limit` bytes, and what `holder` has room for; `dropped` is told of each sample that gives way
+        to a newer one."""
         self._limit = limit
+        self._holder = holder or Holder()
         self._dropped = dropped
         self._frames: deque[bytes] = deque()
         self._samples: deque[bool] = deque()
@@ -49,8 +52,9 @@ class Outbox:
             self._drop_oldest()
         while self._sample_bytes and self._bytes + size > self._limit:
             self._drop_oldest()
-        if self._bytes + size > self._limit:
+        if self._bytes + size > self._limit or (self._frames and not self._holder.has_room(size)):
             return False
+        self._holder.add(size)  # the first one always: it may be the rest of one that is on its way
         self._frames.append(frame)
         self._samples.append(sample)
         self._bytes += size
@@ -66,6 +70,7 @@ class Outbox:
             except BlockingIOError:
                 break
             self._bytes -= done
+            self._holder.add(-done)
             while done:
                 first = self._frames[0]
                 if self._samples[0]:  # on its way: it is not dropped any more
@@ -83,6 +88,7 @@ class Outbox:
         """Forget everything."""
         self._frames.clear()
         self._samples.clear()
+        self._holder.clear()
         self._bytes = self._sample_bytes = 0
 
     def _drop_oldest(self) -> None:
@@ -90,5 +96,6 @@ class Outbox:
         size = len(self._frames[place])
         del self._frames[place], self._samples[place]
         self._bytes -= size
+        self._holder.add(-size)
         self._sample_bytes -= size
         self._dropped()

@@ -9,6 +9,7 @@ sent. A client whose connection ended keeps its session until the agent's time-o
 from __future__ import annotations
 
 import errno
+import ipaddress
 import select
 import socket
 import time
@@ -26,10 +27,14 @@ from microros_gen.agent.transport.sockets import Protocol, open_socket, place_na
 
 READ_BYTES = 4_096
 """Bytes that are read from a connection before it is another one's turn."""
-ACCEPTS = 16
+ACCEPTS = 64
 """Connections that are taken before it is the others' turn."""
-WAITING = 128
-"""Connections that may wait to be taken; the system makes who comes then try again later."""
+WAITING = 4_096
+"""Connections that may wait to be taken, if the system lets them (net.core.somaxconn); it makes who comes then try
+again later, after 1 s, 3 s, 7 s and so on: so there should always be room."""
+IDLE_S = 5.0
+"""A connection that was never answered, or on which nothing came for this long, may lose its place to a new one of its
+own host."""
 CARE_S = 0.5
 """Seconds between two looks for connections whose time is up."""
 SYSTEM_BUFFER_BYTES = 131_072
@@ -47,6 +52,8 @@ class TcpLimits:
     """Connections of one port. One more takes the place of a silent one, or is refused."""
     output_bytes: int = 262_144
     """What waits for a connection that reads slowly; messages beyond it are lost."""
+    connections_per_host: int = 128
+    """Connections from one address (IPv4), or from one network of 64 bits (IPv6)."""
     patience_s: float = 30.0
     """Until a connection is closed that sent no whole message, does not finish one, or takes nothing; and how long
     one must have been silent before its place is given away."""
@@ -63,17 +70,22 @@ class Connection:
         now: float,
         too_slow: Callable[[str], None],
         holder: Holder,
+        output: Holder,
+        host: str,
         account: Account,
     ) -> None:
         self.account = account
         """Who pays for what comes over it."""
+        self.host = host
+        self.answered = False
+        """The agent has sent something to it: it said something that makes sense."""
         self.holder = holder
         """Holds the message that it began."""
         self.socket = made
         self.descriptor = made.fileno()
         self.peer = peer
         self.decoder = LengthDecoder()
-        self.outbox = Outbox(limit, partial(too_slow, peer))
+        self.outbox = Outbox(limit, partial(too_slow, peer), output)
         self.spoke = False
         """A whole message came."""
         self.heard = now
@@ -99,16 +111,18 @@ class Tcp:
         log: EventLog,
         limits: TcpLimits | None = None,
         pool: InputPool | None = None,
+        output: InputPool | None = None,
         fair: Fairness | None = None,
         strangers: Account | None = None,
     ) -> None:
         """Bind to `host` and `port` (0: a free one); UserError when that is not possible.
 
-        `pool` and `fair` are the agent's, and `strangers`, who pays for connections without a client.
+        The pools and `fair` are the agent's, and `strangers`, who pays for connections without a client.
         """
         self._fair = fair or Fairness()
         self._strangers = strangers or Account()
         self._pool = pool
+        self._output = output
         self._log = log
         self._limits = limits or TcpLimits()
         self._listener = open_socket(protocol, host, port)
@@ -136,6 +150,11 @@ class Tcp:
     def __len__(self) -> int:
         """Return the number of open connections."""
         return len(self._connections)
+
+    @property
+    def forgeable(self) -> bool:
+        """See Transport: who connects was there."""
+        return False
 
     def fileno(self) -> int:
         """See Transport."""
@@ -185,6 +204,7 @@ class Tcp:
     def send(self, data: bytes, address: Hashable) -> None:
         """See Transport."""
         assert isinstance(address, Connection)
+        address.answered = True
         if address.closed or len(data) > LARGEST_PAYLOAD:
             return
         frame = encode_length(data)
@@ -279,15 +299,16 @@ class Tcp:
                     self._log.count("tcp_refused", text, transport=self.label, why=error.strerror or "")
                     return
                 continue  # it was gone again
-            if self._make_room():
-                self._add(made, place_name(peer))
+            host = host_of(peer[0])
+            if self._make_room(host):
+                self._add(made, place_name(peer), host)
             else:
                 text = "{transport} has {count} connections already: {peer} was refused"
                 fields = {"transport": self.label, "peer": place_name(peer)}
                 self._log.count("tcp_refused", text, count=len(self._connections), **fields)
                 made.close()
 
-    def _add(self, made: socket.socket, peer: str) -> None:
+    def _add(self, made: socket.socket, peer: str, host: str) -> None:
         made.setblocking(False)
         made.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         made.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
@@ -300,6 +321,8 @@ class Tcp:
             self._now,
             self._too_slow,
             Holder(self._pool),
+            Holder(self._output),
+            host,
             self._strangers,
         )
         self._connections[connection.descriptor] = connection
@@ -314,14 +337,24 @@ class Tcp:
         )
         self._log.count("tcp_slow", text, transport=self.label, peer=peer)
 
-    def _make_room(self) -> bool:
-        """Return whether there is room for one more; the one that was silent for longest may have to go."""
+    def _make_room(self, host: str) -> bool:
+        """Return whether there is room for one more from `host`; the one that matters least may have to go for it.
+
+        Who was never answered matters less than who was, and who was silent for longer less than others. From a host
+        that has all that it may have, one of its own has to go.
+        """
+        own = [connection for connection in self._connections.values() if connection.host == host]
+        if len(own) >= self._limits.connections_per_host:
+            return self._displace(own, IDLE_S)
         if len(self._connections) < self._limits.connections:
             return True
-        longest = min(self._connections.values(), key=lambda c: (c.spoke, c.heard))
-        if longest.spoke and self._now - longest.heard < self._limits.patience_s:
+        return self._displace(list(self._connections.values()), self._limits.patience_s)
+
+    def _displace(self, candidates: list[Connection], silent_s: float) -> bool:
+        least = min(candidates, key=lambda c: (c.answered, c.heard))
+        if least.answered and self._now - least.heard < silent_s:
             return False
-        self._fail(longest, "tcp_displaced", "its place is needed")
+        self._fail(least, "tcp_displaced", "its place is needed")
         return True
 
     def _care(self, connection: Connection, since: float) -> None:
@@ -353,3 +386,10 @@ class Tcp:
     def _watch(self, connection: Connection, writing: bool) -> None:
         events = select.EPOLLIN | (select.EPOLLOUT if writing else 0)
         self._epoll.modify(connection.descriptor, events)
+
+
+def host_of(address: str) -> str:
+    """Return what stands for the host at an address: of IPv6 the network of 64 bits, in which a host has its pick."""
+    if ":" not in address:
+        return address
+    return str(ipaddress.IPv6Network((address.partition("%")[0], 64), strict=False))

@@ -78,6 +78,11 @@ class Udp:
     def tick(self, now: float) -> None:
         """See Transport: a socket needs no care."""
 
+    @property
+    def forgeable(self) -> bool:
+        """See Transport: nobody checks where a datagram says to come from."""
+        return True
+
     def fileno(self) -> int:
         """See Transport."""
         return self._epoll.fileno()

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What clients together may make the agent hold, kind by kind, and what one of them holds of each.
+
+The bytes are upper estimates: what Python and Fast DDS 2.14.5 take for a thing, measured on 64 bits.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from microros_gen.agent.input_pool import Holder, InputPool
+from microros_gen.agent.limits import Limits
+from microros_gen.agent.wire.constants import ObjectKind
+
+OBJECT_BYTES = 2_048
+"""What an object takes beside its representation and its side in ROS 2."""
+ROS_BYTES = {
+    ObjectKind.PARTICIPANT: 8_192,
+    ObjectKind.DATAWRITER: 36_864,
+    ObjectKind.DATAREADER: 69_632,
+    ObjectKind.REQUESTER: 86_016,
+    ObjectKind.REPLIER: 98_304,
+}
+"""What the side in ROS 2 of an object takes, without samples."""
+CALL_BYTES = 256
+"""What an open request takes."""
+BASE_BYTES = 80 << 20
+"""What the agent takes without a client, in ROS domains too: Python, ROS 2, and gaps on the heap."""
+HELD_CALLS_BYTES = 16 << 20
+"""What requests and replies take that wait for the other side of their service (`ros/services.py`)."""
+
+
+@dataclass
+class Gate:
+    """Closed while the memory of the process is tight."""
+
+    closed: bool = False
+
+
+@dataclass(frozen=True)
+class Shares:
+    """What one client holds; unlimited without pools."""
+
+    history: Holder
+    """Samples in the histories of its writers, and what those of its readers take at least."""
+    objects: Holder
+    """Its objects."""
+    output: Holder
+    """What waits for it."""
+    calls: Holder
+    """Its open requests."""
+    object_history: int
+    """Bytes of history that one object of it may have."""
+    gate: Gate
+    """Whether anything more may be made."""
+
+    @staticmethod
+    def unlimited() -> Shares:
+        """Return shares of nothing, for a client that stands alone."""
+        return Shares(Holder(), Holder(), Holder(), Holder(), 1 << 62, Gate())
+
+    @property
+    def held(self) -> int:
+        """All of it in bytes."""
+        return self.history.held + self.objects.held + self.output.held + self.calls.held
+
+
+class Budgets:
+    """One pool for each kind."""
+
+    def __init__(self, limits: Limits, connections: int = 0) -> None:
+        """`connections`: how many TCP connections share what waits to be sent."""
+        self._limits = limits
+        clients = limits.clients
+        self._history = InputPool(limits.history_bytes, clients)
+        self._objects = InputPool(limits.object_bytes, clients)
+        self.output = InputPool(limits.output_bytes, clients + connections)
+        self._calls = InputPool(limits.call_bytes, clients)
+        self.gate = Gate()
+
+    def of_client(self) -> Shares:
+        """Return what a new client may hold."""
+        limits = self._limits
+        return Shares(
+            Holder(self._history, limits.client_history_bytes),
+            Holder(self._objects),
+            Holder(self.output),
+            Holder(self._calls),
+            limits.object_history_bytes,
+            self.gate,
+        )
+
+
+def cost_of(object_id: int, representation: int) -> int:
+    """Return the bytes that an object takes whose representation has so many."""
+    return OBJECT_BYTES + 2 * representation + ROS_BYTES.get(ObjectKind(object_id & 0x0F), 0)
+
+
+def most_bytes(limits: Limits) -> int:
+    """Return what the agent takes when every pool is full."""
+    pools = limits.input_bytes + limits.history_bytes + limits.object_bytes + limits.output_bytes
+    return BASE_BYTES + HELD_CALLS_BYTES + pools + limits.call_bytes

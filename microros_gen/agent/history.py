@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What Fast DDS keeps for the writers and readers of clients: its histories are its own, so what goes in is counted.
+
+Fast DDS 2.14.5 has a buffer for each sample that a history holds. A buffer goes from sample to sample, grows to the
+largest of them, and is freed with the writer. So a writer takes at most as many buffers as it ever had samples in its
+history, each of the size of its largest sample.
+"""
+
+from __future__ import annotations
+
+from microros_gen.agent.budgets import Shares
+from microros_gen.agent.representation import Durability, Qos
+from microros_gen.agent.ros.bridge import BridgeError, BusyError, Writer
+from microros_gen.agent.wire.constants import Status
+
+CHANGE_BYTES = 512
+"""What a sample in a history takes beside its bytes."""
+UNREAD_BYTES = 64
+"""What is counted for each sample that a reader may have. Most are never there: what is, `memory` sees."""
+KEEP_ALL_DEPTH = 5_000
+"""Samples that Fast DDS keeps for KEEP_ALL at most."""
+
+
+class HistoryFullError(BridgeError):
+    """A sample was refused for good: the history that it belongs to may not grow."""
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(reason, Status.RESOURCES)
+
+
+def depth_of(qos: Qos) -> int:
+    """Return how many samples the history of an endpoint has at most."""
+    return (qos.depth or 1) if qos.keep_last else KEEP_ALL_DEPTH
+
+
+class ReaderHistory:
+    """What the history of a reader takes at least when it is full; samples of readers come from elsewhere."""
+
+    def __init__(self, qos: Qos, shares: Shares) -> None:
+        """HistoryFullError when that is too much."""
+        self._shares = shares
+        _check(depth_of(qos), shares)
+        self.bytes = depth_of(qos) * UNREAD_BYTES
+        if not shares.history.take(self.bytes):
+            self.bytes = 0
+            raise HistoryFullError("its history would take what the histories of all clients may not")
+
+    def give_back(self) -> None:
+        """It is gone."""
+        self._shares.history.add(-self.bytes)
+        self.bytes = 0
+
+
+class WriterHistory:
+    """What the history of a writer takes now."""
+
+    def __init__(self, qos: Qos, shares: Shares) -> None:
+        """HistoryFullError when samples of no bytes would be too much already."""
+        depth = depth_of(qos)
+        _check(depth, shares)
+        self._shares = shares
+        self._lasting = qos.durability is not Durability.VOLATILE
+        self._keeps_all = not qos.keep_last
+        self.depth = depth if qos.reliable or self._lasting else 1  # best effort keeps nothing that was sent
+        self.samples = 0
+        """In the history, or in it since it was last known to be empty."""
+        self.largest = 0
+        self.bytes = 0
+
+    def fits(self, size: int) -> bool:
+        """Return whether a sample of `size` bytes takes the place of another; else `make_room` for it."""
+        return size <= self.largest and self.samples >= self.depth
+
+    def make_room(self, size: int, writer: Writer) -> None:
+        """Count a sample that is to be published; BusyError: it may go later, HistoryFullError: it never will."""
+        if self._take(size):
+            return
+        if not self._lasting and writer.settled():
+            self.samples = 0
+            if self._take(size):
+                return
+        reason = f"{writer.label}: its history would take more than {self._shares.object_history} bytes,"
+        reason += " or than the client or all clients together may have"
+        if self._lasting and not self._keeps_all:
+            raise HistoryFullError(reason)
+        raise BusyError(reason + ", while its readers have not taken what is there")
+
+    def give_back(self) -> None:
+        """It is gone."""
+        self._shares.history.add(-self.bytes)
+        self.bytes = self.samples = self.largest = 0
+
+    def _take(self, size: int) -> bool:
+        samples, largest = min(self.samples + 1, self.depth), max(self.largest, size)
+        more = max(0, samples * (largest + CHANGE_BYTES) - self.bytes)
+        if more and (self.bytes + more > self._shares.object_history or not self._shares.history.take(more)):
+            return False
+        self.bytes += more
+        self.samples, self.largest = samples, largest
+        return True
+
+
+def _check(depth: int, shares: Shares) -> None:
+    least = depth * CHANGE_BYTES
+    if least > shares.object_history:
+        most = shares.object_history
+        raise HistoryFullError(
+            f"a history of {depth} samples takes {least} bytes or more, {most} are allowed"
+        )

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What DDS gave for the reliable readers of a client that is given up, or gives its session up, and comes back.
+
+DDS has an acknowledgement of it, and does not give it again. Kept is what the client has not acknowledged: what was
+sent and may or may not have arrived, what waited to be sent, and, when the agent gives a client up, what DDS still had.
+The client gets it in order, before anything newer, when it reads from the same reader again; what did arrive comes
+twice.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from microros_gen.agent.clients import Client
+from microros_gen.agent.deliveries import Deliveries
+from microros_gen.agent.log import EventLog
+from microros_gen.agent.objects import Heritage, described
+from microros_gen.agent.streams_out import Kept
+
+
+class Keeping:
+    """Keeps for `keep_s` seconds from when a client was last heard, within the budget of its histories."""
+
+    def __init__(self, keep_s: float, deliveries: Deliveries, log: EventLog) -> None:
+        self._keep_s = keep_s
+        self._deliveries = deliveries
+        self._log = log
+
+    def before_sleep(self, client: Client) -> None:
+        """Take what DDS has for a client whose readers are about to leave the ROS graph."""
+        if self._keep_s:
+            self._tell_lost(client, sum(reading.save() for reading in client.readings.values()))
+
+    def forget_old(self, client: Client, now: float) -> None:
+        """Drop what is kept for a client that is away for too long."""
+        if now - client.heard > self._keep_s:
+            for entity in client.objects:
+                entity.drop_kept(client.shares)
+
+    def begin_again(self, client: Client, now: float) -> None:
+        """End what a client reads, as its session begins again, and keep what it has not got."""
+        undelivered = client.session.undelivered()
+        self._deliveries.forget(client)
+        self._restore(client, undelivered)
+        self.forget_old(client, now)
+
+    def heritage(self, client: Client, now: float) -> Heritage:
+        """Return what another session with the same key gets, when it creates the same readers."""
+        self.before_sleep(client)
+        self.begin_again(client, now)
+        return {entity.id: (described(entity), entity.kept[::-1]) for entity in client.objects if entity.kept}
+
+    def _restore(self, client: Client, undelivered: Iterable[Kept]) -> None:
+        by_object: dict[int, list[bytes]] = {}
+        for object_id, samples in undelivered:
+            by_object.setdefault(object_id, []).extend(samples)
+        lost = 0
+        for object_id, samples_of in by_object.items():
+            entity = client.objects.find(object_id)
+            if entity is not None and entity.keeps and self._keep_s:
+                lost += entity.keep(samples_of, client.shares)
+        self._tell_lost(client, lost)
+
+    def _tell_lost(self, client: Client, lost: int) -> None:
+        for _ in range(lost):
+            text = "client {client}: a sample was lost with its session: there is no room to keep it"
+            self._log.count("not_kept", text, client=client.name)

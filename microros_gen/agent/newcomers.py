@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Clients that opened a session and said nothing in it yet, and who gives way when there is no place for them.
+
+Over UDP anybody can send a CREATE_CLIENT under a forged address, and DDS-XRCE has no cookie. So what such a datagram
+leaves is one small record here, and not a client: no streams, no objects, no place in the ROS graph, no place that a
+client in session needs. The first message of the session that comes from the same address makes a client of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable
+from dataclasses import dataclass
+
+from microros_gen.agent.clients import Client
+from microros_gen.agent.streams_out import Link
+from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.wire.constants import (
+    COOKIE,
+    SESSION_NONE_WITH_KEY,
+    SESSION_NONE_WITHOUT_KEY,
+    VERSION,
+    Status,
+)
+from microros_gen.agent.wire.message import Header
+from microros_gen.agent.wire.session_messages import CreateClient
+
+HARD_LIVELINESS = "uxr_hl"
+"""Property by which a client asks for a time-out of its own, in ms."""
+EMPTY_S = 1.0
+"""A client that has no object, and was silent for this long, gives its place to another."""
+
+
+@dataclass(frozen=True)
+class Newcomer:
+    """What a CREATE_CLIENT said, and where it came from."""
+
+    link: Link
+    timeout_s: float
+    address: Hashable
+    transport: Transport
+
+
+class Newcomers:
+    """At most `limit` of them; the oldest gives way."""
+
+    def __init__(self, limit: int) -> None:
+        self._limit = limit
+        self._by_address: dict[Hashable, Newcomer] = {}
+
+    def __len__(self) -> int:
+        return len(self._by_address)
+
+    def note(self, newcomer: Newcomer) -> None:
+        """Remember one, in place of the one before at its address."""
+        self.forget(newcomer.address)
+        self._by_address[newcomer.address] = newcomer
+        if len(self._by_address) > self._limit:
+            del self._by_address[next(iter(self._by_address))]
+
+    def forget(self, address: Hashable) -> None:
+        """Forget who is at an address, if anybody is."""
+        self._by_address.pop(address, None)
+
+    def at(self, address: Hashable) -> Newcomer | None:
+        """Return who is at an address, or None."""
+        return self._by_address.get(address)
+
+    def proved(self, header: Header, address: Hashable) -> Newcomer | None:
+        """Return, and forget here, the newcomer whose session a message from `address` belongs to."""
+        found = self._by_address.get(address)
+        if found is None or header.session != found.link.session:
+            return None
+        if header.session < SESSION_NONE_WITHOUT_KEY and header.key != found.link.key:
+            return None
+        return self._by_address.pop(address)
+
+
+def who_gives_way(clients: Iterable[Client], now: float, silent_s: float) -> Client | None:
+    """Return the client whose place another may have; None: all of them are heard.
+
+    First one without an object that says nothing, then one that left the ROS graph, then one that was silent for
+    `silent_s`; of each the one that was heard least recently.
+    """
+    found: tuple[int, float, Client] | None = None
+    for client in clients:
+        silent = now - client.heard
+        if not len(client.objects) and silent >= EMPTY_S:
+            rank = 0
+        elif client.asleep:
+            rank = 1
+        elif silent >= silent_s:
+            rank = 2
+        else:
+            continue
+        if found is None or (rank, client.heard) < found[:2]:
+            found = rank, client.heard, client
+    return found[2] if found else None
+
+
+class Strangers:
+    """Who sends samples without a session, and since when; of at most `limit` senders, the newest."""
+
+    def __init__(self, listen_s: float, limit: int) -> None:
+        self._listen_s = listen_s
+        self._limit = limit
+        self._since: dict[tuple[Transport, Hashable], float] = {}
+
+    def forget(self, transport: Transport, address: Hashable) -> None:
+        """It knows how to help itself."""
+        self._since.pop((transport, address), None)
+
+    def listened_to(self, transport: Transport, address: Hashable, now: float) -> bool:
+        """Return whether a sender was listened to for long enough."""
+        since = self._since.setdefault((transport, address), now)
+        if len(self._since) > self._limit:
+            del self._since[next(iter(self._since))]
+        enough = now - since >= self._listen_s
+        if enough:
+            self.forget(transport, address)
+        return enough
+
+
+def check(wanted: CreateClient, minimum_mtu: int) -> Status:
+    """Return whether a CREATE_CLIENT says what can be."""
+    nobody = (SESSION_NONE_WITH_KEY, SESSION_NONE_WITHOUT_KEY)
+    if wanted.cookie != COOKIE or wanted.key == bytes(4) or wanted.session in nobody:
+        return Status.INVALID_DATA
+    if wanted.version[0] != VERSION[0]:
+        return Status.INCOMPATIBLE
+    return Status.OK if wanted.mtu >= minimum_mtu else Status.INVALID_DATA
+
+
+def timeout_of(wanted: CreateClient, usual_s: float) -> float:
+    """Return the time-out that a client asks for, or the usual one."""
+    text = dict(wanted.properties or ()).get(HARD_LIVELINESS, "")
+    if text.isascii() and text.isdigit() and len(text) < 9 and int(text) > 0:
+        return int(text) / 1000
+    return usual_s

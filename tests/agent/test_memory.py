@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The memory of the agent's process: what is refused near its limit, who has to go beyond it, and what comes back."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import time
+from pathlib import Path
+
+import pytest
+
+from agent.client import BEST_EFFORT, XrceClient, dds_type, int32_body, topic_blob, writer_blob
+from agent.fakes import Bench
+from agent.process import own_domain, running_agent
+from agent.test_budgets import OK, RESOURCES, ask, connect, reading
+from agent.test_core import entities
+from microros_gen.agent.budgets import most_bytes
+from microros_gen.agent.core import Agent
+from microros_gen.agent.limits import Limits
+from microros_gen.agent.memory import MemoryGuard, Pressure, resident_bytes
+from microros_gen.agent.wire.constants import Format
+from microros_gen.cli.agent_start import check_memory
+from microros_gen.diagnostics import UserError
+
+MIB = 1 << 20
+
+
+class Process:
+    """A process whose memory a test sets."""
+
+    def __init__(self) -> None:
+        self.used = 0
+        self.trims = 0
+        self.after_trim: int | None = None
+        self.guard = MemoryGuard(100, lambda: self.used, self._trim)
+
+    def _trim(self) -> None:
+        self.trims += 1
+        self.used = self.used if self.after_trim is None else self.after_trim
+
+
+def guarded(process: Process) -> Bench:
+    bench = Bench(Limits(clients=4))
+    bench.agent = Agent(
+        bench.bridge, bench.log, Limits(clients=4), clock=lambda: bench.now, memory=process.guard
+    )
+    return bench
+
+
+def test_near_the_limit_nothing_more_is_made() -> None:
+    process = Process()
+    bench = guarded(process)
+    connect(bench)
+    assert ask(bench, entities()[0]) == OK
+    process.used = 80
+    bench.agent.care(bench.now)
+    assert ask(bench, entities()[1]) == RESOURCES
+    assert ask(bench, entities()[0]) in (OK, 1), "what is there is there"
+    bench.transport.sent.clear()
+    connect(bench, 2)
+    assert bench.transport.sent[0][1][8] == RESOURCES
+    assert "nothing more is made for clients" in bench.text.getvalue()
+    process.used = 60
+    bench.agent.care(bench.now)
+    assert ask(bench, entities()[1]) == OK
+
+
+def test_beyond_it_who_takes_most_has_to_go() -> None:
+    """Also when nothing of it was counted: samples that nobody reads wait in DDS."""
+    process = Process()
+    bench = guarded(process)
+    for number in (1, 2, 3):
+        reading(bench, number)
+    big = bench.bridge.source("/t2 [std_msgs/msg/Int32]")
+    big.waiting.extend([b"x"] * 50_000)
+    process.used = 90
+    bench.agent.care(bench.now)
+    assert [client.address for client in bench.agent.clients] == ["client 1", "client 3"]
+    assert "client 00000002 takes most of the agent's memory" in bench.text.getvalue()
+    process.used = 70
+    bench.agent.care(bench.now)
+    assert len(bench.agent.clients) == 2
+
+
+def test_what_is_free_goes_back_first() -> None:
+    process = Process()
+    process.used, process.after_trim = 95, 50
+    assert process.guard.look(0, 1.0) is Pressure.LOW
+    assert process.trims == 1
+
+
+def test_it_goes_back_when_clients_gave_up_much_and_not_too_often() -> None:
+    process = Process()
+    for now, held in ((1.0, 0), (2.0, 20 * MIB), (3.0, 15 * MIB)):
+        process.guard.look(held, now)
+    assert process.trims == 0
+    process.guard.look(5 * MIB, 4.0)
+    assert process.trims == 1
+    for tick in range(100):
+        process.guard.look(5 * MIB if tick % 2 else 20 * MIB, 4.0 + tick / 10)
+    assert 2 <= process.trims <= 6
+
+
+def test_what_the_system_says_is_read() -> None:
+    before = resident_bytes()
+    block = bytearray(b"x") * (64 * MIB)
+    assert resident_bytes() - before > 48 * MIB
+    del block
+
+
+def test_the_default_limits_fit_and_others_have_to() -> None:
+    check_memory(Limits())
+    with pytest.raises(UserError, match=str(most_bytes(Limits()))):
+        check_memory(Limits(memory_bytes=150 * MIB))
+    check_memory(
+        Limits(memory_bytes=200 * MIB, input_bytes=8 * MIB, object_bytes=16 * MIB, history_bytes=16 * MIB)
+    )
+
+
+# With ROS 2
+
+
+def rss_mib(pid: int) -> float:
+    return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) / 256
+
+
+def lasting(client: XrceClient, number: int, depth: int) -> int:
+    """Create a transient-local writer on a topic of its own; return the status."""
+    topic, writer = number << 4 | 2, number << 4 | 5
+    described = topic_blob(f"rt/memory/t{number}", dds_type("std_msgs/msg/Int32"))
+    assert client.create(topic, Format.BINARY, described, 0x11) in (OK, 1)
+    return client.create(writer, Format.BINARY, writer_blob(topic, 1 | 2 | 8, depth), 0x13)
+
+
+@pytest.mark.ros
+def test_histories_stay_below_the_limit_that_was_said_and_come_back() -> None:
+    """S1: it was 3.0 GB, of which 833 MB stayed. A client that behaves is served meanwhile."""
+    with running_agent(own_domain(), "--log-format", "json") as agent:
+        said = json.loads(next(line for line in agent.log if '"event": "memory"' in line))
+        with XrceClient(agent.port, mtu=65_000) as client, XrceClient(agent.port, key=2) as honest:
+            assert honest.connect() == OK
+            count = honest.publisher("honest", "count", "std_msgs/msg/Int32", 0)
+            assert client.connect() == OK
+            client.publisher("greedy", "other", "std_msgs/msg/Int32", 0)
+            before = most = rss_mib(agent.process.pid)
+            topics = range(2, 8)
+            assert {lasting(client, number, 60_000) for number in topics} == {RESOURCES}
+            assert {lasting(client, number, 5_000) for number in topics} == {OK}
+            for number in range(1_200):
+                client.write(topics[number % 6] << 4 | 5, bytes(60_000), stream=BEST_EFFORT)
+                if number % 20 == 0:
+                    honest.write(count, int32_body(number))
+                    honest.drain()
+                    most = max(most, rss_mib(agent.process.pid))
+            assert client.ping() == 1
+            most = max(most, rss_mib(agent.process.pid))
+            assert most - before > 8, "samples were kept"
+            assert most < said["limit"]
+            assert client.leave() == OK
+            end = time.monotonic() + 20
+            while (left := rss_mib(agent.process.pid)) > before + 8 and time.monotonic() < end:
+                time.sleep(0.1)
+            print(f"RSS {before:.0f} MiB before, {most:.0f} at most, {left:.0f} after it left")
+            assert left <= before + 8
+
+
+@pytest.mark.ros
+def test_objects_stay_below_the_limit_and_come_back() -> None:
+    """S2: 512 TYPE objects of 64 kB of each of eight clients were 558 MB."""
+    text = f'<types><struct name="T">{" " * 60_000}</struct></types>'.encode()
+    with running_agent(own_domain()) as agent, contextlib.ExitStack() as stack:
+        clients = [stack.enter_context(XrceClient(agent.port, key=1 + n, mtu=65_000)) for n in range(8)]
+        for client in clients:
+            assert client.connect() == OK
+            assert client.ping() == 1
+        before = rss_mib(agent.process.pid)
+        made = 0
+        for client in clients:
+            for number in range(64):
+                if client.create(number << 4 | 0x0A, Format.XML, text) == RESOURCES:
+                    break
+                made += 1
+        most = rss_mib(agent.process.pid)
+        assert 100 < made < 400
+        assert made * 60_000 / MIB < most - before < Limits().object_bytes / MIB + 8
+        for client in clients:
+            assert client.leave() == OK
+        end = time.monotonic() + 20
+        while (left := rss_mib(agent.process.pid)) > before + 8 and time.monotonic() < end:
+            time.sleep(0.1)
+        print(f"RSS {before:.0f} MiB before, {most:.0f} with {made} objects, {left:.0f} after they left")
+        assert left <= before + 8
