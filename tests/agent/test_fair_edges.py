@@ -7,6 +7,7 @@ import io
 import socket
 import time
 from collections.abc import Iterator
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -88,7 +89,7 @@ def test_a_writer_that_is_full_is_not_asked_for_each_sample() -> None:
     """S5: each time the agent would wait a millisecond in DDS."""
     handle = FullHandle()
     endpoint = Endpoint("/n", "publisher", "/t [x]", "/t", "x", None)
-    writer = RawWriter(handle, NoEvents(), (endpoint,), keeps_all=True)  # type: ignore[arg-type]
+    writer = RawWriter(handle, SimpleNamespace(libraries=None), NoEvents(), (endpoint,), keeps_all=True)  # type: ignore[arg-type]
     began = time.monotonic()
     for _ in range(3_750):
         with pytest.raises(BusyError):
