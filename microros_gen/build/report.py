@@ -67,6 +67,12 @@ def measure_folder(folder: Folder) -> SizeReport:
         raise UserError([Diagnostic(what, hint="Link it again")], status=1) from error
 
 
+def static_memory(folder: Folder) -> int:
+    """Return the static memory of the library in what was built, bytes; much faster than to measure everything."""
+    pieces = attribute_library(folder) if folder.image is None else attribute(folder, Elf(folder.image))
+    return sum(p.ram for p in pieces if p.owner.group in ("component", "type support"))
+
+
 def _measure_image(folder: Folder, path: Path) -> SizeReport:
     image = Elf(path)
     if folder.linked is not None:

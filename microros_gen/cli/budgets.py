@@ -35,7 +35,7 @@ def check_planned(planned: Planned, read: Callable[[], Folder], options: Selecti
     if memory.stack is not None and not report.stack.known:
         _warn(f"memory.stack is not checked: {report.stack.why}", memory.stack_span)
     if any(line.exceeded and line.key == "ram_budget" for line in report.budgets):
-        store_advice(folder, plan_advice(planned, options))
+        store_advice(folder, plan_advice(planned, folder, options))
         report = measure_folder(folder)
     check_budgets(report.budgets, places)
 

@@ -123,3 +123,28 @@ def test_a_header_of_what_is_not_there_yet_does_not_say_to_add_it(run: Runner, f
     errors = [text for text in texts if text.startswith("#error")]
     assert any("'executor' is not selected: add `components: [+executor]`" in text for text in errors)
     assert not any("+parameters" in text or "+lifecycle" in text for text in errors)
+
+
+def test_advice_about_memory_is_exact_and_the_largest_saving_comes_first(run: Runner, folder: Path) -> None:
+    """What each line promises is what a build without it takes less."""
+    text = HEAD + 'limits: {"*": {string: 32, sequence: 16}}\n'
+
+    def ram(application: str) -> int:
+        (folder / "microros.yaml").write_text(f"{application}memory: {{ram_budget: 64 KiB}}\n")
+        assert run("build", "-o", "out").status == 0
+        lines = json.loads(run("size", "out", "--format", "json").out)["budgets"]
+        return next(int(line["used"]) for line in lines if line["key"] == "memory.ram_budget")
+
+    before = ram(text)
+    (folder / "microros.yaml").write_text(f"{text}memory: {{ram_budget: {before - 1}}}\n")
+    refused = run("build", "-o", "out")
+    assert refused.status == 1
+    promised = {change: int(saves) for change, saves in re.findall(r"`([^`]+)` saves ([0-9]+)", refused.err)}
+    assert list(promised.values()) == sorted(promised.values(), reverse=True)
+    queue = next(
+        change for change in promised if change.startswith("queue: 1 of the subscription tf (now 4)")
+    )
+    changed = text.replace("type: tf2_msgs/msg/TFMessage", "type: tf2_msgs/msg/TFMessage, queue: 1")
+    assert before - ram(changed) == promised[queue]
+    history = next(change for change in promised if change.startswith("pools.history 4 → 3"))
+    assert before - ram(f"{text}pools: {{history: 3}}\n") == promised[history]
