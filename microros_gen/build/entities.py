@@ -75,6 +75,7 @@ _MEMBERS = {
     "reliable_output": "reliable stream",
     "reliable_input": "input stream",
     "input": "input buffer",
+    "latest": "input buffer",
     "slots": "queues",
     "queues": "queues",
     "requests": "requests under way",

@@ -112,8 +112,6 @@ def _receiving_rows(planned: Planned) -> list[tuple[str, str, str]]:
     if runtime.queues:
         slots = f"{runtime.queue_slots} slots, {runtime.queues_size} bytes"
         rows.append(("queues", slots, "queue: or depth, times the largest sample"))
-    if runtime.reassembles:
-        rows.append(("fragments", f"{runtime.reassembly_size} bytes", "the largest sample above the MTU"))
     return rows
 
 
@@ -133,6 +131,12 @@ def _running_rows(planned: Planned) -> list[tuple[str, str, str]]:
 
 
 def _stream_rows(streams: StreamPlan) -> list[tuple[str, str, str]]:
+    arriving = (
+        "; larger samples come in fragments, straight into their queue"
+        if streams.arrives_in_fragments
+        else ""
+    )
+    arriving += f", and behind {streams.input_free} of them a sample that waits" if streams.input_slot else ""
     in_pieces = f", sent in fragments of {streams.mtu} bytes" if streams.fragments else ""
     return [
         (
@@ -145,7 +149,7 @@ def _stream_rows(streams: StreamPlan) -> list[tuple[str, str, str]]:
             f"{streams.best_effort_size} bytes",
             "the largest CREATE or best-effort message",
         ),
-        ("input", f"{streams.input_size} bytes", "the largest message of the agent"),
+        ("input", f"{streams.input_size} bytes", f"the largest message of the agent{arriving}"),
     ]
 
 

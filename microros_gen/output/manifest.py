@@ -115,6 +115,8 @@ def _subscriptions(project: Project) -> dict[str, Any]:
                 "reliable": s.reliable,
                 "queue": queues[s.index].slots,
                 "slot_size": queues[s.index].slot_size,
+                **({"slot": "input buffer"} if s.index == runtime.input_reader else {}),
+                **({"storage": "none"} if s.storage and not s.stored else {}),
             }
             for s in runtime.subscriptions
         ]
@@ -200,7 +202,6 @@ def _pools(project: Project) -> dict[str, int]:
         **({"services": runtime.services_max} if runtime.has_services else {}),
         **({"clients": runtime.clients_max} if runtime.has_clients else {}),
         **({"queues": runtime.queues_size} if runtime.queues else {}),
-        **({"reassembly": runtime.reassembly_size} if runtime.reassembly_size else {}),
         **({"timers": runtime.timers_max} if runtime.has_timers else {}),
         **(
             {
@@ -216,6 +217,7 @@ def _pools(project: Project) -> dict[str, int]:
         "reliable_slot_size": runtime.reliable_slot_size,
         "best_effort_size": runtime.best_effort_size,
         "input_size": runtime.input_size,
+        **({"input_buffer": runtime.input_buffer_size} if runtime.lends_input else {}),
         "arena": runtime.arena_size,
         "error_text": runtime.error_text_size,
     }

@@ -109,6 +109,7 @@ def _endpoints(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> Iter
                 type_span=span_of(type_node),
                 topic_span=span_of(name),
                 queue=int_of(child(endpoint, "queue")),
+                stored=text_of(child(endpoint, "storage")) != "none",
             )
 
 

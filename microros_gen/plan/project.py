@@ -126,6 +126,8 @@ def plan_project(
         selection.has("stream_reliable_input"),
         (*receiving.received, *serving.received),
         create_text,
+        # What is kept over a sleep ends before the input buffer.
+        lends_input=bool(nodes) and not selection.has("sleep_cycles"),
     )
     receivers = receiving.subscriptions_max + serving.services_max + serving.clients_max
     receivers -= 1 if selection.has(CLOCK_ROS) else 0  # nobody adds the subscription of /clock to an executor
@@ -194,8 +196,10 @@ def plan_project(
         timed_qos=timed_qos(application, selection.entities, diagnostics),
         kept_messages=storage.kept,
         message_pools=storage.pools,
-        reassembly_size=streams.reassembly_size,
         fragments=streams.fragments,
+        arrives_in_fragments=streams.arrives_in_fragments,
+        input_reader=streams.input_reader,
+        input_free=streams.input_free,
         reliable_input_slots=streams.reliable_input_slots,
         reliable_input_slot_size=streams.input_size if streams.reliable_input_slots else 0,
     )

@@ -21,7 +21,7 @@ from microros_gen.model.types import (
 from microros_gen.plan.declared import full_name, named_at, pool, subscription_declarations, type_name
 from microros_gen.plan.names import dds_topic
 from microros_gen.plan.runtime import QueuePlan, SubscriptionPlan
-from microros_gen.plan.streams import Received
+from microros_gen.plan.streams import Received, slot_of
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_names import include_path
 from microros_gen.resolve.clock import CLOCK_ROS
@@ -65,7 +65,7 @@ def plan_receiving(
         plan = SubscriptionPlan(
             index, node_index, topic, dds_topic(topic), name, reliable, given=endpoint.given
         )
-        subscriptions.append(_with_storage(plan, types))
+        subscriptions.append(_with_storage(plan, types, endpoint.stored))
         queues.append(_queue(endpoint, size))
         received.append(
             Received(
@@ -74,13 +74,16 @@ def plan_receiving(
                 reliable,
                 not reliable,
                 endpoint.type_span or endpoint.span,
+                alone=queues[-1].slots == 1,
             )
         )
     queues = queues or [QueuePlan(1, _SLOT_ALIGNMENT)]
     return Receiving(tuple(subscriptions), len(queues), tuple(queues), tuple(received))
 
 
-def _with_storage(plan: SubscriptionPlan, types: Mapping[TypeName, TypePlan]) -> SubscriptionPlan:
+def _with_storage(
+    plan: SubscriptionPlan, types: Mapping[TypeName, TypePlan], stored: bool
+) -> SubscriptionPlan:
     type_ = types[plan.type]
     if not type_.storage:
         return plan
@@ -91,6 +94,7 @@ def _with_storage(plan: SubscriptionPlan, types: Mapping[TypeName, TypePlan]) ->
         header=include_path(type_.files.storage),
         c_type=type_.c_name,
         buffers=tuple(buffers_of(type_.message, messages)),
+        stored=stored,
     )
 
 
@@ -139,8 +143,3 @@ def _pooled(
     ]
     queues += [QueuePlan(slots, slot_of(largest))] * places
     return Receiving((), len(queues), tuple(queues), tuple(received))
-
-
-def slot_of(size: int) -> int:
-    """Return the bytes of a slot: a body, padded as some writers do."""
-    return (max(size, 1) + _SLOT_ALIGNMENT - 1) // _SLOT_ALIGNMENT * _SLOT_ALIGNMENT

@@ -78,7 +78,7 @@ class SubscriptionPlan:
 
     `index` counts subscriptions alone. For a message of variable length, `storage` is what the names of its storage
     begin with in C, `header` declares it, `c_type` is its struct and `buffers`: what holds while none of its
-    members has memory of the application's.
+    members has memory of the application's. `stored`: the library has such storage and binds the message to it.
     """
 
     index: int
@@ -91,6 +91,7 @@ class SubscriptionPlan:
     header: str = ""
     c_type: str = ""
     buffers: tuple[str, ...] = ()
+    stored: bool = False
     given: str = field(default="", repr=False)
 
     @property
@@ -134,10 +135,11 @@ class RuntimePlan(TimesPlan):
     `transport` is udp, tcp, serial or custom; `framing` of a custom one on, off or either (chosen at run time).
     `send_buffer`: bytes that wait for a serial line; `own_line`: the application has its functions.
     `fragments`: some reliable message is larger than the MTU, `reliable_slot_size` holds it whole.
+    `arrives_in_fragments`: some reliable DATA is larger than the input buffer. `input_reader`: the queue whose one slot
+    is the end of the input buffer, behind `input_free` bytes.
     `reliable_input_slots`: messages of the agent's reliable stream that the client holds at a time; 0: no such stream.
     `subscriptions_max`: places, at least one where they are selected; `services_max`, `clients_max`: 0 where `nodes:`
-    declares none; `queues` has one entry for each of the three, in this order. `reassembly_size`: the largest DATA
-    that comes in fragments, with its header; 0: none does.
+    declares none; `queues` has one entry for each of the three, in this order.
     `timers_max` to `jump_callbacks_max`: places of each; 0 timers, executors or clocks: the component is not selected.
     `has_ros_time`: the first subscription is that of /clock, which the library opens itself.
     `message_pools`: storage of `kept_messages` messages of each sender.
@@ -175,6 +177,9 @@ class RuntimePlan(TimesPlan):
     own_line: bool = False
     framing: str = "either"
     fragments: bool = False
+    arrives_in_fragments: bool = False
+    input_reader: int | None = None
+    input_free: int = 0
     reliable_input_slots: int = 0
     reliable_input_slot_size: int = 0
     type_name_size: int = 0
@@ -186,7 +191,6 @@ class RuntimePlan(TimesPlan):
     clients: tuple[ServicePlan, ...] = ()
     clients_max: int = 0
     queues: tuple[QueuePlan, ...] = ()
-    reassembly_size: int = 0
     timers: tuple[TimerPlan, ...] = ()
     timers_max: int = 0
     executors_max: int = 0
@@ -331,10 +335,12 @@ class RuntimePlan(TimesPlan):
     @property
     def queue_rows(self) -> tuple[QueueRow, ...]:
         """The queues with their places in the storage."""
-        rows, first, offset = [], 0, 0
+        rows: list[QueueRow] = []
+        first, offset = 0, 0
         for queue in self.queues:
-            rows.append(QueueRow(queue.slots, queue.slot_size, first, offset))
-            first, offset = first + queue.slots, offset + queue.slots * queue.slot_size
+            lent = len(rows) == self.input_reader
+            rows.append(QueueRow(queue.slots, queue.slot_size, first, 0 if lent else offset))
+            first, offset = first + queue.slots, offset + (0 if lent else queue.slots * queue.slot_size)
         return tuple(rows)
 
     @property
@@ -344,13 +350,20 @@ class RuntimePlan(TimesPlan):
 
     @property
     def queues_size(self) -> int:
-        """Bytes of all slots together."""
-        return sum(queue.slots * queue.slot_size for queue in self.queues)
+        """Bytes of all slots together, that in the input buffer left out."""
+        queues = (queue for i, queue in enumerate(self.queues) if i != self.input_reader)
+        return sum(queue.slots * queue.slot_size for queue in queues)
 
     @property
-    def reassembles(self) -> bool:
-        """Whether some DATA comes in fragments."""
-        return self.reassembly_size > 0
+    def lends_input(self) -> bool:
+        """Whether a sample waits in the input buffer."""
+        return self.input_reader is not None
+
+    @property
+    def input_buffer_size(self) -> int:
+        """Bytes of the buffer that messages are received in."""
+        slot = 0 if self.input_reader is None else self.queues[self.input_reader].slot_size
+        return max(self.input_size, self.input_free + slot)
 
     @property
     def reliable_front(self) -> int:
@@ -371,6 +384,16 @@ class RuntimePlan(TimesPlan):
     def reliable_input_mode(self) -> str:
         """`ordered` or `held`: what becomes of a reliable message of the agent that comes before its turn."""
         return "held" if self.reliable_input_slots > 1 else "ordered"
+
+    @property
+    def fragment_input(self) -> str:
+        """`kept`, `refused` or `none`: what becomes of samples that come in fragments.
+
+        Where every sample fits the input buffer, one that does not is too large for its queue as well.
+        """
+        if not self.receives or not self.reliable_input_slots:
+            return "none"
+        return "kept" if self.arrives_in_fragments else "refused"
 
     @property
     def error_mode(self) -> str:

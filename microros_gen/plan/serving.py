@@ -16,10 +16,10 @@ from microros_gen.model.derived import derived_name
 from microros_gen.model.selection import Selection
 from microros_gen.model.types import TypeName
 from microros_gen.plan.declared import declarations, full_name, named_at, pool, service_parts, type_name
-from microros_gen.plan.receiving import LARGEST_DEFAULT_QUEUE, buffers_of, slot_of
+from microros_gen.plan.receiving import LARGEST_DEFAULT_QUEUE, buffers_of
 from microros_gen.plan.runtime import QueuePlan
 from microros_gen.plan.services import ServicePlan, StoredMessage
-from microros_gen.plan.streams import Received, Written
+from microros_gen.plan.streams import Received, Written, slot_of
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_names import include_path
 
@@ -71,7 +71,14 @@ def plan_serving(
             what = ("request", "reply") if kind == "service" else ("reply", "request")
             queues.append(QueuePlan(slots, slot_of(arriving) + _HEAD[kind]))
             received.append(
-                Received(label.format(what[0]), slot_of(arriving) + _HEAD[kind], True, False, span)
+                Received(
+                    label.format(what[0]),
+                    slot_of(arriving) + _HEAD[kind],
+                    True,
+                    False,
+                    span,
+                    alone=slots == 1,
+                )
             )
             written.append(Written(label.format(what[1]), leaving + _WRITTEN_HEAD[kind], True, False, span))
     services, clients = (tuple(plans[kind]) for kind in KINDS)
@@ -134,7 +141,7 @@ def _plan(
         type_ = types[derived_name(service, part)]
         own = type_.limit_set(kind, index) if sends else None
         limited = own.name if own else limited
-        if type_.storage and not (sends and kind == "client"):
+        if type_.storage and endpoint.stored and not (sends and kind == "client"):
             stored.append(
                 StoredMessage(
                     part.lower(),

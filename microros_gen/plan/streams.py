@@ -35,6 +35,12 @@ _LINES = ("serial", "custom")  # a custom transport may use the line of a board
 # The longest of what a session sends besides its streams: READ_DATA, CREATE_CLIENT; the latter with its property.
 _SESSION_MESSAGE = 24
 _SESSION_MESSAGE_HARD = 54
+# A sample that waits alone in its queue comes in so many pieces: the input buffer holds one. A board has a ring of
+# twice that in front of a serial line (plan/board.py). Smaller ones would save little, and each is acknowledged.
+PIECES = {"udp": 3, "tcp": 3, "serial": 8, "custom": 8}
+LEAST_PIECE = 256
+# A slot in the input buffer has to save so many bytes: it costs some hundred of flash.
+LEAST_LENT = 256
 # In front of a message that goes in fragments: FRAGMENT's header, beside that of the message.
 FRAGMENT_HEADER = 4
 # The length of a submessage has 16 bits (OMG DDS-XRCE 1.0, 8.3.4); the whole submessage is counted in as many here.
@@ -55,13 +61,28 @@ class Written:
 
 @dataclass(frozen=True)
 class Received:
-    """What an endpoint receives: where it was declared, the largest DATA behind the object's id, on which streams."""
+    """What an endpoint receives: where it was declared, the largest DATA behind the object's id, on which streams.
+
+    `alone`: its queue has one place. Then memory counts more than the number of messages that a sample takes.
+    """
 
     label: str
     max_size: int
     reliable: bool
     best_effort: bool
     span: Span | None = None
+    alone: bool = False
+
+    @property
+    def whole(self) -> int:
+        """Bytes of the message that has all of it."""
+        return _align4(WRITE_DATA_OVERHEAD + self.max_size)
+
+    def piece(self, ceiling: int, pieces: int) -> int:
+        """Return the bytes of the largest message that brings it or, where it may come in pieces, one of so many."""
+        if self.alone and self.reliable and not self.best_effort:
+            ceiling = min(ceiling, max(LEAST_PIECE, _align4(-(-self.whole // pieces))))
+        return min(ceiling, self.whole)
 
 
 @dataclass(frozen=True)
@@ -70,10 +91,13 @@ class StreamPlan:
 
     `mtu`: the largest message that is sent. `fragments`: some reliable message is larger, and goes in pieces.
     `creation_size`: of a request to create on the reliable stream. `reliable_input_slots`: messages of the agent's
-    reliable stream that are held at a time; the one that is being handled is in the input buffer. `reassembly_size`:
-    the largest DATA, with its header, where some is larger than the input buffer; else 0. `send_buffer`: of a serial
-    line that sends by itself; it holds the longest frame, each of its bytes stuffed, or one message of each best-effort
-    writer.
+    reliable stream that are held at a time; the one that is being handled is in the input buffer.
+    `arrives_in_fragments`: some reliable DATA is larger than the input buffer; it is put together in the slot of its
+    reader's queue. `input_size`: the largest message of the agent, as it is told. `input_reader`: which of the received
+    samples waits in the input buffer itself, at its end, and has no slot elsewhere; `input_free` bytes are in front of
+    it, which is as much as any other message takes. `send_buffer`: of a
+    serial line that sends by itself; it holds the longest frame, each of its bytes stuffed, or one message of each
+    best-effort writer.
     """
 
     mtu: int
@@ -84,15 +108,23 @@ class StreamPlan:
     creation_size: int = 0
     fragments: bool = False
     reliable_input_slots: int = 0
-    reassembly_size: int = 0
     send_buffer: int = 0
+    arrives_in_fragments: bool = False
+    input_reader: int | None = None
+    input_free: int = 0
+    input_slot: int = 0
+
+    @property
+    def input_buffer(self) -> int:
+        """Bytes of the buffer that messages are received in."""
+        return max(self.input_size, self.input_free + self.input_slot)
 
     @property
     def ram(self) -> int:
         """Bytes of all buffers together."""
         reliable = self.reliable_slots * self.reliable_slot_size
-        inputs = max(1, self.reliable_input_slots) * self.input_size
-        return self.best_effort_size + reliable + inputs + self.creation_size + self.reassembly_size
+        inputs = max(0, self.reliable_input_slots - 1) * self.input_size + self.input_buffer
+        return self.best_effort_size + reliable + inputs + self.creation_size
 
 
 def default_history(slot_size: int) -> int:
@@ -112,6 +144,7 @@ def plan_streams(
     reliable_input: bool = False,
     received: Iterable[Received] = (),
     create_text: int = 0,
+    lends_input: bool = False,
 ) -> StreamPlan:
     """Size the streams; a message that cannot fit its stream is an error with the number that would do.
 
@@ -119,8 +152,9 @@ def plan_streams(
     client creates nothing (entities: preconfigured), and `create_text` how much of it a serial line never
     stuffs. With `creation: reliable` it has storage of its own, and the reliable stream is there for it. A
     reliable message above the MTU goes in fragments, a best-effort one and a CREATE cannot. `reliable_input`:
-    the agent's reliable stream is selected; a reliable DATA above the MTU comes in fragments. `pools.slot_size`
-    makes each buffer at least so large.
+    the agent's reliable stream is selected; a reliable DATA above the input buffer comes in fragments,
+    for the agent is told the size of that buffer. `lends_input`: a best-effort sample may wait in the input buffer.
+    `pools.slot_size` makes each buffer at least so large.
     """
     messages, samples = tuple(written), tuple(received)
     ceiling = application.transport.mtu or DEFAULT_MTU[transport]
@@ -148,17 +182,23 @@ def plan_streams(
     elif not reliable:
         slots, reliable = 1, WRITE_DATA_OVERHEAD
     best_effort = max(best_effort, least) if best_effort else 0
-    largest = max((_align4(WRITE_DATA_OVERHEAD + s.max_size) for s in samples), default=0)
+    input_size = max(
+        WRITE_SIDE_INPUT, least, *(sample.piece(ceiling, PIECES[transport]) for sample in samples)
+    )
+    lent = _lent(samples, max(WRITE_SIDE_INPUT, least), ceiling, PIECES[transport]) if lends_input else None
     return StreamPlan(
         mtu=ceiling if fragments else max(best_effort, reliable, create),
         best_effort_size=best_effort,
         reliable_slots=slots,
         reliable_slot_size=_align4(reliable + FRAGMENT_HEADER) if fragments else reliable,
-        input_size=max(WRITE_SIDE_INPUT, least, min(ceiling, largest)),
+        input_size=input_size,
         creation_size=creation,
         fragments=fragments,
         reliable_input_slots=_input_slots(application, reliable_input, diagnostics),
-        reassembly_size=largest - MESSAGE_HEADER if largest > ceiling else 0,
+        arrives_in_fragments=any(sample.whole > input_size for sample in samples),
+        input_reader=lent[0] if lent else None,
+        input_free=lent[1] if lent else 0,
+        input_slot=slot_of(samples[lent[0]].max_size) if lent else 0,
         send_buffer=_send_buffer(application, messages, ceiling, (create, create_text), diagnostics)
         if transport in _LINES
         else 0,
@@ -190,6 +230,25 @@ def _send_buffer(
 
 def _usual_frame(size: int) -> int:
     return _FRAME_FLAG + _FRAME_REST + size + size // _STUFFED_SHARE
+
+
+def _lent(samples: tuple[Received, ...], least: int, ceiling: int, pieces: int) -> tuple[int, int] | None:
+    """Return which sample waits in the input buffer, and the bytes in front of it; None: that would save too little.
+
+    It is the largest of those that are best effort and wait alone: a message that does not fit in front of it takes its
+    place, which such a sample must allow. So every other message has to fit.
+    """
+    alone = [i for i, s in enumerate(samples) if s.alone and s.best_effort and not s.reliable]
+    if not alone:
+        return None
+    chosen = max(alone, key=lambda i: samples[i].whole)
+    free = max([least, *(s.piece(ceiling, pieces) for i, s in enumerate(samples) if i != chosen)])
+    return (chosen, free) if samples[chosen].whole >= free + LEAST_LENT else None
+
+
+def slot_of(size: int) -> int:
+    """Return the bytes of a slot: a body, padded as some writers do."""
+    return _align4(max(size, 1))
 
 
 def _input_slots(application: Application, reliable_input: bool, diagnostics: Diagnostics) -> int:
@@ -245,7 +304,7 @@ def _check_fits(
 def _check_received(
     sample: Received, ceiling: int, transport: str, application: Application, diagnostics: Diagnostics
 ) -> None:
-    size = _align4(WRITE_DATA_OVERHEAD + sample.max_size)
+    size = sample.whole
     span = sample.span or application.transport.mtu_span or application.transport.span
     if sample.max_size > LARGEST_BODY:
         diagnostics.error(

@@ -198,9 +198,8 @@ def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectVi
         memory=(
             _Bytes("reliable output", runtime.reliable_slots * runtime.reliable_slot_size),
             _Bytes("best-effort output", runtime.best_effort_size),
-            _Bytes("input", runtime.input_size),
+            _Bytes("input", runtime.input_buffer_size),
             *((_Bytes("serial line, both directions", _line(project)),) if _line(project) else ()),
             *((_Bytes("queues", runtime.queues_size),) if runtime.queues else ()),
-            *((_Bytes("fragments that arrive", runtime.reassembly_size),) if runtime.reassembles else ()),
         ),
     )

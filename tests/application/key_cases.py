@@ -102,6 +102,14 @@ def _endpoint_cases(
             f"3:{start + 21 + len(name_key) + len(type_name)}",
             f"'nodes[0].{key}[0].queue' must be a whole number between 1 and 250; it is 0",
         )
+        cases[f"{path}.storage"] = KeyCase(
+            one(f"{entry}, storage: none"),
+            lambda a: _endpoint(a).stored,
+            False,
+            one(f"{name_key}: a, type: {type_name}, storage: mine"),
+            f"3:{start + 23 + len(name_key) + len(type_name)}",
+            f"'nodes[0].{key}[0].storage' must be ",
+        )
     if name_key == "topic":
         for qos, value, wrong in (
             ("reliability", "best_effort", "best"),

@@ -11,7 +11,14 @@ from hypothesis import strategies as st
 
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.model.application import Application, Named, Transport
-from microros_gen.plan.streams import DEFAULT_MTU, LARGEST_BODY, StreamPlan, Written, plan_streams
+from microros_gen.plan.streams import (
+    DEFAULT_MTU,
+    LARGEST_BODY,
+    Received,
+    StreamPlan,
+    Written,
+    plan_streams,
+)
 from microros_gen.resolve.declared import STREAM_BEST_EFFORT, STREAM_RELIABLE_INPUT, stream_demands
 
 INT32 = Written("std_msgs/msg/Int32 on /count", 4, True, False)
@@ -179,3 +186,53 @@ def test_drop_oldest_with_fragments_needs_two_slots() -> None:
     (line,) = plan(large(5000), application=one)[1]
     assert "needs a history of 2" in line
     assert plan(INT32, application=one)[1] == []
+
+
+def reception(
+    *received: Received,
+    transport: str = "udp",
+    lends: bool = True,
+    slot_size: int = 0,
+    mtu: int | None = None,
+) -> StreamPlan:
+    application = Application(
+        transport=Transport(mtu=mtu), pools={"slot_size": slot_size} if slot_size else {}
+    )
+    return plan_streams(
+        application, transport, (INT32,), 92, Diagnostics(), True, received, lends_input=lends
+    )
+
+
+SCAN = Received("sensor_msgs/msg/LaserScan on /scan", 2944, True, False, alone=True)
+FAST = replace(SCAN, reliable=False, best_effort=True)
+SMALL = Received("std_msgs/msg/String on /said", 100, True, False)
+
+
+def test_a_reliable_sample_that_waits_alone_comes_in_pieces() -> None:
+    """The agent is told the input buffer; what else comes whole makes it larger, and so does pools.slot_size."""
+    streams = reception(SCAN)
+    assert (streams.input_size, streams.arrives_in_fragments, streams.input_buffer) == (988, True, 988)
+    assert reception(SCAN, transport="serial").input_size == 372
+    assert reception(SCAN, SMALL, replace(SMALL, max_size=1200)).input_size == 1212
+    assert reception(SCAN, slot_size=1400).input_size == 1400
+    queued = reception(replace(SCAN, alone=False))
+    assert (queued.input_size, queued.arrives_in_fragments) == (DEFAULT_MTU["udp"], True)
+    small = reception(replace(SCAN, max_size=200))
+    assert (small.input_size, small.arrives_in_fragments) == (212, False)
+    pool = reception(replace(SCAN, best_effort=True), mtu=4000)
+    assert (pool.input_size, pool.arrives_in_fragments) == (2956, False)
+
+
+def test_a_best_effort_sample_that_waits_alone_waits_in_the_input_buffer() -> None:
+    streams = reception(SMALL, FAST, mtu=4000)
+    assert (streams.input_size, streams.input_reader, streams.input_free) == (2956, 1, 112)
+    assert streams.input_buffer == 112 + 2944
+    assert streams.ram == reception(SMALL, mtu=4000).ram + 2944
+    for other in (
+        reception(SMALL, FAST, mtu=4000, lends=False),
+        reception(SMALL, replace(FAST, alone=False), mtu=4000),
+        reception(SMALL, replace(FAST, reliable=True), mtu=4000),
+        reception(replace(SMALL, max_size=2700), FAST, mtu=4000),
+        reception(FAST, mtu=4000, slot_size=2800),
+    ):
+        assert (other.input_reader, other.input_buffer) == (None, other.input_size)

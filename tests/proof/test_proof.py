@@ -62,8 +62,8 @@ MUTATIONS = {
     "piece of a sample": (
         "fragments",
         "src/stream_reliable_input/xrce_fragments.c",
-        "size > (size_t)MICROROS_REASSEMBLY_SIZE - fragments->size",
-        "size > (size_t)MICROROS_REASSEMBLY_SIZE + 1u - fragments->size",
+        "size > (size_t)fragments->sample.size - fragments->arrived",
+        "size > (size_t)fragments->sample.size + 1u - fragments->arrived",
     ),
     "size of a frame": (
         "frame_byte",

@@ -46,7 +46,7 @@ SESSION = Target(
         READER,
         mtu=128,
         queues=(QueuePlan(3, 16), QueuePlan(2, 100)),
-        reassembly_size=108,
+        arrives_in_fragments=True,
         reliable_input_slots=3,
         has_time_sync=True,
         has_session_state=True,

@@ -279,7 +279,7 @@ LARGE = replace(
     fragments=True,
     reliable_slot_size=1024,
     queues=(QueuePlan(1, 400), QueuePlan(1, 16)),
-    reassembly_size=408,
+    arrives_in_fragments=True,
 )
 SCENARIOS = {
     "samples, reliable": Scenario(READER, _begin("reliable"), _samples),

@@ -13,6 +13,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from microros_gen.sources.components import components_folder
 from runtime.frames import CLIENT, Event, crc16, events, frame, stuffed
 from runtime.harness import FIXTURES, POOL, SANITIZE, Tree, compile_objects, components, link, render
 
@@ -74,7 +75,8 @@ class Framing:
 
 def _sources(folder: Path) -> tuple[Tree, list[Path]]:
     tree = render(folder, SERIAL, components(SERIAL))
-    return tree, [source for source in tree.sources if source.name == "xrce_framing.c"]
+    arrived = components_folder() / "framing" / "src" / "xrce_framing_arrived.c"
+    return tree, [*(source for source in tree.sources if source.name == "xrce_framing.c"), arrived]
 
 
 @pytest.fixture(scope="module", params=VARIANTS.values(), ids=VARIANTS.keys())

@@ -16,7 +16,7 @@ from runtime.reading_agent import ReadingAgent
 
 FIRST = POOL.publishers_max
 PIECES = 9
-LARGE = replace(READER, queues=(QueuePlan(1, 500), QueuePlan(1, 16)), reassembly_size=508)
+LARGE = replace(READER, queues=(QueuePlan(1, 500), QueuePlan(1, 16)), arrives_in_fragments=True)
 TEXT = "z" * (PIECES * 56 - 8 - 5)
 SAMPLE = struct.pack("<I", len(TEXT) + 1) + TEXT.encode() + b"\0"
 

@@ -403,7 +403,9 @@ def test_what_is_no_sample(bench: Bench, text: str) -> None:
 def test_any_bytes_leave_it_sound(bench: Bench) -> None:
     """Mutated datagrams of the agent; the sanitizers watch."""
     chance = random.Random(11)
-    reader = Reader(bench, replace(READER, reassembly_size=200))
+    reader = Reader(
+        bench, replace(READER, queues=(QueuePlan(3, 100), QueuePlan(3, 16)), arrives_in_fragments=True)
+    )
     reader.agent.mtu = 40
     for value in range(400):
         datagrams = reader.agent.offer(FIRST, chance.randbytes(chance.randrange(1, 120)))
@@ -420,7 +422,7 @@ def test_any_bytes_leave_it_sound(bench: Bench) -> None:
 LARGE = replace(
     READER,
     queues=(QueuePlan(2, 400), QueuePlan(2, 16)),
-    reassembly_size=408,
+    arrives_in_fragments=True,
 )
 
 

@@ -61,7 +61,7 @@ BEST_EFFORT_READER = replace(
     queues=(QueuePlan(1, 4),),
 )
 FRAGMENTED_READER = replace(
-    READER, entities="xml", mtu=64, reassembly_size=3000, queues=(QueuePlan(3, 2990),) * 2
+    READER, entities="xml", mtu=64, arrives_in_fragments=True, queues=(QueuePlan(3, 2990),) * 2
 )
 RELIABLE = {
     "creation": "reliable",

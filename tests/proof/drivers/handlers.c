@@ -158,6 +158,7 @@ static void any_receivers(void)
     proof_any(receiver, sizeof(*receiver));
     receiver->head = (uint8_t)Frama_C_interval(0, xrce_queues[i].slots - 1);
     receiver->count = (uint8_t)Frama_C_interval(0, xrce_queues[i].slots);
+    receiver->arriving = proof_bool();
   }
 }
 
@@ -180,16 +181,17 @@ static void any_client(void)
   client.time_sync.callers = Frama_C_unsigned_char_interval(0, UINT8_MAX);
   client.time_sync.answers = Frama_C_unsigned_char_interval(0, UINT8_MAX);
   client.time_sync.synchronized = proof_bool();
+  proof_any(&client.fragments.sample, sizeof(client.fragments.sample));
+  client.fragments.arrived = proof_u16();
   client.fragments.next = proof_u16();
+  client.fragments.begun = proof_bool();
   client.fragments.skipping = proof_bool();
-  proof_any(client.fragments.submessage, sizeof(client.fragments.submessage));
 }
 
 static void check_client(void)
 {
   //@ check reliable_is_sound(&client.reliable);
   //@ check input_is_sound(&client.reliable_input);
-  //@ check client.fragments.size <= MICROROS_REASSEMBLY_SIZE;
   //@ check client.entities.cursor < XRCE_PLACES;
   //@ check client.reading.receiver < RECEIVERS;
   for (uint16_t i = 0; i < RECEIVERS; ++i) {
@@ -214,9 +216,6 @@ void proof_copy(void * to, const void * from, size_t size)
   if (place < offsetof(xrce_client_t, fragments)) {
     end = offsetof(xrce_client_t, reliable_input) + offsetof(xrce_stream_reliable_input_t, message);
     end += sizeof(client.reliable_input.message);
-  } else if (place < offsetof(xrce_client_t, queues)) {
-    end = offsetof(xrce_client_t, fragments) + offsetof(xrce_fragments_t, submessage);
-    end += sizeof(client.fragments.submessage);
   }
   //@ check place + size <= end;
   for (size_t i = 0; i < size; ++i) {
@@ -242,12 +241,11 @@ typedef struct case_t {
   uint8_t kept;      /* messages of the reliable stream; 0xff: any number */
   uint8_t cursor;    /* of the entities; 0xff: any, and nothing is outstanding */
   bool deleting;     /* what is outstanding */
-  uint16_t received; /* bytes of fragments; 0xffff: any */
   uint8_t object[2]; /* least and most of the object id's low byte; its high byte is 0 */
   bool far;          /* the high byte is anything but 0 */
 } case_t;
 
-enum { ANY = 0xff, ANY_SIZE = 0xffff };
+enum { ANY = 0xff };
 
 static void take(const case_t * is, size_t size)
 {
@@ -256,10 +254,6 @@ static void take(const case_t * is, size_t size)
   any_client();
   if (is->kept != ANY) {
     client.reliable.count = is->kept;
-  }
-  client.fragments.size = is->received;
-  if (is->received == ANY_SIZE) {
-    client.fragments.size = (uint16_t)Frama_C_interval(0, MICROROS_REASSEMBLY_SIZE);
   }
   client.entities.deleting = is->deleting;
   client.entities.outstanding = is->cursor != ANY;
@@ -291,7 +285,7 @@ static void take_every_size(const case_t * is)
   }
 }
 
-static const case_t any_case = {ANY, ANY, false, ANY_SIZE, {0, 0}, false};
+static const case_t any_case = {ANY, ANY, false, {0, 0}, false};
 
 /* STATUS: about each place, something being created or deleted there. */
 static void take_about_places(void)

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LINE_SIZE = 400000 };
+enum { LINE_SIZE = 400000, UNTOUCHED = 0xee };
 
 struct xrce_transport_t {
   uint8_t in[LINE_SIZE];
@@ -81,6 +81,16 @@ static void print(const char * word, const uint8_t * data, size_t size)
   printf("\n");
 }
 
+/* A frame on its way has touched no more of the buffer than the reader says. */
+static void check_untouched(const xrce_framing_t * framing, const uint8_t * buffer, size_t capacity)
+{
+  for (size_t i = xrce_framing_arrived(framing); i < capacity; ++i) {
+    if (buffer[i] != UNTOUCHED) {
+      abort();
+    }
+  }
+}
+
 static void feed(xrce_framing_t * framing, uint8_t * buffer, size_t capacity, size_t size)
 {
   memcpy(line.in, bytes, size);
@@ -93,7 +103,11 @@ static void feed(xrce_framing_t * framing, uint8_t * buffer, size_t capacity, si
       print("got", buffer, (size_t)got);
     } else if (got < 0) {
       printf("bad\n");
+    } else {
+      check_untouched(framing, buffer, capacity);
+      continue;
     }
+    memset(buffer, UNTOUCHED, capacity);
   }
   printf("end\n");
 }
@@ -121,6 +135,7 @@ int main(void)
       free(buffer);
       capacity = number;
       buffer = malloc(capacity); /* exactly as large, so that the sanitizer sees one byte more */
+      memset(buffer, UNTOUCHED, capacity);
       memset(&framing, 0, sizeof(framing));
       line.piece = piece;
     } else if (sscanf(text, "room %lu", &number) == 1 || sscanf(text, "silent %lu", &number) == 1) {

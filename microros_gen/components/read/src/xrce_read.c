@@ -19,9 +19,6 @@ enum {
 
 enum { SAMPLES_UNLIMITED = 0xffff };
 
-/* Of DATA: every format but that of one sample without a header. */
-enum { FLAGS_FORMAT = 0x0e };
-
 static uint16_t read_index(const xrce_client_t * client, const xrce_receiver_t * receiver)
 {
   return (uint16_t)(receiver - client->receivers);
@@ -227,8 +224,7 @@ static void read_refuse(xrce_client_t * client, xrce_receiver_t * receiver, uint
   ++client->session.statistics.dropped;
 }
 
-/* One of the samples that were asked for is here. */
-static void read_count(xrce_client_t * client, xrce_receiver_t * receiver, uint16_t request)
+void xrce_read_count(xrce_client_t * client, xrce_receiver_t * receiver, uint16_t request)
 {
   if (request != receiver->request) {
     return;
@@ -241,6 +237,18 @@ static void read_count(xrce_client_t * client, xrce_receiver_t * receiver, uint1
   }
 }
 
+xrce_receiver_t * xrce_read_asked(xrce_client_t * client, uint16_t request, uint16_t object)
+{
+  xrce_receiver_t * receiver = xrce_read_find(client, object);
+
+  if (
+    receiver == NULL || request == XRCE_REQUEST_NONE ||
+    (request != receiver->request && request != receiver->before)) {
+    return NULL;
+  }
+  return receiver;
+}
+
 void xrce_read_on_data(
   xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags, uint32_t now)
 {
@@ -248,18 +256,16 @@ void xrce_read_on_data(
   xrce_receiver_t * receiver;
   uint16_t request;
 
-  if (size <= XRCE_OBJECT_PREFIX || (flags & FLAGS_FORMAT) != 0u) {
+  if (size <= XRCE_OBJECT_PREFIX || (flags & XRCE_READ_FORMATS) != 0u) {
     ++client->session.statistics.malformed;
     return;
   }
   request = xrce_get_be16(&payload[0]);
-  receiver = xrce_read_find(client, xrce_get_be16(&payload[2]));
-  if (
-    receiver == NULL || request == XRCE_REQUEST_NONE ||
-    (request != receiver->request && request != receiver->before)) {
-    return; /* for a former owner of the place */
+  receiver = xrce_read_asked(client, request, xrce_get_be16(&payload[2]));
+  if (receiver == NULL) {
+    return;
   }
-  read_count(client, receiver, request);
+  xrce_read_count(client, receiver, request);
   sample.data = &payload[XRCE_OBJECT_PREFIX];
   sample.arrived_ms = now;
   sample.size = (uint16_t)(size - XRCE_OBJECT_PREFIX);
@@ -273,10 +279,10 @@ void xrce_read_on_data(
 
 void xrce_read_refuse(xrce_client_t * client, uint16_t request, uint16_t object, uint16_t size)
 {
-  xrce_receiver_t * receiver = xrce_read_find(client, object);
+  xrce_receiver_t * receiver = xrce_read_asked(client, request, object);
 
   if (receiver != NULL) {
-    read_count(client, receiver, request);
+    xrce_read_count(client, receiver, request);
     read_refuse(client, receiver, size);
   }
 }

@@ -47,6 +47,9 @@ bool xrce_framing_send(struct xrce_transport_t * line, const uint8_t * message, 
 int32_t xrce_framing_receive(
   xrce_framing_t * framing, struct xrce_transport_t * line, uint8_t * buffer, size_t capacity);
 
+/* Returns how many bytes of the buffer the frame on its way has touched at most. */
+uint32_t xrce_framing_arrived(const xrce_framing_t * framing);
+
 /* --- what the transport implements --- */
 
 /* Returns how many bytes the line takes now; SIZE_MAX where nobody can tell before. */

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""All RAM of a linked application that grows with the message it receives, in times of that message."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from firmware.board import Builds, Built, need
+from firmware.footprint import image_sections
+
+CORTEX_M4 = "qemu-mps2-an386"
+GOAL = 2.5
+SMALL = 4
+APPLICATION = """\
+version: 1
+profiles: [pure_reader]
+components: [+executor]
+errors: code
+transport: {transport}
+nodes:
+  - name: eyes
+    subscriptions:
+      - {{topic: scan, type: sensor_msgs/msg/LaserScan, storage: {storage}, {qos}}}
+limits:
+  sensor_msgs/msg/LaserScan: {{header: {{frame_id: 16}}, ranges: {ranges}, intensities: {ranges}}}
+"""
+BEST_EFFORT = "qos: {reliability: best_effort, depth: 1}"
+LINES = {
+    "serial, reliable": ("{type: serial}", "qos: {depth: 1}"),
+    "serial, reliable, queue": ("{type: serial}", "queue: 1"),
+    "udp, reliable": ("{type: udp}", "queue: 1"),
+    "udp, best effort": ("{type: udp, mtu: 8192}", BEST_EFFORT),
+}
+
+
+def _built(builds: Builds, line: str, ranges: int, storage: str = "none") -> Built:
+    transport, qos = LINES[line]
+    text = APPLICATION.format(transport=transport, qos=qos, ranges=ranges, storage=storage)
+    return builds.build(CORTEX_M4, text)
+
+
+def _ram(builds: Builds, built: Built, line: str, ranges: int) -> int:
+    suffix = "best_effort" if "best effort" in line else "default"
+    flags = [f"-DSCAN_RANGES={ranges}", f"-DSCAN_INIT=rclc_subscription_init_{suffix}"]
+    flags += ["-DSCAN_UDP"] if line.startswith("udp") else []
+    return image_sections(built, builds.application(built, "scan.c", *flags)).ram
+
+
+def _largest(built: Built) -> int:
+    types = json.loads((built.out / "manifest.json").read_text())["types"]
+    return int(types["sensor_msgs/msg/LaserScan"]["max_encoded_size"])
+
+
+def _times(builds: Builds, line: str, ranges: int, storage: str = "none") -> float:
+    """Return the RAM that grows with the message, in times of the message.
+
+    It is what an image has more than one for a small message, and all that this one can have of it: that many times
+    the goal, and the input buffer that no plan goes below.
+    """
+    large, small = (_built(builds, line, count, storage) for count in (ranges, SMALL))
+    grown = _ram(builds, large, line, ranges) - _ram(builds, small, line, SMALL)
+    least = int(json.loads((small.out / "manifest.json").read_text())["pools"]["input_size"])
+    return (grown + GOAL * _largest(small) + least) / _largest(large)
+
+
+@pytest.mark.parametrize("line", LINES)
+def test_a_laser_scan_at_depth_1(builds: Builds, line: str) -> None:
+    """Queue, input buffer, the interrupt's ring, bound storage, and the message with its buffers in the program."""
+    need(CORTEX_M4)
+    assert _times(builds, line, 360) <= GOAL
+
+
+def test_storage_that_the_library_binds_is_the_difference(builds: Builds) -> None:
+    """Without `storage: none` the library has memory for the message besides that of the program."""
+    need(CORTEX_M4)
+    line = "udp, reliable"
+    kept, none = (_ram(builds, _built(builds, line, 360, s), line, 360) for s in ("planned", "none"))
+    assert 2 * 4 * 360 <= kept - none < 2 * 4 * 360 + 64
