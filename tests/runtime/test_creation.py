@@ -273,7 +273,7 @@ def test_xml_as_captured(bench: Bench) -> None:
         _string_body(5, 2, XML_WRITER, b"\0\3"),
     ]
     assert [d[12:] for d in requests_of(client.sent)] == bodies
-    assert requests_of(client.sent)[2][:12] == bytes.fromhex("81010200 01070f00 000c0003")
+    assert requests_of(client.sent)[2][:12] == bytes.fromhex("81010200 01070f00 000d0003")
 
 
 def test_references_as_the_rmw_of_micro_ros_names_them(bench: Bench) -> None:
