@@ -252,6 +252,14 @@ _TOP = {
         "1:33",
         "'transport.baud' must be a whole number between 300 and 12000000; it is 100",
     ),
+    "transport.send_buffer": KeyCase(
+        "transport: {type: serial, send_buffer: 512}",
+        lambda a: a.transport.send_buffer,
+        512,
+        "transport: {type: serial, send_buffer: 8}",
+        "1:40",
+        "'transport.send_buffer' must be a whole number between 64 and 1048576; it is 8",
+    ),
     "transport.framing": KeyCase(
         "transport: {type: custom, framing: false}",
         lambda a: a.transport.framing,
