@@ -141,7 +141,8 @@ def test_every_event_is_there_with_its_fields() -> None:
         seen.add(event)
         assert {field.name for field in fields(report)} == set(re.findall(r"`(\w+)`", table[event][2])), event
     cli = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "microros_gen/cli").glob("agent*.py"))
-    seen |= set(re.findall(r'Level\.\w+, "(\w+)"', cli))
+    log = (AGENT / "log.py").read_text(encoding="utf-8")
+    seen |= set(re.findall(r'Level\.\w+, "(\w+)"', cli + log))
     assert seen | {"bad_input"} == set(table)
 
 
@@ -163,6 +164,8 @@ def test_every_kind_of_fault_is_there() -> None:
     found = {kind for kind in found if re.fullmatch(r"[a-z]+(_[a-z]+)*", kind)}
     found |= {"frame_too_large", "frame_empty", "log_lost", "client_STATUS", "internal_ERROR"}
     found |= {"no_server", "no_client", str(inspect.signature(Processor._stop).parameters["kind"].default)}
+    assert 'else "publish"' in (AGENT / "operations.py").read_text(encoding="utf-8")
+    found = (found | {"publish"}) - {"client_resources"}  # a client_STATUS
     assert found == kinds
 
 
