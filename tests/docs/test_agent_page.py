@@ -164,8 +164,10 @@ def test_every_kind_of_fault_is_there() -> None:
     found = {kind for kind in found if re.fullmatch(r"[a-z]+(_[a-z]+)*", kind)}
     found |= {"frame_too_large", "frame_empty", "log_lost", "client_STATUS", "internal_ERROR"}
     found |= {"no_server", "no_client", str(inspect.signature(Processor._stop).parameters["kind"].default)}
-    assert 'else "publish"' in (AGENT / "operations.py").read_text(encoding="utf-8")
-    found = (found | {"publish"}) - {"client_resources"}  # a client_STATUS
+    assert '"history_full" if isinstance(error, HistoryFullError) else "publish"' in (
+        AGENT / "operations.py"
+    ).read_text(encoding="utf-8")
+    found = (found | {"publish", "history_full"}) - {"client_resources"}  # a client_STATUS
     assert found == kinds
 
 
