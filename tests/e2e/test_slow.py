@@ -37,7 +37,8 @@ SAMPLES, SUMS = [3, 4, 5], [[1, 2], [30, 40]]
 
 def exchange(observer: Observer, program: Path, timeout_s: float, sums: bool = True) -> dict[str, int]:
     """Let samples, and `sums` as well, go through the device; return what it counted."""
-    observer.subscribe("/slow_out", "std_msgs/msg/Int32")
+    if not any(end["kind"] == "SUBSCRIPTION" for end in observer.ask(do="endpoints", topic="/slow_out")):
+        observer.subscribe("/slow_out", "std_msgs/msg/Int32")
     observer.ask(do="publish", topic="/slow_in", type="std_msgs/msg/Int32", values=[])
     began = time.monotonic()
     with started(program, str(len(SAMPLES) + len(SUMS) * sums), str(int(timeout_s))) as process:
