@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "7a39c62280e3e734"
-#define rcl_init rcl_init__plan_7a39c62280e3e734
-#define rclc_support_init rclc_support_init__plan_7a39c62280e3e734
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_7a39c62280e3e734
+#define MICROROS_PLAN_ID "546f3664cc778016"
+#define rcl_init rcl_init__plan_546f3664cc778016
+#define rclc_support_init rclc_support_init__plan_546f3664cc778016
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_546f3664cc778016
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u
@@ -23,17 +23,19 @@
 #define MICROROS_MTU 158u
 
 /* session */
-#define MICROROS_CLIENT_KEY 0xfa703f44u
+#define MICROROS_CLIENT_KEY port_unique_id()
 #define MICROROS_CONNECT_TIMEOUT_MS 1000u
 #define MICROROS_CREATE_TIMEOUT_MS 1000u
 #define MICROROS_CLOSE_TIMEOUT_MS 300u
-#define MICROROS_RETRY_FIRST_MS 100u
-#define MICROROS_RETRY_MOST_MS 1000u
+#define MICROROS_RETRY_FIRST_MS 100u /* of pauses between attempts, which grow */
+#define MICROROS_RETRY_MOST_MS 4000u
 #define MICROROS_LIVELINESS_PERIOD_MS 1000u
+#define MICROROS_LIVELINESS_WAIT_MS 1000u /* for each answer */
 #define MICROROS_LIVELINESS_ATTEMPTS 3u
 
 /* streams */
 #define MICROROS_INPUT_SIZE 64u
+#define MICROROS_INPUT_BUFFER_SIZE 64u
 #define MICROROS_BEST_EFFORT_SIZE 158u
 #define MICROROS_RELIABLE_SLOTS 4u
 #define MICROROS_RELIABLE_SLOT_SIZE 16u
@@ -51,5 +53,6 @@
 
 /* memory */
 #define MICROROS_ARENA_SIZE 0u
+#define MICROROS_KEPT_MESSAGES 1u /* of each sender: microros/message_pools.h */
 
 #endif /* MICROROS_CONFIG_H */

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "eb987d9529d1ba7d"
-#define rcl_init rcl_init__plan_eb987d9529d1ba7d
-#define rclc_support_init rclc_support_init__plan_eb987d9529d1ba7d
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_eb987d9529d1ba7d
+#define MICROROS_PLAN_ID "7ec7c4d268d048ec"
+#define rcl_init rcl_init__plan_7ec7c4d268d048ec
+#define rclc_support_init rclc_support_init__plan_7ec7c4d268d048ec
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_7ec7c4d268d048ec
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u
@@ -22,24 +22,25 @@
 #define MICROROS_MTU 158u
 
 /* session */
-#define MICROROS_CLIENT_KEY 0xc16e25b7u
+#define MICROROS_CLIENT_KEY port_unique_id()
 #define MICROROS_CONNECT_TIMEOUT_MS 1000u
 #define MICROROS_CREATE_TIMEOUT_MS 1000u
 #define MICROROS_CLOSE_TIMEOUT_MS 300u
-#define MICROROS_RETRY_FIRST_MS 100u
-#define MICROROS_RETRY_MOST_MS 1000u
+#define MICROROS_RETRY_FIRST_MS 100u /* of pauses between attempts, which grow */
+#define MICROROS_RETRY_MOST_MS 4000u
 #define MICROROS_LIVELINESS_PERIOD_MS 1000u
+#define MICROROS_LIVELINESS_WAIT_MS 1000u /* for each answer */
 #define MICROROS_LIVELINESS_ATTEMPTS 3u
 
 /* streams */
 #define MICROROS_INPUT_SIZE 64u
+#define MICROROS_INPUT_BUFFER_SIZE 64u
 #define MICROROS_BEST_EFFORT_SIZE 158u
 #define MICROROS_RELIABLE_INPUT_SLOTS 1u
 #define MICROROS_RELIABLE_INPUT_SLOT_SIZE 64u
 #define MICROROS_QUEUE_SLOTS 4u
 #define MICROROS_QUEUES_SIZE 16u
 #define MICROROS_PRECONFIGURED 0u
-#define MICROROS_REASSEMBLY_SIZE 8u
 
 /* places */
 #define MICROROS_NODES_MAX 1u
@@ -47,6 +48,7 @@
 #define MICROROS_SUBSCRIPTIONS_MAX 1u
 #define MICROROS_SERVICES_MAX 0u
 #define MICROROS_CLIENTS_MAX 0u
+#define MICROROS_TASKS_SHARE 0u /* several tasks may call the library */
 #define MICROROS_EXECUTORS_MAX 1u
 #define MICROROS_HANDLES_MAX 2u /* of each executor */
 #define MICROROS_GUARD_CONDITIONS_MAX 1u

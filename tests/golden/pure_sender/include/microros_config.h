@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "a62f609dc8a3413b"
-#define rcl_init rcl_init__plan_a62f609dc8a3413b
-#define rclc_support_init rclc_support_init__plan_a62f609dc8a3413b
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_a62f609dc8a3413b
+#define MICROROS_PLAN_ID "b2892ffd1fedd5dd"
+#define rcl_init rcl_init__plan_b2892ffd1fedd5dd
+#define rclc_support_init rclc_support_init__plan_b2892ffd1fedd5dd
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_b2892ffd1fedd5dd
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u
@@ -22,17 +22,19 @@
 #define MICROROS_MTU 158u
 
 /* session */
-#define MICROROS_CLIENT_KEY 0x0105f4b4u
+#define MICROROS_CLIENT_KEY port_unique_id()
 #define MICROROS_CONNECT_TIMEOUT_MS 1000u
 #define MICROROS_CREATE_TIMEOUT_MS 1000u
 #define MICROROS_CLOSE_TIMEOUT_MS 300u
-#define MICROROS_RETRY_FIRST_MS 100u
-#define MICROROS_RETRY_MOST_MS 1000u
+#define MICROROS_RETRY_FIRST_MS 100u /* of pauses between attempts, which grow */
+#define MICROROS_RETRY_MOST_MS 4000u
 #define MICROROS_LIVELINESS_PERIOD_MS 1000u
+#define MICROROS_LIVELINESS_WAIT_MS 1000u /* for each answer */
 #define MICROROS_LIVELINESS_ATTEMPTS 3u
 
 /* streams */
 #define MICROROS_INPUT_SIZE 64u
+#define MICROROS_INPUT_BUFFER_SIZE 64u
 #define MICROROS_BEST_EFFORT_SIZE 158u
 #define MICROROS_RELIABLE_SLOTS 4u
 #define MICROROS_RELIABLE_SLOT_SIZE 16u
@@ -50,5 +52,6 @@
 
 /* memory */
 #define MICROROS_ARENA_SIZE 0u
+#define MICROROS_KEPT_MESSAGES 1u /* of each sender: microros/message_pools.h */
 
 #endif /* MICROROS_CONFIG_H */

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "7ac8b4e2b858488f"
-#define rcl_init rcl_init__plan_7ac8b4e2b858488f
-#define rclc_support_init rclc_support_init__plan_7ac8b4e2b858488f
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_7ac8b4e2b858488f
+#define MICROROS_PLAN_ID "79d7847032d2c2bc"
+#define rcl_init rcl_init__plan_79d7847032d2c2bc
+#define rclc_support_init rclc_support_init__plan_79d7847032d2c2bc
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_79d7847032d2c2bc
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u
@@ -22,17 +22,19 @@
 #define MICROROS_MTU 158u
 
 /* session */
-#define MICROROS_CLIENT_KEY 0x5cd9fe54u
+#define MICROROS_CLIENT_KEY port_unique_id()
 #define MICROROS_CONNECT_TIMEOUT_MS 1000u
 #define MICROROS_CREATE_TIMEOUT_MS 1000u
 #define MICROROS_CLOSE_TIMEOUT_MS 300u
-#define MICROROS_RETRY_FIRST_MS 100u
-#define MICROROS_RETRY_MOST_MS 1000u
+#define MICROROS_RETRY_FIRST_MS 100u /* of pauses between attempts, which grow */
+#define MICROROS_RETRY_MOST_MS 4000u
 #define MICROROS_LIVELINESS_PERIOD_MS 1000u
+#define MICROROS_LIVELINESS_WAIT_MS 1000u /* for each answer */
 #define MICROROS_LIVELINESS_ATTEMPTS 3u
 
 /* streams */
 #define MICROROS_INPUT_SIZE 64u
+#define MICROROS_INPUT_BUFFER_SIZE 64u
 #define MICROROS_BEST_EFFORT_SIZE 158u
 #define MICROROS_QUEUE_SLOTS 1u
 #define MICROROS_QUEUES_SIZE 8u
@@ -44,6 +46,7 @@
 #define MICROROS_SUBSCRIPTIONS_MAX 1u
 #define MICROROS_SERVICES_MAX 0u
 #define MICROROS_CLIENTS_MAX 0u
+#define MICROROS_TASKS_SHARE 0u /* several tasks may call the library */
 #define MICROROS_EXECUTORS_MAX 1u
 #define MICROROS_HANDLES_MAX 1u /* of each executor */
 #define MICROROS_GUARD_CONDITIONS_MAX 1u

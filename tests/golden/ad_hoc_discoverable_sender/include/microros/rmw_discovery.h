@@ -13,7 +13,7 @@ extern "C" {
 #endif
 
 /* Writes the place of the first agent that answers to `params`. RMW_RET_TIMEOUT, with a text: none did within
- * `timeout_ms`, and `params` names none. */
+ * `timeout_ms`, and `params` names none. The caller has the lock, which is given back where this waits. */
 rmw_ret_t rmw_discovery_find(rmw_uxrce_transport_params_t * params, uint32_t timeout_ms);
 
 #ifdef __cplusplus

@@ -19,18 +19,27 @@ extern "C" {
 #endif
 
 typedef struct xrce_entities_t {
-  uint32_t due_ms;
+  uint32_t due_ms;   /* while xrce_entities_waits: when to go on */
+  uint32_t asked_ms; /* when the outstanding request was sent first */
   uint16_t request;
   uint16_t cursor;        /* the place that the request is about */
   uint16_t refused_place; /* the last place that was refused, and why */
   uint8_t refused_status;
+  uint8_t refusals; /* in a row */
   bool outstanding;
   bool deleting;
   bool pending; /* something may have to be created or deleted */
+  bool resting; /* the agent refused the last request a moment ago */
 } xrce_entities_t;
 
+/* Whether due_ms counts: a request is out, or was refused. Else what is pending can go at once. */
+static inline bool xrce_entities_waits(const xrce_entities_t * entities)
+{
+  return entities->outstanding || entities->resting;
+}
+
 /* What xrce_routes.c calls. */
-void xrce_entities_renew(xrce_client_t * client, uint32_t now);
+void xrce_entities_renew(xrce_client_t * client);
 void xrce_entities_step(xrce_client_t * client, uint32_t now);
 void xrce_entities_on_status(xrce_client_t * client, const uint8_t * payload, size_t size, uint32_t now);
 

@@ -30,10 +30,12 @@ typedef struct xrce_place_t {
 /* All zero: not begun. */
 typedef struct xrce_discovery_t {
   port_multicast_t group;
-  uint32_t due_ms; /* when to ask again, or, while a place is tried, when to give it up */
-  uint16_t pause_ms;
-  bool wanted; /* the agent of this session is searched for */
-  bool open;
+  uint32_t due_ms;   /* when to ask again, or, while a place is tried, when to give it up */
+  uint32_t since_ms; /* when the search began */
+  uint32_t asked_ms; /* when it was asked last */
+  bool wanted;       /* the agent of this session is searched for */
+  bool searching;
+  bool open; /* the search has its socket */
   bool trying;
   uint8_t count; /* of places, of which `next` were tried */
   uint8_t next;

@@ -33,6 +33,42 @@ static inline uint16_t xrce_transport_port(const xrce_transport_t * transport)
   return transport->port;
 }
 
+/* Whether two transports would share one line: sockets never do. */
+static inline bool xrce_transport_is_same_line(const xrce_transport_t * a, const xrce_transport_t * b)
+{
+  (void)a;
+  (void)b;
+  return false;
+}
+
+/* A pump begins. */
+static inline void xrce_transport_begin_turn(xrce_transport_t * transport)
+{
+  (void)transport;
+}
+
+/* Whether a stream may send one more message in this turn: sending never waits. */
+static inline bool xrce_transport_take_turn(xrce_transport_t * transport)
+{
+  (void)transport;
+  return true;
+}
+
+/* Whether who sends may leave received messages to others for now: reading never waits. */
+static inline bool xrce_transport_may_skip_reading(const xrce_transport_t * transport, uint32_t pause_ms)
+{
+  (void)transport;
+  (void)pause_ms;
+  return false;
+}
+
+/* Whether nothing waits to be sent. */
+static inline bool xrce_transport_is_idle(xrce_transport_t * transport)
+{
+  (void)transport;
+  return true;
+}
+
 bool xrce_transport_open(xrce_transport_t * transport);
 
 void xrce_transport_close(xrce_transport_t * transport);

@@ -1,1 +1,1 @@
-#error "The component 'lifecycle' is not selected: add `components: [+lifecycle]` to microros.yaml and generate again"
+#error "The component 'lifecycle' is not in this version yet"

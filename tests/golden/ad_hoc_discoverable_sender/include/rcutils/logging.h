@@ -1,1 +1,1 @@
-#error "The component 'logging' is not selected: add `components: [+logging]` to microros.yaml and generate again"
+#error "The component 'logging' is not in this version yet"

@@ -15,7 +15,8 @@ extern "C" {
 #endif
 
 /*
- * Writes address and port of the first agent that answers into the options. Waits a second at most for one.
+ * Writes address and port of the first agent that answers into the options, whether there is a session or not. Waits for
+ * one at most MICROROS_CONNECT_TIMEOUT_MS.
  * RMW_RET_TIMEOUT: none did, and the options name no agent; RMW_RET_INVALID_ARGUMENT for NULL.
  */
 rmw_ret_t rmw_uros_discover_agent(rmw_init_options_t * rmw_options);

@@ -2,52 +2,25 @@
 #include "rmw_microros/discovery.h"
 
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/port.h"
 #include "microros/rmw_discovery.h"
+#include "microros/rmw_inquiry.h"
 #include "microros/rmw_transport.h"
 #include "microros/xrce_discovery.h"
-#include "microros/xrce_wire.h"
 #include "microros_config.h"
 
 #include <stdbool.h>
 #include <string.h>
 
-/* How long agents have to answer, and one of them at its place. */
-enum { SEARCH_MS = 1000, PLACE_MS = 200 };
-
-/* Whether an agent answers over this transport. */
-static bool discovery_hears(xrce_transport_t * transport, uint32_t timeout_ms)
-{
-  const uint32_t start = port_time_ms();
-  uint8_t message[XRCE_DISCOVERY_QUESTION];
-  uint8_t input[MICROROS_INPUT_SIZE];
-
-  xrce_discovery_write_question(message);
-  (void)xrce_transport_send(transport, message, sizeof(message));
-  for (;;) {
-    const int32_t size = xrce_transport_receive(transport, input, sizeof(input));
-
-    if (size > XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER && input[4] == XRCE_INFO) {
-      return true;
-    }
-    if (port_time_ms() - start >= timeout_ms) {
-      return false;
-    }
-    port_sleep_ms(1);
-  }
-}
+/* How long an agent has to answer at its place. */
+enum { PLACE_MS = 2 * MICROROS_RETRY_FIRST_MS };
 
 static bool discovery_reaches(const rmw_uxrce_transport_params_t * params)
 {
   xrce_transport_t transport;
-  bool heard;
 
-  if (!rmw_transport_prepare(&transport, params) || !xrce_transport_open(&transport)) {
-    return false;
-  }
-  heard = discovery_hears(&transport, PLACE_MS);
-  xrce_transport_close(&transport);
-  return heard;
+  return rmw_transport_prepare(&transport, params) && rmw_inquiry_ask(&transport, PLACE_MS, 1);
 }
 
 static void discovery_put_port(char * digits, uint16_t port)
@@ -91,7 +64,7 @@ rmw_ret_t rmw_discovery_find(rmw_uxrce_transport_params_t * params, uint32_t tim
     if (xrce_discovery_search(&search, port_time_ms())) {
       found = discovery_try_next(&search, params);
     } else {
-      port_sleep_ms(1);
+      microros_pause();
     }
   }
   xrce_discovery_end(&search);
@@ -105,8 +78,13 @@ rmw_ret_t rmw_discovery_find(rmw_uxrce_transport_params_t * params, uint32_t tim
 
 rmw_ret_t rmw_uros_discover_agent(rmw_init_options_t * rmw_options)
 {
+  rmw_ret_t result;
+
   if (rmw_options == NULL) {
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "rmw_options");
   }
-  return rmw_discovery_find(&rmw_options->transport_params, SEARCH_MS);
+  microros_lock();
+  result = rmw_discovery_find(&rmw_options->transport_params, MICROROS_CONNECT_TIMEOUT_MS);
+  microros_unlock();
+  return result;
 }

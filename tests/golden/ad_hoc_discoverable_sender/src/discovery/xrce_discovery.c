@@ -6,11 +6,17 @@
 
 #include <string.h>
 
-/* A place has so long to open the session; an open search is looked after so often; one look takes so many answers. */
-enum { TRY_MS = 300, LOOK_MS = 20, ANSWERS_PER_LOOK = 8 };
+/* A place has so long to open the session; answers come within so long after a question, and are looked for so often; one
+ * look takes so many. */
+enum {
+  TRY_MS = 3 * MICROROS_RETRY_FIRST_MS,
+  ANSWERS_MS = 2 * MICROROS_RETRY_FIRST_MS,
+  LOOK_MS = 20,
+  ANSWERS_PER_LOOK = 8
+};
 
-/* What of an answer is read: at least the first ten places. */
-enum { ANSWER_SIZE = 128 };
+/* What of an answer is read: the first three places. */
+enum { ANSWER_SIZE = 60 };
 
 static char * discovery_put_number(char * at, uint8_t number)
 {
@@ -46,18 +52,20 @@ void xrce_discovery_end(xrce_discovery_t * discovery)
     port_multicast_close(&discovery->group);
     discovery->open = false;
   }
+  discovery->searching = false;
   discovery->count = 0;
   discovery->next = 0;
 }
 
 static void discovery_ask(xrce_discovery_t * discovery, uint32_t now)
 {
-  if (!discovery->open) {
-    discovery->open = port_multicast_open(&discovery->group);
-    discovery->pause_ms = MICROROS_RETRY_FIRST_MS;
+  if (!discovery->searching) {
+    discovery->searching = true;
+    discovery->since_ms = now;
   } else if (!xrce_is_due(now, discovery->due_ms)) {
     return;
   }
+  discovery->open = discovery->open || port_multicast_open(&discovery->group);
   if (discovery->open) {
     uint8_t question[XRCE_DISCOVERY_QUESTION];
 
@@ -65,10 +73,8 @@ static void discovery_ask(xrce_discovery_t * discovery, uint32_t now)
     (void)port_multicast_send(
       &discovery->group, XRCE_DISCOVERY_GROUP, MICROROS_DISCOVERY_PORT, question, sizeof(question));
   }
-  discovery->due_ms = now + discovery->pause_ms;
-  discovery->pause_ms = discovery->pause_ms < MICROROS_RETRY_MOST_MS / 2u
-                          ? (uint16_t)(2u * discovery->pause_ms)
-                          : (uint16_t)MICROROS_RETRY_MOST_MS;
+  discovery->asked_ms = now;
+  discovery->due_ms = now + xrce_session_pause(now - discovery->since_ms);
 }
 
 bool xrce_discovery_search(xrce_discovery_t * discovery, uint32_t now)
@@ -132,6 +138,6 @@ bool xrce_discovery_step(xrce_client_t * client, uint32_t now)
     discovery_try(client, now);
     return true;
   }
-  session->due_ms = now + LOOK_MS;
+  session->due_ms = now - discovery->asked_ms < (uint32_t)ANSWERS_MS ? now + LOOK_MS : discovery->due_ms;
   return false;
 }

@@ -82,17 +82,22 @@ static void discovery_add(xrce_discovery_t * discovery, const uint8_t * address,
   ++discovery->count;
 }
 
-static void discovery_take_locator(xrce_discovery_t * discovery, reader_t * reader, const uint8_t * sender)
+/* Returns the port of a place that was read; 0: none was. */
+static uint16_t discovery_take_locator(
+  xrce_discovery_t * discovery, reader_t * reader, const uint8_t * sender)
 {
+  uint16_t port = 0;
+
   switch (*reader_take(reader, 1, 1)) {
     case LOCATOR_SMALL:
       (void)reader_take(reader, 3, 1);
       break;
     case LOCATOR_MEDIUM: {
       const uint8_t * address = reader_take(reader, PORT_MULTICAST_ADDRESS, 1);
-      const uint16_t port = xrce_get_u16(reader_take(reader, 2, 2), reader->flags);
+      const uint8_t * at = reader_take(reader, 2, 2);
 
       if (!reader->ended) {
+        port = xrce_get_u16(at, reader->flags);
         discovery_add(discovery, address, port, memcmp(address, sender, PORT_MULTICAST_ADDRESS) == 0);
       }
       break;
@@ -105,12 +110,14 @@ static void discovery_take_locator(xrce_discovery_t * discovery, reader_t * read
       reader_skip_string(reader);
       break;
   }
+  return port;
 }
 
 void xrce_discovery_on_info(
   xrce_discovery_t * discovery, const uint8_t * message, size_t size, const uint8_t * sender)
 {
   reader_t reader = {&message[8], 0, RESULT_SIZE, 0, false};
+  uint16_t port = 0;
 
   if (
     size < 8u + RESULT_SIZE || message[0] != XRCE_SESSION_NONE || message[4] != XRCE_INFO ||
@@ -131,7 +138,12 @@ void xrce_discovery_on_info(
   (void)reader_take(&reader, 1, 1); /* the kind of object: an agent */
   (void)reader_take(&reader, 2, 2); /* whether it is available */
   for (uint32_t left = reader_take_u32(&reader); left != 0u && !reader.ended; --left) {
-    discovery_take_locator(discovery, &reader, sender);
+    const uint16_t taken = discovery_take_locator(discovery, &reader, sender);
+
+    port = taken != 0u ? taken : port;
+  }
+  if (reader.ended) { /* what was cut off may be the place that is most likely to be reached */
+    discovery_add(discovery, sender, port, true);
   }
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "rosidl_runtime_c/string_functions.h"
 
-#include "rcutils/allocator.h"
+#include "microros/message_pools.h"
 
 #include <stdint.h>
 #include <string.h>
@@ -26,10 +26,8 @@ bool rosidl_runtime_c__String__init(rosidl_runtime_c__String * str)
 
 static void string_give_back(rosidl_runtime_c__String * str)
 {
-  if (str->data != NULL && str->data != string_empty()) {
-    rcutils_allocator_t allocator = rcutils_get_default_allocator();
-
-    allocator.deallocate(str->data, allocator.state);
+  if (str->data != string_empty()) {
+    microros_memory_give_back(MICROROS_POOL_text, str->data);
   }
 }
 
@@ -47,7 +45,7 @@ void rosidl_runtime_c__String__fini(rosidl_runtime_c__String * str)
 /* Makes room for `size` units and the terminator. */
 static bool string_make_room(rosidl_runtime_c__String * str, size_t size)
 {
-  rcutils_allocator_t allocator;
+  size_t room = size + 1u;
   char * data;
 
   if (str->data != NULL && str->capacity > size && (str->data != string_empty() || size == 0u)) {
@@ -56,14 +54,13 @@ static bool string_make_room(rosidl_runtime_c__String * str, size_t size)
   if (size >= SIZE_MAX) {
     return false;
   }
-  allocator = rcutils_get_default_allocator();
-  data = allocator.allocate(size + 1u, allocator.state);
+  data = microros_memory_take(MICROROS_POOL_text, &room);
   if (data == NULL) {
     return false;
   }
   string_give_back(str);
   str->data = data;
-  str->capacity = size + 1u;
+  str->capacity = room;
   return true;
 }
 

@@ -1,9 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "rosidl_runtime_c/string_functions.h"
 
+#include "microros/message_pools.h"
 #include "rcutils/allocator.h"
 
 #include <stdint.h>
+
+/* Makes the strings from `first` up to `last` empty ones, which needs nothing that could fail. */
+static void strings_begin(rosidl_runtime_c__String * data, size_t first, size_t last)
+{
+  for (size_t i = first; i < last; ++i) {
+    (void)rosidl_runtime_c__String__init(&data[i]);
+  }
+}
 
 bool rosidl_runtime_c__String__Sequence__init(rosidl_runtime_c__String__Sequence * sequence, size_t size)
 {
@@ -13,16 +22,14 @@ bool rosidl_runtime_c__String__Sequence__init(rosidl_runtime_c__String__Sequence
     return false;
   }
   if (size != 0u) {
-    const rcutils_allocator_t allocator = rcutils_get_default_allocator();
+    size_t room = size * sizeof(*data);
 
-    data = allocator.allocate(size * sizeof(*data), allocator.state);
+    data = microros_memory_take(MICROROS_POOL_string, &room);
     if (data == NULL) {
       return false;
     }
   }
-  for (size_t i = 0; i < size; ++i) {
-    (void)rosidl_runtime_c__String__init(&data[i]); /* an empty string needs nothing that could fail */
-  }
+  strings_begin(data, 0, size);
   sequence->data = data;
   sequence->size = size;
   sequence->capacity = size;
@@ -35,12 +42,10 @@ void rosidl_runtime_c__String__Sequence__fini(rosidl_runtime_c__String__Sequence
     return;
   }
   if (sequence->data != NULL) {
-    const rcutils_allocator_t allocator = rcutils_get_default_allocator();
-
     for (size_t i = 0; i < sequence->capacity; ++i) {
       rosidl_runtime_c__String__fini(&sequence->data[i]);
     }
-    allocator.deallocate(sequence->data, allocator.state);
+    microros_memory_give_back(MICROROS_POOL_string, sequence->data);
   }
   sequence->data = NULL;
   sequence->size = 0;
@@ -61,20 +66,32 @@ bool rosidl_runtime_c__String__Sequence__are_equal(
   return true;
 }
 
+/* Gives the sequence room for `size` strings: of its own block, where that has it, or of a larger one. */
+static bool strings_grow(rosidl_runtime_c__String__Sequence * sequence, size_t size)
+{
+  rosidl_runtime_c__String__Sequence larger;
+
+  if (microros_memory_room(MICROROS_POOL_string, sequence->data) / sizeof(*sequence->data) >= size) {
+    strings_begin(sequence->data, sequence->capacity, size);
+    sequence->capacity = size;
+    return true;
+  }
+  if (!rosidl_runtime_c__String__Sequence__init(&larger, size)) {
+    return false;
+  }
+  rosidl_runtime_c__String__Sequence__fini(sequence);
+  *sequence = larger;
+  return true;
+}
+
 bool rosidl_runtime_c__String__Sequence__copy(
   const rosidl_runtime_c__String__Sequence * input, rosidl_runtime_c__String__Sequence * output)
 {
   if (input == NULL || output == NULL) {
     return false;
   }
-  if (output->capacity < input->size) {
-    rosidl_runtime_c__String__Sequence larger;
-
-    if (!rosidl_runtime_c__String__Sequence__init(&larger, input->size)) {
-      return false;
-    }
-    rosidl_runtime_c__String__Sequence__fini(output);
-    *output = larger;
+  if (output->capacity < input->size && !strings_grow(output, input->size)) {
+    return false;
   }
   output->size = input->size;
   for (size_t i = 0; i < input->size; ++i) {

@@ -55,6 +55,7 @@ extern const char microros_error_subscriptions_full[];
 extern const char microros_error_subscription_qos[];
 extern const char microros_error_sample_large[];
 extern const char microros_error_read_refused[];
+extern const char microros_error_receiver_reliable[];
 extern const char microros_error_pool_full[];
 extern const char microros_error_clock[];
 extern const char microros_error_timer[];
@@ -75,6 +76,8 @@ extern const char microros_error_service_session[];
 extern const char microros_error_service_short[];
 extern const char microros_error_requests_lost[];
 extern const char microros_error_pool_most[];
+extern const char microros_error_block_large[];
+extern const char microros_error_blocks_taken[];
 
 /*
  * Makes this the last error. What `name`, `detail`, `found` and `fits` mean is said beside the texts; the

@@ -37,7 +37,7 @@ struct xrce_client_t {
   xrce_receiver_t receivers[XRCE_RECEIVERS];
   xrce_slot_t slots[MICROROS_QUEUE_SLOTS];
   uint8_t queues[MICROROS_QUEUES_SIZE];
-  uint8_t input[MICROROS_INPUT_SIZE]; /* last: nothing of it outlives a pump */
+  uint8_t input[MICROROS_INPUT_BUFFER_SIZE]; /* last: nothing of it outlives a pump */
 };
 
 #endif /* MICROROS_XRCE_CLIENT_H */

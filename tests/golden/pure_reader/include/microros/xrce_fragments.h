@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Fragments of the agent's reliable stream: DATA above the MTU comes in pieces, one message each and one behind the other,
- * and is put together in one buffer (OMG DDS-XRCE 1.0, 8.3.5.14). What is larger than any sample of the plan is refused
- * with its first piece.
+ * Fragments of the agent's reliable stream: DATA above the MTU comes in pieces, one message each and one behind the other
+ * (OMG DDS-XRCE 1.0, 8.3.5.14). All samples of this plan come whole, so such a one is too large: it is refused with its
+ * first piece.
  */
 #ifndef MICROROS_XRCE_FRAGMENTS_H
 #define MICROROS_XRCE_FRAGMENTS_H
@@ -12,7 +12,6 @@
 #include <stdint.h>
 
 #include "microros/xrce_forward.h"
-#include "microros_config.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -20,10 +19,7 @@ extern "C" {
 
 /* All zero: nothing has come. */
 typedef struct xrce_fragments_t {
-  uint16_t next; /* number of the message in which the next piece has to come */
-  uint16_t size; /* bytes that are here */
   bool skipping; /* up to the last piece of what cannot be had */
-  uint8_t submessage[MICROROS_REASSEMBLY_SIZE];
 } xrce_fragments_t;
 
 void xrce_fragments_reset(xrce_fragments_t * fragments);

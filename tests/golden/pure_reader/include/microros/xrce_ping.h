@@ -9,30 +9,29 @@
 #include <stdint.h>
 
 #include "microros/xrce_session.h"
-#include "microros/xrce_wire.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-enum { XRCE_PING_SIZE = XRCE_GET_INFO_SIZE };
-
 typedef struct xrce_ping_t {
   uint32_t due_ms;    /* when to ask again */
   uint8_t unanswered; /* questions since the agent was heard last */
-  bool answered;      /* an INFO came, since this was set to false */
+  uint8_t answers;    /* INFOs and sessions granted: whoever waits for an agent sees that it changes */
 } xrce_ping_t;
 
+/* A session was granted. */
 void xrce_ping_reset(xrce_ping_t * ping);
 
-/* Writes GET_INFO into `message`, XRCE_PING_SIZE bytes. */
-void xrce_ping_write(uint8_t * message, uint8_t session);
+/* Asks once, in the session or, where there is none, outside of it. The session is not closed. */
+void xrce_ping_ask(xrce_client_t * client);
 
-/* Asks when MICROROS_LIVELINESS_PERIOD_MS went by in silence; after MICROROS_LIVELINESS_ATTEMPTS without an
- * answer the session is lost. */
+/* Asks when MICROROS_LIVELINESS_PERIOD_MS went by in silence; after MICROROS_LIVELINESS_ATTEMPTS without an answer
+ * within MICROROS_LIVELINESS_WAIT_MS the session is lost. */
 void xrce_ping_step(xrce_client_t * client, uint32_t now);
 
-/* An answer that says "not in a session" loses it, too: the agent has started anew. */
+/* An answer that says "not in a session" loses it, too: the agent has started anew. One that comes while the session is
+ * looked for brings the next CREATE_CLIENT forward. */
 void xrce_ping_on_info(
   xrce_client_t * client, const uint8_t * payload, size_t size, bool in_session, uint32_t now);
 

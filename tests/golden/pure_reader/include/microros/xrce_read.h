@@ -6,7 +6,9 @@
  * READ_DATA is sent when an endpoint is complete at the agent, and again in each new session. It is flow control:
  * - A best-effort endpoint asks once, for everything. Its queue gives the oldest sample up for a newer one.
  * - A reliable one asks for as many samples as its queue has room for, and again when these have arrived and half of the
- *   queue is free. So the agent never sends what has no room here; what waits, waits in DDS.
+ *   queue is free. So the agent never sends what has no room here; what waits, waits in DDS. A sample that comes in
+ *   fragments is put together in its slot, which belongs to the stream until the last of them is here, to the application
+ *   from then on until it has taken the sample, and to nobody else: it is asked for again only after that.
  *
  * READ_DATA has no answer when it succeeds. It goes on a reliable stream of its own (0x81), one at a time, and is sent
  * again until it is acknowledged; so it needs no history, and nothing that is written stands in its way.
@@ -23,6 +25,9 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* Flags of DATA: every format but that of one sample without a header. */
+enum { XRCE_READ_FORMATS = 0x0e };
 
 /* Where a queue lies among the slots of all; from the plan. */
 typedef struct xrce_queue_t {
@@ -45,7 +50,7 @@ typedef struct xrce_slot_t {
 typedef struct xrce_receiver_t {
   uint32_t dropped; /* samples that had no room: see xrce_read_counters_t */
   uint32_t refused;
-  uint32_t due_ms;  /* after a refusal: when to ask again */
+  uint32_t due_ms;  /* while `resting`: when to ask again */
   uint16_t request; /* of the READ_DATA in force, or XRCE_REQUEST_NONE */
   uint16_t before;  /* of the one before it, of which samples may still be on their way */
   uint16_t granted; /* samples of a reliable endpoint that were asked for and have not come */
@@ -53,11 +58,14 @@ typedef struct xrce_receiver_t {
   uint8_t status;   /* with which the agent refused READ_DATA, until this was told; 0: none */
   uint8_t head;     /* the oldest sample's slot */
   uint8_t count;
+  bool resting : 1;  /* the agent refused READ_DATA a moment ago */
+  bool arriving : 1; /* fragments are being put together in the slot behind the last sample */
 } xrce_receiver_t;
 
 /* The READ_DATA that is not acknowledged yet. */
 typedef struct xrce_reading_t {
   uint32_t due_ms;   /* when to send it again */
+  uint32_t asked_ms; /* when it was sent first */
   uint16_t sequence; /* its number, or the next one's */
   uint16_t request;
   uint16_t samples;
@@ -72,6 +80,14 @@ typedef struct xrce_sample_t {
   uint16_t size;
   bool big_endian;
 } xrce_sample_t;
+
+/* A sample that comes in fragments: of which READ_DATA, from which object, and how many bytes behind the object's id. */
+typedef struct xrce_arrival_t {
+  uint16_t request;
+  uint16_t object;
+  uint16_t size;
+  uint8_t flags; /* of DATA */
+} xrce_arrival_t;
 
 /* Samples since the endpoint was opened. `dropped`: there was no room; of a best-effort endpoint the oldest, of a reliable
  * one what the agent sent beyond what it was asked for. `refused`: larger than a slot, or not decoded. */
@@ -104,7 +120,7 @@ xrce_read_counters_t xrce_read_counters(const xrce_endpoint_t * endpoint);
 
 /* --- what xrce_routes.c and the input streams call --- */
 
-void xrce_read_renew(xrce_client_t * client, uint32_t now);
+void xrce_read_renew(xrce_client_t * client);
 void xrce_read_step(xrce_client_t * client, uint32_t now);
 void xrce_read_on_data(
   xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags, uint32_t now);
@@ -112,13 +128,38 @@ void xrce_read_on_status(xrce_client_t * client, const uint8_t * payload, size_t
 
 void xrce_read_on_acknack(xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags);
 
-/* A sample of this object came, under this READ_DATA, that is larger than what could be kept of it. */
+/* A sample that comes in fragments is larger than what can be kept of it: its reader is told. */
 void xrce_read_refuse(xrce_client_t * client, uint16_t request, uint16_t object, uint16_t size);
+
+/* Fragments of a sample begin. False: it cannot be kept; its reader is told, or it is counted. */
+bool xrce_read_begin(xrce_client_t * client, const xrce_arrival_t * arrival);
+
+/* Returns the place of its `size` bytes; NULL: it was given up, since the reader was closed or the agent has sent it
+ * another sample meanwhile. */
+uint8_t * xrce_read_place(xrce_client_t * client, const xrce_arrival_t * arrival);
+
+/* All its bytes are there. */
+void xrce_read_finish(xrce_client_t * client, const xrce_arrival_t * arrival, uint32_t now);
+
+/*
+ * With MICROROS_INPUT_READER, whose slot is the end of the input buffer: a best-effort sample that waits alone. Messages
+ * are received in front of it. One that does not fit there takes its place, as a newer sample does, and it is counted as
+ * dropped. The first function is told what every call of the transport's receive has returned, before anything else is
+ * done; the second one is called when all submessages of a message are handled, and moves the sample to its slot.
+ */
+void xrce_read_on_input(xrce_client_t * client, int32_t received);
+void xrce_read_settle(xrce_client_t * client);
 
 /* --- for this component alone --- */
 
 /* Returns the receiver of an object, or NULL: none that is open. */
 xrce_receiver_t * xrce_read_find(xrce_client_t * client, uint16_t object);
+
+/* Returns the receiver of a sample of this object that this READ_DATA asked for, or NULL: one of a former owner. */
+xrce_receiver_t * xrce_read_asked(xrce_client_t * client, uint16_t request, uint16_t object);
+
+/* One of the samples that were asked for is here. */
+void xrce_read_count(xrce_client_t * client, xrce_receiver_t * receiver, uint16_t request);
 
 /* Returns the geometry of a receiver's queue. */
 const xrce_queue_t * xrce_read_queue(const xrce_client_t * client, const xrce_receiver_t * receiver);
@@ -126,6 +167,18 @@ const xrce_queue_t * xrce_read_queue(const xrce_client_t * client, const xrce_re
 /* Keeps a sample, or counts it as dropped. */
 void xrce_read_keep(
   xrce_client_t * client, xrce_receiver_t * receiver, const xrce_sample_t * sample, bool reliable);
+
+/* Counts a sample that has no room. */
+void xrce_read_drop(xrce_client_t * client, xrce_receiver_t * receiver);
+
+/* Returns whether there is a free slot for fragments. */
+bool xrce_read_has_room(const xrce_client_t * client, const xrce_receiver_t * receiver);
+
+/* Returns the bytes of the free slot behind the last sample; there is one. */
+uint8_t * xrce_read_free_slot(xrce_client_t * client, const xrce_receiver_t * receiver);
+
+/* What the free slot has is a sample now, which waits; its `data` does not matter. */
+void xrce_read_fill(xrce_client_t * client, xrce_receiver_t * receiver, const xrce_sample_t * sample);
 
 /* Whether the samples come on the reliable stream. */
 bool xrce_read_is_reliable(const xrce_client_t * client, const xrce_receiver_t * receiver);

@@ -2,6 +2,10 @@
 /*
  * The reliable input stream: what the agent sends on stream 0x80, handed on in order and once each, and acknowledged one
  * by one (OMG DDS-XRCE 1.0, 8.4.13). Sequence numbers are modulo 2^16 and begin at 0 in each session.
+ *
+ * A missing message is requested once, with the first acknowledgement after its gap, and again after the next HEARTBEAT:
+ * the public agent sends all that an acknowledgement names, however often it is named.
+ *
  * A message that comes before its turn is not acknowledged, and comes again.
  */
 #ifndef MICROROS_XRCE_STREAM_RELIABLE_INPUT_H
@@ -22,6 +26,8 @@ extern "C" {
 typedef struct xrce_stream_reliable_input_t {
   uint16_t next;      /* sequence number of the message whose turn it is */
   uint16_t announced; /* bit i: message next + i is known to exist */
+  uint16_t asked;     /* bit i: it was requested since the last HEARTBEAT */
+  uint16_t refused;   /* bit i: it was received before its turn, without a free slot: no use to request it yet */
 } xrce_stream_reliable_input_t;
 
 /* A session is new: the agent counts from 0. */

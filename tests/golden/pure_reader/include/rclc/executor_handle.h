@@ -64,6 +64,7 @@ typedef struct {
   size_t index;
   bool initialized;
   bool data_available; /* there is something for the callback */
+  bool has_turn;       /* in the round that is under way */
 } rclc_executor_handle_t;
 
 typedef struct {

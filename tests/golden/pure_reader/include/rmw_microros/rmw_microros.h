@@ -8,6 +8,7 @@
 #include "rmw/rmw.h"
 #include "rmw_microxrcedds_c/config.h"
 #include "rmw_microros/init_options.h"
+#include "rmw_microros/message_memory.h"
 #include "rmw_microros/ping.h"
 #include "rmw_microros/session.h"
 #include "rmw_microros/subscription.h"

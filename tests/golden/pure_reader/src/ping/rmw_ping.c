@@ -5,121 +5,97 @@
 #include "microros/lock.h"
 #include "microros/port.h"
 #include "microros/rmw_client.h"
+#include "microros/rmw_inquiry.h"
 #include "microros/rmw_transport.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_ping.h"
-#include "microros/xrce_wire.h"
+#include "microros/xrce_rest.h"
 
-/* Whether `message` begins with an INFO. */
-static bool ping_is_info(const uint8_t * message, int32_t size)
+static rmw_ret_t ping_silent(const xrce_transport_t * transport, uint32_t waited_ms)
 {
-  return size > XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER && message[4] == XRCE_INFO;
+  microros_error_set(
+    microros_error_agent_silent, xrce_transport_name(transport), NULL, xrce_transport_port(transport), waited_ms);
+  return RMW_RET_ERROR;
 }
 
-static bool ping_in_session(xrce_client_t * client, uint32_t timeout_ms)
+/* A session that is open, or looked for, has the line: its transport is the only one that may use it. */
+static bool ping_over_session(xrce_client_t * client, uint32_t timeout_ms)
 {
   const uint32_t start = port_time_ms();
-  uint8_t message[XRCE_PING_SIZE];
+  const uint8_t answers = client->ping.answers;
 
-  client->ping.answered = false;
-  xrce_ping_write(message, XRCE_SESSION_ID);
-  (void)xrce_session_send(&client->session, message, sizeof(message));
+  xrce_ping_ask(client);
   for (;;) {
     xrce_session_pump(client);
-    if (
-      client->ping.answered || client->session.state != XRCE_READY || port_time_ms() - start >= timeout_ms) {
-      break;
-    }
-    microros_pause();
-  }
-  return client->ping.answered;
-}
-
-/* `input` holds MICROROS_INPUT_SIZE bytes. */
-static bool ping_once(xrce_transport_t * transport, uint8_t * input, uint32_t timeout_ms)
-{
-  const uint32_t start = port_time_ms();
-  uint8_t message[XRCE_PING_SIZE];
-
-  xrce_ping_write(message, XRCE_SESSION_NONE);
-  (void)xrce_transport_send(transport, message, sizeof(message));
-  for (;;) {
-    if (ping_is_info(input, xrce_transport_receive(transport, input, MICROROS_INPUT_SIZE))) {
+    if (client->ping.answers != answers) {
       return true;
     }
-    if (port_time_ms() - start >= timeout_ms) {
+    if (client->session.state == (uint8_t)XRCE_CLOSED || port_time_ms() - start >= timeout_ms) {
       return false;
     }
-    port_sleep_ms(1);
+    xrce_rest(client);
   }
 }
 
-static bool ping_out_of_session(xrce_transport_t * transport, uint32_t timeout_ms, uint8_t attempts)
+static rmw_ret_t ping_session(xrce_client_t * client, uint32_t timeout_ms, uint8_t attempts)
 {
-  uint8_t input[MICROROS_INPUT_SIZE];
-  bool answered = false;
-
-  if (!xrce_transport_open(transport)) {
-    return false;
+  for (uint8_t i = 0; i < attempts && client->session.state != (uint8_t)XRCE_CLOSED; ++i) {
+    if (ping_over_session(client, timeout_ms)) {
+      return RMW_RET_OK;
+    }
   }
-  for (uint8_t i = 0; i < attempts && !answered; ++i) {
-    answered = ping_once(transport, input, timeout_ms);
-  }
-  xrce_transport_close(transport);
-  return answered;
+  return ping_silent(&client->session.transport, timeout_ms * attempts);
 }
 
-static rmw_ret_t ping_agent(const rmw_uxrce_transport_params_t * params, int timeout_ms, uint8_t attempts)
+/* To another place than that of a session. */
+static rmw_ret_t ping_place(
+  const rmw_uxrce_transport_params_t * params, uint32_t timeout_ms, uint8_t attempts)
 {
-  const uint32_t timeout = timeout_ms > 0 ? (uint32_t)timeout_ms : 0u;
+  xrce_client_t * client = rmw_client_instance();
   xrce_transport_t transport;
 
   if (!rmw_transport_prepare(&transport, params)) {
     return RMW_RET_ERROR;
   }
-  if (!ping_out_of_session(&transport, timeout, attempts)) {
-    microros_error_set(
-      microros_error_agent_silent, xrce_transport_name(&transport), NULL, xrce_transport_port(&transport),
-      timeout * attempts);
-    return RMW_RET_ERROR;
+  if (
+    client->session.state != (uint8_t)XRCE_CLOSED &&
+    xrce_transport_is_same_line(&transport, &client->session.transport)) {
+    return ping_session(client, timeout_ms, attempts);
   }
-  return RMW_RET_OK;
+  return rmw_inquiry_ask(&transport, timeout_ms, attempts)
+           ? RMW_RET_OK
+           : ping_silent(&transport, timeout_ms * attempts);
 }
 
-/* The lock is held but where it waits. */
-static bool ping_session(xrce_client_t * client, int timeout_ms, uint8_t attempts)
+static rmw_ret_t ping_agent(const rmw_uxrce_transport_params_t * params, uint32_t timeout_ms, uint8_t attempts)
 {
-  bool answered = false;
-
-  for (uint8_t i = 0; i < attempts && !answered; ++i) {
-    answered = ping_in_session(client, timeout_ms > 0 ? (uint32_t)timeout_ms : 0u);
-  }
-  return answered;
+  return ping_place(params, timeout_ms, attempts);
 }
 
 rmw_ret_t rmw_uros_ping_agent(const int timeout_ms, const uint8_t attempts)
 {
   static const rmw_uxrce_transport_params_t planned = {0};
-  xrce_client_t * client;
-  bool answered = false;
+  const uint32_t timeout = timeout_ms > 0 ? (uint32_t)timeout_ms : 0u;
+  xrce_client_t * client = rmw_client_instance();
+  rmw_ret_t result;
 
   microros_lock();
-  client = rmw_client_connected();
-  if (client != NULL) {
-    answered = ping_session(client, timeout_ms, attempts);
-  }
+  result = client->session.state != (uint8_t)XRCE_CLOSED ? ping_session(client, timeout, attempts)
+                                                         : ping_agent(&planned, timeout, attempts);
   microros_unlock();
-  if (client == NULL) {
-    return ping_agent(&planned, timeout_ms, attempts);
-  }
-  return answered ? RMW_RET_OK : RMW_RET_ERROR;
+  return result;
 }
 
 rmw_ret_t rmw_uros_ping_agent_options(
   const int timeout_ms, const uint8_t attempts, rmw_init_options_t * rmw_options)
 {
+  rmw_ret_t result;
+
   if (rmw_options == NULL) {
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "rmw_options");
   }
-  return ping_agent(&rmw_options->transport_params, timeout_ms, attempts);
+  microros_lock();
+  result = ping_agent(&rmw_options->transport_params, timeout_ms > 0 ? (uint32_t)timeout_ms : 0u, attempts);
+  microros_unlock();
+  return result;
 }

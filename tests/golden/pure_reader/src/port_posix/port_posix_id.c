@@ -2,21 +2,37 @@
 #define _POSIX_C_SOURCE 200809L
 #include "microros/port.h"
 
+#include <fcntl.h>
+#include <time.h>
 #include <unistd.h>
 
-enum { HOST_NAME_SIZE = 256 };
+/* A system without random numbers: the process and the moment in which it asks. */
+static uint32_t id_of_process(void)
+{
+  struct timespec now = {0, 0};
+  uint32_t id = (uint32_t)getpid() * 2654435761u;
 
-/* FNV-1a over the host's name: the nearest to a serial number that every POSIX system has. */
+  if (clock_gettime(CLOCK_REALTIME, &now) == 0) {
+    id ^= (uint32_t)now.tv_nsec ^ (uint32_t)now.tv_sec << 16;
+  }
+  return id;
+}
+
+/* Drawn once for each process: two programs on one machine differ, and one that is initialized again stays what it is. */
 uint32_t port_unique_id(void)
 {
-  char name[HOST_NAME_SIZE] = {0};
-  uint32_t hash = 2166136261u;
+  static uint32_t id;
 
-  if (gethostname(name, sizeof(name) - 1u) != 0) {
-    name[0] = '\0';
+  if (id == 0u) {
+    const int source = open("/dev/urandom", O_RDONLY | O_CLOEXEC);
+
+    if (source < 0 || read(source, &id, sizeof(id)) != (ssize_t)sizeof(id)) {
+      id = id_of_process();
+    }
+    if (source >= 0) {
+      (void)close(source);
+    }
+    id = id == 0u ? 1u : id;
   }
-  for (const char * at = name; *at != '\0'; ++at) {
-    hash = (hash ^ (uint8_t)*at) * 16777619u;
-  }
-  return hash == 0u ? 1u : hash;
+  return id;
 }

@@ -62,7 +62,7 @@ void port_wait(intptr_t handle, uint32_t timeout_ms)
 {
   const int most_ms = timeout_ms > (uint32_t)INT_MAX ? INT_MAX : (int)timeout_ms;
   const int wake = wake_end(OUT);
-  struct pollfd ends[] = {{wake, POLLIN, 0}, {(int)handle, POLLIN, 0}}; /* poll leaves out what is negative */
+  struct pollfd ends[ENDS] = { {wake, POLLIN, 0}, {(int)handle, POLLIN, 0} }; /* poll leaves out what is negative */
 
   (void)poll(ends, sizeof(ends) / sizeof(ends[0]), most_ms); /* a signal ends it early, as may be */
   if (wake >= 0) {

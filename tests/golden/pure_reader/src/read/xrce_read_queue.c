@@ -29,37 +29,56 @@ void xrce_read_open(const xrce_endpoint_t * endpoint)
   xrce_receiver_t * receiver = queue_of(endpoint);
 
   (void)memset(receiver, 0, sizeof(*receiver));
-  receiver->due_ms = endpoint->client->session.now_ms;
+}
+
+static uint8_t * queue_bytes(xrce_client_t * client, const xrce_queue_t * queue, uint8_t slot)
+{
+  return &client->queues[queue->offset + (uint32_t)slot * queue->slot_size];
+}
+
+uint8_t * xrce_read_free_slot(xrce_client_t * client, const xrce_receiver_t * receiver)
+{
+  const xrce_queue_t * queue = xrce_read_queue(client, receiver);
+
+  return queue_bytes(client, queue, queue_slot(receiver, queue, receiver->count));
+}
+
+void xrce_read_fill(xrce_client_t * client, xrce_receiver_t * receiver, const xrce_sample_t * sample)
+{
+  const xrce_queue_t * queue = xrce_read_queue(client, receiver);
+  xrce_slot_t * slot = &client->slots[queue->first + queue_slot(receiver, queue, receiver->count)];
+
+  slot->arrived_ms = sample->arrived_ms;
+  slot->size = sample->size;
+  slot->big_endian = sample->big_endian;
+  ++receiver->count;
+}
+
+void xrce_read_drop(xrce_client_t * client, xrce_receiver_t * receiver)
+{
+  ++receiver->dropped;
+  ++client->session.statistics.dropped;
 }
 
 void xrce_read_keep(
   xrce_client_t * client, xrce_receiver_t * receiver, const xrce_sample_t * sample, bool reliable)
 {
   const xrce_queue_t * queue = xrce_read_queue(client, receiver);
-  xrce_slot_t * slot;
-  uint8_t place;
 
   if (receiver->count == queue->slots) {
-    ++receiver->dropped;
-    ++client->session.statistics.dropped;
+    xrce_read_drop(client, receiver);
     if (reliable) {
       return;
     }
     queue_drop_oldest(receiver, queue);
   }
-  place = queue_slot(receiver, queue, receiver->count);
-  slot = &client->slots[queue->first + place];
-  slot->arrived_ms = sample->arrived_ms;
-  slot->size = sample->size;
-  slot->big_endian = sample->big_endian;
-  (void)memcpy(
-    &client->queues[queue->offset + (uint32_t)place * queue->slot_size], sample->data, sample->size);
-  ++receiver->count;
+  (void)memcpy(xrce_read_free_slot(client, receiver), sample->data, sample->size);
+  xrce_read_fill(client, receiver, sample);
 }
 
 bool xrce_read_peek(const xrce_endpoint_t * endpoint, xrce_sample_t * sample)
 {
-  const xrce_client_t * client = endpoint->client;
+  xrce_client_t * client = endpoint->client;
   const xrce_receiver_t * receiver = queue_of(endpoint);
   const xrce_queue_t * queue = xrce_read_queue(client, receiver);
   const xrce_slot_t * slot = &client->slots[queue->first + receiver->head];
@@ -67,7 +86,7 @@ bool xrce_read_peek(const xrce_endpoint_t * endpoint, xrce_sample_t * sample)
   if (receiver->count == 0u) {
     return false;
   }
-  sample->data = &client->queues[queue->offset + (uint32_t)receiver->head * queue->slot_size];
+  sample->data = queue_bytes(client, queue, receiver->head);
   sample->arrived_ms = slot->arrived_ms;
   sample->size = slot->size;
   sample->big_endian = slot->big_endian;

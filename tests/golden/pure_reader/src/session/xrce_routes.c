@@ -71,9 +71,10 @@ void xrce_route_connected(xrce_client_t * client, uint32_t now)
   xrce_stream_reliable_input_reset(&client->reliable_input);
   xrce_fragments_reset(&client->fragments);
   xrce_stream_best_effort_input_reset(&client->best_effort_input);
-  xrce_read_renew(client, now);
-  xrce_entities_renew(client, now);
+  xrce_read_renew(client);
+  xrce_entities_renew(client);
   xrce_ping_reset(&client->ping);
+  (void)now;
 }
 
 void xrce_route_close(xrce_client_t * client)

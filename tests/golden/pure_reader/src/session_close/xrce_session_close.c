@@ -34,7 +34,7 @@ void xrce_session_leave(xrce_client_t * client, uint32_t timeout_ms)
 
     if (xrce_is_due(now, due)) {
       leave_send(session);
-      due = now + MICROROS_RETRY_FIRST_MS;
+      due = now + xrce_session_short_pause(now - start);
     }
     xrce_session_pump(client);
     if (session->state != XRCE_CLOSING || now - start >= timeout_ms) {

@@ -15,13 +15,22 @@ void xrce_stream_reliable_input_reset(xrce_stream_reliable_input_t * stream)
   (void)memset(stream, 0, sizeof(*stream));
 }
 
-/* Tells the agent whose turn it is, and which messages behind that are known but not here. */
+/* Returns the messages to request: known, not here, and not requested since the last HEARTBEAT. */
+static uint16_t input_missing(const xrce_stream_reliable_input_t * stream)
+{
+  const uint32_t others = (uint32_t)xrce_stream_reliable_input_map(stream) | stream->asked | stream->refused;
+
+  return (uint16_t)(stream->announced & ~others);
+}
+
+/* Tells the agent which message is next, and requests the missing ones after it. */
 static void input_acknowledge(xrce_client_t * client)
 {
-  const xrce_stream_reliable_input_t * stream = &client->reliable_input;
-  const uint16_t missing = (uint16_t)(stream->announced & ~xrce_stream_reliable_input_map(stream));
+  xrce_stream_reliable_input_t * stream = &client->reliable_input;
+  const uint16_t missing = input_missing(stream);
   uint8_t message[ACKNACK_MESSAGE];
 
+  stream->asked = (uint16_t)(stream->asked | missing);
   xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_NONE, 0);
   xrce_put_submessage(&message[4], XRCE_ACKNACK, XRCE_FLAG_LITTLE_ENDIAN, XRCE_ACKNACK_SIZE);
   xrce_put_le16(&message[8], stream->next);
@@ -30,18 +39,34 @@ static void input_acknowledge(xrce_client_t * client)
   (void)xrce_session_send(&client->session, message, sizeof(message)); /* the agent asks again */
 }
 
-/* There are `count` messages from the one on whose turn it is. */
-static void input_announce(xrce_stream_reliable_input_t * stream, uint16_t count)
+/* Returns the map of `count` messages from the next one on. */
+static uint16_t input_first(uint16_t count)
 {
   const uint32_t map = count < WINDOW ? ((uint32_t)1u << count) - 1u : 0xffffu;
 
-  stream->announced = (uint16_t)(stream->announced | map);
+  return (uint16_t)map;
 }
 
+/* What was refused for want of a slot can be requested: the gap before it is closed. */
 static void input_advance(xrce_stream_reliable_input_t * stream)
 {
   ++stream->next;
   stream->announced >>= 1;
+  stream->asked = (uint16_t)((uint32_t)(stream->asked & ~(uint32_t)stream->refused) >> 1);
+  stream->refused = 0;
+}
+
+/* Keeps a message that is `ahead` (not 0) of its turn, or notes that there was no room for it. */
+static void input_take_early(
+  xrce_stream_reliable_input_t * stream, uint16_t ahead, const uint8_t * message, size_t size)
+{
+  const uint32_t bit = (uint32_t)1u << ahead;
+
+  stream->announced = (uint16_t)(stream->announced | input_first((uint16_t)(ahead + 1u)));
+  xrce_stream_reliable_input_keep(stream, (uint16_t)(stream->next + ahead), message, size);
+  if ((xrce_stream_reliable_input_map(stream) & bit) == 0u) {
+    stream->refused = (uint16_t)(stream->refused | bit);
+  }
 }
 
 /* Whether all of a message has come: a part of one is as good as lost, and comes again. */
@@ -94,8 +119,7 @@ bool xrce_stream_reliable_input_take(
     input_hand_on(client, message, size, now);
     input_hand_on_kept(client, now);
   } else if (ahead < WINDOW) {
-    input_announce(stream, (uint16_t)(ahead + 1u));
-    xrce_stream_reliable_input_keep(stream, sequence, message, size);
+    input_take_early(stream, ahead, message, size);
   }
   input_acknowledge(client);
   return true;
@@ -145,9 +169,10 @@ bool xrce_stream_reliable_input_on_heartbeat(
     input_skip(stream, first);
   }
   known = (uint16_t)(xrce_get_u16(&payload[2], flags) - stream->next + 1u);
-  if (known < HALF) {
-    input_announce(stream, known);
-  }
+  stream->announced =
+    known < HALF ? input_first(known) : 0u; /* a number beyond these was forged, or overtook it */
+  stream->asked = 0;
+  stream->refused = 0;
   if (!input_can_go_on(stream)) { /* else xrce_stream_reliable_input_go_on acknowledges */
     input_acknowledge(client);
   }

@@ -20,14 +20,16 @@ enum { NS_PER_MS = 1000000 };
 void rmw_subscription_describe(const rmw_subscription_t * subscription, rmw_message_info_t * info)
 {
   xrce_sample_t sample;
-  uint32_t age_ms;
+  int64_t age_ns;
+  int64_t epoch_ns;
 
   (void)memset(info, 0, sizeof(*info));
   if (!xrce_read_peek(subscription->data, &sample)) {
     return;
   }
-  age_ms = port_time_ms() - sample.arrived_ms;
-  info->received_timestamp = port_time_epoch_ns() - (int64_t)age_ms * NS_PER_MS;
+  age_ns = (int64_t)(port_time_ms() - sample.arrived_ms) * NS_PER_MS;
+  epoch_ns = port_time_epoch_ns();
+  info->received_timestamp = epoch_ns != 0 ? epoch_ns - age_ns : 0; /* nobody has set the time of day yet */
   info->publication_sequence_number = RMW_MESSAGE_INFO_SEQUENCE_NUMBER_UNSUPPORTED;
   info->reception_sequence_number = RMW_MESSAGE_INFO_SEQUENCE_NUMBER_UNSUPPORTED;
   info->publisher_gid.implementation_identifier = rmw_implementation_identifier;

@@ -61,6 +61,12 @@ static bool init_is_free(void)
   return is_free;
 }
 
+/* The application's key goes before that of the plan. */
+static uint32_t init_key(const rmw_uxrce_transport_params_t * params)
+{
+  return params->client_key != 0u ? params->client_key : MICROROS_CLIENT_KEY;
+}
+
 /* Opens a session as context->options say. */
 static rmw_ret_t init_open_session(rmw_context_t * context)
 {
@@ -68,7 +74,7 @@ static rmw_ret_t init_open_session(rmw_context_t * context)
   const rmw_uxrce_transport_params_t * params = &context->options.transport_params;
   rmw_ret_t result = RMW_RET_ERROR;
 
-  xrce_session_open(client, params->client_key != 0u ? params->client_key : MICROROS_CLIENT_KEY);
+  xrce_session_open(client, init_key(params));
   if (rmw_transport_prepare(&client->session.transport, params)) {
     result = xrce_session_await(client, MICROROS_CONNECT_TIMEOUT_MS) ? RMW_RET_OK : init_report(client);
   }

@@ -69,7 +69,8 @@ void port_hardware_timer_stop(uint16_t timer);
 
 /* --- unique id --- */
 
-/* Returns a number that no other device has and that stays over a restart; never 0. */
+/* Returns a number that no other device has, never 0: of a board the same over a restart, of a program on a host drawn
+ * when it starts. The client key where the application file has none. */
 uint32_t port_unique_id(void);
 
 /* --- UDP --- */
@@ -153,8 +154,16 @@ bool port_serial_open(port_serial_t * serial, const char * device, uint32_t baud
 
 void port_serial_close(port_serial_t * serial);
 
-/* Hands all bytes to the line. Waits for its pace at most: ten bits a byte. False: they were not all taken. */
+/* Returns how many bytes port_serial_write takes now; it shrinks by calls of port_serial_write alone. SIZE_MAX: the port
+ * does not know, its port_serial_write waits for the pace of the line. */
+size_t port_serial_room(port_serial_t * serial);
+
+/* Hands all bytes to the line, which sends them while the program goes on: by interrupt, DMA or a task of its own. Does
+ * not wait where they are not more than port_serial_room says. False: they were not all taken. */
 bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size);
+
+/* Returns whether all that was handed to the line has left the program's memory. For flush and sleep. */
+bool port_serial_is_idle(port_serial_t * serial);
 
 /* Takes what has arrived, without blocking. Returns how many bytes that is, at most `capacity`. */
 size_t port_serial_read(port_serial_t * serial, uint8_t * buffer, size_t capacity);

@@ -17,9 +17,6 @@ extern const char * const rmw_implementation_identifier;
 /* Returns the one client of this process, open or not. */
 xrce_client_t * rmw_client_instance(void);
 
-/* Returns the client when it has a session, else NULL. */
-xrce_client_t * rmw_client_connected(void);
-
 /* Waits at most `timeout_ms` until nothing is unacknowledged. */
 bool rmw_client_flush(xrce_client_t * client, uint32_t timeout_ms);
 

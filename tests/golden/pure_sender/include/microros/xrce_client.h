@@ -28,7 +28,7 @@ struct xrce_client_t {
   xrce_object_state_t states[XRCE_PLACES];
   xrce_participant_t participants[MICROROS_NODES_MAX];
   xrce_endpoint_t endpoints[XRCE_ENDPOINTS];
-  uint8_t input[MICROROS_INPUT_SIZE]; /* last: nothing of it outlives a pump */
+  uint8_t input[MICROROS_INPUT_BUFFER_SIZE]; /* last: nothing of it outlives a pump */
 };
 
 #endif /* MICROROS_XRCE_CLIENT_H */

@@ -33,6 +33,10 @@ uint8_t * xrce_write_reserve(const xrce_endpoint_t * writer);
 /* There is no room: XRCE_WRITTEN and *room when there is now, else why not. One of on_full_*.c is there. */
 xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room);
 
+/* The transport has no room for a best-effort message of `size` bytes, which is in its stream: XRCE_WRITTEN when there was
+ * some in time, else it was counted as given up. One of on_full_*.c is there. */
+xrce_write_t xrce_write_on_unsent(xrce_endpoint_t * writer, size_t size);
+
 /* Why there is no room. */
 xrce_write_t xrce_write_obstacle(const xrce_endpoint_t * writer);
 

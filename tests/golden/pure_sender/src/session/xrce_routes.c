@@ -47,7 +47,7 @@ void xrce_route_connected(xrce_client_t * client, uint32_t now)
 {
   xrce_stream_best_effort_reset(&client->best_effort);
   xrce_stream_reliable_hold(&client->reliable, now);
-  xrce_entities_renew(client, now);
+  xrce_entities_renew(client);
   xrce_ping_reset(&client->ping);
 }
 

@@ -38,8 +38,12 @@ const char microros_error_field_capacity[] =
   "%t.%d: %n, capacity for %m: raise limits%y, or that of your buffer";
 const char microros_error_field_data[] = "%t.%d has a size, %n, and no data: NULL";
 const char microros_error_no_session[] = "publisher %s: no session with the agent";
-const char microros_error_not_sent[] = "publisher %s: the transport takes nothing";
+const char microros_error_not_sent[] = "publisher %s: the transport has no room for it";
 const char microros_error_arena[] = "no memory for %n bytes: raise memory: {arena: %m}%y";
+const char microros_error_block_large[] =
+  "%n bytes of a string or sequence: no message that is sent has more than %m: raise limits%y";
+const char microros_error_blocks_taken[] =
+  "all blocks of %n bytes are taken: give one back, or set memory: {messages: %m}%y";
 const char microros_error_serialized[] = "serialized message: not little endian CDR, or %n bytes above %m";
 const char microros_error_domain[] = "domain %n is above %m";
 const char microros_error_device[] = "serial device %s: more than %m bytes, or none";

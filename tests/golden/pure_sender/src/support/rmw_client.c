@@ -3,8 +3,6 @@
 
 #include "microros/xrce_client.h"
 
-#include <stddef.h>
-
 const char * const rmw_implementation_identifier = "rmw_microros_gen";
 
 static xrce_client_t instance;
@@ -12,9 +10,4 @@ static xrce_client_t instance;
 xrce_client_t * rmw_client_instance(void)
 {
   return &instance;
-}
-
-xrce_client_t * rmw_client_connected(void)
-{
-  return instance.session.state == XRCE_READY ? &instance : NULL;
 }

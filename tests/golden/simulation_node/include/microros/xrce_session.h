@@ -39,10 +39,10 @@ typedef struct xrce_session_t {
   uint32_t now_ms;   /* when the last pump began */
   uint32_t due_ms;   /* when to send the next CREATE_CLIENT */
   uint32_t heard_ms; /* when the agent was heard last */
-  uint16_t retry_ms;
-  uint16_t request; /* the next request id */
-  uint8_t state;    /* xrce_state_t */
-  uint8_t refusal;  /* status that the agent refused the session with, or 0 */
+  uint32_t since_ms; /* since when the agent is looked for */
+  uint16_t request;  /* the next request id */
+  uint8_t state;     /* xrce_state_t */
+  uint8_t refusal;   /* status that the agent refused the session with, or 0 */
   bool transport_open;
   bool was_ready; /* the next session is a reconnection */
   xrce_statistics_t statistics;
@@ -64,8 +64,30 @@ void xrce_session_lose(xrce_client_t * client, uint32_t now);
 /* Receives all that is there and does all that is due. Never blocks. */
 void xrce_session_pump(xrce_client_t * client);
 
+/* Does all that is due, without receiving. */
+void xrce_session_step_all(xrce_client_t * client);
+
 /* Sends one whole message. False: the transport did not take it. */
 bool xrce_session_send(xrce_session_t * session, const uint8_t * message, size_t size);
+
+/* Whether nothing of what was sent still waits for the line. */
+static inline bool xrce_session_is_sent(xrce_session_t * session)
+{
+  return !session->transport_open || xrce_transport_is_idle(&session->transport);
+}
+
+/*
+ * Returns how long to wait for an answer before the question is repeated: `wanted_ms`, which is to grow with the time that has
+ * gone by since it was asked first, at least MICROROS_RETRY_FIRST_MS and at most MICROROS_RETRY_MOST_MS.
+ */
+uint32_t xrce_session_pause(uint32_t wanted_ms);
+
+/* Returns the same within a session, for a question that was asked first `waited_ms` ago: a quarter of it. What is lost
+ * there is a datagram, so the pauses grow slowly. */
+static inline uint32_t xrce_session_short_pause(uint32_t waited_ms)
+{
+  return xrce_session_pause(waited_ms / 4u);
+}
 
 /* Returns a request id that no outstanding request has. */
 uint16_t xrce_session_next_request(xrce_session_t * session);

@@ -18,7 +18,7 @@ extern "C" {
  */
 void xrce_wait(xrce_client_t * client, uint32_t timeout_ms);
 
-enum { XRCE_WAIT_CUSTOM_MS = 10, XRCE_WAIT_MOST_MS = 1000 };
+enum { XRCE_WAIT_CUSTOM_MS = 10 };
 
 #ifdef __cplusplus
 }

@@ -7,6 +7,9 @@
  * A round waits until something is ready, asks the trigger function, and if that says so, takes and calls. Between rounds
  * what is ready stays ready: messages in their queues, guard conditions until their callback was called. While the trigger
  * says no, the next round waits until something else becomes ready, or for its time-out.
+ *
+ * A callback may add and remove any handle, its own too, and end any entity whose handle it removes: the round goes on with
+ * the other handles, one that was added has its first turn in the next round.
  */
 #ifndef MICROROS_RCLC_EXECUTOR_H
 #define MICROROS_RCLC_EXECUTOR_H
@@ -32,7 +35,8 @@ extern "C" {
 
 /*
  * RCLCPP_EXECUTOR: each message is taken directly before its callback, so what a callback changes is seen by the next.
- * LOGICAL_EXECUTION_TIME: all messages are taken first, and then all callbacks called.
+ * LOGICAL_EXECUTION_TIME: all messages are taken first, and then all callbacks called; requests, which only their own
+ * callback sees, are taken before it in both.
  */
 typedef enum {
   RCLC_SEMANTICS_RCLCPP_EXECUTOR,

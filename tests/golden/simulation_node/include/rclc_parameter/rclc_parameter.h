@@ -1,1 +1,1 @@
-#error "The component 'parameters' is not selected: add `components: [+parameters]` to microros.yaml and generate again"
+#error "The component 'parameters' is not in this version yet"

@@ -33,7 +33,7 @@ bool rmw_uros_is_connected(const rmw_context_t * context);
 /* Carries the session on, without waiting: for loops that call nothing else of this library for long. */
 rmw_ret_t rmw_uros_spin_once(rmw_context_t * context);
 
-/* Waits until the agent has acknowledged every reliable message. RMW_RET_TIMEOUT after `timeout_ms`. */
+/* Waits until the agent has acknowledged every reliable message, and the line has carried the others. RMW_RET_TIMEOUT after `timeout_ms`. */
 rmw_ret_t rmw_uros_flush(rmw_context_t * context, uint32_t timeout_ms);
 
 #ifdef __cplusplus

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
 #include "microros/rcl_clock.h"
+#include "microros/time_math.h"
 
 #include <string.h>
 
@@ -102,6 +103,6 @@ rcl_ret_t rcl_difference_times(
   if (start->clock_type != finish->clock_type) {
     return rcl_clock_refuse(RCL_RET_ERROR, "the two times are of clocks of different types");
   }
-  delta->nanoseconds = finish->nanoseconds - start->nanoseconds;
+  delta->nanoseconds = microros_time_between(start->nanoseconds, finish->nanoseconds);
   return RCL_RET_OK;
 }

@@ -2,6 +2,7 @@
 /* ROS time: the system's, until somebody takes it over. */
 #include "microros/error.h"
 #include "microros/rcl_clock.h"
+#include "microros/time_math.h"
 #include "microros/rcl_clock_source.h"
 #include "microros_config.h"
 
@@ -150,7 +151,7 @@ rcl_ret_t rcl_set_ros_time_override(rcl_clock_t * clock, rcl_time_point_value_t 
   rcl_ros_time_t * time = ros_of(clock, &result);
 
   if (time != NULL && time->active) {
-    const rcl_time_jump_t jump = {RCL_ROS_TIME_NO_CHANGE, {time_value - time->now}};
+    const rcl_time_jump_t jump = {RCL_ROS_TIME_NO_CHANGE, {microros_time_between(time->now, time_value)}};
 
     ros_tell(clock, &jump, true);
     time->now = time_value;

@@ -11,13 +11,14 @@ static const uint64_t first_timeout_ns = 1000000000u;
 
 typedef struct executor_place_t {
   rclc_executor_handle_t handles[MICROROS_HANDLES_MAX];
-  const rclc_executor_t * owner; /* NULL: free */
+  const void *
+    owner; /* NULL: free; the executor, or the handles themselves where only a copy of it is left */
 } executor_place_t;
 
 static executor_place_t executor_places[MICROROS_EXECUTORS_MAX];
 
 /* The place of this owner; NULL: it has none. */
-static executor_place_t * executor_find(const rclc_executor_t * owner)
+static executor_place_t * executor_find(const void * owner)
 {
   for (size_t i = 0; i < MICROROS_EXECUTORS_MAX; ++i) {
     if (executor_places[i].owner == owner) {
@@ -35,11 +36,16 @@ rclc_executor_t rclc_executor_get_zero_initialized_executor(void)
   return executor;
 }
 
-/* One that is initialized again keeps its place. */
+/* One that is initialized again keeps its place. Where its handles are not those of the place it was copied, and the copy
+ * has them now. */
 static rclc_executor_handle_t * executor_take(const rclc_executor_t * executor)
 {
   executor_place_t * place = executor_find(executor);
 
+  if (place != NULL && executor->handles != place->handles) {
+    place->owner = place->handles;
+    place = NULL;
+  }
   if (place == NULL) {
     place = executor_find(NULL);
   }
@@ -60,15 +66,18 @@ rcl_ret_t rclc_executor_init(
   rclc_executor_t * executor, rcl_context_t * context, const size_t number_of_handles,
   const rcl_allocator_t * allocator)
 {
+  rclc_executor_handle_t * handles;
+
   if (executor == NULL || context == NULL || allocator == NULL || number_of_handles == 0u) {
     return microros_error_refuse(
       RCL_RET_INVALID_ARGUMENT, "executor, context, number_of_handles or allocator");
   }
+  handles = executor_take(executor);
   *executor = rclc_executor_get_zero_initialized_executor();
-  executor->handles = executor_take(executor);
-  if (executor->handles == NULL) {
+  if (handles == NULL) {
     return RCL_RET_BAD_ALLOC;
   }
+  executor->handles = handles;
   executor->type = RCLC_EXECUTOR_SINGLE_THREADED;
   executor->context = context;
   executor->max_handles = MICROROS_HANDLES_MAX;
@@ -78,14 +87,20 @@ rcl_ret_t rclc_executor_init(
   return RCL_RET_OK;
 }
 
+/* By its handles: `executor` may be a copy. */
+static void executor_release(const rclc_executor_t * executor)
+{
+  for (size_t i = 0; i < MICROROS_EXECUTORS_MAX; ++i) {
+    if (executor_places[i].handles == executor->handles) {
+      executor_places[i].owner = NULL;
+    }
+  }
+}
+
 rcl_ret_t rclc_executor_fini(rclc_executor_t * executor)
 {
   if (executor != NULL && executor->handles != NULL) {
-    executor_place_t * place = executor_find(executor);
-
-    if (place != NULL) {
-      place->owner = NULL;
-    }
+    executor_release(executor);
     *executor = rclc_executor_get_zero_initialized_executor();
     executor->timeout_ns = first_timeout_ns;
   }

@@ -3,6 +3,8 @@
 #include "microros/executor_handles.h"
 #include "microros/port.h"
 #include "microros/rcl_waiting.h"
+#include "microros/time_math.h"
+#include "microros_config.h"
 
 /* Between rounds that end with an error at once. */
 enum { PAUSE_AFTER_ERROR_NS = 1000000 };
@@ -68,20 +70,37 @@ static void executor_note(rcl_ret_t * first, rcl_ret_t result)
   }
 }
 
-/* A callback may remove handles, its own too: then the round goes on with the next but one. */
+/* Returns the first handle whose turn in this round is to come, or NULL. */
+static rclc_executor_handle_t * executor_next(const rclc_executor_t * executor)
+{
+  for (size_t i = 0; i < executor->index; ++i) {
+    if (executor->handles[i].has_turn) {
+      return &executor->handles[i];
+    }
+  }
+  return NULL;
+}
+
+/* A callback may remove handles, its own too, which moves those after it, or end the executor; what it adds has its first
+ * turn in the next round. So each turn looks for its handle. */
 static rcl_ret_t executor_process(const rclc_executor_t * executor)
 {
   const bool takes_first = executor->data_comm_semantics == RCLC_SEMANTICS_LOGICAL_EXECUTION_TIME;
+  rclc_executor_handle_t * handle;
   rcl_ret_t first = RCL_RET_OK;
 
-  for (size_t i = 0; i < executor->index && takes_first; ++i) {
-    executor_note(&first, handle_take(&executor->handles[i]));
-  }
   for (size_t i = 0; i < executor->index; ++i) {
-    if (!takes_first) {
+    executor->handles[i].has_turn = true;
+    if (takes_first) {
       executor_note(&first, handle_take(&executor->handles[i]));
     }
-    executor_note(&first, handle_call(&executor->handles[i]));
+  }
+  for (handle = executor_next(executor); handle != NULL; handle = executor_next(executor)) {
+    handle->has_turn = false;
+    if (!takes_first) {
+      executor_note(&first, handle_take(handle));
+    }
+    executor_note(&first, handle_call(handle));
   }
   for (size_t i = 0; i < executor->index; ++i) {
     executor->handles[i].data_available = false;
@@ -127,13 +146,25 @@ static void executor_rest(int64_t duration_ns)
   }
 }
 
+/*
+ * How long a round may wait of which nobody hears that it has ended. Nothing becomes ready by a time-out, so it is only for what
+ * the trigger function may look at, and for another task that ends the context.
+ */
+static uint64_t executor_patience(const rclc_executor_t * executor)
+{
+  const bool for_nothing =
+    MICROROS_TASKS_SHARE == 0u && executor->trigger_function == rclc_executor_trigger_any;
+
+  return for_nothing ? UINT64_MAX : executor->timeout_ns;
+}
+
 rcl_ret_t rclc_executor_spin(rclc_executor_t * executor)
 {
   if (executor == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "executor");
   }
   for (;;) {
-    const rcl_ret_t result = rclc_executor_spin_some(executor, executor->timeout_ns);
+    const rcl_ret_t result = rclc_executor_spin_some(executor, executor_patience(executor));
 
     if (!executor_goes_on(executor, result)) {
       return result;
@@ -156,8 +187,8 @@ rcl_ret_t rclc_executor_spin_one_period(rclc_executor_t * executor, const uint64
   }
   result = rclc_executor_spin_some(executor, executor->timeout_ns);
   if (executor_goes_on(executor, result)) {
-    executor->invocation_time += (int64_t)period;
-    executor_rest(executor->invocation_time - port_time_steady_ns());
+    executor->invocation_time = microros_time_after(executor->invocation_time, (int64_t)period);
+    executor_rest(executor->invocation_time - port_time_steady_ns()); /* neither is negative */
   }
   return result;
 }

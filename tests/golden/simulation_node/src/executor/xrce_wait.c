@@ -22,24 +22,28 @@ static uint32_t wait_for_session(const xrce_client_t * client, uint32_t most)
   uint32_t left = most;
 
   if (session->state != (uint8_t)XRCE_READY) {
-    return wait_sooner(left, session->due_ms, now);
+    return session->state == (uint8_t)XRCE_CONNECTING ? wait_sooner(left, session->due_ms, now) : left;
   }
   left = wait_sooner(
     left, client->ping.unanswered != 0u ? client->ping.due_ms : session->heard_ms + MICROROS_LIVELINESS_PERIOD_MS,
     now);
   if (client->entities.pending) {
-    left = wait_sooner(left, client->entities.due_ms, now);
+    left = wait_sooner(left, xrce_entities_waits(&client->entities) ? client->entities.due_ms : now, now);
   }
   if (client->reading.outstanding) {
     left = wait_sooner(left, client->reading.due_ms, now);
+  }
+  for (uint16_t i = 0; i < (uint16_t)XRCE_RECEIVERS; ++i) {
+    if (client->receivers[i].resting) {
+      left = wait_sooner(left, client->receivers[i].due_ms, now);
+    }
   }
   return left;
 }
 
 void xrce_wait(xrce_client_t * client, uint32_t timeout_ms)
 {
-  const uint32_t most = timeout_ms < (uint32_t)XRCE_WAIT_MOST_MS ? timeout_ms : (uint32_t)XRCE_WAIT_MOST_MS;
-  const uint32_t left = wait_for_session(client, most);
+  const uint32_t left = wait_for_session(client, timeout_ms);
 
   port_wait(client->session.transport_open ? client->session.transport.udp.handle : -1, left);
 }

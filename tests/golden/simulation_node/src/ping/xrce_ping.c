@@ -9,16 +9,24 @@ enum { INFO_SIZE = 6, IMPLEMENTATION_OUT_OF_SESSION = 0 };
 void xrce_ping_reset(xrce_ping_t * ping)
 {
   ping->unanswered = 0;
+  ++ping->answers;
 }
 
-void xrce_ping_write(uint8_t * message, uint8_t session)
+void xrce_ping_ask(xrce_client_t * client)
 {
-  xrce_put_get_info(message, session);
+  uint8_t message[XRCE_GET_INFO_SIZE];
+  xrce_session_t * session = &client->session;
+  const bool ready = session->state == (uint8_t)XRCE_READY;
+
+  if (!session->transport_open && session->state == (uint8_t)XRCE_CONNECTING) {
+    session->due_ms = session->now_ms; /* the next pump opens it, and its CREATE_CLIENT asks */
+  }
+  xrce_put_get_info(message, ready ? (uint8_t)XRCE_SESSION_ID : (uint8_t)XRCE_SESSION_NONE);
+  (void)xrce_session_send(session, message, sizeof(message)); /* a loss is no answer */
 }
 
 void xrce_ping_step(xrce_client_t * client, uint32_t now)
 {
-  uint8_t message[XRCE_PING_SIZE];
   xrce_ping_t * ping = &client->ping;
 
   if (client->session.state != XRCE_READY) {
@@ -36,10 +44,18 @@ void xrce_ping_step(xrce_client_t * client, uint32_t now)
     xrce_session_lose(client, now);
     return;
   }
-  xrce_ping_write(message, XRCE_SESSION_ID);
-  (void)xrce_session_send(&client->session, message, sizeof(message)); /* a loss counts as no answer */
+  xrce_ping_ask(client);
   ++ping->unanswered;
-  ping->due_ms = now + MICROROS_LIVELINESS_PERIOD_MS;
+  ping->due_ms = now + MICROROS_LIVELINESS_WAIT_MS;
+}
+
+/* An agent is there: the session need not wait for it any longer. */
+static void ping_hasten(xrce_session_t * session, uint32_t now)
+{
+  session->since_ms = now;
+  if (!xrce_is_due(now + MICROROS_RETRY_FIRST_MS, session->due_ms)) {
+    session->due_ms = now + MICROROS_RETRY_FIRST_MS;
+  }
 }
 
 void xrce_ping_on_info(
@@ -49,8 +65,13 @@ void xrce_ping_on_info(
     ++client->session.statistics.malformed;
     return;
   }
-  client->ping.answered = true;
-  if (in_session && payload[5] == IMPLEMENTATION_OUT_OF_SESSION && client->session.state == XRCE_READY) {
+  ++client->ping.answers;
+  if (client->session.state == XRCE_CONNECTING) {
+    ping_hasten(&client->session, now);
+  } else if (
+    in_session && payload[5] == IMPLEMENTATION_OUT_OF_SESSION && client->session.state == XRCE_READY) {
     xrce_session_lose(client, now);
+  } else {
+    /* it was asked because it was silent, or by the application */
   }
 }

@@ -19,9 +19,6 @@ enum {
 
 enum { SAMPLES_UNLIMITED = 0xffff };
 
-/* Of DATA: every format but that of one sample without a header. */
-enum { FLAGS_FORMAT = 0x0e };
-
 static uint16_t read_index(const xrce_client_t * client, const xrce_receiver_t * receiver)
 {
   return (uint16_t)(receiver - client->receivers);
@@ -84,7 +81,7 @@ static void read_send(xrce_client_t * client, uint32_t now)
   }
   message[CONTROLLED_AT] = 1;
   xrce_put_le16(&message[SAMPLES_AT], reading->samples);
-  reading->due_ms = now + MICROROS_RETRY_FIRST_MS;
+  reading->due_ms = now + xrce_session_short_pause(now - reading->asked_ms);
   (void)xrce_session_send(
     &client->session, message, sizeof(message)); /* a loss is what the repetition is for */
 }
@@ -103,18 +100,17 @@ static uint16_t read_samples(const xrce_client_t * client, const xrce_receiver_t
 
 /* Whether something has to be said to the agent about a receiver, and how many samples to ask for. Preconfigured entities
  * stay when they are closed here: 0 samples tell the agent to stop. */
-static bool read_wants(const xrce_client_t * client, uint16_t index, uint32_t now, uint16_t * samples)
+static bool read_wants(xrce_client_t * client, uint16_t index, uint32_t now, uint16_t * samples)
 {
-  const xrce_receiver_t * receiver = &client->receivers[index];
+  xrce_receiver_t * receiver = &client->receivers[index];
   const xrce_object_state_t * state = &client->states[read_place(index)];
 
   *samples = 0;
   if (!state->wanted) {
     return MICROROS_PRECONFIGURED != 0u && receiver->request != XRCE_REQUEST_NONE;
   }
-  if (
-    state->stale || state->level != xrce_place_complete(read_place(index)) ||
-    !xrce_is_due(now, receiver->due_ms)) {
+  receiver->resting = receiver->resting && !xrce_is_due(now, receiver->due_ms);
+  if (receiver->resting || state->stale || state->level != xrce_place_complete(read_place(index))) {
     return false;
   }
   *samples = read_samples(client, receiver);
@@ -127,6 +123,7 @@ static void read_begin(xrce_client_t * client, uint16_t samples, uint32_t now)
   xrce_receiver_t * receiver = &client->receivers[reading->receiver];
 
   reading->outstanding = true;
+  reading->asked_ms = now;
   reading->request = xrce_session_next_request(&client->session);
   reading->samples = samples;
   if (receiver->request != XRCE_REQUEST_NONE) {
@@ -162,7 +159,7 @@ void xrce_read_step(xrce_client_t * client, uint32_t now)
   }
 }
 
-void xrce_read_renew(xrce_client_t * client, uint32_t now)
+void xrce_read_renew(xrce_client_t * client)
 {
   client->reading.outstanding = false;
   client->reading.sequence = 0;
@@ -174,7 +171,7 @@ void xrce_read_renew(xrce_client_t * client, uint32_t now)
     }
     receiver->request = XRCE_REQUEST_NONE;
     receiver->granted = 0;
-    receiver->due_ms = now;
+    receiver->resting = false;
   }
 }
 
@@ -215,6 +212,7 @@ void xrce_read_on_status(xrce_client_t * client, const uint8_t * payload, size_t
     receiver->request = XRCE_REQUEST_NONE;
     receiver->granted = 0;
     receiver->due_ms = now + MICROROS_RETRY_MOST_MS;
+    receiver->resting = true;
     ++client->session.statistics.refused;
   }
 }
@@ -226,8 +224,7 @@ static void read_refuse(xrce_client_t * client, xrce_receiver_t * receiver, uint
   ++client->session.statistics.dropped;
 }
 
-/* One of the samples that were asked for is here. */
-static void read_count(xrce_client_t * client, xrce_receiver_t * receiver, uint16_t request)
+void xrce_read_count(xrce_client_t * client, xrce_receiver_t * receiver, uint16_t request)
 {
   if (request != receiver->request) {
     return;
@@ -240,6 +237,18 @@ static void read_count(xrce_client_t * client, xrce_receiver_t * receiver, uint1
   }
 }
 
+xrce_receiver_t * xrce_read_asked(xrce_client_t * client, uint16_t request, uint16_t object)
+{
+  xrce_receiver_t * receiver = xrce_read_find(client, object);
+
+  if (
+    receiver == NULL || request == XRCE_REQUEST_NONE ||
+    (request != receiver->request && request != receiver->before)) {
+    return NULL;
+  }
+  return receiver;
+}
+
 void xrce_read_on_data(
   xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags, uint32_t now)
 {
@@ -247,18 +256,16 @@ void xrce_read_on_data(
   xrce_receiver_t * receiver;
   uint16_t request;
 
-  if (size <= XRCE_OBJECT_PREFIX || (flags & FLAGS_FORMAT) != 0u) {
+  if (size <= XRCE_OBJECT_PREFIX || (flags & XRCE_READ_FORMATS) != 0u) {
     ++client->session.statistics.malformed;
     return;
   }
   request = xrce_get_be16(&payload[0]);
-  receiver = xrce_read_find(client, xrce_get_be16(&payload[2]));
-  if (
-    receiver == NULL || request == XRCE_REQUEST_NONE ||
-    (request != receiver->request && request != receiver->before)) {
-    return; /* for a former owner of the place */
+  receiver = xrce_read_asked(client, request, xrce_get_be16(&payload[2]));
+  if (receiver == NULL) {
+    return;
   }
-  read_count(client, receiver, request);
+  xrce_read_count(client, receiver, request);
   sample.data = &payload[XRCE_OBJECT_PREFIX];
   sample.arrived_ms = now;
   sample.size = (uint16_t)(size - XRCE_OBJECT_PREFIX);
@@ -272,10 +279,10 @@ void xrce_read_on_data(
 
 void xrce_read_refuse(xrce_client_t * client, uint16_t request, uint16_t object, uint16_t size)
 {
-  xrce_receiver_t * receiver = xrce_read_find(client, object);
+  xrce_receiver_t * receiver = xrce_read_asked(client, request, object);
 
   if (receiver != NULL) {
-    read_count(client, receiver, request);
+    xrce_read_count(client, receiver, request);
     read_refuse(client, receiver, size);
   }
 }

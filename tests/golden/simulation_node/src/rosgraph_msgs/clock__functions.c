@@ -2,6 +2,7 @@
 #include "rosgraph_msgs/msg/detail/clock__functions.h"
 
 #include "builtin_interfaces/msg/detail/time__functions.h"
+#include "microros/message_pools.h"
 #include "rcutils/allocator.h"
 
 #include <stdint.h>
@@ -13,12 +14,8 @@ bool rosgraph_msgs__msg__Clock__init(rosgraph_msgs__msg__Clock * msg)
     return false;
   }
   (void)memset(msg, 0, sizeof(*msg));
-  bool done = true;
-  done = done && builtin_interfaces__msg__Time__init(&msg->clock);
-  if (!done) {
-    rosgraph_msgs__msg__Clock__fini(msg);
-  }
-  return done;
+  (void)builtin_interfaces__msg__Time__init(&msg->clock);
+  return true;  /* empty strings and sequences need no memory */
 }
 
 void rosgraph_msgs__msg__Clock__fini(rosgraph_msgs__msg__Clock * msg)
@@ -51,14 +48,14 @@ bool rosgraph_msgs__msg__Clock__copy(const rosgraph_msgs__msg__Clock * input, ro
 
 rosgraph_msgs__msg__Clock * rosgraph_msgs__msg__Clock__create(void)
 {
-  const rcutils_allocator_t allocator = rcutils_get_default_allocator();
-  rosgraph_msgs__msg__Clock * const msg =
-    (rosgraph_msgs__msg__Clock *)allocator.allocate(sizeof(rosgraph_msgs__msg__Clock), allocator.state);
+  size_t room = sizeof(rosgraph_msgs__msg__Clock);
+  rosgraph_msgs__msg__Clock * const msg = (rosgraph_msgs__msg__Clock *)microros_memory_take(
+    NULL, &room);
   if (msg == NULL) {
     return NULL;
   }
   if (!rosgraph_msgs__msg__Clock__init(msg)) {
-    allocator.deallocate(msg, allocator.state);
+    microros_memory_give_back(NULL, msg);
     return NULL;
   }
   return msg;
@@ -67,9 +64,8 @@ rosgraph_msgs__msg__Clock * rosgraph_msgs__msg__Clock__create(void)
 void rosgraph_msgs__msg__Clock__destroy(rosgraph_msgs__msg__Clock * msg)
 {
   if (msg != NULL) {
-    const rcutils_allocator_t allocator = rcutils_get_default_allocator();
     rosgraph_msgs__msg__Clock__fini(msg);
-    allocator.deallocate(msg, allocator.state);
+    microros_memory_give_back(NULL, msg);
   }
 }
 
@@ -95,14 +91,14 @@ bool rosgraph_msgs__msg__Clock__Sequence__init(rosgraph_msgs__msg__Clock__Sequen
   }
   rosgraph_msgs__msg__Clock * data = NULL;
   if (size > 0U) {
-    const rcutils_allocator_t allocator = rcutils_get_default_allocator();
-    data = (rosgraph_msgs__msg__Clock *)allocator.zero_allocate(
-      size, sizeof(rosgraph_msgs__msg__Clock), allocator.state);
+    size_t room = (size > (SIZE_MAX / sizeof(rosgraph_msgs__msg__Clock))) ?
+      SIZE_MAX : (size * sizeof(rosgraph_msgs__msg__Clock));
+    data = (rosgraph_msgs__msg__Clock *)microros_memory_take(NULL, &room);
     if (data == NULL) {
       return false;
     }
     if (!rosgraph_msgs__msg__Clock__init_range(data, 0U, size)) {
-      allocator.deallocate(data, allocator.state);
+      microros_memory_give_back(NULL, data);
       return false;
     }
   }
@@ -117,11 +113,10 @@ void rosgraph_msgs__msg__Clock__Sequence__fini(rosgraph_msgs__msg__Clock__Sequen
   if ((array == NULL) || (array->data == NULL)) {
     return;
   }
-  const rcutils_allocator_t allocator = rcutils_get_default_allocator();
   for (size_t i = 0U; i < array->capacity; ++i) {
     rosgraph_msgs__msg__Clock__fini(&array->data[i]);
   }
-  allocator.deallocate(array->data, allocator.state);
+  microros_memory_give_back(NULL, array->data);
   array->data = NULL;
   array->size = 0U;
   array->capacity = 0U;
@@ -166,24 +161,30 @@ bool rosgraph_msgs__msg__Clock__Sequence__are_equal(const rosgraph_msgs__msg__Cl
 }
 
 /**
- * Let `array` have `capacity` initialised messages, more than it has; what it holds stays, also on failure. Its old
- * memory is copied and given back, never reallocated: the arena does not know how large the application's own is.
+ * Let `array` have `capacity` initialised messages, more than it has; what it holds stays, also on failure. It keeps its
+ * block where that has room; else it is copied to a larger one, and its own given back.
  */
 static bool rosgraph_msgs__msg__Clock__grow(rosgraph_msgs__msg__Clock__Sequence * array, size_t capacity)
 {
-  const rcutils_allocator_t allocator = rcutils_get_default_allocator();
-  rosgraph_msgs__msg__Clock * const data = (rosgraph_msgs__msg__Clock *)allocator.zero_allocate(
-    capacity, sizeof(rosgraph_msgs__msg__Clock), allocator.state);
+  size_t room = capacity * sizeof(rosgraph_msgs__msg__Clock);
+  if (microros_memory_room(NULL, array->data) >= room) {
+    if (!rosgraph_msgs__msg__Clock__init_range(array->data, array->capacity, capacity)) {
+      return false;
+    }
+    array->capacity = capacity;
+    return true;
+  }
+  rosgraph_msgs__msg__Clock * const data = (rosgraph_msgs__msg__Clock *)microros_memory_take(NULL, &room);
   if (data == NULL) {
     return false;
   }
   if (!rosgraph_msgs__msg__Clock__init_range(data, array->capacity, capacity)) {
-    allocator.deallocate(data, allocator.state);
+    microros_memory_give_back(NULL, data);
     return false;
   }
   if (array->data != NULL) {
     (void)memcpy(data, array->data, array->capacity * sizeof(rosgraph_msgs__msg__Clock));
-    allocator.deallocate(array->data, allocator.state);
+    microros_memory_give_back(NULL, array->data);
   }
   array->data = data;
   array->capacity = capacity;

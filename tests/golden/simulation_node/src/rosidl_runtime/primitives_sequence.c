@@ -1,24 +1,31 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "rosidl_runtime_c/primitives_sequence_functions.h"
 
-#include "rcutils/allocator.h"
+#include "microros/message_pools.h"
 
+#include <stdint.h>
 #include <string.h>
 
-static void * sequence_allocate(size_t size, size_t element_size)
+static void * sequence_allocate(const microros_pool_t * pool, size_t size, size_t element_size)
 {
-  rcutils_allocator_t allocator = rcutils_get_default_allocator();
+  size_t room = size > SIZE_MAX / element_size ? SIZE_MAX : size * element_size;
 
-  return allocator.zero_allocate(size, element_size, allocator.state);
+  return microros_memory_take(pool, &room);
 }
 
-static void sequence_deallocate(void * data)
+/* Returns where `size` elements fit: `data`, or a larger block in its place, with its contents lost; NULL: as it was. */
+static void * sequence_grow(const microros_pool_t * pool, void * data, size_t size, size_t element_size)
 {
-  if (data != NULL) {
-    rcutils_allocator_t allocator = rcutils_get_default_allocator();
+  void * larger;
 
-    allocator.deallocate(data, allocator.state);
+  if (microros_memory_room(pool, data) / element_size >= size) {
+    return data;
   }
+  larger = sequence_allocate(pool, size, element_size);
+  if (larger != NULL) {
+    microros_memory_give_back(pool, data);
+  }
+  return larger;
 }
 
 /* One group of functions for each type: C has no other way to say it once. Elements are compared as numbers
@@ -32,7 +39,7 @@ static void sequence_deallocate(void * data)
       return false; \
     } \
     if (size != 0u) { \
-      data = sequence_allocate(size, sizeof(TYPE)); \
+      data = sequence_allocate(MICROROS_POOL_##SEQUENCE, size, sizeof(TYPE)); \
       if (data == NULL) { \
         return false; \
       } \
@@ -47,7 +54,7 @@ static void sequence_deallocate(void * data)
     if (sequence == NULL) { \
       return; \
     } \
-    sequence_deallocate(sequence->data); \
+    microros_memory_give_back(MICROROS_POOL_##SEQUENCE, sequence->data); \
     sequence->data = NULL; \
     sequence->size = 0; \
     sequence->capacity = 0; \
@@ -74,11 +81,10 @@ static void sequence_deallocate(void * data)
       return false; \
     } \
     if (output->capacity < input->size) { \
-      TYPE * data = sequence_allocate(input->size, sizeof(TYPE)); \
+      TYPE * data = sequence_grow(MICROROS_POOL_##SEQUENCE, output->data, input->size, sizeof(TYPE)); \
       if (data == NULL) { \
         return false; \
       } \
-      sequence_deallocate(output->data); \
       output->data = data; \
       output->capacity = input->size; \
     } \

@@ -23,8 +23,8 @@ void xrce_session_open(xrce_client_t * client, uint32_t key)
   (void)memset(client, 0, sizeof(*client));
   session->key = key;
   session->request = XRCE_REQUEST_FIRST;
-  session->retry_ms = MICROROS_RETRY_FIRST_MS;
   session->due_ms = port_time_ms();
+  session->since_ms = session->due_ms;
   session->state = XRCE_CONNECTING;
   client->create_timeout_ms = MICROROS_CREATE_TIMEOUT_MS;
   client->close_timeout_ms = MICROROS_CLOSE_TIMEOUT_MS;
@@ -70,11 +70,12 @@ static void session_send_create_client(xrce_session_t * session)
   (void)xrce_session_send(session, message, sizeof(message)); /* a loss is what the retry is for */
 }
 
-/* Twice as long, up to MICROROS_RETRY_MOST_MS. */
-static uint16_t session_longer_pause(uint16_t pause_ms)
+uint32_t xrce_session_pause(uint32_t wanted_ms)
 {
-  return pause_ms < MICROROS_RETRY_MOST_MS / 2u ? (uint16_t)(2u * pause_ms)
-                                                : (uint16_t)MICROROS_RETRY_MOST_MS;
+  if (wanted_ms < MICROROS_RETRY_FIRST_MS) {
+    return MICROROS_RETRY_FIRST_MS;
+  }
+  return wanted_ms < MICROROS_RETRY_MOST_MS ? wanted_ms : MICROROS_RETRY_MOST_MS;
 }
 
 void xrce_session_step(xrce_client_t * client, uint32_t now)
@@ -88,8 +89,7 @@ void xrce_session_step(xrce_client_t * client, uint32_t now)
     session->transport_open = xrce_transport_open(&session->transport);
   }
   session_send_create_client(session);
-  session->due_ms = now + session->retry_ms;
-  session->retry_ms = session_longer_pause(session->retry_ms);
+  session->due_ms = now + xrce_session_pause(now - session->since_ms);
 }
 
 void xrce_session_lose(xrce_client_t * client, uint32_t now)
@@ -98,7 +98,7 @@ void xrce_session_lose(xrce_client_t * client, uint32_t now)
 
   session_close_transport(session); /* a fresh socket follows a new address of ours */
   session->state = XRCE_CONNECTING;
-  session->retry_ms = MICROROS_RETRY_FIRST_MS;
+  session->since_ms = now;
   session->due_ms = now;
 }
 
@@ -166,7 +166,7 @@ static void session_receive(xrce_client_t * client, uint32_t now)
   xrce_session_t * session = &client->session;
 
   for (uint8_t i = 0; i < DATAGRAMS_PER_PUMP && session->transport_open; ++i) {
-    const int32_t size = xrce_transport_receive(&session->transport, client->input, sizeof(client->input));
+    const int32_t size = xrce_transport_receive(&session->transport, client->input, MICROROS_INPUT_SIZE);
 
     if (size == 0) {
       return;
@@ -178,11 +178,21 @@ static void session_receive(xrce_client_t * client, uint32_t now)
   }
 }
 
+void xrce_session_step_all(xrce_client_t * client)
+{
+  const uint32_t now = port_time_ms();
+
+  client->session.now_ms = now;
+  xrce_transport_begin_turn(&client->session.transport);
+  xrce_route_step(client, now);
+}
+
 void xrce_session_pump(xrce_client_t * client)
 {
   const uint32_t now = port_time_ms();
 
   client->session.now_ms = now;
+  xrce_transport_begin_turn(&client->session.transport);
   session_receive(client, now);
   xrce_route_step(client, now);
 }

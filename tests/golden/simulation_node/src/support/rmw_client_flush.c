@@ -3,6 +3,7 @@
 
 #include "microros/lock.h"
 #include "microros/port.h"
+#include "microros/xrce_client.h"
 #include "microros/xrce_rest.h"
 #include "microros/xrce_routes.h"
 
@@ -14,7 +15,7 @@ bool rmw_client_flush(xrce_client_t * client, uint32_t timeout_ms)
   microros_lock();
   for (;;) {
     xrce_session_pump(client);
-    flushed = xrce_route_unacknowledged(client) == 0u;
+    flushed = xrce_route_unacknowledged(client) == 0u && xrce_session_is_sent(&client->session);
     if (flushed || port_time_ms() - start >= timeout_ms) {
       break;
     }

@@ -3,12 +3,14 @@
 
 #include "microros/port.h"
 
-int64_t uxr_millis(void)
-{
-  return port_time_epoch_ns() / 1000000;
-}
-
 int64_t uxr_nanos(void)
 {
-  return port_time_epoch_ns();
+  const int64_t epoch_ns = port_time_epoch_ns();
+
+  return epoch_ns != 0 ? epoch_ns : port_time_steady_ns(); /* 0: nobody has set the time of day yet */
+}
+
+int64_t uxr_millis(void)
+{
+  return uxr_nanos() / 1000000;
 }

@@ -21,11 +21,13 @@ extern "C" {
 /* All zero is an empty stream. */
 typedef struct xrce_stream_reliable_t {
   uint32_t heartbeat_ms;  /* when the next HEARTBEAT is due, while something is unacknowledged */
+  uint32_t since_ms;      /* when the agent acknowledged something last, or the first message was sent */
   uint32_t held_until_ms; /* until then, ... */
   bool held;              /* ... or until the agent has the writers, nothing is numbered and sent */
   uint8_t count;          /* unacknowledged messages */
   uint8_t head;   /* slot of the oldest message */
   uint16_t first; /* its sequence number; while held: the next one's */
+  uint16_t unsent; /* bit i: first + i is to be sent */
   uint16_t size[MICROROS_RELIABLE_SLOTS]; /* of the message without what stands before its submessages */
   uint8_t message[MICROROS_RELIABLE_SLOTS][MICROROS_RELIABLE_SLOT_SIZE];
 } xrce_stream_reliable_t;
@@ -36,11 +38,24 @@ static inline bool xrce_stream_reliable_is_idle(const xrce_stream_reliable_t * s
   return stream->count == 0u;
 }
 
+/* Whether something is to be sent that the transport did not take: it has to be pumped again soon. */
+static inline bool xrce_stream_reliable_is_blocked(const xrce_stream_reliable_t * stream)
+{
+  return stream->unsent != 0u;
+}
+
+/* Something was acknowledged, or the first message is sent: only what stays unacknowledged gets a HEARTBEAT. */
+static inline void xrce_stream_reliable_goes_on(xrce_stream_reliable_t * stream, uint32_t now)
+{
+  stream->since_ms = now;
+  stream->heartbeat_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
+}
+
 /* Returns room for MICROROS_RELIABLE_SLOT_SIZE - MICROROS_RELIABLE_FRONT bytes of submessages; NULL: every slot is
  * taken. */
 uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream);
 
-/* Takes `size` bytes of submessages; sends them where there is a session that is not held. */
+/* Takes `size` bytes of submessages; sends as much as the transport takes where there is a session that is not held. */
 void xrce_stream_reliable_commit(
   xrce_stream_reliable_t * stream, xrce_session_t * session, size_t size, uint32_t now);
 
@@ -52,17 +67,19 @@ const uint8_t * xrce_stream_reliable_drop_oldest(
 /* A session is new: holds what is kept, to be numbered from 0, or from what `creation: reliable` has left. */
 void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now);
 
-/* Lets go of what is held once the entities are settled, and sends a HEARTBEAT when one is due. */
+/* Lets go of what is held once the entities are settled, sends what the transport takes, and a HEARTBEAT when one is due. */
 void xrce_stream_reliable_step(
   xrce_stream_reliable_t * stream, xrce_session_t * session, bool settled, uint32_t now);
 
-/* Frees what the agent acknowledges, sends again what it misses. False: the payload is malformed. */
+/* Frees what the agent acknowledges; what it misses is sent in the next step. False: the payload is malformed. */
 bool xrce_stream_reliable_on_acknack(
   xrce_stream_reliable_t * stream, xrce_session_t * session, const uint8_t * payload, size_t size,
   uint8_t flags, uint32_t now);
 
-/* For this component alone: tells the agent which numbers can be had, `count` (not 0) from `first` on. */
-void xrce_stream_reliable_heartbeat(xrce_session_t * session, uint16_t first, uint16_t count);
+/* For this component alone: tells the agent which numbers can be had, `count` (not 0) from stream->first on. The next time
+ * is later the longer nothing was acknowledged. */
+void xrce_stream_reliable_heartbeat(
+  xrce_stream_reliable_t * stream, xrce_session_t * session, uint16_t count, uint32_t now);
 
 #ifdef __cplusplus
 }

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-enum { NO_PLACE = 0xffff, STATUS_SIZE = 6 };
+enum { NO_PLACE = 0xffff, STATUS_SIZE = 6, MOST_REFUSALS = 16 };
 
 /* Submessage header, request id, object id; then kind, format, padding and the description's length. */
 enum {
@@ -83,15 +83,14 @@ static void entities_next_place(xrce_entities_t * entities)
 }
 
 /* Lets the next step look for work at once. */
-static void entities_wake(xrce_entities_t * entities, uint32_t now)
+static void entities_wake(xrce_entities_t * entities)
 {
   entities->pending = true;
-  if (!entities->outstanding) {
-    entities->due_ms = now;
-  }
+  entities->refusals = 0;
+  entities->resting = false;
 }
 
-void xrce_entities_renew(xrce_client_t * client, uint32_t now)
+void xrce_entities_renew(xrce_client_t * client)
 {
   for (size_t place = 0; place < XRCE_PLACES; ++place) {
     xrce_object_state_t * state = &client->states[place];
@@ -102,7 +101,7 @@ void xrce_entities_renew(xrce_client_t * client, uint32_t now)
     }
   }
   client->entities.outstanding = false;
-  entities_wake(&client->entities, now);
+  entities_wake(&client->entities);
 }
 
 bool xrce_entities_settled(const xrce_client_t * client)
@@ -119,8 +118,11 @@ static void entities_refuse(xrce_client_t * client, uint8_t status, uint32_t now
     entities->refused_place = entities->cursor;
     entities->refused_status = status;
   }
-  entities->due_ms = now + MICROROS_RETRY_FIRST_MS;
-  entities_next_place(entities); /* others first */
+  /* Others first; then again, after pauses that grow, since it is a mistake or a lack that may last. */
+  entities->due_ms = now + xrce_session_pause((uint32_t)MICROROS_RETRY_FIRST_MS << entities->refusals);
+  entities->refusals = (uint8_t)(entities->refusals + (entities->refusals < MOST_REFUSALS ? 1u : 0u));
+  entities->resting = true;
+  entities_next_place(entities);
 }
 
 /* Behind the description: a participant's domain, at an even place; the parent's id of other objects. */
@@ -161,30 +163,45 @@ static uint8_t * entities_put_object(
   return entities_put_owner(client, place, kind, end, (size & 1u) != 0u);
 }
 
-/* Sends the outstanding request. There is a session: what does not come was a lost datagram, and a caller waits. So the
- * pause before it is sent again does not grow. */
+/* Returns what the object is that the outstanding request is about. */
+static uint8_t entities_outstanding_kind(const xrce_client_t * client)
+{
+  const xrce_entities_t * entities = &client->entities;
+  const uint8_t level = client->states[entities->cursor].level;
+
+  if (xrce_place_is_participant(entities->cursor)) {
+    return XRCE_KIND_PARTICIPANT;
+  }
+  return entities_kind(entities->cursor, (uint8_t)(level - (entities->deleting ? 1u : 0u)));
+}
+
+static uint16_t entities_outstanding_id(const xrce_client_t * client)
+{
+  const uint16_t place = client->entities.cursor;
+  const uint16_t index = xrce_place_is_participant(place) ? place : (uint16_t)(place - MICROROS_NODES_MAX);
+
+  return xrce_object_id(index, entities_outstanding_kind(client));
+}
+
+/* Sends the outstanding request. */
 static void entities_send(xrce_client_t * client, uint32_t now)
 {
   enum { CREATE_FLAGS = XRCE_FLAG_LITTLE_ENDIAN | XRCE_FLAG_REUSE | XRCE_FLAG_REPLACE };
   xrce_entities_t * entities = &client->entities;
-  const uint16_t place = entities->cursor;
-  const bool participant = xrce_place_is_participant(place);
-  const uint8_t level = (uint8_t)(client->states[place].level - (entities->deleting ? 1u : 0u));
-  const uint8_t kind = participant ? (uint8_t)XRCE_KIND_PARTICIPANT : entities_kind(place, level);
-  const uint16_t index = participant ? place : (uint16_t)(place - MICROROS_NODES_MAX);
+  const uint8_t kind = entities_outstanding_kind(client);
   uint8_t * room = xrce_creation_room(client);
   uint8_t * end = &room[DELETE_SIZE];
 
-  entities->due_ms = now + MICROROS_RETRY_FIRST_MS;
+  entities->due_ms = now + xrce_session_short_pause(now - entities->asked_ms);
   if (!entities->deleting) {
-    end = entities_put_object(client, place, kind, room);
+    end = entities_put_object(client, entities->cursor, kind, room);
   }
   xrce_put_submessage(
     room, entities->deleting ? XRCE_DELETE : XRCE_CREATE,
     entities->deleting ? XRCE_FLAG_LITTLE_ENDIAN : CREATE_FLAGS,
     xrce_size_between(&room[XRCE_SUBMESSAGE_HEADER], end));
   xrce_put_be16(&room[REQUEST_AT], entities->request);
-  xrce_put_be16(&room[OBJECT_AT], xrce_object_id(index, kind));
+  xrce_put_be16(&room[OBJECT_AT], entities_outstanding_id(client));
   xrce_creation_send(client, xrce_size_between(room, end));
 }
 
@@ -203,6 +220,7 @@ static bool entities_begin(xrce_client_t * client, uint32_t now)
       }
       entities->deleting = level > goal;
       entities->outstanding = true;
+      entities->asked_ms = now;
       entities->request = xrce_session_next_request(&client->session);
       entities_send(client, now);
       return true;
@@ -216,9 +234,13 @@ void xrce_entities_step(xrce_client_t * client, uint32_t now)
 {
   xrce_entities_t * entities = &client->entities;
 
-  if (!entities->pending || client->session.state != XRCE_READY || !xrce_is_due(now, entities->due_ms)) {
+  if (!entities->pending || client->session.state != XRCE_READY) {
     return;
   }
+  if (xrce_entities_waits(entities) && !xrce_is_due(now, entities->due_ms)) {
+    return;
+  }
+  entities->resting = false;
   if (entities->outstanding) {
     entities_send(client, now);
   } else {
@@ -235,16 +257,18 @@ void xrce_entities_on_status(xrce_client_t * client, const uint8_t * payload, si
     ++client->session.statistics.malformed;
     return;
   }
-  if (!entities->outstanding || xrce_get_be16(&payload[0]) != entities->request) {
+  if (
+    !entities->outstanding || xrce_get_be16(&payload[0]) != entities->request ||
+    xrce_get_be16(&payload[2]) != entities_outstanding_id(client)) {
     return; /* the answer to a repetition, or to a request of another part */
   }
   xrce_creation_end(client);
   entities->outstanding = false;
-  entities->due_ms = now;
   if (entities->deleting) {
     --state->level; /* whatever the agent says: an unknown object is what we wanted */
   } else if (payload[4] <= XRCE_STATUS_OK_MATCHED) {
     ++state->level;
+    entities->refusals = 0;
   } else {
     entities_refuse(client, payload[4], now);
   }
@@ -259,7 +283,7 @@ void xrce_entities_add(xrce_client_t * client, uint16_t place)
   /* Also when the request of a former owner is still out: what comes of it is not what is wanted now. */
   state->stale = state->level != 0u || (entities->outstanding && entities->cursor == place);
   state->wanted = true;
-  entities_wake(&client->entities, client->session.now_ms);
+  entities_wake(&client->entities);
 }
 
 void xrce_entities_remove(xrce_client_t * client, uint16_t place)
@@ -270,7 +294,7 @@ void xrce_entities_remove(xrce_client_t * client, uint16_t place)
       client->states[MICROROS_NODES_MAX + i].wanted = false;
     }
   }
-  entities_wake(&client->entities, client->session.now_ms);
+  entities_wake(&client->entities);
 }
 
 static bool entities_is_done(const xrce_client_t * client, uint16_t place)

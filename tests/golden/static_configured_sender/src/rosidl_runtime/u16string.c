@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "rosidl_runtime_c/u16string_functions.h"
 
-#include "rcutils/allocator.h"
+#include "microros/message_pools.h"
 
 #include <stdint.h>
 #include <string.h>
@@ -27,10 +27,8 @@ bool rosidl_runtime_c__U16String__init(rosidl_runtime_c__U16String * str)
 
 static void string_give_back(rosidl_runtime_c__U16String * str)
 {
-  if (str->data != NULL && str->data != string_empty()) {
-    rcutils_allocator_t allocator = rcutils_get_default_allocator();
-
-    allocator.deallocate(str->data, allocator.state);
+  if (str->data != string_empty()) {
+    microros_memory_give_back(MICROROS_POOL_u16text, str->data);
   }
 }
 
@@ -48,7 +46,7 @@ void rosidl_runtime_c__U16String__fini(rosidl_runtime_c__U16String * str)
 /* Makes room for `size` units and the terminator; `keep` the units that are there. */
 static bool string_make_room(rosidl_runtime_c__U16String * str, size_t size, bool keep)
 {
-  rcutils_allocator_t allocator;
+  size_t room;
   uint_least16_t * data;
 
   if (str->data != NULL && str->capacity > size && (str->data != string_empty() || size == 0u)) {
@@ -57,8 +55,8 @@ static bool string_make_room(rosidl_runtime_c__U16String * str, size_t size, boo
   if (size >= SIZE_MAX / sizeof(uint_least16_t)) {
     return false;
   }
-  allocator = rcutils_get_default_allocator();
-  data = allocator.allocate((size + 1u) * sizeof(uint_least16_t), allocator.state);
+  room = (size + 1u) * sizeof(uint_least16_t);
+  data = microros_memory_take(MICROROS_POOL_u16text, &room);
   if (data == NULL) {
     return false;
   }
@@ -67,7 +65,7 @@ static bool string_make_room(rosidl_runtime_c__U16String * str, size_t size, boo
   }
   string_give_back(str);
   str->data = data;
-  str->capacity = size + 1u;
+  str->capacity = room / sizeof(uint_least16_t);
   return true;
 }
 

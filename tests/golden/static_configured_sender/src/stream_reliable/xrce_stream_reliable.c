@@ -20,14 +20,30 @@ uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream)
   return &stream->message[stream_slot(stream, stream->count)][MICROROS_RELIABLE_FRONT];
 }
 
-/* A message that the transport does not take is one that was lost on the way: the agent asks for it. */
-static void stream_send(xrce_stream_reliable_t * stream, xrce_session_t * session, uint8_t i)
+static bool stream_send(xrce_stream_reliable_t * stream, xrce_session_t * session, uint8_t i)
 {
   const uint8_t slot = stream_slot(stream, i);
   uint8_t * message = stream->message[slot];
 
   xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_RELIABLE, (uint16_t)(stream->first + i));
-  (void)xrce_session_send(session, message, XRCE_MESSAGE_HEADER + (size_t)stream->size[slot]);
+  return xrce_transport_take_turn(&session->transport) &&
+         xrce_session_send(session, message, XRCE_MESSAGE_HEADER + (size_t)stream->size[slot]);
+}
+
+/* Sends what was never sent and what the agent misses, in order, until the transport takes no more: the rest waits for the
+ * next pump. */
+static void stream_flow(xrce_stream_reliable_t * stream, xrce_session_t * session)
+{
+  for (uint8_t i = 0; (uint32_t)stream->unsent >> i != 0u; ++i) {
+    const uint32_t bit = (uint32_t)1u << i;
+
+    if ((stream->unsent & bit) != 0u) {
+      if (!stream_send(stream, session, i)) {
+        return;
+      }
+      stream->unsent = (uint16_t)(stream->unsent & ~bit);
+    }
+  }
 }
 
 void xrce_stream_reliable_commit(
@@ -37,11 +53,13 @@ void xrce_stream_reliable_commit(
 
   stream->size[stream_slot(stream, i)] = (uint16_t)size;
   if (i == 0u) {
-    stream->heartbeat_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
+    xrce_stream_reliable_goes_on(stream, now);
   }
   stream->count = (uint8_t)(i + 1u);
-  if (session->state == XRCE_READY && !stream->held) {
-    stream_send(stream, session, i);
+  if (
+    stream->unsent != 0u || session->state != XRCE_READY || stream->held ||
+    !stream_send(stream, session, i)) {
+    stream->unsent = (uint16_t)(stream->unsent | (uint32_t)1u << i); /* for the next pump */
   }
 }
 
@@ -50,6 +68,7 @@ static void stream_free(xrce_stream_reliable_t * stream, uint8_t count)
   stream->head = stream_slot(stream, count);
   stream->first = (uint16_t)(stream->first + count);
   stream->count = (uint8_t)(stream->count - count);
+  stream->unsent = (uint16_t)((uint32_t)stream->unsent >> count);
 }
 
 const uint8_t * xrce_stream_reliable_drop_oldest(
@@ -73,6 +92,7 @@ const uint8_t * xrce_stream_reliable_drop_oldest(
 void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now)
 {
   stream->first = 0;
+  stream->unsent = (uint16_t)(((uint32_t)1u << stream->count) - 1u);
   stream->held = true;
   stream->held_until_ms = now + MICROROS_CREATE_TIMEOUT_MS;
 }
@@ -80,11 +100,8 @@ void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now)
 static void stream_release(xrce_stream_reliable_t * stream, xrce_session_t * session, uint32_t now)
 {
   stream->held = false;
-  stream->heartbeat_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
-  for (uint8_t i = 0; i < stream->count; ++i) {
-    stream_send(stream, session, i);
-    ++session->statistics.resent;
-  }
+  xrce_stream_reliable_goes_on(stream, now);
+  session->statistics.resent += stream->count;
 }
 
 void xrce_stream_reliable_step(
@@ -96,9 +113,12 @@ void xrce_stream_reliable_step(
   if (stream->held && (settled || xrce_is_due(now, stream->held_until_ms))) {
     stream_release(stream, session, now);
   }
-  if (stream->count != 0u && !stream->held && xrce_is_due(now, stream->heartbeat_ms)) {
-    xrce_stream_reliable_heartbeat(session, stream->first, stream->count);
-    stream->heartbeat_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
+  if (stream->count == 0u || stream->held) {
+    return;
+  }
+  stream_flow(stream, session);
+  if (stream->unsent == 0u && xrce_is_due(now, stream->heartbeat_ms)) {
+    xrce_stream_reliable_heartbeat(stream, session, stream->count, now);
   }
 }
 
@@ -121,13 +141,16 @@ bool xrce_stream_reliable_on_acknack(
   place = (uint16_t)(expected - stream->first);
   if (place <= stream->count) {
     stream_free(stream, (uint8_t)place);
+    if (place != 0u) {
+      xrce_stream_reliable_goes_on(stream, now);
+    }
     place = 0;
   } else if (missing != 0u) {
     stream->heartbeat_ms = now; /* it waits for what was dropped: tell it not to */
   }
   for (; missing != 0u; missing >>= 1) {
-    if ((missing & 1u) != 0u && place < stream->count) {
-      stream_send(stream, session, (uint8_t)place);
+    if ((missing & 1u) != 0u && place < stream->count && ((uint32_t)stream->unsent >> place & 1u) == 0u) {
+      stream->unsent = (uint16_t)(stream->unsent | (uint32_t)1u << place);
       ++session->statistics.resent;
     }
     ++place;

@@ -3,8 +3,11 @@
 #include "microros/rmw_transport.h"
 #include "microros_config.h"
 
+#include <string.h>
+
 bool rmw_transport_prepare(xrce_transport_t * transport, const rmw_uxrce_transport_params_t * params)
 {
+  (void)memset(transport, 0, sizeof(*transport));
   transport->host = params->agent_address[0] != '\0' ? params->agent_address : MICROROS_AGENT_HOST;
   transport->port = rmw_address_port(params->agent_port);
   return true;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/xrce_write.h"
 
-#include "microros/xrce_drops.h"
+#include "microros/xrce_client.h"
 #include "microros/xrce_routes.h"
 #include "microros/xrce_wire.h"
 
@@ -9,6 +9,9 @@
 
 /* What stands before the body in a submessage. */
 enum { BODY_OFFSET = XRCE_SUBMESSAGE_HEADER + XRCE_OBJECT_PREFIX };
+
+/* How long publishing may go on without reading: well below the time after which a session is given up. */
+enum { PAUSE_MS = 250, PAUSE_CONNECTING_MS = 10 };
 
 static bool write_is_reliable(const xrce_endpoint_t * writer)
 {
@@ -39,11 +42,32 @@ xrce_write_t xrce_write_obstacle(const xrce_endpoint_t * writer)
   return write_has_session(writer) ? XRCE_WRITE_FULL : XRCE_WRITE_NO_SESSION;
 }
 
+/*
+ * Pumps. A read function of the application that waits for a message is left out for a while, if there is room without:
+ * a publish does not wait.
+ */
+static uint8_t * write_pump(const xrce_endpoint_t * writer)
+{
+  xrce_session_t * session = &writer->client->session;
+  const uint32_t pause_ms = session->state == XRCE_READY ? PAUSE_MS : PAUSE_CONNECTING_MS;
+
+  if (xrce_transport_may_skip_reading(&session->transport, pause_ms)) {
+    uint8_t * room;
+
+    xrce_session_step_all(writer->client);
+    room = xrce_write_reserve(writer);
+    if (room != NULL) {
+      return room;
+    }
+  }
+  xrce_session_pump(writer->client);
+  return xrce_write_reserve(writer);
+}
+
 /* Pumps, and returns XRCE_WRITTEN with the room for a submessage, or why there is none. */
 static xrce_write_t write_begin(xrce_endpoint_t * writer, uint8_t ** room)
 {
-  xrce_session_pump(writer->client);
-  *room = xrce_write_reserve(writer);
+  *room = write_pump(writer);
   return *room != NULL ? XRCE_WRITTEN : xrce_write_on_full(writer, room);
 }
 
@@ -55,8 +79,7 @@ static xrce_write_t write_end(xrce_endpoint_t * writer, uint8_t * room, size_t s
   xrce_put_be16(&room[4], XRCE_REQUEST_NONE);
   xrce_put_be16(&room[6], xrce_object_id(writer->index, XRCE_KIND_DATAWRITER));
   if (!xrce_route_commit(client, write_is_reliable(writer), BODY_OFFSET + size)) {
-    xrce_drops_add(client, writer->index);
-    return XRCE_WRITE_NOT_SENT;
+    return xrce_write_on_unsent(writer, BODY_OFFSET + size);
   }
   return XRCE_WRITTEN;
 }

@@ -4,9 +4,14 @@
 
 /**
  * @file
- * Functions of builtin_interfaces/msg/Time, as rosidl_generator_c has them. Memory comes from rcutils_get_default_allocator()
- * and belongs to the message; a message in static storage (see __storage.h) must not be given to __fini, __copy's
- * output or __destroy. Not thread-safe for the same message.
+ * Functions of builtin_interfaces/msg/Time, as rosidl_generator_c has them. Memory comes in fixed blocks from storage that the
+ * build plans for messages which are sent, under their limits: `memory: {messages: N}` of each declared sender (default:
+ * 1); where rcutils_set_default_allocator was called, from that allocator. It belongs to the message until __fini. A
+ * request above the limits, and one more message than there is storage for, returns false or NULL; the reason is behind
+ * rcl_get_error_string(), and rmw_uros_get_refused_memory() counts it. A member with a buffer of the application's
+ * is filled there, as far as its capacity goes, and __fini leaves that buffer alone (unless an allocator was set, which
+ * gets it). A message in static storage (see __storage.h) must not be given to __destroy. No call waits; each takes time
+ * in proportion to the blocks of the size that it needs. Not thread-safe for the same message.
  */
 
 #include <stdbool.h>
@@ -20,18 +25,20 @@ extern "C"
 #endif
 
 /**
- * Set `msg` to its default values. What `msg` held before is forgotten, not freed.
- * Returns false when `msg` is NULL or the allocator has no memory; nothing is held then.
+ * Set `msg` to its default values; strings and sequences without one are empty, and take no memory until they are
+ * assigned or initialised themselves. What `msg` held before is forgotten, not given back.
+ * Returns false when `msg` is NULL.
  */
 bool builtin_interfaces__msg__Time__init(builtin_interfaces__msg__Time * msg);
 
-/** Free what `msg` holds. NULL is ignored. */
+/** Give back what `msg` holds; it may be initialised again then. NULL is ignored. */
 void builtin_interfaces__msg__Time__fini(builtin_interfaces__msg__Time * msg);
 
-/** Return a new initialised message, or NULL without memory. The caller owns it: builtin_interfaces__msg__Time__destroy. */
+/** Return a new initialised message, or NULL: all that `memory.messages` gives are in use. The caller owns it:
+ * builtin_interfaces__msg__Time__destroy. */
 builtin_interfaces__msg__Time * builtin_interfaces__msg__Time__create(void);
 
-/** Free a message of builtin_interfaces__msg__Time__create. NULL is ignored. */
+/** Give back a message of builtin_interfaces__msg__Time__create. NULL is ignored. */
 void builtin_interfaces__msg__Time__destroy(builtin_interfaces__msg__Time * msg);
 
 /** Return whether all members are equal. False when one is NULL. */
@@ -43,16 +50,20 @@ bool builtin_interfaces__msg__Time__are_equal(const builtin_interfaces__msg__Tim
  */
 bool builtin_interfaces__msg__Time__copy(const builtin_interfaces__msg__Time * input, builtin_interfaces__msg__Time * output);
 
-/** Set `array` to `size` initialised messages. False without memory or when `array` is NULL; nothing is held then. */
+/**
+ * Set `array` to `size` initialised messages. What it held before is forgotten, not given back. False when `size` is
+ * above every limit of such a sequence in a message that is sent, when its blocks are taken, or `array` is NULL;
+ * nothing is held then.
+ */
 bool builtin_interfaces__msg__Time__Sequence__init(builtin_interfaces__msg__Time__Sequence * array, size_t size);
 
-/** Free every message of `array` and its memory. NULL is ignored. */
+/** Give back every message of `array` and its memory. NULL is ignored. */
 void builtin_interfaces__msg__Time__Sequence__fini(builtin_interfaces__msg__Time__Sequence * array);
 
-/** Return a new sequence of `size` initialised messages, or NULL without memory. The caller owns it. */
+/** Return a new sequence of `size` initialised messages, or NULL. The caller owns it; it lies in `memory.arena`. */
 builtin_interfaces__msg__Time__Sequence * builtin_interfaces__msg__Time__Sequence__create(size_t size);
 
-/** Free a sequence of builtin_interfaces__msg__Time__Sequence__create. NULL is ignored. */
+/** Give back a sequence of builtin_interfaces__msg__Time__Sequence__create. NULL is ignored. */
 void builtin_interfaces__msg__Time__Sequence__destroy(builtin_interfaces__msg__Time__Sequence * array);
 
 /** Return whether both have the same size and equal messages. False when one is NULL. */

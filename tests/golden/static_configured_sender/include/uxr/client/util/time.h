@@ -9,7 +9,8 @@
 extern "C" {
 #endif
 
-/* Milliseconds and nanoseconds since 1970-01-01 00:00 UTC, as far as the system knows. */
+/* Milliseconds and nanoseconds since 1970-01-01 00:00 UTC; while nobody has set the time of day, since the start of the
+ * device. Of one task, and called once in 49 days where the port counts milliseconds in 32 bits. */
 int64_t uxr_millis(void);
 int64_t uxr_nanos(void);
 

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "rmw_microros/message_memory.h"
+
+#include "microros/lock.h"
+#include "microros/message_memory.h"
+
+/* One for all, since the functions of messages take no handle. */
+static uint32_t refused;
+
+void microros_memory_refuse(void)
+{
+  microros_lock();
+  refused += refused != UINT32_MAX ? 1u : 0u;
+  microros_unlock();
+}
+
+uint32_t rmw_uros_get_refused_memory(void)
+{
+  uint32_t count;
+
+  microros_lock();
+  count = refused;
+  microros_unlock();
+  return count;
+}
