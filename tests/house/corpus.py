@@ -36,6 +36,10 @@ _LARGE = "      - {topic: large, type: std_msgs/msg/String}\nlimits: {'*': {stri
 _BOTH = _NODES + _BEST + _SURE
 _READER = "version: 1\nprofiles: [pure_reader]\nnodes:\n  - name: probe\n    subscriptions:\n"
 _HEARD = "      - {topic: heard, type: std_msgs/msg/Int32, qos: {reliability: best_effort}}\n"
+_ALONE = (
+    "      - {topic: heard, type: std_msgs/msg/String, qos: {reliability: best_effort}, queue: 1}\n"
+    "limits: {'*': {string: 400}}\n"
+)
 _SAID = (
     "      - {topic: said, type: std_msgs/msg/String, limits: {string: 3000}, queue: 2}\n"
     "      - {topic: word, type: std_msgs/msg/String, limits: {string: 8}}\n"
@@ -124,9 +128,28 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "cortex_m": _BOTH + "target: {name: qemu-microbit}\nsession: {key: device}\n",
         "cortex_m_cmsdk": _BOTH + "target: {name: qemu-mps2-an385}\n",
         "riscv": _BOTH + "target: {name: qemu-riscv32-virt}\n",
+        "prints_uart": _BOTH + "target: {name: own.yaml}\n",
+        "prints_uart_riscv": _BOTH + "target: {name: own.yaml}\n",
+        "prints_semihosting": _BOTH + "target: {name: own.yaml}\n",
+        "prints_nowhere": _BOTH + "target: {name: own.yaml}\n",
+        "lent_serial": _READER + _ALONE + _SERIAL,
+        "lent_tcp": _READER + _ALONE + "transport: {type: tcp, agent: '127.0.0.1:8888'}\n",
     }
 )
 """Application files by name."""
+
+_PRINTS = "target: own\nsummary: Prints\nextends: {}\nstdio: {}\n"
+TARGETS: Mapping[str, str] = MappingProxyType(
+    {
+        "prints_uart": _PRINTS.format("qemu-mps2-an385", "{to: uart, driver: cmsdk, base: 0x40005000}"),
+        "prints_uart_riscv": _PRINTS.format(
+            "qemu-riscv32-virt", "{to: uart, driver: ns16550, base: 0x10001000}"
+        ),
+        "prints_semihosting": _PRINTS.format("qemu-mps2-an385", "{to: semihosting}"),
+        "prints_nowhere": _PRINTS.format("qemu-mps2-an385", "{to: none}"),
+    }
+)
+"""Target files of applications that name `own.yaml`."""
 
 AWAITED: Mapping[str, frozenset[str]] = MappingProxyType(
     {
@@ -172,6 +195,8 @@ def make_tree(name: str, folder: Path) -> Tree:
     place = folder / name
     place.mkdir(parents=True)
     (place / "microros.yaml").write_text(APPLICATIONS[name], encoding="utf-8")
+    if name in TARGETS:
+        (place / "own.yaml").write_text(TARGETS[name], encoding="utf-8")
     options = SelectionOptions(
         place / "microros.yaml", (), (), (INTERFACES / "quality_msgs", shipped_folder()), None, None
     )

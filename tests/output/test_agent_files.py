@@ -152,7 +152,7 @@ def test_services_have_their_topics_and_types(tmp_path: Path) -> None:
             "clients",
             "{name: grip, type: std_srvs/srv/Empty}",
             "11:28",
-            "/left/grip is a std_srvs/srv/Empty here",
+            "/left/grip has the type std_srvs/srv/Empty here",
         ),
     ],
 )
