@@ -49,7 +49,8 @@ def _keys(schema: Schema, part: Schema, path: str) -> Iterator[str]:
     if rows:
         yield table(("key", "value", "meaning"), rows)
     for here, object_part in below:
-        yield f"## {here} {{: #{anchor(here)} }}"
+        title = here.translate({ord("<"): "(", ord(">"): ")", ord("_"): "\\_"})
+        yield f"## {title} {{: #{anchor(here)} }}"
         if object_part.get("description"):
             yield cell(object_part["description"].rstrip(".")) + "."
         yield from _keys(schema, object_part, here)

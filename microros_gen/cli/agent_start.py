@@ -80,7 +80,7 @@ def serve(options: AgentOptions) -> None:
     _tell_memory(log, limits)
     if options.verbose:
         transports = [TracedTransport(transport, log) for transport in transports]
-    told = ", ".join(f"{name} {value:g}" for name, value in asdict(limits).items())
+    told = ", ".join(f"{name} {value:.10g}" for name, value in asdict(limits).items())
     log.emit(Level.INFO, "limits", f"limits: {told}", **asdict(limits))
     server = Server(agent, transports, log)
     announcements = EventLog(sys.stdout, as_json)

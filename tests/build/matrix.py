@@ -64,6 +64,15 @@ nodes:
       - {topic: said, type: std_msgs/msg/String, limits: {string: 3000}, queue: 2}
       - {topic: joints, type: sensor_msgs/msg/JointState}
 """
+_LENT = """\
+version: 1
+profiles: [pure_reader]
+nodes:
+  - name: ear
+    subscriptions:
+      - {topic: said, type: std_msgs/msg/String, qos: {reliability: best_effort}, queue: 1}
+limits: {"*": {string: 400}}
+"""
 _BUSY = """\
 version: 1
 limits: {"*": {string: 24, sequence: 3}}
@@ -111,6 +120,8 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + _ASKS
         + "profiles: [pure_sender]\ncomponents: [-publish, +services, +executor]\nentities: reference\n"
         + "transport: {type: tcp}\n",
+        "lent-serial": _LENT + "transport: {type: serial}\n",
+        "lent-tcp": _LENT + "transport: {type: tcp}\n",
         "serial-sleep": _POOL + "components: [+sleep_cycles]\ntransport: {type: serial}\n",
         "custom-framed-sleep": _POOL
         + "components: [+sleep_cycles]\ntransport: {type: custom, framing: true}\n",

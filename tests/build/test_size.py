@@ -26,6 +26,7 @@ from microros_gen.build.entities import MESSAGE_STORAGE
 from microros_gen.build.folder import read_folder
 from microros_gen.build.linker_map import parse_map
 from microros_gen.build.pointers import read_pointers
+from microros_gen.build.records import ImageRecord
 from microros_gen.build.report import SizeReport, measure
 from microros_gen.build.stack import bound_of, shown_name
 from microros_gen.build.toolchain import find_toolchain
@@ -132,7 +133,8 @@ def check_message_storage(report: SizeReport) -> None:
     assert storage == 2 * 4 + 1 + 2 * 1 + 1
     budget = {"memory": {"ram_budget": {"bytes": 1, "place": None}}}
     folder = replace(report.folder, manifest={**report.folder.manifest, **budget})
-    image = replace(folder, outside=(folder.path / "bin/image", folder.path / "bin/image.map"))
+    linked = ImageRecord(folder.path / "bin/image", folder.path / "bin/image.map", (), ())
+    image = replace(folder, linked=linked)
     (without,) = budget_lines(folder, report.pieces, report.ram, report.stack)
     (line,) = budget_lines(image, report.pieces, report.ram, report.stack)
     assert line.used == without.used + storage, (

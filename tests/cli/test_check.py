@@ -36,7 +36,8 @@ def test_what_is_generated_is_what_the_golden_copy_holds(run: Runner, profile: s
 def test_a_golden_copy_holds_sources_only(folder: Path) -> None:
     found = {path.name for path in (GOLDEN / "pure_sender").iterdir()}
     assert found == {
-        "CMakeLists.txt", "README.md", "examples", "include", "manifest.json", "sources.txt", "src",
+        "CMakeLists.txt", "README.md", "examples", "include", "manifest.json", "microros_image.cmake",
+        "sources.txt", "src",
     }  # fmt: skip
 
 

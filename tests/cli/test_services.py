@@ -43,8 +43,8 @@ def test_limits_of_a_response_are_named_and_taken(run: Runner, folder: Path) -> 
     (folder / "microros.yaml").write_text(base, encoding="utf-8")
     outcome = run("generate", "--output", "out")
     assert outcome.status == 2
-    assert "capacity of std_srvs/srv/SetBool_Response.message is not set" in outcome.err
-    assert "limits: {std_srvs/srv/SetBool_Response: {message: {string:" in outcome.err
+    assert "std_srvs/srv/SetBool_Response has no limit for message" in outcome.err
+    assert "\n  std_srvs/srv/SetBool_Response: {message: 32}\n" in outcome.err
     limits = "limits: {std_srvs/srv/SetBool_Response: {message: 20}}\n"
     (folder / "microros.yaml").write_text(base + limits, encoding="utf-8")
     assert run("generate", "--output", "out").status == 0

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+#define _XOPEN_SOURCE 700
 /*
  * What the C library needs for printf: `stdio` of the target file. Linked when the program prints, and not else. There is no
  * heap: newlib's three streams take 436 bytes of a block of their own the first time, and whatever asks for more gets
