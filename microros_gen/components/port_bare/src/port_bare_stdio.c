@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Names of the C library's own that it wants: NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp) */
 #define _XOPEN_SOURCE 700
 /*
  * What the C library needs for printf: `stdio` of the target file. Linked when the program prints, and not else. There is no
@@ -132,3 +133,5 @@ int _getpid(void)
 }
 
 #endif
+
+/* NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp) */
