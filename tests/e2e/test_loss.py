@@ -29,8 +29,10 @@ nodes:
     publishers: [{{topic: echo_out, type: std_msgs/msg/Int32, qos: {{depth: 1000}}}}]
     subscriptions: [{{topic: echo_in, type: std_msgs/msg/Int32, queue: 64, qos: {{depth: 1000}}}}]
 pools: {{history: 16, input_history: 16}}
+session: {{liveliness_timeout: 30 s}}
 on_full: block 60 s
 """
+"""The time-out is for a busy test machine: an agent that does not run for seconds is not what these tests are about."""
 AHEAD = 500
 """Samples that are published and have not come back: less than the depth of each reader in DDS."""
 

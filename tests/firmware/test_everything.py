@@ -22,6 +22,7 @@ profiles: [pure_sender, pure_reader, simulation_node]
 components: [+timers, +services, +executor]
 on_full: block 1 s
 pools: {history: 16}
+session: {connect_timeout: 20 s, create_timeout: 20 s, liveliness_timeout: 20 s}  # a busy test machine
 nodes:
   - name: board
     publishers:
