@@ -21,6 +21,9 @@ QUICK = ("-O0",)
 BUILD_S = 300.0
 """Time-out of a build, which takes some seconds where nobody else needs the machine."""
 
+PATIENT = "session: {connect_timeout: 20 s, create_timeout: 20 s}\n"
+"""For declared applications without times of their own: an agent on a busy test machine may stand still for seconds."""
+
 # What an application without `nodes:` declares for live.c.
 POOLS = """\
 version: 1
@@ -120,7 +123,8 @@ class Images:
         home.mkdir()
         arguments = [*(["--agent", f"127.0.0.1:{port}"] if port else []), "-o", "out"]
         if application:
-            (home / "microros.yaml").write_text(application)
+            patient = PATIENT if "\nnodes:" in application and "session:" not in application else ""
+            (home / "microros.yaml").write_text(application + patient)
         else:
             arguments += ["--profile", "pure_sender"]
         environment = {k: v for k, v in os.environ.items() if k not in ("AR", "AMENT_PREFIX_PATH")}

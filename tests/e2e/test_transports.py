@@ -21,7 +21,7 @@ APPLICATION = """\
 version: 1
 profiles: [pure_sender]
 transport: {{type: {transport}}}
-session: {{key: {key}}}
+session: {{key: {key}, connect_timeout: 20 s, create_timeout: 20 s}}
 nodes:
   - name: talker
     publishers: [{{topic: {topic}, type: std_msgs/msg/Int32}}]

@@ -79,6 +79,11 @@ def observer(domain: int) -> Iterator[Observer]:
 
 ROOMY = "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\npools: {history: 16}\n"
 """An agent on a busy machine may be silent for longer than four samples take."""
+PATIENT = (
+    "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\n"
+    "session: {connect_timeout: 20 s, create_timeout: 20 s, liveliness_timeout: 20 s}\n"
+)
+"""And for longer than a session lasts by default, or a creation may take."""
 
 
 @pytest.mark.ros
@@ -110,7 +115,7 @@ def test_rclpy_hears_the_board_also_after_its_agent_was_killed_and_another_came(
 def test_over_a_bad_line_rclpy_gets_every_reliable_sample_and_the_agent_says_what_was_lost(
     builds: Builds, observer: Observer, domain: int
 ) -> None:
-    built = builds.build(BOARD)
+    built = builds.build(BOARD, PATIENT)
     image = builds.application(built, "counter.c", "-DCOUNTER_LAST=200", "-DCOUNTER_PERIOD_MS=20u")
     observer.subscribe("/count", "std_msgs/msg/Int32", reliable=True)
     with (
