@@ -10,6 +10,7 @@ from microros_gen.adopt.c_program import Call, CFile, read_program
 from microros_gen.adopt.c_tokens import read_c
 from microros_gen.adopt.c_values import Values, handle_of
 from microros_gen.adopt.capacities import Fact, find_capacities
+from microros_gen.adopt.missing import find_missing
 from microros_gen.adopt.rclc_calls import (
     ENDPOINT_CALLS,
     NODE_CALLS,
@@ -27,22 +28,6 @@ from microros_gen.model.draft import Draft, DraftNode, DraftValue, Remark, place
 
 _STARTS = ("main", "appMain", "app_main", "setup")
 _PREFIXES = ("RCUTILS_LOG_", "rcl_", "rclc_", "rmw_", "rcutils_", "rosidl_runtime_c__", "micro_ros_", "uxr_")
-# What begins so needs a component that there is not yet, unless some component declares it.
-_LATER = {
-    "rclc_action_": "actions",
-    "rclc_executor_add_action_": "actions",
-    "rcl_action_": "actions",
-    "rclc_parameter_": "parameters",
-    "rclc_add_parameter": "parameters",
-    "rclc_set_parameter": "parameters",
-    "rclc_executor_add_parameter_server": "parameters",
-    "rclc_make_node_a_lifecycle_node": "life cycles",
-    "rclc_lifecycle_": "life cycles",
-    "rcl_lifecycle_": "life cycles",
-    "RCUTILS_LOG_": "log messages",
-    "rcutils_logging_": "log messages",
-    "rcutils_log": "log messages",
-}
 _EXECUTORS = ("rclc_executor_init",)
 # What starts a second task: POSIX, FreeRTOS, Zephyr, CMSIS-RTOS, NuttX
 _TASKS = frozenset(
@@ -60,7 +45,6 @@ _THREADS = frozenset(("std", "thread"))
 _AXES = ("transport_", "entities_", "port_", "liveliness_", "clock_ros", "ping", "stream_")
 _GIVEN = (("publish", "pure_sender"), ("subscribe", "pure_reader"))
 _PROFILES = (("pure_sender", "publisher"), ("pure_reader", "subscription"))
-_KNOWN_BUT_NOT_DECLARED = ("rosidl_runtime_c__", "rmw_uros_set_custom_transport")
 
 
 @dataclass(frozen=True)
@@ -90,7 +74,7 @@ def rclc_draft(
     profiles = tuple(profile for profile, kind in _PROFILES if kind in endpoints)
     own = {function.name for file in files for function in file.functions}
     called = [call for call in calls if call.name not in own and call.name.startswith(_PREFIXES)]
-    remarks += _missing(called, declared)
+    remarks += find_missing(called, declared)
     remarks += _macros(files)
     settings, more = find_settings(calls, values)
     groups = {**settings, **_executors(calls)}
@@ -190,22 +174,6 @@ def _domain(calls: Iterable[Call], values: Values, remarks: list[Remark]) -> int
                 return domain
             remarks.append(Remark(f"the domain: {domain.reason}", call.span))
     return 0
-
-
-def _missing(called: Iterable[Call], declared: Mapping[str, str]) -> list[Remark]:
-    """Return a remark for the first call of each function that this library does not have."""
-    first: dict[str, Remark] = {}
-    for call in called:
-        later = next((name for prefix, name in _LATER.items() if call.name.startswith(prefix)), "")
-        if call.name in declared or call.name.startswith(_KNOWN_BUT_NOT_DECLARED):
-            continue
-        what = (
-            f"{later} are not in this version ({call.name})"
-            if later
-            else f"{call.name} is not in this version"
-        )
-        first.setdefault(later or call.name, Remark(what, call.span))
-    return list(first.values())
 
 
 def _macros(files: Iterable[CFile]) -> list[Remark]:

@@ -58,7 +58,7 @@ class _View:
 
 
 def write_folder(wish: Wish, draft: Draft) -> int:
-    """Write the folder of `draft` and tell what it holds; return the exit status, 2 where it does not plan.
+    """Write the folder of `draft` and tell what it holds; return the exit status, 2 where it does not build.
 
     Raises UserError, and writes nothing, where a file is in the way or where a profile alone does not plan.
     """
@@ -71,11 +71,13 @@ def write_folder(wish: Wish, draft: Draft) -> int:
         _refuse_to_overwrite(wish.folder, files)
         write_files(wish.folder, files)
     for remark in undecided:
-        found.warning(remark.text, remark.span)
+        tell = found.error if remark.refused else found.warning
+        tell(remark.text, remark.span, remark.refused or None)
     for diagnostic in found:
         click.echo(diagnostic.render(), err=True)
-    _tell(wish, files, len(undecided))
-    return 0 if planned is not None else 2
+    builds = planned is not None and not any(remark.refused for remark in undecided)
+    _tell(wish, files, len(undecided), builds)
+    return 0 if builds else 2
 
 
 @contextmanager
@@ -197,7 +199,7 @@ def _refuse_to_overwrite(folder: Path, files: Mapping[str, bytes]) -> None:
         )
 
 
-def _tell(wish: Wish, files: Mapping[str, bytes], undecided: int) -> None:
+def _tell(wish: Wish, files: Mapping[str, bytes], undecided: int, builds: bool) -> None:
     own = sorted(name for name in files if not name.startswith("golden/"))
     click.echo(f"{wish.folder}: {', '.join(own)}")
     if len(own) < len(files):
@@ -206,4 +208,7 @@ def _tell(wish: Wish, files: Mapping[str, bytes], undecided: int) -> None:
         click.echo(
             f"{undecided} to be decided by you: look for {UNDECIDED} in {wish.folder / APPLICATION_FILE}"
         )
+    if not builds:
+        click.echo("it does not build before the errors are gone")
+        return
     click.echo(f"cmake -S {wish.folder} -B {wish.folder / 'build'} && cmake --build {wish.folder / 'build'}")

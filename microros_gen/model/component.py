@@ -9,6 +9,9 @@ from dataclasses import dataclass, field
 from microros_gen.diagnostics import Span
 from microros_gen.model.application import ComponentChange, Named
 
+NOT_READY = "this version of microros-gen does not have yet"
+"""Ends the sentence that says why something planned is refused."""
+
 
 @dataclass(frozen=True)
 class SourceFile:

@@ -21,12 +21,14 @@ class Flow(str):
 class Remark:
     """What somebody must know of one thing that was read; `text` says what and why.
 
-    `undecided`: somebody must decide; otherwise it is something that has no place in the application file.
+    `undecided`: somebody must decide; otherwise it is something that has no place in the application file. `refused`:
+    with this the program does not build; what to do about it.
     """
 
     text: str
     span: Span | None = None
     undecided: bool = True
+    refused: str = ""
 
 
 @dataclass(frozen=True)

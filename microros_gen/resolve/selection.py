@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from microros_gen.diagnostics import Diagnostics, Span, nearest
 from microros_gen.model.application import Application, Named
-from microros_gen.model.component import AxisValue, Catalogue, Middleware, ResolvedProfile
+from microros_gen.model.component import NOT_READY, AxisValue, Catalogue, Middleware, ResolvedProfile
 from microros_gen.model.selection import Chosen, ChosenAxis, ChosenComponent, Selection
 from microros_gen.model.xrce import MICRO_ROS_COMPONENTS, OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
 from microros_gen.resolve.axes import AxisChoice, choose_axes
@@ -24,7 +24,6 @@ HOST_PORT = "port_posix"
 # Objects that a CREATE makes; the client itself comes with CREATE_CLIENT.
 _CREATED = frozenset(OBJECT_KINDS) - {"agent", "client"}
 _LAYERS = ("micro-ROS", "middleware", "port")
-NOT_READY = "this version of microros-gen does not have yet"
 
 
 def resolve_selection(

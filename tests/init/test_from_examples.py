@@ -127,3 +127,31 @@ def test_what_is_proposed_is_taken(init: Init, tmp_path: Path) -> None:
     assert limits["sensor_msgs/msg/JointState", "name"] == (None, 4)
     assert limits["sensor_msgs/msg/JointState", "position"] == (6, 6)
     assert limits["*",] == (32, 8)
+
+
+GRAPH = """#include <rcl/rcl.h>
+int main(void)
+{
+  rclc_node_init_default(&node, "n", "", &support);
+  size_t count;
+  rcl_count_publishers(&node, "/a", &count);
+  rcl_count_subscribers(&node, "/a", &count);
+  return (int)count;
+}
+"""
+
+
+def test_what_needs_a_component_that_is_not_there_is_refused(init: Init, tmp_path: Path) -> None:
+    """Once a component, at the first call; nobody is told to build what does not build."""
+    (tmp_path / "main.c").write_text(GRAPH)
+    status, out, err = init("app", "--from", "main.c")
+    assert status == 2
+    first, code, mark = err.splitlines()
+    assert first.startswith(
+        "main.c:6:3: error: rcl_count_publishers needs the component 'graph', which this version"
+    )
+    assert first.endswith("Remove the call and what belongs to it")
+    assert (code.strip(), mark.strip()) == ('rcl_count_publishers(&node, "/a", &count);', "^" + "~" * 19)
+    assert len(undecided_in(tmp_path / "app/microros.yaml")) == 1
+    assert "cmake" not in out
+    assert "does not build" in out

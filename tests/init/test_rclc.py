@@ -289,8 +289,11 @@ def test_settings_of_transport_session_and_domain() -> None:
 @pytest.mark.parametrize(
     ("call", "reason"),
     [
-        ("rclc_action_server_init_default(&a, &node, &support, T, n);", "actions are not in this version"),
-        ("rcl_get_node_names(&node, a, &b, &c);", "rcl_get_node_names is not in this version"),
+        ("rclc_action_server_init_default(&a, &node, &support, T, n);", "needs the component 'actions'"),
+        ("rclc_parameter_get_int(&p, n, &v);", "rclc_parameter_get_int needs the component 'parameters'"),
+        ("rclc_lifecycle_node_fini(&l, a);", "rclc_lifecycle_node_fini needs the component 'lifecycle'"),
+        ("rcl_get_node_names(&node, a, &b, &c);", "rcl_get_node_names needs the component 'graph'"),
+        ("rcl_no_such_call(&node);", "rcl_no_such_call is not in this version"),
         ("set_microros_serial_transports(Serial);", "set_microros_serial_transports() is of another library"),
         ("std_msgs__msg__Header__Sequence__create(2);", "takes memory from `memory.arena`"),
         (
@@ -413,7 +416,7 @@ def test_a_loop_without_a_known_limit_is_marked() -> None:
 
 def test_log_macros_are_marked() -> None:
     found = reasons(program('RCUTILS_LOG_INFO_NAMED("n", "text");'))
-    assert any("log messages are not in this version (RCUTILS_LOG_INFO_NAMED)" in reason for reason in found)
+    assert any("RCUTILS_LOG_INFO_NAMED needs the component 'logging'" in reason for reason in found)
 
 
 def test_a_program_without_a_node_is_taken() -> None:
