@@ -10,7 +10,8 @@ from microros_gen.build.compile import BuildReport
 from microros_gen.build.measure import Usage
 from microros_gen.cli.pipeline import Planned
 from microros_gen.plan.message_pools import open_members
-from microros_gen.plan.runtime import PublisherPlan, RuntimePlan, SubscriptionPlan
+from microros_gen.plan.runtime import RuntimePlan
+from microros_gen.plan.runtime_entities import PublisherPlan, SubscriptionPlan
 from microros_gen.plan.services import ServicePlan
 
 _SHOWN = 6

@@ -15,7 +15,7 @@ from microros_gen.model.application import Memory
 from microros_gen.model.type_description import individual_type_description
 from microros_gen.model.types import Message, NamedType, TypeName, element_of
 from microros_gen.plan.project import Project
-from microros_gen.plan.runtime import PublisherPlan
+from microros_gen.plan.runtime_entities import PublisherPlan
 from microros_gen.render.project import without_folder
 
 

@@ -20,7 +20,8 @@ from microros_gen.plan.declared import named_at, pool, publisher_declarations, t
 from microros_gen.plan.names import dds_topic, dds_type, participant_name
 from microros_gen.plan.receiving import plan_receiving
 from microros_gen.plan.running import plan_running
-from microros_gen.plan.runtime import DISCOVERY_GROUP, NodePlan, PublisherPlan, RuntimePlan, SubscriptionPlan
+from microros_gen.plan.runtime import DISCOVERY_GROUP, RuntimePlan
+from microros_gen.plan.runtime_entities import NodePlan, PublisherPlan, SubscriptionPlan
 from microros_gen.plan.senders import SentStorage, plan_sent_storage
 from microros_gen.plan.serving import Serving, plan_serving
 from microros_gen.plan.session_times import plan_times

@@ -20,7 +20,7 @@ from microros_gen.model.types import (
 )
 from microros_gen.plan.declared import full_name, named_at, pool, subscription_declarations, type_name
 from microros_gen.plan.names import dds_topic
-from microros_gen.plan.runtime import QueuePlan, SubscriptionPlan
+from microros_gen.plan.runtime_entities import QueuePlan, SubscriptionPlan
 from microros_gen.plan.streams import Received, slot_of
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_names import include_path

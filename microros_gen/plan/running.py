@@ -9,7 +9,7 @@ from microros_gen.diagnostics import Diagnostics
 from microros_gen.model.application import Application, ExecutorDecl, NodeDecl
 from microros_gen.model.selection import Selection
 from microros_gen.plan.declared import pool
-from microros_gen.plan.runtime import TimerPlan
+from microros_gen.plan.runtime_entities import TimerPlan
 from microros_gen.resolve.clock import CLOCK_ROS
 
 _NS_PER_US = 1000

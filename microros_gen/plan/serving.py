@@ -17,7 +17,7 @@ from microros_gen.model.selection import Selection
 from microros_gen.model.types import TypeName
 from microros_gen.plan.declared import declarations, full_name, named_at, pool, service_parts, type_name
 from microros_gen.plan.receiving import LARGEST_DEFAULT_QUEUE, buffers_of
-from microros_gen.plan.runtime import QueuePlan
+from microros_gen.plan.runtime_entities import QueuePlan
 from microros_gen.plan.services import ServicePlan, StoredMessage
 from microros_gen.plan.streams import Received, Written, slot_of
 from microros_gen.plan.types import TypePlan

@@ -12,7 +12,7 @@ from jinja2 import Environment
 from microros_gen.model.application import Memory
 from microros_gen.model.component import Component
 from microros_gen.plan.project import Project
-from microros_gen.plan.runtime import PublisherPlan
+from microros_gen.plan.runtime_entities import PublisherPlan
 from microros_gen.render.agent_files import render_agent_files
 from microros_gen.render.board import BoardView, board_view, render_toolchain
 from microros_gen.render.example import example_view

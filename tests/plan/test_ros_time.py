@@ -12,7 +12,7 @@ from microros_gen.cli.generate import plan
 from microros_gen.cli.options import SelectionOptions
 from microros_gen.cli.pipeline import Planned, render_request
 from microros_gen.diagnostics import UserError
-from microros_gen.plan.runtime import QueuePlan
+from microros_gen.plan.runtime_entities import QueuePlan
 from microros_gen.sources.interfaces import shipped_folder
 
 NODES = """\

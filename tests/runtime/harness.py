@@ -18,7 +18,8 @@ from tempfile import TemporaryDirectory
 from microros_gen.build.toolchain import LIBRARY_FLAGS, WARNINGS
 from microros_gen.model.selection import ChosenComponent, Selection
 from microros_gen.model.types import TypeName
-from microros_gen.plan.runtime import NodePlan, PublisherPlan, QueuePlan, RuntimePlan
+from microros_gen.plan.runtime import RuntimePlan
+from microros_gen.plan.runtime_entities import NodePlan, PublisherPlan, QueuePlan
 from microros_gen.render.environment import make_environment
 from microros_gen.sources.components import components_folder, load_catalogue
 

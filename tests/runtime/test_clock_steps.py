@@ -15,7 +15,8 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.plan.runtime import DISCOVERY_GROUP, QueuePlan, RuntimePlan
+from microros_gen.plan.runtime import DISCOVERY_GROUP, RuntimePlan
+from microros_gen.plan.runtime_entities import QueuePlan
 from microros_gen.sources.components import components_folder
 from runtime.conftest import Bench
 from runtime.driver import Client
