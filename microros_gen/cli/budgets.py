@@ -12,7 +12,8 @@ from microros_gen.build.folder import Folder
 from microros_gen.build.report import check_budgets, measure_folder
 from microros_gen.cli.advice import plan_advice
 from microros_gen.cli.options import SelectionOptions
-from microros_gen.cli.pipeline import Planned, plan_request, read_request, resolve_request
+from microros_gen.cli.pipeline import Planned, plan_request, resolve_request
+from microros_gen.cli.request import read_request
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Span, UserError
 from microros_gen.diagnostics.diagnostic import Severity
 

@@ -69,8 +69,9 @@ def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
 
 def plan(options: SelectionOptions, output: Path | None) -> tuple[Planned, Path]:
     """Decide everything; return the plan and the folder that it is for. Nothing is written yet."""
-    from microros_gen.cli.pipeline import plan_request, read_request
+    from microros_gen.cli.pipeline import plan_request
     from microros_gen.cli.pipeline import resolve_request as resolve
+    from microros_gen.cli.request import read_request
     from microros_gen.diagnostics import Diagnostics
     from microros_gen.output.tree import check_owned
 

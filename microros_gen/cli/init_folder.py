@@ -15,7 +15,8 @@ import click
 from microros_gen import __version__
 from microros_gen.adopt.limits import LOWER_LIMITS
 from microros_gen.cli.init_sources import Wish
-from microros_gen.cli.pipeline import Planned, plan_request, render_request, request_of, resolve_request
+from microros_gen.cli.pipeline import Planned, plan_request, render_request, resolve_request
+from microros_gen.cli.request import request_of
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, UserError
 from microros_gen.model.draft import Draft
 from microros_gen.output.tree import write_files

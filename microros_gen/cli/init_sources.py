@@ -17,7 +17,8 @@ from microros_gen.adopt.limits import DEFAULT_LIMITS, limits_of
 from microros_gen.adopt.meta_draft import meta_draft
 from microros_gen.adopt.rclc_draft import Adopted, rclc_draft
 from microros_gen.cli.options import SelectionOptions
-from microros_gen.cli.pipeline import DEFAULT_INTERFACE, request_of, resolve_request
+from microros_gen.cli.pipeline import DEFAULT_INTERFACE, resolve_request
+from microros_gen.cli.request import request_of
 from microros_gen.diagnostics import Diagnostics, Source, UserError
 from microros_gen.model.application import Named
 from microros_gen.model.derived import parts_of

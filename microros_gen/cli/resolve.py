@@ -10,7 +10,8 @@ from typing import Any
 import click
 
 from microros_gen.cli.options import SelectionOptions, selection_options
-from microros_gen.cli.pipeline import Planned, plan_request, read_request, resolve_request, warnings_text
+from microros_gen.cli.pipeline import Planned, plan_request, resolve_request, warnings_text
+from microros_gen.cli.request import read_request
 from microros_gen.cli.resolve_format import format_selection, format_table, selection_data
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.plan.layout import ILP32

@@ -16,7 +16,7 @@ import pytest
 from cli.conftest import Outcome, Runner
 
 import microros_gen
-from microros_gen.cli import pipeline
+from microros_gen.cli import request
 from microros_gen.output import runs
 from microros_gen.sources.interfaces import shipped_folder
 
@@ -68,13 +68,13 @@ def generate(run: Runner) -> Runner:
 def settled(application: Path, generate: Runner, monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The application was generated, and a second run came from the record. Returns a log of full runs."""
     log: list[str] = []
-    original = pipeline.read_request
+    original = request.read_request
 
     def logged(*arguments: object) -> object:
         log.append("full run")
         return original(*arguments)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(pipeline, "read_request", logged)
+    monkeypatch.setattr(request, "read_request", logged)
     generate()
     generate()
     assert log == ["full run"]
@@ -321,4 +321,11 @@ def test_it_imports_nothing_that_a_full_run_needs(folder: Path) -> None:
         result = subprocess.run(call, env=environment, text=True, capture_output=True, check=True)
     imported = {line.rsplit("|", 1)[-1].strip() for line in result.stderr.splitlines()}
     assert "microros_gen.output.runs" in imported
-    assert not imported & {"jinja2", "yaml", "lark", "jsonschema", "microros_gen.cli.pipeline"}
+    assert not imported & {
+        "jinja2",
+        "yaml",
+        "lark",
+        "jsonschema",
+        "microros_gen.cli.pipeline",
+        "microros_gen.cli.request",
+    }
