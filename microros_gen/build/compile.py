@@ -15,6 +15,7 @@ from pathlib import Path, PurePosixPath
 from microros_gen.build.stamps import Stamps
 from microros_gen.build.toolchain import WARNINGS, Toolchain, run
 from microros_gen.diagnostics import Diagnostic, UserError
+from microros_gen.plan.project import Project
 
 OBJECTS = ".build"
 LIBRARY = "lib/libmicroros.a"
@@ -43,6 +44,13 @@ class _Unit:
     source: str
     object: str
     command: tuple[str, ...]
+
+
+def compile_project(out: Path, project: Project, tools: Toolchain) -> BuildReport:
+    """Compile the sources that `project` was written to `out` with, and link its example where it can be."""
+    sources = (out / "sources.txt").read_text(encoding="utf-8").split("\n")[:-1]
+    image = None if project.lacks_image else project.image
+    return compile_tree(out, sources, project.example, image, tools, project.linker_script)
 
 
 def compile_tree(

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from microros_gen.build.budget import Advice
-from microros_gen.build.compile import OBJECTS, compile_tree
+from microros_gen.build.compile import OBJECTS, compile_project
 from microros_gen.build.folder import Folder, read_folder
 from microros_gen.build.report import static_memory
 from microros_gen.build.toolchain import Toolchain, find_toolchain
@@ -37,11 +37,8 @@ class _Trial:
 
     def ram(self, planned: Planned) -> int:
         """Return the static memory of the library in the example that is built of this plan, bytes."""
-        project = planned.project
         write_tree(self.folder, render_request(planned))
-        sources = (self.folder / "sources.txt").read_text(encoding="utf-8").split("\n")[:-1]
-        image = None if project.lacks_image else project.image
-        compile_tree(self.folder, sources, project.example, image, self.tools, project.linker_script)
+        compile_project(self.folder, planned.project, self.tools)
         return static_memory(read_folder(self.folder))
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from microros_gen.build.compile import compile_tree
+from microros_gen.build.compile import compile_project
 from microros_gen.build.folder import read_folder
 from microros_gen.build.measure import measure_library
 from microros_gen.build.toolchain import Toolchain, find_toolchain
@@ -46,9 +46,6 @@ def command(output: Path | None, **options: Any) -> None:
 
 
 def _compile(planned: Planned, out: Path, tools: Toolchain) -> None:
-    project = planned.project
-    sources = (out / "sources.txt").read_text(encoding="utf-8").split("\n")[:-1]
-    image = None if project.lacks_image else project.image
-    built = compile_tree(out, sources, project.example, image, tools, project.linker_script)
+    built = compile_project(out, planned.project, tools)
     usage = measure_library(out, tools)
-    click.echo(built_summary(out, built, usage, project.lacks_image), nl=False)
+    click.echo(built_summary(out, built, usage, planned.project.lacks_image), nl=False)
