@@ -118,7 +118,7 @@ def _planned(wish: Wish, draft: Draft) -> tuple[str, Planned | None, Diagnostics
         if planned is not None:
             return text, planned, found
         first = first or (text, planned, found)
-        if not any("takes up to" in diagnostic.message for diagnostic in found):
+        if not any(diagnostic.too_large for diagnostic in found):
             break
     assert first is not None
     return first

@@ -31,7 +31,8 @@ class Severity(Enum):
 class Diagnostic:
     """One message to the user: what is wrong, where, and what to do (`hint`).
 
-    `block` are lines that can be pasted into the file; they are printed below the place.
+    `block` are lines that can be pasted into the file; they are printed below the place. `too_large`: a message
+    is larger than what carries it, so lower limits would help.
     """
 
     message: str
@@ -39,6 +40,7 @@ class Diagnostic:
     hint: str | None = None
     severity: Severity = Severity.ERROR
     block: tuple[str, ...] = ()
+    too_large: bool = False
 
     def headline(self) -> str:
         """Return `file:line:col: error: what. hint` (without a place: `microros-gen: error: …`)."""
@@ -96,6 +98,10 @@ class Diagnostics:
     def error(self, message: str, span: Span | None = None, hint: str | None = None) -> None:
         """Add an error."""
         self._add(Diagnostic(message, span, hint))
+
+    def too_large(self, message: str, span: Span | None, hint: str) -> None:
+        """Add an error that lower limits would mend."""
+        self._add(Diagnostic(message, span, hint, too_large=True))
 
     def warning(self, message: str, span: Span | None = None, hint: str | None = None) -> None:
         """Add a warning."""

@@ -285,7 +285,7 @@ def _check_fits(
     size = _datagram(message)
     span = message.span or application.transport.mtu_span or application.transport.span
     if message.max_encoded_size > LARGEST_BODY:
-        diagnostics.error(
+        diagnostics.too_large(
             f"{message.label} takes up to {message.max_encoded_size} bytes, and a message holds {LARGEST_BODY} at most",
             span,
             f"Lower its limits{message.hint}",
@@ -293,7 +293,7 @@ def _check_fits(
     elif message.best_effort and size > ceiling:
         declare = "declare its publisher under `nodes:` as reliable"
         reliable = declare if message.reliable else "make it reliable"
-        diagnostics.error(
+        diagnostics.too_large(
             f"{message.label} takes up to {size} bytes in its stream and {_mtu_is(application)} {ceiling}",
             span,
             f"{_larger_mtu(size, transport)} its limits{message.hint}, or {reliable}: reliable messages"
@@ -307,7 +307,7 @@ def _check_received(
     size = sample.whole
     span = sample.span or application.transport.mtu_span or application.transport.span
     if sample.max_size > LARGEST_BODY:
-        diagnostics.error(
+        diagnostics.too_large(
             f"{sample.label} takes up to {sample.max_size} bytes, and a message holds {LARGEST_BODY} at most",
             span,
             "Lower its limits",
@@ -315,7 +315,7 @@ def _check_received(
     elif sample.best_effort and size > ceiling:
         declare = "declare its subscription under `nodes:` as reliable"
         reliable = declare if sample.reliable else "make it reliable"
-        diagnostics.error(
+        diagnostics.too_large(
             f"{sample.label} takes up to {size} bytes when it arrives and {_mtu_is(application)} {ceiling}",
             span,
             f"{_larger_mtu(size, transport)} its limits, or {reliable}: reliable messages come in fragments",

@@ -163,7 +163,7 @@ def plan_types(
 def _check_sizes(plans: Iterable[TypePlan], diagnostics: Diagnostics) -> None:
     for plan in plans:
         if plan.max_encoded_size > LARGEST_BODY:
-            diagnostics.error(
+            diagnostics.too_large(
                 f"{plan.name} takes up to {plan.max_encoded_size} bytes under its limits",
                 plan.message.span,
                 f"Lower its limits: a message has at most {LARGEST_BODY} bytes",
