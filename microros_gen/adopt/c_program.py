@@ -39,8 +39,10 @@ class Loop:
 
 @dataclass(frozen=True)
 class Call:
-    """`name(arguments)` in `function`; `index` orders what stands in one file. `loops` are around it, outermost first;
-    `turn`: of these loops, where it is one of several calls.
+    """`name(arguments)` in `function`; `index` orders the calls of one file.
+
+    `loops` are the loops around it, the outermost first. `turn` has the count of each of them where the call is one
+    of several that loops stand for; else it is empty.
     """
 
     name: str

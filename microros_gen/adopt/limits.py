@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from microros_gen.adopt.capacities import Capacity, Fact, MemoryRules
 from microros_gen.model.draft import DraftValue, Flow, place
+from microros_gen.model.limit_tree import PROPOSED_LIMITS, LimitTree, limit_text, put_limit
 from microros_gen.model.types import (
     FieldType,
     Message,
@@ -23,9 +24,10 @@ DEFAULT_LIMITS = DraftValue(Flow("{string: 64, sequence: 16}"), "what nothing el
 
 LOWER_LIMITS = tuple(
     DraftValue(
-        Flow(f"{{string: {string}, sequence: {sequence}}}"), "what nothing else says, and fits a message"
+        Flow(limit_text({"string": string, "sequence": sequence})),
+        "what nothing else says, and fits a message",
     )
-    for string, sequence in ((32, 8), (32, 4), (16, 4), (16, 2), (8, 2), (8, 1))
+    for string, sequence in PROPOSED_LIMITS
 )
 """What is proposed instead, where a message would be larger than a stream takes."""
 
@@ -58,7 +60,7 @@ def limits_of(
                 numbers[key] = max(number, numbers.get(key, 0))
                 notes.setdefault(fact.type, place(fact.span))
     table = {
-        str(kind): DraftValue(Flow(_text(_tree(kind, numbers, _texts(kind, messages)))), notes[kind])
+        str(kind): DraftValue(Flow(limit_text(_tree(kind, numbers, _texts(kind, messages)))), notes[kind])
         for kind in sorted({kind for kind, _, _ in numbers})
     }
     open_leaves = [
@@ -136,9 +138,6 @@ def _follow(fact: Capacity, messages: Mapping[TypeName, Message]) -> tuple[tuple
     return None
 
 
-_Tree = dict[str, "int | _Tree"]
-
-
 def _texts(kind: TypeName, messages: Mapping[TypeName, Message]) -> frozenset[tuple[str, ...]]:
     """Return the paths of sequences of strings: there one number could be either."""
     found = list(leaves(kind, messages))
@@ -148,30 +147,10 @@ def _texts(kind: TypeName, messages: Mapping[TypeName, Message]) -> frozenset[tu
     return frozenset(strings & sequences)
 
 
-def _tree(kind: TypeName, numbers: Mapping[_Key, int], texts: frozenset[tuple[str, ...]]) -> _Tree:
+def _tree(kind: TypeName, numbers: Mapping[_Key, int], texts: frozenset[tuple[str, ...]]) -> LimitTree:
     """Return the numbers of one type as the application file nests them; those of `texts` with their kind."""
-    root: _Tree = {}
-    paths = sorted({path for name, path, _ in numbers if name == kind})
-    for path in paths:
-        values = {
-            word: numbers[kind, path, is_string]
-            for word, is_string in (("sequence", False), ("string", True))
-            if (kind, path, is_string) in numbers
-        }
-        inner = root
-        for name in path[:-1]:
-            below = inner.setdefault(name, {})
-            if isinstance(below, int):
-                below = inner[name] = {"sequence": below}
-            inner = below
-        known = inner.get(path[-1])
-        if len(values) == 1 and known is None and path not in texts:
-            inner[path[-1]] = next(iter(values.values()))
-        else:
-            inner[path[-1]] = {**values, **(known if isinstance(known, dict) else {})}
+    root: LimitTree = {}
+    for path, is_string in sorted((path, is_string) for name, path, is_string in numbers if name == kind):
+        number = numbers[kind, path, is_string]
+        put_limit(root, path, "string" if is_string else "sequence", number, by_kind=path in texts)
     return root
-
-
-def _text(tree: _Tree) -> str:
-    inside = (f"{key}: {value if isinstance(value, int) else _text(value)}" for key, value in tree.items())
-    return "{" + ", ".join(inside) + "}"

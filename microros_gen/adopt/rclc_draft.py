@@ -28,7 +28,6 @@ from microros_gen.model.draft import Draft, DraftNode, DraftValue, Remark, place
 
 _STARTS = ("main", "appMain", "app_main", "setup")
 _PREFIXES = ("RCUTILS_LOG_", "rcl_", "rclc_", "rmw_", "rcutils_", "rosidl_runtime_c__", "micro_ros_", "uxr_")
-_EXECUTORS = ("rclc_executor_init",)
 # What starts a second task: POSIX, FreeRTOS, Zephyr, CMSIS-RTOS, NuttX
 _TASKS = frozenset(
     (
@@ -192,7 +191,9 @@ def _macros(files: Iterable[CFile]) -> list[Remark]:
 def _executors(calls: Iterable[Call]) -> dict[str, dict[str, DraftValue]]:
     """Return `pools.executors` where the sources have more than one: a declared application has one by default."""
     inits = {
-        handle_of(call.arguments[0]): call for call in calls if call.name in _EXECUTORS and call.arguments
+        handle_of(call.arguments[0]): call
+        for call in calls
+        if call.name == "rclc_executor_init" and call.arguments
     }
     if len(inits) < 2:
         return {}

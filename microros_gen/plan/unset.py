@@ -8,10 +8,8 @@ from dataclasses import dataclass
 
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Span
 from microros_gen.model.application import LimitRule
+from microros_gen.model.limit_tree import PROPOSED_LIMITS, LimitTree, limit_text, put_limit
 from microros_gen.model.types import TypeName
-
-SUGGESTED: tuple[tuple[int, int], ...] = ((32, 8), (32, 4), (16, 4), (16, 2), (8, 2), (8, 1), (4, 1))
-"""Characters and elements that are proposed: the first pair with which every message fits its stream."""
 
 _NAMED = 4
 
@@ -45,7 +43,7 @@ def report_unset(roots: Sequence[UnsetRoot], rules: Sequence[LimitRule], diagnos
     """
     if not roots:
         return
-    string, sequence = next((pair for pair in SUGGESTED if _fit(roots, pair)), SUGGESTED[-1])
+    string, sequence = next((pair for pair in PROPOSED_LIMITS if _fit(roots, pair)), PROPOSED_LIMITS[-1])
     kinds = {unset.kind for root in roots for unset in root.unset}
     values = {kind: number for kind, number in (("string", string), ("sequence", sequence)) if kind in kinds}
     hint = _hint(values, rules)
@@ -58,7 +56,7 @@ def _hint(values: Mapping[str, int], rules: Sequence[LimitRule]) -> str:
     """Return the short form: one rule for everything."""
     if any(rule.path == ("*",) for rule in rules):
         return f'Add {" and ".join(f"`{kind}: {number}`" for kind, number in values.items())} to the rule for "*"'
-    star = f'"*": {_inner(values)}'
+    star = f'"*": {limit_text(values)}'
     return f"Add `{star}` to `limits:`" if rules else f"Add `limits: {{{star}}}`"
 
 
@@ -81,7 +79,7 @@ def _block(
     """
     lines = ["Or for each of them, below `limits:`" if rules else "Or for each of them:"]
     lines += [] if rules else ["limits:"]
-    members: dict[TypeName, dict[str, object]] = {}
+    members: dict[TypeName, LimitTree] = {}
     places: dict[TypeName, str] = {}
     for root in roots:
         if root.type not in members:
@@ -89,8 +87,8 @@ def _block(
             members[root.type] = _said(known)
             places[root.type] = _instead(known)
         for unset in root.unset:
-            _put(members[root.type], unset.path, unset.kind, values[unset.kind])
-    lines += [f"  {name}: {_inner(said)}{places[name]}" for name, said in members.items()]
+            put_limit(members[root.type], unset.path, unset.kind, values[unset.kind])
+    lines += [f"  {name}: {limit_text(said)}{places[name]}" for name, said in members.items()]
     return tuple(lines)
 
 
@@ -99,9 +97,9 @@ def _instead(rules: Sequence[LimitRule]) -> str:
     return f"  # instead of line {lines[0]}" if lines else ""
 
 
-def _said(rules: Iterable[LimitRule]) -> dict[str, object]:
+def _said(rules: Iterable[LimitRule]) -> LimitTree:
     """Return what rules of one type say, as a tree of members."""
-    members: dict[str, object] = {}
+    members: LimitTree = {}
     for rule in rules:
         for kind, number in (("string", rule.string), ("sequence", rule.sequence)):
             if number is None:
@@ -109,27 +107,5 @@ def _said(rules: Iterable[LimitRule]) -> dict[str, object]:
             if len(rule.path) == 1:
                 members[kind] = number
             else:
-                _put(members, rule.path[1:], kind, number)
+                put_limit(members, rule.path[1:], kind, number, by_kind=not rule.single)
     return members
-
-
-def _put(members: dict[str, object], path: tuple[str, ...], kind: str, number: int) -> None:
-    """Write a number at `path`: alone where the member has one kind of limit, else by its kind."""
-    for name in path[:-1]:
-        below = members.setdefault(name, {})
-        if not isinstance(below, dict):  # how many elements, and now something in each of them
-            below = members[name] = {"sequence": below}
-        members = below
-    known = members.get(path[-1])
-    if known is None or known == number:
-        members[path[-1]] = number
-    elif isinstance(known, dict):
-        known[kind] = number
-    else:
-        other = "sequence" if kind == "string" else "string"
-        members[path[-1]] = {other: known, kind: number}
-
-
-def _inner(values: Mapping[str, object]) -> str:
-    parts = (f"{key}: {_inner(v) if isinstance(v, Mapping) else v}" for key, v in values.items())
-    return "{" + ", ".join(parts) + "}"

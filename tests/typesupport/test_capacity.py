@@ -11,12 +11,12 @@ import pytest
 
 from microros_gen.diagnostics import Diagnostics, Source, Span, UserError
 from microros_gen.model.application import LimitRule
+from microros_gen.model.limit_tree import PROPOSED_LIMITS
 from microros_gen.model.types import Message, TypeName
 from microros_gen.parse.msg import parse_msg
 from microros_gen.plan.capacity import Capacities, Defaults, Entity, Origin, Root, plan_capacities
 from microros_gen.plan.types import plan_types
 from microros_gen.plan.types_size import WireSizes
-from microros_gen.plan.unset import SUGGESTED
 
 FILES = {
     "Leaf": "string text\nstring<=10 brief\nuint8[] raw\n",
@@ -220,8 +220,8 @@ def test_the_suggested_numbers_fit(messages: Mapping[TypeName, Message], room: i
     sizes = WireSizes(messages)
     capacities = plan(messages, rule("*", string=string, sequence=sequence))
     assert sizes.largest(ROOT, capacities.limits[ROOT]) <= room
-    at = SUGGESTED.index((string, sequence))
-    for larger in SUGGESTED[:at]:
+    at = PROPOSED_LIMITS.index((string, sequence))
+    for larger in PROPOSED_LIMITS[:at]:
         capacities = plan(messages, rule("*", string=larger[0], sequence=larger[1]))
         assert sizes.largest(ROOT, capacities.limits[ROOT]) > room, "the largest pair that fits"
 
