@@ -314,6 +314,37 @@ def test_messages_that_are_sent_need_no_arena() -> None:
     assert not any("memory.arena" in reason for reason in told)
 
 
+@pytest.mark.parametrize(
+    ("body", "memory"),
+    [
+        # A piece has 8 bytes in front of it, and is a multiple of 8.
+        ("s.data = a.reallocate(s.data, 20, a.state);", {"arena": 32}),
+        ("const size_t most = 40; s.data = a->allocate(most, a->state);", {"arena": 48}),
+        ("p = a.zero_allocate(3, 4, a.state);", {"arena": 24}),
+        ("p = a.allocate(1, a.state); q = a.allocate(9, a.state);", {"arena": 40}),
+        ("for (int i = 0; i < 3; i++) { p[i] = a.allocate(40, a.state); }", {"arena": 144}),
+        # With an arena alone, what has storage from its limits would come from the arena as well.
+        (
+            'p = a.allocate(8, a.state); rosidl_runtime_c__String__assign(&m.data, "x");',
+            {"arena": 16, "messages": 1},
+        ),
+        ("p = my_allocate(20, 0); q = allocate(20);", {}),
+    ],
+)
+def test_memory_that_a_program_takes_from_the_allocator(body: str, memory: dict[str, int]) -> None:
+    draft = adopted(program(body)).draft
+    assert {key: value.value for key, value in draft.groups.get("memory", {}).items()} == memory
+    assert not any("memory.arena" in reason for reason in reasons(program(body)))
+
+
+def test_memory_of_a_size_that_is_not_known_is_a_guess() -> None:
+    text = program("p = a.allocate(24, a.state); q = a.allocate(strlen(name), a.state);")
+    assert adopted(text).draft.groups["memory"]["arena"].value == 4096 + 32
+    assert any(
+        "allocate takes memory from `memory.arena`: 4128 is a guess" in reason for reason in reasons(text)
+    )
+
+
 def test_functions_of_the_programs_own_are_no_missing_ones() -> None:
     assert reasons(program("rcl_my_own();", "void rcl_my_own(void)\n{\n}\n")) == []
 
