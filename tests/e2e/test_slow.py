@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Slow links: three seconds of round trip over UDP, and a line of 2,400 baud; image, agent and rclpy.
 
-What runs here in real time, tests/runtime/test_times.py has with a clock that is made.
+What runs here in real time, tests/runtime/test_times.py and test_slow_services.py have with a clock that is made.
 """
 
 from __future__ import annotations
@@ -29,44 +29,52 @@ nodes:
     publishers: [{{topic: slow_out, type: std_msgs/msg/Int32}}]
     subscriptions: [{{topic: slow_in, type: std_msgs/msg/Int32}}]
     services: [{{name: slow_sum, type: example_interfaces/srv/AddTwoInts}}]
+    clients: [{{name: slow_far, type: example_interfaces/srv/AddTwoInts}}]
+pools: {{history: 8}}
 {more}
 """
 CREATE_CLIENT, CREATE = 0, 1
 SAMPLES, SUMS = [3, 4, 5], [[1, 2], [30, 40]]
 
 
-def exchange(observer: Observer, program: Path, timeout_s: float, sums: bool = True) -> dict[str, int]:
-    """Let samples, and `sums` as well, go through the device; return what it counted."""
+def exchange(observer: Observer, program: Path, timeout_s: float, how: str) -> dict[str, int]:
+    """Let samples and calls go through the device, both ways; return what it counted.
+
+    `how`: `spin` with the executor, or `poll` each entity.
+    """
     if not any(end["kind"] == "SUBSCRIPTION" for end in observer.ask(do="endpoints", topic="/slow_out")):
         observer.subscribe("/slow_out", "std_msgs/msg/Int32")
+        observer.ask(do="add", service="/slow_far")
     observer.ask(do="publish", topic="/slow_in", type="std_msgs/msg/Int32", values=[])
     began = time.monotonic()
-    with started(program, str(len(SAMPLES) + len(SUMS) * sums), str(int(timeout_s))) as process:
+    with started(program, str(len(SAMPLES) + len(SUMS)), str(int(timeout_s)), how) as process:
         print(await_line(process, "created"))
         said = float(await_line(process, "time").split()[1]) / 1000
         print(await_line(process, "ready"), f"time is off by {time.time() - said:.1f} s")
         assert abs(time.time() - said) < 5
         values = [{"data": value} for value in SAMPLES]
         observer.ask(do="publish", topic="/slow_in", type="std_msgs/msg/Int32", values=values)
-        if sums:
-            observer.ask(do="ask_sums", service="/slow_sum", pairs=SUMS)
+        observer.ask(do="ask_sums", service="/slow_sum", pairs=SUMS)
         out, errors = process.communicate(timeout=timeout_s)
-    assert (process.returncode, errors) == (0, "")
-    print(f"{time.monotonic() - began:.0f} s: {out.strip()}")
+    assert (process.returncode, errors) == (0, ""), out
+    *replies, counted = out.splitlines()
+    print(f"{time.monotonic() - began:.0f} s: {counted}")
+    assert replies == ["sum 11", "sum 22"], "what rclpy answered"
     came: list[int] = []
     end = time.monotonic() + 20
-    while len(came) < len(SAMPLES) or (sums and None in observer.ask(do="sums")):
-        assert time.monotonic() < end, came
+    while len(came) < len(SAMPLES) or None in observer.ask(do="sums"):
+        assert time.monotonic() < end, (came, observer.ask(do="sums"))
         came += [value["data"] for topic, value in observer.ask(do="samples") if topic == "/slow_out"]
         time.sleep(0.1)
     assert came == SAMPLES
-    assert not sums or observer.ask(do="sums") == [sum(pair) for pair in SUMS]
-    return {key: int(value) for key, value in (pair.split("=") for pair in out.split())}
+    assert observer.ask(do="sums") == [sum(pair) for pair in SUMS]
+    return {key: int(value) for key, value in (pair.split("=") for pair in counted.split())}
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("how", ["spin", "poll"])
 def test_three_seconds_of_round_trip(
-    images: Images, observer: Observer, agent: AgentProcess, relay: Relay
+    images: Images, observer: Observer, agent: AgentProcess, relay: Relay, how: str
 ) -> None:
     application = APPLICATION.format(more="session: {round_trip: 3500 ms}")
     image = images.build(relay.port, application, "gcc", QUICK)
@@ -76,10 +84,10 @@ def test_three_seconds_of_round_trip(
     relay.connect(agent.port)
     relay.fault = lambda: [1.5]
     relay.sent.clear()
-    counted = exchange(observer, program, 120, sums=False)
+    counted = exchange(observer, program, 120, how)
     assert counted["left"] == counted["reconnects"] == counted["resent"] == counted["dropped"] == 0
     assert relay.sent[CREATE_CLIENT] == 1
-    assert relay.sent[CREATE] == 1 + 3 + 3 + 1, "none is asked for a second time"
+    assert relay.sent[CREATE] == 1 + 3 + 3 + 1 + 1, "none is asked for a second time"
 
 
 def test_a_line_of_2400_baud(images: Images, observer: Observer, domain: int, tmp_path: Path) -> None:
@@ -93,5 +101,5 @@ def test_a_line_of_2400_baud(images: Images, observer: Observer, domain: int, tm
             domain, "--domain", str(domain), transport=("serial", "--device", line.agent, "--baud", "2400")
         ),
     ):
-        counted = exchange(observer, program, 90)
+        counted = exchange(observer, program, 120, "spin")
     assert counted["left"] == counted["reconnects"] == counted["resent"] == counted["dropped"] == 0

@@ -29,7 +29,8 @@ class Result:
 class Client:
     """The client program with `agent` on the other side; used as a context manager.
 
-    Answers come `round_trip_ms` after what they are for. `group` answers what is sent to the group of agents.
+    Answers come `round_trip_ms` after what they are for; each byte takes `byte_ms` on the line, which has two
+    directions. `group` answers what is sent to the group of agents.
     """
 
     def __init__(self, program: Path, agent: FakeAgent, wire: Wire | None = None) -> None:
@@ -38,10 +39,12 @@ class Client:
         self.sent_at: list[int] = []
         self.queued: list[bytes] = []
         self.round_trip_ms = 0
+        self.byte_ms = 0.0
         self.now_ms = 0
         self.group: Callable[[bytes], bytes] = lambda question: b""
         self._wire = wire or Datagrams()
-        self._late: list[tuple[int, bytes]] = []
+        self._late: list[tuple[float, bytes]] = []
+        self._free_up = self._free_down = 0.0
         self.on_sleep: Callable[[], None] = lambda: None
         self._process = subprocess.Popen(
             [program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
@@ -115,8 +118,15 @@ class Client:
         for message in self._wire.messages(data):
             self.sent.append(message)
             self.sent_at.append(self.now_ms)
-            due = self.now_ms + self.round_trip_ms
-            self._late += [(due, answer) for answer in self.agent.receive(message)]
+            self._free_up = max(self._free_up, self.now_ms) + len(message) * self.byte_ms
+            self.bring(self.agent.receive(message), self._free_up + self.round_trip_ms)
+
+    def bring(self, datagrams: list[bytes], at_ms: float) -> None:
+        """Let datagrams of the agent, which sends them at `at_ms`, come when the line has carried them."""
+        for datagram in datagrams:
+            if self.byte_ms:
+                self._free_down = at_ms = max(self._free_down, at_ms) + len(datagram) * self.byte_ms
+            self._late.append((at_ms, datagram))
 
     def _deliver(self) -> None:
         self.queued += [answer for due, answer in self._late if due <= self.now_ms]

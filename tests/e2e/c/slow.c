@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * All that goes through a session, for a link that is slow: gives samples back, adds numbers, asks the time, pings, and says what
- * each took. Arguments: how many samples and requests to wait for, and how long, in seconds.
+ * All that goes through a session, for a link that is slow: gives samples back, adds numbers, has numbers added, asks the time,
+ * pings, and says what each took. Arguments: how many samples and requests to wait for, how long, in seconds, and `poll`: without
+ * the executor, by asking each entity in turn.
  */
 #include <example_interfaces/srv/add_two_ints.h>
 #include <rcl/error_handling.h>
@@ -14,19 +15,22 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
-enum { LONG_MS = 60000 };
+enum { LONG_MS = 60000, QUESTIONS = 2, POLL_NS = 10000000 };
 
 static rclc_support_t support;
 static rcl_node_t node;
 static rcl_subscription_t subscription;
 static rcl_publisher_t publisher;
 static rcl_service_t service;
+static rcl_client_t client;
 static rclc_executor_t executor;
 static std_msgs__msg__Int32 number;
 static example_interfaces__srv__AddTwoInts_Request request;
 static example_interfaces__srv__AddTwoInts_Response response;
+static example_interfaces__srv__AddTwoInts_Response reply;
 static long left;
 
 static long now_ms(void)
@@ -62,6 +66,53 @@ static void add(const void * request_msg, void * response_msg)
   --left;
 }
 
+static void on_reply(const void * response_msg)
+{
+  const example_interfaces__srv__AddTwoInts_Response * sum = response_msg;
+
+  (void)printf("sum %" PRId64 "\n", sum->sum);
+  --left;
+}
+
+/* Has 10 + 1, 20 + 2 and so on added elsewhere. */
+static void ask(void)
+{
+  for (int64_t i = 1; i <= QUESTIONS; ++i) {
+    const example_interfaces__srv__AddTwoInts_Request question = {10 * i, i};
+    int64_t sequence = 0;
+
+    check(rcl_send_request(&client, &question, &sequence), "request");
+    ++left;
+  }
+}
+
+/* Returns whether there was something to take. */
+static bool took(rcl_ret_t result, rcl_ret_t none, const char * what)
+{
+  if (result != none) {
+    check(result, what);
+  }
+  return result == RCL_RET_OK;
+}
+
+static void poll(void)
+{
+  const struct timespec pause = {0, POLL_NS};
+  rmw_request_id_t header;
+
+  if (took(rcl_take(&subscription, &number, NULL, NULL), RCL_RET_SUBSCRIPTION_TAKE_FAILED, "take")) {
+    on_number(&number);
+  }
+  if (took(rcl_take_request(&service, &header, &request), RCL_RET_SERVICE_TAKE_FAILED, "take request")) {
+    add(&request, &response);
+    check(rcl_send_response(&service, &header, &response), "response");
+  }
+  if (took(rcl_take_response(&client, &header, &reply), RCL_RET_CLIENT_TAKE_FAILED, "take response")) {
+    on_reply(&reply);
+  }
+  (void)nanosleep(&pause, NULL);
+}
+
 static void begin(rcl_allocator_t * allocator)
 {
   const rosidl_message_type_support_t * type = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
@@ -74,15 +125,21 @@ static void begin(rcl_allocator_t * allocator)
     rclc_service_init_default(
       &service, &node, ROSIDL_GET_SRV_TYPE_SUPPORT(example_interfaces, srv, AddTwoInts), "slow_sum"),
     "service");
-  check(rclc_executor_init(&executor, &support.context, 2, allocator), "executor");
+  check(
+    rclc_client_init_default(
+      &client, &node, ROSIDL_GET_SRV_TYPE_SUPPORT(example_interfaces, srv, AddTwoInts), "slow_far"),
+    "client");
+  check(rclc_executor_init(&executor, &support.context, 3, allocator), "executor");
   check(rclc_executor_add_subscription(&executor, &subscription, &number, on_number, ON_NEW_DATA), "add");
   check(rclc_executor_add_service(&executor, &service, &request, &response, add), "add service");
+  check(rclc_executor_add_client(&executor, &client, &reply, on_reply), "add client");
 }
 
 int main(int argc, char ** argv)
 {
   const long start = now_ms();
   const long end = start + 1000 * (argc > 2 ? strtol(argv[2], NULL, 10) : 60);
+  const bool polls = argc > 3 && strcmp(argv[3], "poll") == 0;
   rcl_allocator_t allocator = rcl_get_default_allocator();
   rmw_uros_statistics_t counted;
 
@@ -94,8 +151,13 @@ int main(int argc, char ** argv)
   check(rmw_uros_ping_agent(LONG_MS, 1), "ping");
   (void)printf("ready after %ld ms\n", now_ms() - start);
   (void)fflush(stdout);
+  ask();
   while (left > 0 && now_ms() < end) {
-    (void)rclc_executor_spin_some(&executor, RCL_MS_TO_NS(100));
+    if (polls) {
+      poll();
+    } else {
+      (void)rclc_executor_spin_some(&executor, RCL_MS_TO_NS(100));
+    }
   }
   check(rcl_publisher_wait_for_all_acked(&publisher, RCL_S_TO_NS(60)), "flush");
   check(rmw_uros_get_statistics(rcl_context_get_rmw_context(&support.context), &counted), "statistics");

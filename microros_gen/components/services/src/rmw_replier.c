@@ -123,8 +123,8 @@ static rmw_ret_t replier_take(
   if (rmw_receiver_report(endpoint)) {
     return RMW_RET_ERROR;
   }
-  if (!xrce_read_peek(endpoint, &sample)) {
-    return RMW_RET_OK;
+  if (xrce_write_reserve(endpoint) == NULL || !xrce_read_peek(endpoint, &sample)) {
+    return RMW_RET_OK; /* a request that cannot be answered yet waits */
   }
   if (sample.size < XRCE_IDENTITY_SIZE) {
     xrce_read_pop(endpoint, true);
@@ -154,13 +154,10 @@ rmw_ret_t rmw_replier_begin(
   const rmw_service_t * service, rmw_service_info_t * info, void * ros_request, bool * taken)
 {
   const xrce_endpoint_t * endpoint = service->data;
-  rmw_ret_t result = RMW_RET_OK;
+  rmw_ret_t result;
 
-  *taken = false;
   microros_lock();
-  if (xrce_write_reserve(endpoint) != NULL) { /* else somebody has filled the stream since it was ready */
-    result = replier_take(service, info, ros_request, taken);
-  }
+  result = replier_take(service, info, ros_request, taken);
   if (*taken) {
     ++endpoint->client->owed;
   }

@@ -41,8 +41,8 @@ bool rmw_requester_is_open(const rmw_client_t * client);
 bool rmw_replier_is_ready(const rmw_service_t * service);
 bool rmw_requester_is_ready(const rmw_client_t * client);
 
-/* Decodes the oldest request; *taken is false when there is none, and when the result is an error. `info` gets whose it
- * is. */
+/* Decodes the oldest request; *taken is false when there is none, while its reply would find no room, and when the result is
+ * an error. `info` gets whose it is. */
 rmw_ret_t rmw_replier_take(
   const rmw_service_t * service, rmw_service_info_t * info, void * ros_request, bool * taken);
 
@@ -59,8 +59,7 @@ void rmw_requester_pump(const rmw_client_t * client);
 
 /* --- for the executor, which answers when the callback returns --- */
 
-/* As rmw_replier_take, but *taken is also false while the reply would find no room; otherwise a slot of the reliable
- * stream is kept back for it, until one of the two below. */
+/* As rmw_replier_take; a slot of the reliable stream is kept back for the reply, until one of the two below. */
 rmw_ret_t rmw_replier_begin(
   const rmw_service_t * service, rmw_service_info_t * info, void * ros_request, bool * taken);
 

@@ -50,9 +50,9 @@ rcl_service_options_t rcl_service_get_default_options(void);
 /*
  * Receives what has come, without waiting, and decodes the oldest request into the storage that the message has; the header
  * says whose it is, and goes back with the reply. Several requests may be taken before the first is answered, in any order;
- * nothing of them is kept here. RCL_RET_SERVICE_TAKE_FAILED: there is none. RCL_RET_ERROR, with a text: a request that is
- * larger than the service's limits, above a capacity of the message, or no message of its type was thrown away. The
- * next call goes on with the next one.
+ * nothing of them is kept here. RCL_RET_SERVICE_TAKE_FAILED: there is none, or the stream is full and a reply would be
+ * refused now: the request waits. RCL_RET_ERROR, with a text: a request that is larger than the service's limits, above a capacity
+ * of the message, or no message of its type was thrown away. The next call goes on with the next one.
  */
 rcl_ret_t rcl_take_request_with_info(
   const rcl_service_t * service, rmw_service_info_t * request_header, void * ros_request);
@@ -62,7 +62,8 @@ rcl_ret_t rcl_take_request(
   const rcl_service_t * service, rmw_request_id_t * request_header, void * ros_request);
 
 /* Encodes the reply into the reliable stream and hands it to the transport; does not wait, unless `on_full` is block.
- * RCL_RET_ERROR, with a text: a field above its limit, or no room, or no session. */
+ * RCL_RET_ERROR, with a text: a field above its limit, or no room (what else was sent since the request was taken has filled the
+ * stream: send it again later with the same header), or no session. */
 rcl_ret_t rcl_send_response(
   const rcl_service_t * service, rmw_request_id_t * response_header, void * ros_response);
 
