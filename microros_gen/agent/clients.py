@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Hashable, Iterator, Sequence
+from collections.abc import Hashable, Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from microros_gen.agent.budgets import Shares
+from microros_gen.agent.cutting import Cutting
 from microros_gen.agent.fairness import Account
 from microros_gen.agent.objects import ObjectTree
 from microros_gen.agent.rates import Rate
@@ -16,7 +17,6 @@ from microros_gen.agent.services import Calls
 from microros_gen.agent.session import Ready, Session
 from microros_gen.agent.steps import Steps
 from microros_gen.agent.transport.base import Transport
-from microros_gen.agent.wire.samples import Sample
 
 if TYPE_CHECKING:
     from microros_gen.agent.reading import Reading
@@ -79,8 +79,8 @@ class Client:
     """Stream of the message that is processed now."""
     more: bool = False
     """That message has further submessages."""
-    samples: tuple[bytes, int, Sequence[Sample]] | None = None
-    """Those of a sequence that it is not done with: the message, where in it the sequence is, and the samples."""
+    samples: Cutting | None = None
+    """Those of a WRITE_DATA that it is not done with."""
     whole: bytes | None = None
     """What the FRAGMENT that was processed last completed."""
     retry_at: float = 0.0

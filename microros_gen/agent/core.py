@@ -76,7 +76,7 @@ class Agent:
         self._ticked = clock()
         self.clients = ClientTable()
         held = Held(references or References(), preconfigured or Preconfigured(), manifests or Manifests())
-        fair, graph = fair or Fairness(), GraphWork(limits.graph_ms_per_second)
+        fair, graph = fair or Fairness(clock), GraphWork(limits.graph_ms_per_second)
         self._graph = graph
         self._payer = self._strangers = strangers or Account()
         """Who pays for what is done now, and for messages outside of any session."""
@@ -129,7 +129,8 @@ class Agent:
             self._receive(data, address, transport, began)
         except Exception as error:
             self._refuse(error, data, address, transport)
-        self._payer.used += self._clock() - began
+        now = self._clock()
+        self._payer.bill(now - began, now)
 
     def flush(self) -> None:
         """Send the acknowledgements of what was received since the last call."""
@@ -238,6 +239,7 @@ class Agent:
 
     def _refuse(self, error: Exception, data: bytes, address: Hashable, transport: Transport) -> None:
         if isinstance(error, MalformedError):
+            self._payer.refused = self._payer is not self._strangers
             self._log.count(
                 error.kind,
                 WORDS.get(error.kind, "malformed message from {peer} ignored: {detail}"),

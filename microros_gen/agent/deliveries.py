@@ -107,7 +107,7 @@ class Deliveries:
                 continue
             self._go(reading, at)
             before, at = at, self._clock()
-            reading.account.used += at - before
+            reading.account.bill(at - before, at)
 
     def _go(self, reading: Reading, now: float) -> None:
         if reading.over:

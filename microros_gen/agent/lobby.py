@@ -79,7 +79,7 @@ class Lobby:
     ) -> None:
         self._clients = clients
         self._turns = turns
-        self._accounts = Accounts(limits.clients)
+        self._accounts = Accounts(limits.clients, turns.clock)
         self._bridge = bridge
         self._log = log
         self._limits = limits

@@ -9,6 +9,7 @@ from dataclasses import replace
 from types import MappingProxyType
 
 from microros_gen.agent.clients import Client
+from microros_gen.agent.cutting import SAMPLES, Cutting, TurnOverError
 from microros_gen.agent.deliveries import Deliveries
 from microros_gen.agent.entities import Entity, Outcome
 from microros_gen.agent.history import HistoryFullError
@@ -44,7 +45,7 @@ from microros_gen.agent.wire.entity_messages import (
     StatusReply,
 )
 from microros_gen.agent.wire.errors import MalformedError
-from microros_gen.agent.wire.samples import LIFE_CYCLE, Sample, read_samples
+from microros_gen.agent.wire.samples import LIFE_CYCLE, Sample
 from microros_gen.agent.wire.session_messages import (
     AgentActivity,
     AgentConfig,
@@ -71,18 +72,6 @@ NAMES = {
     "replier": "service",
 }
 """What people call objects that have a place in ROS 2."""
-
-
-SAMPLES = 16
-"""Samples of a sequence between two looks whether the turn is over."""
-
-
-class TurnOverError(Exception):
-    """The turn of a client ended within a submessage; `done`: how many of its samples are done with."""
-
-    def __init__(self, done: int) -> None:
-        super().__init__(done)
-        self.done = done
 
 
 class Operations:
@@ -157,7 +146,7 @@ class Operations:
         entity = client.objects.find(data[at + 2] << 8 | data[at + 3])
         try:
             if entity is not None and entity.writer is not None:
-                samples = _samples(client, data, at, end, flags)
+                samples = self._samples(client, data, at, end, flags, done)
                 return self._write_samples(client, entity, samples, bool(flags & FLAG_LITTLE), done)
             if entity is not None and entity.source is not None and entity.kind in CALLS:
                 if form:
@@ -166,7 +155,11 @@ class Operations:
                 return client.calls.write(entity, bytes(data[at : at + DATA_PREFIX]), payload, flags)
         except BusyError:
             raise
+        except MalformedError:
+            client.samples = None
+            raise
         except BridgeError as error:
+            client.samples = None
             self.not_written(client, error)
             return 0
         self._log.count(
@@ -179,6 +172,7 @@ class Operations:
 
     def not_written(self, client: Client, error: BridgeError) -> None:
         """Count a sample that ROS 2 refused."""
+        client.account.refused = True
         kind = "history_full" if isinstance(error, HistoryFullError) else "publish"
         self._log.count(kind, "client {client}: {reason}", client=client.name, reason=str(error))
 
@@ -217,6 +211,16 @@ class Operations:
                 raise TurnOverError(place + 1)
         client.samples = None
         return written
+
+    def _samples(
+        self, client: Client, data: bytes, at: int, end: int, flags: int, done: int
+    ) -> Sequence[Sample]:
+        """Return the samples of a WRITE_DATA, kept until the client is done with them; TurnOverError: not all yet."""
+        kept = client.samples
+        if kept is None or not kept.is_of(data, at):
+            reader = Reader(data, at + DATA_PREFIX, end, bool(flags & FLAG_LITTLE))
+            kept = client.samples = Cutting(data, at, reader, flags & DATA_FORMAT_MASK)
+        return kept.go_on(lambda: self._turns.over, done)
 
     def _read_data(self, client: Client, submessage: Submessage, now: float) -> None:
         assert isinstance(submessage, ReadData)
@@ -260,6 +264,7 @@ class Operations:
             return True
         size = len(config.body)
         if size > client.credit:
+            client.account.refused = True
             text = (
                 "client {client} at {peer} is told the configuration of an object no more: it asks too often"
             )
@@ -300,6 +305,8 @@ class Operations:
 
     def _send(self, client: Client, answer: Submessage, now: float, little: bool = True) -> None:
         """Answer on the built-in stream of the kind that the question came on."""
+        if isinstance(answer, StatusReply) and answer.status >= Status.DDS_ERROR:
+            client.account.refused = True
         stream = STREAM_RELIABLE if is_reliable(client.stream) else STREAM_BEST_EFFORT
         messages = client.session.output(stream).push(encode(answer, little), now)
         if messages is None:
@@ -309,17 +316,6 @@ class Operations:
         client.acknowledge()  # some clients need that slot for their next request before they look further
         for message in messages or ():
             client.send(message)
-
-
-def _samples(client: Client, data: bytes, at: int, end: int, flags: int) -> Sequence[Sample]:
-    """Return the samples of a WRITE_DATA; those of a long sequence are kept until the client is done with them."""
-    kept = client.samples
-    if kept is not None and kept[0] is data and kept[1] == at:
-        return kept[2]
-    reader = Reader(data, at + DATA_PREFIX, end, bool(flags & FLAG_LITTLE))
-    samples = read_samples(reader, flags & DATA_FORMAT_MASK)
-    client.samples = (data, at, samples) if len(samples) > SAMPLES else None
-    return samples
 
 
 def _check_reading(entity: Entity | None, wanted: ReadData) -> tuple[Status, str]:

@@ -6,11 +6,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from microros_gen.agent.clients import Client, ClientTable, Job
+from microros_gen.agent.cutting import TurnOverError
 from microros_gen.agent.fairness import TURN_S, Fairness
 from microros_gen.agent.graph_work import GraphWork
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.lobby import Lobby
-from microros_gen.agent.operations import Operations, TurnOverError
+from microros_gen.agent.operations import Operations
 from microros_gen.agent.ros.bridge import BridgeError, BusyError
 from microros_gen.agent.services import ENCAPSULATION
 from microros_gen.agent.session import Ready
@@ -231,7 +232,8 @@ class Processor:
                 break
             self._turns.start(began)
             self._go_on(client, began)
-            client.account.used += self._clock() - began
+            ended = self._clock()
+            client.account.bill(ended - began, ended)
         self.flush()
 
     def _go_on(self, client: Client, began: float) -> None:

@@ -103,7 +103,8 @@ class Turns:
                 return
             self.start(began)
             self._go_on(client)
-            client.account.used += self.clock() - began
+            ended = self.clock()
+            client.account.bill(ended - began, ended)
 
     def finish(self) -> None:
         """Do all jobs at once."""

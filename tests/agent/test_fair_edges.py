@@ -14,7 +14,7 @@ import pytest
 
 from agent.captured import CREATE_CLIENT_KEYED
 from agent.fakes import Bench
-from microros_gen.agent.fairness import CREDIT_S, Account, Fairness
+from microros_gen.agent.fairness import MEMORY_S, REFUSED, START_S, Account, Accounts, Fairness
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.ros.bridge import BusyError, GraphReport
 from microros_gen.agent.ros.endpoints import FULL_S, RawWriter
@@ -37,33 +37,84 @@ class Paid:
         self.account = Account(used)
 
 
-def test_who_cost_least_is_first_and_who_rested_has_only_a_small_credit() -> None:
-    fair = Fairness()
-    flood, other = Paid("flood", 5.0), Paid("other", 5.5)
-    both = [other, flood]
-    fair.order(both)
-    assert both == [flood, other]
-    rested = Paid("rested", 0.0)
-    three = [flood, other, rested]
-    fair.order(three)
-    assert three[0] is rested
-    assert rested.account.used == 5.0 - CREDIT_S, "what it did not use for long is not its own"
-    rested.account.used += 2 * CREDIT_S
-    fair.order(three)
-    assert three == [flood, rested, other]
+class Work:
+    """A thread with one thing to do after another, and its clock."""
+
+    def __init__(self) -> None:
+        self.now = 100.0
+        self.fair = Fairness(lambda: self.now)
+
+    def first(self, *clients: Paid) -> Paid:
+        """Return who is first."""
+        waiting = list(clients)
+        self.fair.order(waiting)
+        return waiting[0]
+
+    def do(self, client: Paid, seconds: float) -> None:
+        """Work for a client."""
+        self.now += seconds
+        client.account.bill(seconds, self.now)
+
+
+def test_who_cost_least_lately_is_first() -> None:
+    work = Work()
+    flood, other = Paid("flood", 0.0), Paid("other", 0.0)
+    assert work.first(other, flood) is other
+    work.do(other, 0.01)
+    assert work.first(other, flood) is flood
+    work.now += 20 * MEMORY_S
+    work.do(flood, 0.001)
+    assert work.first(flood, other) is other, "what it cost long ago does not count"
+
+
+def test_a_client_that_asks_for_less_than_its_share_is_always_first() -> None:
+    """And by itself in a list, or first there, nobody takes what the others have to wait for: it did so once."""
+    work = Work()
+    floods, light = [Paid(f"flood {n}", 0.0) for n in range(35)], Paid("light", 0.0)
+    for turn in range(3_000):
+        work.first(floods[turn % 35])  # as one that goes on with work that it had begun
+        due = turn % 10 == 0  # 0.2 ms of each 20: a third of its share
+        if due and turn > 100:
+            assert work.first(*floods, light) is light
+        work.do(light if due else work.first(*floods), 0.0002 if due else 0.002)
 
 
 def test_shares_are_equal_whatever_a_piece_of_work_costs() -> None:
-    fair = Fairness()
+    work = Work()
     cheap, dear = Paid("cheap", 0.0), Paid("dear", 0.0)
     done = dict.fromkeys((cheap, dear), 0.0)
     for _ in range(10_000):
-        both = [dear, cheap]
-        fair.order(both)
-        cost = 0.02 if both[0] is dear else 0.0001
-        both[0].account.used += cost
-        done[both[0]] += cost
-    assert abs(done[cheap] - done[dear]) <= 0.02 + CREDIT_S
+        first = work.first(dear, cheap)
+        cost = 0.02 if first is dear else 0.0001
+        work.do(first, cost)
+        done[first] += cost
+    assert 0.8 < done[cheap] / done[dear] < 1.25
+
+
+def test_what_is_refused_counts_more_than_what_is_done() -> None:
+    work = Work()
+    asks, works = Paid("asks", 0.0), Paid("works", 0.0)
+    done = dict.fromkeys((asks, works), 0.0)
+    for _ in range(10_000):
+        first = work.first(asks, works)
+        first.account.refused = first is asks
+        work.do(first, 0.001)
+        done[first] += 0.001
+    assert 0.9 < REFUSED * done[asks] / done[works] < 1.1
+
+
+def test_who_is_new_is_not_before_those_who_ask_for_little() -> None:
+    """Else whoever comes under one key after another would be before all others."""
+    work = Work()
+    accounts = Accounts(4, lambda: work.now)
+    light, new = Paid("light", START_S / 2), Paid("new", 0.0)
+    light.account.used_at = work.now
+    new.account = accounts.of(b"new")
+    assert work.first(new, light) is light
+    assert accounts.of(b"new") is new.account, "to come again is no way round"
+    work.now += 4 * MEMORY_S
+    work.do(light, START_S / 10)
+    assert work.first(new, light) is new
 
 
 # ROS 2 is not asked more than it must be
@@ -152,7 +203,8 @@ def peer(transport: Udp) -> socket.socket:
 def test_a_client_that_sends_very_much_fills_a_queue_of_its_own(udp: Udp) -> None:
     """S12: and whoever cost less is read first."""
     flood, honest, stranger = peer(udp), peer(udp), peer(udp)
-    accounts = {flood.getsockname(): Account(1.0), honest.getsockname(): Account(0.5)}
+    now = time.monotonic()
+    accounts = {flood.getsockname(): Account(1.0, now), honest.getsockname(): Account(0.5, now)}
     for place, account in accounts.items():
         udp.claim((udp, place), account)
     for _ in range(20_000):
@@ -224,7 +276,7 @@ def test_of_connections_the_one_that_cost_least_is_read_first() -> None:
         transport.pump(take)
     by_number = dict(got)
     for number, used in ((0, 3.0), (1, 1.0), (2, 2.0)):
-        transport.claim(by_number[number], Account(used))
+        transport.claim(by_number[number], Account(used, time.monotonic()))
         say(number, made[number])
     by_number[1].account.busy = True
     got.clear()

@@ -18,16 +18,18 @@ from agent.fakes import Bench
 from agent.test_core import entities, message
 from agent.test_core_full import acknacks
 from agent.test_core_reading import FOREVER, reader_entities, sample
-from microros_gen.agent.fairness import TURN_S, Account
+from microros_gen.agent.fairness import REFUSED, TURN_S, Account
 from microros_gen.agent.graph_work import BURST_S, MEMORY_S, GraphWork
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.turns import INBOX_BYTES
+from microros_gen.agent.wire.cdr import Writer
 from microros_gen.agent.wire.constants import DataFormat, Format
 from microros_gen.agent.wire.data_messages import ReadData, WriteData
 from microros_gen.agent.wire.entity_messages import Create, Delete, Heartbeat
 from microros_gen.agent.wire.message import Header, join
+from microros_gen.agent.wire.samples import Sample, SampleInfo, write_samples
 from microros_gen.agent.wire.session_messages import CreateClient
-from microros_gen.agent.wire.submessages import encode
+from microros_gen.agent.wire.submessages import Submessage, encode
 
 LIMITS = Limits(operations_per_second=1_000_000)
 TURN = LIMITS.turn_ms / 1000
@@ -282,6 +284,40 @@ def test_a_long_sequence_is_published_once_each_and_in_order() -> None:
     assert seen == [sample(n) for n in range(count - len(seen), count)]
 
 
+class Passing:
+    """A clock that goes on whenever it is read: as if each look cost a tenth of a millisecond."""
+
+    def __init__(self, bench: Bench) -> None:
+        self.bench, self.looks = bench, 0
+
+    def __call__(self) -> float:
+        self.looks += 1
+        self.bench.now += 0.0001
+        return self.bench.now
+
+
+@pytest.mark.parametrize("form", [DataFormat.DATA_SEQ, DataFormat.SAMPLE_SEQ, DataFormat.PACKED_SAMPLES])
+def test_a_long_sequence_is_cut_in_turns_and_nothing_of_a_broken_one_is_published(form: DataFormat) -> None:
+    """S5: to cut 3,750 samples took 11 ms, in which nobody else was served."""
+    bench = costly()
+    for create in entities(1):
+        bench.say(message(create, stream=0))
+    turns(bench)
+    writer = Writer(True)
+    write_samples(writer, form, [Sample(int32_body(n), SampleInfo(0, n & 0xFF, 0)) for n in range(2_000)])
+    bench.bridge.published = []
+    bench.agent._turns.clock = Passing(bench)
+    whole = writer.content()
+    for body, samples in ((whole[:-4], 0), (whole, 2_000)):
+        at = bench.now
+        bench.say(message(WriteData(1, 0x15, body, form), stream=0))
+        assert bench.now - at <= TURN + 0.001
+        turns(bench)
+        assert len(bench.bridge.published) == samples
+    assert bench.log.counters.total() == 1
+    assert [body for _, body in bench.bridge.published] == [sample(n) for n in range(2_000)]
+
+
 def test_a_client_that_waits_for_its_turn_is_told_again_what_it_has_not_acknowledged() -> None:
     bench = costly(Limits(graph_ms_per_second=60))
     for create in reader_entities(1, topic="r"):
@@ -337,6 +373,38 @@ def test_an_application_that_cannot_be_costs_nothing(create: Create, status: int
     answers = bench.say(message(create, stream=0))
     assert statuses([bytes.fromhex(answer) for answer in answers]) == [status]
     assert changes(bench) == 0
+
+
+@pytest.mark.parametrize(
+    ("submessage", "factor"),
+    [
+        (entities(1)[0], 1),
+        (Create(9, 0x0015, 5, Format.BINARY, writer_blob(0x72, 3, 10), 0x73, 0, True, True), REFUSED),
+        (ReadData(7, 0x7776, 1), REFUSED),
+        (Delete(9, 0x7775), REFUSED),
+    ],
+    ids=["done", "CREATE", "READ_DATA", "DELETE"],
+)
+def test_what_is_refused_counts_more(submessage: Submessage, factor: int) -> None:
+    bench = costly()
+    slow_sends(bench, 0.001)
+    (client,) = (client for client in bench.agent.clients if client.address == "a")
+    client.account.used, at = 0.0, bench.now
+    bench.say(message(submessage, stream=0))
+    assert bench.now > at
+    assert client.account.used == pytest.approx(factor * (bench.now - at))
+
+
+def test_malformed_messages_count_more_and_those_of_strangers_do_not() -> None:
+    """Strangers are one account: who comes would wait for those who say nothing right."""
+    bench = costly()
+    (client,) = (client for client in bench.agent.clients if client.address == "a")
+    bench.agent.receive(bytes((0x81, 0, 0, 0, 99, 1, 0, 0)), "a", bench.transport)
+    assert bench.agent._strangers.refused is False
+    bench.agent.receive(bytes((0x81, 0, 0, 0, 99, 1, 0, 0)), "nobody", bench.transport)
+    assert bench.agent._strangers.refused is False
+    assert bench.log.counters == {"submessage_id": 2}
+    assert client.account.refused is False, "it is paid"
 
 
 # Deliveries

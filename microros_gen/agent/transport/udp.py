@@ -23,6 +23,8 @@ BATCH = 64
 """Datagrams that are read from one socket before the answers go out."""
 SHARE_S = 0.002
 """Seconds after which it is the turn of others, if the datagrams of a batch are costly ones."""
+LOOK_S = 0.001
+"""Seconds after which it is seen whether a client that cost less has something by now."""
 MAXIMUM_DATAGRAM = 65_535
 Peer = Any
 """A socket address of the system: host, port, and for IPv6 more."""
@@ -92,14 +94,21 @@ class Udp:
         while self._strays:
             data, peer = self._strays.popleft()
             receive(data, (self, peer), self)
+        began = time.monotonic()
+        while not self._round(receive) and time.monotonic() <= began + TURN_S:
+            continue
+
+    def _round(self, receive: Receive) -> bool:
+        """Read queues in their order, until it is time to look who else has something; return whether all were."""
         ready = [self._queues[descriptor] for descriptor, _ in self._epoll.poll(0)]
         self._fair.order(ready)
-        began = time.monotonic()
-        for queue in ready:
+        end = time.monotonic() + LOOK_S
+        for place, queue in enumerate(ready, 1):
             if not queue.account.busy:
                 self._read(queue, receive)
-            if len(ready) > 1 and time.monotonic() > began + TURN_S:
-                return
+            if place < len(ready) and time.monotonic() > end:
+                return False
+        return True
 
     def claim(self, address: Hashable, account: Account) -> None:
         """See Transport."""

@@ -101,12 +101,16 @@ class Reader:
 
     def sequence(self, read: Callable[[], T]) -> tuple[T, ...]:
         """Return a sequence: u32 count, then as many elements of at least one byte each."""
+        return tuple(read() for _ in range(self.count()))
+
+    def count(self) -> int:
+        """Return how many elements of at least one byte each follow."""
         count = self.u32()
         if count > self.remaining():
             raise MalformedError("truncated", f"{count} elements announced, {self.remaining()} bytes left")
         if count > MOST_ELEMENTS:
             raise MalformedError("too_many_elements", f"{count}; at most {MOST_ELEMENTS} are taken")
-        return tuple(read() for _ in range(count))
+        return count
 
     def _number(self, code: str, size: int) -> int:
         self._at += -(self._at - self._origin) % size

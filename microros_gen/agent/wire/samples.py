@@ -10,7 +10,8 @@ ids; the body of a sample is aligned for itself.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import struct
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 
@@ -56,19 +57,27 @@ class Sample:
 
 def read_samples(reader: Reader, form: int) -> tuple[Sample, ...]:
     """Return the samples that follow the ids in layout `form`; MalformedError when they cannot be cut."""
+    return tuple(cut_samples(reader, form))
+
+
+def cut_samples(reader: Reader, form: int) -> Iterator[Sample]:
+    """Give the same one by one: who stops in between loses no time with the others."""
     if form == DataFormat.DATA:
-        return (Sample(reader.rest()),)
-    if form == DataFormat.SAMPLE:
+        yield Sample(reader.rest())
+    elif form == DataFormat.SAMPLE:
         info = _read_info(reader)
-        return (Sample(reader.rest(), info),)
-    if form == DataFormat.DATA_SEQ:
-        return _read_data_sequence(reader)
-    if form == DataFormat.SAMPLE_SEQ:
-        return reader.sequence(lambda: _with_body(reader, _read_info(reader)))
-    if form == DataFormat.PACKED_SAMPLES:
+        yield Sample(reader.rest(), info)
+    elif form == DataFormat.DATA_SEQ:
+        yield from map(Sample, _read_data_sequence(reader))
+    elif form == DataFormat.SAMPLE_SEQ:
+        for _ in range(reader.count()):
+            yield _with_body(reader, _read_info(reader))
+    elif form == DataFormat.PACKED_SAMPLES:
         base = _read_info(reader)
-        return reader.sequence(lambda: _with_body(reader, _read_delta(reader, base)))
-    raise MalformedError("data_format", f"there is no format {form:#04x}")
+        for _ in range(reader.count()):
+            yield _with_body(reader, _read_delta(reader, base))
+    else:
+        raise MalformedError("data_format", f"there is no format {form:#04x}")
 
 
 def write_samples(writer: Writer, form: int, samples: Sequence[Sample]) -> None:
@@ -140,18 +149,33 @@ def _write_sample(writer: Writer, sample: Sample) -> None:
     writer.octets(sample.body)
 
 
-def _read_data_sequence(reader: Reader) -> tuple[Sample, ...]:
+def _read_data_sequence(reader: Reader) -> list[bytes]:
     whole = reader.rest()
-    try:
-        inner = Reader(whole, 0, len(whole), reader.little)
-        samples = inner.sequence(lambda: Sample(inner.octets()))
-        if inner.remaining() < 4:
-            return samples
-    except MalformedError:
-        pass  # perhaps without lengths
+    bodies = _with_lengths(whole, reader.little)
+    if bodies is not None:
+        return bodies
     counted = Reader(whole, 0, len(whole), reader.little)
     count = counted.u32()
     size, left = divmod(counted.remaining(), count) if count else (0, 0)
     if not size or left or count > MOST_ELEMENTS:
         raise MalformedError("data_sequence", f"{count} samples in {counted.remaining()} bytes")
-    return tuple(Sample(counted.raw(size)) for _ in range(count))
+    return [counted.raw(size) for _ in range(count)]
+
+
+def _with_lengths(whole: bytes, little: bool) -> list[bytes] | None:
+    """Return the bodies of a sequence in which each has its length in front; None: perhaps they have none."""
+    number = struct.Struct("<I" if little else ">I").unpack_from
+    bodies: list[bytes] = []
+    at, size = 4, len(whole)
+    if size < at or (count := number(whole)[0]) > MOST_ELEMENTS:
+        return None
+    for _ in range(count):
+        at = at + 3 & ~3
+        if at + 4 > size:
+            return None
+        end = at + 4 + number(whole, at)[0]
+        if end > size:
+            return None
+        bodies.append(whole[at + 4 : end])
+        at = end
+    return bodies if size - at < 4 else None

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The samples of one WRITE_DATA, cut from it as far as the turn of its client goes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from microros_gen.agent.wire.cdr import Reader
+from microros_gen.agent.wire.samples import Sample, cut_samples
+
+SAMPLES = 16
+"""Samples of a sequence between two looks whether the turn is over."""
+
+
+class TurnOverError(Exception):
+    """The turn of a client ended within a submessage; `done`: how many of its samples are done with."""
+
+    def __init__(self, done: int) -> None:
+        super().__init__(done)
+        self.done = done
+
+
+class Cutting:
+    """What was cut so far; nothing is done with any of it before all could be cut."""
+
+    def __init__(self, data: bytes, at: int, reader: Reader, form: int) -> None:
+        """`reader` stands at the samples of the submessage whose payload begins at `data[at]`."""
+        self._data = data
+        self._at = at
+        self._coming = cut_samples(reader, form)
+        self._cut: list[Sample] = []
+
+    def is_of(self, data: bytes, at: int) -> bool:
+        """Return whether it is that submessage."""
+        return self._data is data and self._at == at
+
+    def go_on(self, over: Callable[[], bool], done: int) -> Sequence[Sample]:
+        """Return all samples, of which `done` are done with; TurnOverError: the turn is `over` before they are cut."""
+        for sample in self._coming:
+            self._cut.append(sample)
+            if len(self._cut) % SAMPLES == 0 and over():
+                raise TurnOverError(done)
+        return self._cut
