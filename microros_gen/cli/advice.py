@@ -8,6 +8,7 @@ import shutil
 import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import islice
 from pathlib import Path
 
 from microros_gen.build.budget import Advice
@@ -18,8 +19,9 @@ from microros_gen.build.toolchain import Toolchain, find_toolchain
 from microros_gen.cli.options import SelectionOptions
 from microros_gen.cli.pipeline import Planned, plan_request, render_request
 from microros_gen.diagnostics import Diagnostics, UserError
-from microros_gen.model.application import Application, EndpointDecl, LimitRule
+from microros_gen.model.application import Application
 from microros_gen.output.tree import write_tree
+from microros_gen.plan.levers import history_lever, limit_levers, queue_levers
 
 _LOWERED = 4
 """A limit is tried at a quarter of what it is."""
@@ -74,56 +76,15 @@ def _tried(planned: Planned, options: SelectionOptions, trial: _Trial, now: int)
 
 
 def _changes(planned: Planned) -> Iterator[tuple[str, Application]]:
+    """Yield what is tried: queues of one sample, a history shorter by one, limits at a quarter."""
     application = planned.resolved.request.application
-    yield from _queues(planned)
-    slots = planned.project.streams.reliable_slots
-    if slots > 1:
-        pools = {**application.pools, "history": slots - 1}
-        yield f"pools.history {slots} → {slots - 1}", replace(application, pools=pools)
-    decided = sorted(planned.capacities.decided, key=lambda c: (-c.value, str(c.root), c.path, c.kind))
-    for capacity in decided[:_LIMITS]:
-        lower = capacity.value // _LOWERED
-        if lower < 1:
-            continue
-        path = (str(capacity.root), *capacity.path)
-        kept = tuple(r for r in application.limits if r.path != path)
-        mine = [r for r in application.limits if r.path == path and not r.single]
-        rule = _with(mine[0] if mine else LimitRule(path), capacity.kind, lower)
-        change = (
-            f"limits: {capacity.root} {'.'.join(capacity.path)} {capacity.kind} {capacity.value} → {lower}"
-        )
-        yield change, replace(application, limits=(*kept, rule))
-
-
-def _queues(planned: Planned) -> Iterator[tuple[str, Application]]:
-    """Yield a queue of one sample for each endpoint that has more, those of the largest messages first."""
-    application, runtime = planned.resolved.request.application, planned.project.runtime
-    if not application.nodes:
-        now = application.pools.get("queue", max((q.slots for q in runtime.queues), default=1))
-        if now > 1:
-            yield f"pools.queue {now} → 1", replace(application, pools={**application.pools, "queue": 1})
-        return
-    endpoints = [e for kind in ("subscription", "service", "client") for e in _of_kind(application, kind)]
-    pairs = sorted(
-        ((e, q) for e, q in zip(endpoints, runtime.queues, strict=False) if q.slots > 1),
-        key=lambda pair: -pair[1].slots * pair[1].slot_size,
-    )
-    for endpoint, queue in pairs[:_QUEUES]:
-        change = f"queue: 1 of the {endpoint.kind} {endpoint.given or endpoint.topic} (now {queue.slots})"
-        yield change, _with_queue(application, endpoint)
-
-
-def _of_kind(application: Application, kind: str) -> list[EndpointDecl]:
-    return [e for node in application.nodes for e in node.endpoints if e.kind == kind]
-
-
-def _with_queue(application: Application, endpoint: EndpointDecl) -> Application:
-    nodes = tuple(
-        replace(node, endpoints=tuple(replace(e, queue=1) if e is endpoint else e for e in node.endpoints))
-        for node in application.nodes
-    )
-    return replace(application, nodes=nodes)
-
-
-def _with(rule: LimitRule, kind: str, value: int | None) -> LimitRule:
-    return replace(rule, string=value) if kind == "string" else replace(rule, sequence=value)
+    history = history_lever(planned.project)
+    tried = [(lever, 1) for lever in islice(queue_levers(planned.project), _QUEUES)]
+    tried += [(history, history.now - 1)] if history is not None else []
+    tried += [
+        (lever, lever.now // _LOWERED)
+        for lever in islice(limit_levers(planned.capacities), _LIMITS)
+        if lever.now >= _LOWERED
+    ]
+    for lever, value in tried:
+        yield lever.text(value), lever.put(application, value)

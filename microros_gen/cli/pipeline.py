@@ -28,6 +28,7 @@ from microros_gen.plan.declared import (
 )
 from microros_gen.plan.project import Project, plan_project
 from microros_gen.plan.service_limits import service_roots
+from microros_gen.plan.stream_budget import check_stream_budget
 from microros_gen.plan.streams import DEFAULT_MTU, WRITE_DATA_OVERHEAD
 from microros_gen.plan.types import plan_types
 from microros_gen.resolve.clock import CLOCK_ROS, with_clock
@@ -113,6 +114,19 @@ def _check_interfaces_have_a_use(
 
 def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Diagnostics) -> Planned:
     """Find the interfaces and plan sizes, names and entities. Raises UserError with all that is wrong."""
+    planned = _planned(resolved, options, diagnostics)
+
+    def other(application: Application) -> Project:
+        request = replace(resolved.request, application=application)
+        return _planned(replace(resolved, request=request), options, Diagnostics()).project
+
+    check_stream_budget(planned.project, planned.capacities, other, diagnostics)
+    diagnostics.check()
+    return replace(planned, warnings=warnings_text(diagnostics))
+
+
+def _planned(resolved: Resolved, options: SelectionOptions, diagnostics: Diagnostics) -> Planned:
+    """Plan as plan_request does; the budget of RAM is not looked at."""
     request, application, selection = resolved.request, resolved.request.application, resolved.selection
     check_ready(selection, diagnostics)
     check_entities(application, selection, diagnostics)
@@ -139,7 +153,7 @@ def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Dia
     diagnostics.check()
     packages = sorted({entry.name.package for entry in interfaces})
     searched = tuple(finder.deciding(packages))
-    return Planned(resolved, interfaces, searched, capacities, project, warnings_text(diagnostics))
+    return Planned(resolved, interfaces, searched, capacities, project)
 
 
 def render_request(planned: Planned) -> dict[str, bytes]:

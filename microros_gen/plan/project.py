@@ -204,7 +204,6 @@ def plan_project(
         reliable_input_slots=streams.reliable_input_slots,
         reliable_input_slot_size=streams.input_size if streams.reliable_input_slots else 0,
     )
-    _check_budget(application, streams, runtime.queues_size, diagnostics)
     board = plan_board(application, target, runtime, diagnostics)
     own_line = runtime.transport == "serial" and not target.hosted and not board.has_serial_driver
     runtime = replace(runtime, own_line=own_line)
@@ -346,24 +345,6 @@ def _client_key(application: Application, selection: Selection, target: Target, 
 def _hard_liveliness(application: Application, selection: Selection) -> int:
     asked = application.hard_liveliness_ms
     return asked or (DEFAULT_SILENCE_MS if selection.has("liveliness_hard") else 0)
-
-
-def _check_budget(
-    application: Application, streams: StreamPlan, queues: int, diagnostics: Diagnostics
-) -> None:
-    budget = application.memory.ram_budget
-    if budget is not None and streams.ram + queues > budget:
-        diagnostics.error(
-            f"the streams alone take {streams.ram + queues} bytes of RAM and memory.ram_budget is {budget}"
-            f" (reliable {streams.reliable_slots} x {streams.reliable_slot_size}, best effort"
-            f" {streams.best_effort_size}, input {streams.input_size}{f', queues {queues}' if queues else ''})",
-            application.memory.ram_span,
-            f"Lower {_what_is_kept(streams)}the limits of the largest message, or raise the budget",
-        )
-
-
-def _what_is_kept(streams: StreamPlan) -> str:
-    return "pools.history or " if streams.reliable_slots > 1 else ""
 
 
 def _agent(transport: Transport, selection: Selection) -> tuple[str, int]:

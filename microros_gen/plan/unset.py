@@ -88,13 +88,22 @@ def _block(
             places[root.type] = _instead(known)
         for unset in root.unset:
             put_limit(members[root.type], unset.path, unset.kind, values[unset.kind])
-    lines += [f"  {name}: {limit_text(said)}{places[name]}" for name, said in members.items()]
+    lines += [
+        f"  {name}: {limit_text(said)}{places[name] and f'  # {places[name]}'}"
+        for name, said in members.items()
+    ]
     return tuple(lines)
+
+
+def type_line(name: str, before: Iterable[LimitRule], after: Iterable[LimitRule]) -> tuple[str, str]:
+    """Return the line of a type below `limits:` that says what `after` says, and which line of `before` it replaces."""
+    said, known = ([rule for rule in rules if rule.path[0] == name] for rules in (after, before))
+    return f"  {name}: {limit_text(_said(said))}", _instead(known)
 
 
 def _instead(rules: Sequence[LimitRule]) -> str:
     lines = sorted({rule.span.line for rule in rules if rule.span is not None})
-    return f"  # instead of line {lines[0]}" if lines else ""
+    return f"instead of line {lines[0]}" if lines else ""
 
 
 def _said(rules: Iterable[LimitRule]) -> LimitTree:

@@ -125,6 +125,95 @@ def test_a_header_of_what_is_not_there_yet_does_not_say_to_add_it(run: Runner, f
     assert not any("+parameters" in text or "+lifecycle" in text for text in errors)
 
 
+SMALL = """version: 1
+profiles: [pure_reader]
+nodes:
+  - name: n
+    subscriptions:
+      - {topic: scan, type: sensor_msgs/msg/LaserScan}
+      - {topic: tf, type: tf2_msgs/msg/TFMessage}
+"""
+STAR = 'limits:\n  "*": {string: 32, sequence: 64}\n'
+
+
+def pasted(text: str, err: str) -> str:
+    """Return the file with the lines of a diagnostic where their remarks say that they go."""
+    lines = text.splitlines()
+    for line, place in re.findall(r"^( *\S.*?)  # (.*)then \d+ bytes$", err, re.MULTILINE):
+        if instead := re.fullmatch(r"instead of (?:`pools:` in )?line (\d+), ", place):
+            lines[int(instead[1]) - 1] = line
+        elif at := re.fullmatch(r"at the \w+ (\S+), line (\d+), ", place):
+            number, topic = int(at[2]) - 1, f"topic: {at[1]},"
+            lines[number] = lines[number].replace(topic, f"{topic} {line},")
+        else:
+            assert place in ("", "below `limits:`, ")
+            lines.append(line)
+    under = [line for line in lines if re.match("  [a-z0-9_]+/", line)]
+    lines = [line for line in lines if line not in under]
+    at_limits = lines.index("limits:") + 1
+    return "\n".join([*lines[:at_limits], *under, *lines[at_limits:]]) + "\n"
+
+
+def taken(err: str) -> list[int]:
+    return [int(size) for size in re.findall(r"then (\d+) bytes$", err, re.MULTILINE)]
+
+
+@pytest.mark.parametrize(
+    ("text", "budget"),
+    [
+        (SMALL.replace("- {topic: scan, type: sensor_msgs/msg/LaserScan}", "") + STAR, 12_000),
+        (SMALL.replace("pure_reader", "simulation_node") + STAR, 22_000),
+        (HEAD + "pools: {history: 8}\n" + STAR, 60_000),
+        (HEAD + STAR, 4_000),
+        (HEAD.replace("type: std_msgs/msg/String", "type: std_msgs/msg/Int32") + f"{STAR}{JOINTS}", 4_000),
+        ("version: 1\nprofiles: [pure_sender]\ninterfaces: [sensor_msgs/msg/Imu]\n" + STAR, 900),
+        ("version: 1\nprofiles: [pure_reader]\ninterfaces: [sensor_msgs/msg/Imu]\n" + STAR, 1_600),
+    ],
+    ids=["queue", "behind /clock", "pools stay", "together", "type stays", "history", "pool of queues"],
+)
+def test_streams_over_the_budget_come_with_lines_that_fit(
+    run: Runner, folder: Path, text: str, budget: int
+) -> None:
+    """Each alternative, or all lines together, bring the streams to the size that they name."""
+    memory = f"memory: {{ram_budget: {budget}}}\n"
+    refused = generate(run, folder, text + memory)
+    assert refused.status == 2
+    assert f"bytes of RAM and memory.ram_budget is {budget}" in refused.err
+    headline, *block = refused.err.split("\n")
+    remarks = [line for line in block if re.search("then \\d+ bytes$", line)]
+    groups = [remarks] if "Set all of these" in headline else [[line] for line in remarks]
+    assert all(groups)
+    assert groups, refused.err
+    for group in groups:
+        lines = "\n".join(group)
+        (size,) = set(taken(lines))
+        assert size <= budget
+        assert generate(run, folder, pasted(text, lines) + memory).status == 0
+        below = generate(run, folder, pasted(text, lines) + f"memory: {{ram_budget: {size - 1}}}\n")
+        assert f"the streams alone take {size} bytes" in below.err, "the size is exact"
+
+
+def test_a_limit_is_lowered_no_more_than_it_takes(run: Runner, folder: Path) -> None:
+    text = SMALL.replace("- {topic: tf, type: tf2_msgs/msg/TFMessage}", "").replace("}", ", queue: 1}")
+    text += "limits:\n  sensor_msgs/msg/LaserScan: {header: {frame_id: 16}, ranges: 720, intensities: 8}\n"
+    budget = "memory: {ram_budget: 2 KiB}\n"
+    refused = generate(run, folder, text + budget)
+    number = re.search(r"ranges: \{sequence: (\d+)\}", refused.err)
+    assert number is not None
+    one_more = pasted(text, refused.err).replace(number[0], f"ranges: {int(number[1]) + 1}")
+    assert generate(run, folder, pasted(text, refused.err) + budget).status == 0
+    assert "the streams alone take" in generate(run, folder, one_more + budget).err
+
+
+def test_a_rule_of_two_equal_numbers_keeps_both(run: Runner, folder: Path) -> None:
+    """One number for a sequence of strings would be refused, so the proposed line names both kinds."""
+    joints = "  sensor_msgs/msg/JointState: {name: {sequence: 6, string: 6}}\n"
+    text = f"{HEAD}limits:\n{joints}"
+    block = proposed_block(generate(run, folder, text).err)
+    assert "name: {string: 6, sequence: 6}" in block
+    assert generate(run, folder, text.replace(joints, "") + block).status == 0
+
+
 def test_advice_about_memory_is_exact_and_the_largest_saving_comes_first(run: Runner, folder: Path) -> None:
     """What each line promises is what a build without it takes less."""
     text = HEAD + 'limits:\n  "*": {string: 32, sequence: 16}\n'
