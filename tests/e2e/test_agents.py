@@ -161,7 +161,8 @@ def test_on_full_error(live: Live) -> None:
         at_once(samples)
         assert [s.code for s in samples] == [0] * 4 + [1] * 146
         assert live.call("publish 0 0").text == (
-            "publisher /chatter: stream full, 4 unacknowledged: raise pools: {history: 5} in microros.yaml"
+            "publisher /chatter: stream full, 4 unacknowledged: the agent is away,"
+            " or raise pools: {history: 5} in microros.yaml"
         )
         quick = live.burst(0, 100, 1, publisher=1)
         at_once(quick)

@@ -19,7 +19,10 @@ from e2e.relay import Relay
 pytestmark = pytest.mark.ros
 
 SAMPLES = 150
-FULL = "int32: publisher /int32: stream full, 4 unacknowledged: raise pools: {history: 5} in microros.yaml"
+FULL = (
+    "int32: publisher /int32: stream full, 4 unacknowledged: the agent is away,"
+    " or raise pools: {history: 5} in microros.yaml"
+)
 SHORT_RUN = (*SANITIZE, f"-DEXAMPLE_SAMPLES={SAMPLES}", "-DEXAMPLE_PERIOD_MS=20")
 
 

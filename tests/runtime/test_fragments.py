@@ -135,7 +135,7 @@ def test_a_full_stream_counts_messages(bench: Bench) -> None:
     for seed in range(3):
         client.ok(f"large 0 500 {seed}")
     result = client.call("large 0 500 9")
-    full = "stream full, 3 unacknowledged: raise pools: {history: 4} in microros.yaml"
+    full = "stream full, 3 unacknowledged: the agent is away, or raise pools: {history: 4} in microros.yaml"
     assert result.error == f"publisher /chatter: {full}"
 
 

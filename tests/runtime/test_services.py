@@ -126,7 +126,8 @@ def test_a_request_waits_until_its_reply_has_room(bench: Bench) -> None:
     assert peer.client.ok("serve_ready 0").lines == ("ready 0",)
     refused = peer.client.call("serve_ask 0 5")
     assert refused.error == (
-        "service /far/ask: stream full, 4 unacknowledged: raise pools: {history: 5} in microros.yaml"
+        "service /far/ask: stream full, 4 unacknowledged: the agent is away,"
+        " or raise pools: {history: 5} in microros.yaml"
     )
     peer.agent.silent = False
     peer.client.spin(5, 100)

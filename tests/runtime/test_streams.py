@@ -25,12 +25,24 @@ def test_full_stream_names_what_to_raise(bench: Bench) -> None:
         client.ok(f"publish 0 {value}")
     result = client.call("publish 0 9")
     assert (result.code, result.slept) == (1, 0)
-    expected = "publisher /chatter: stream full, 4 unacknowledged: raise pools: {history: 5} in microros.yaml"
+    expected = (
+        "publisher /chatter: stream full, 4 unacknowledged: the agent is away,"
+        " or raise pools: {history: 5} in microros.yaml"
+    )
     assert result.error == expected
     assert client.statistics()["dropped"] == 1
     client.agent.silent = False
     client.ok("flush 1000")
     assert client.agent.values() == [0, 1, 2, 3]
+
+
+def test_a_full_stream_of_a_lost_session_advises_no_larger_history(bench: Bench) -> None:
+    client = bench.connected()
+    client.agent.silent = True
+    for value in range(POOL.reliable_slots):
+        client.ok(f"publish 0 {value}")
+    client.spin(500, 20)
+    assert client.call("publish 0 9").error == "publisher /chatter: no session with the agent"
 
 
 def test_heartbeats_only_while_something_is_unacknowledged(bench: Bench) -> None:

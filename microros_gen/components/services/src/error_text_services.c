@@ -14,7 +14,7 @@ const char microros_error_service_qos[] = "service %s: XRCE carries no such QoS:
 const char microros_error_service_small[] =
   "%t takes %n bytes and its stream holds %m: declare its service%y";
 const char microros_error_service_full[] =
-  "service %s: stream full, %n unacknowledged: raise pools: {history: %m}%y";
+  "service %s: stream full, %n unacknowledged: the agent is away, or raise pools: {history: %m}%y";
 const char microros_error_service_session[] = "service %s: no session with the agent";
 const char microros_error_service_short[] = "service %s: %n bytes have come, and a head has %m";
 const char microros_error_requests_lost[] = "service %s: a session was lost with %n requests under way";
