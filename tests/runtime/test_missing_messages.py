@@ -122,3 +122,38 @@ def test_a_forged_number_makes_no_storm(bench: Bench) -> None:
         line.client.spin(3)
         assert line.client.ok("read_text 0 1000").lines == (f"text {i}",)
     assert line.sent < 25
+
+
+@pytest.mark.parametrize("behind", [False, True], ids=["old numbers ahead", "old numbers in use"])
+def test_what_is_left_of_a_session_does_not_touch_the_next(bench: Bench, behind: bool) -> None:
+    """On a line it comes before the answer to CREATE_CLIENT; with UDP the new session has a socket of its own."""
+    agent = ReadingAgent()
+    client = bench.start(READER, agent=agent)
+    for call in (
+        "init",
+        "node 0 both -",
+        "publisher 0 0 Int32 out reliable",
+        "read_init 0 0 Int32 in reliable",
+    ):
+        client.ok(call)
+    client.spin(3)
+    agent.restart()
+    agent.silent = True
+    client.spin(READER.liveliness_attempts + 4, READER.liveliness_period_ms)
+    assert client.call("connected").code == 0, "not now"
+    first, last = (1, 2) if behind else (100, 105)
+    client.queued += [
+        b"\x81\0\0\0\x0b\x01\x05\0" + struct.pack("<HH", first, last) + b"\x80",
+        b"\x81\0\0\0\x0a\x01\x05\0" + struct.pack("<HH", first, 0) + b"\x80",
+    ]
+    client.spin()
+    agent.silent = False
+    client.spin(20, 50)
+    assert client.statistics()["reconnects"] == 1
+    for value in range(3):
+        client.ok(f"publish 0 {value}")
+        client.queued += agent.numbers(FIRST, 10 + value)
+        client.spin(2)
+    client.ok("flush 1000")
+    assert agent.values() == [0, 1, 2]
+    assert [client.ok("read_take 0").lines[0].split()[1] for _ in range(3)] == ["10", "11", "12"]

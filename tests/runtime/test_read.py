@@ -203,6 +203,27 @@ def test_best_effort_under_loss_and_disorder_is_in_order(bench: Bench) -> None:
     assert len(found) > 150
 
 
+@pytest.mark.parametrize("jump", [1, 40, 63, 64, 1000, 0x4401, 0x7FFF, 0x8000, 0xFFC0])
+def test_a_number_that_jumps_costs_little_of_a_best_effort_stream(bench: Bench, jump: int) -> None:
+    """By a forged or stale datagram: at most 64 samples, and no answer, so nothing is asked twice."""
+    reader = Reader(bench, qos="best_effort")
+    reader.number(1)
+    assert reader.take_all() == [1]
+    number = (reader.agent.answers + jump) & 0xFFFF
+    reader.send([b"\x81\x01" + struct.pack("<H", number) + bytes.fromhex("09 01 08 00 4444 0036 01000000")])
+    reader.client.spin()
+    reader.client.sent.clear()
+    reader.client.ok("read_init 1 0 Int32 more best_effort")
+    assert len([d for d in reader.client.sent if d[4] == 0x01]) == 3
+    assert len(set(reader.client.sent)) == len(reader.client.sent)
+    found = []
+    for value in range(2, 102):
+        reader.number(value)
+        found += reader.take_all()
+    assert found == list(range(102 - len(found), 102))
+    assert 100 - len(found) <= min(jump, 64)
+
+
 def test_read_data_is_sent_again_until_it_is_acknowledged(bench: Bench) -> None:
     reader = Reader(bench)
     reader.agent.drop_answer = lambda answer: answer[4] == 0x0A
