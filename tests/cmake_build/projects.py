@@ -83,8 +83,9 @@ class Project:
             "cmake", *folders, *generator, *self.found, *options, cwd=self.source, env=self.environment
         )
 
-    def build(self) -> subprocess.CompletedProcess[str]:
-        return run("cmake", "--build", self.build_folder, "-j2", cwd=self.source, env=self.environment)
+    def build(self, *options: str) -> subprocess.CompletedProcess[str]:
+        command = ("cmake", "--build", self.build_folder, "-j2", *options)
+        return run(*command, cwd=self.source, env=self.environment)
 
     def rebuilt(self) -> frozenset[str]:
         """Build, and return what that made anew: names below the build folder, objects by their source."""

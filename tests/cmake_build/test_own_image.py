@@ -261,6 +261,8 @@ FIRMWARE = """\
 microros_add_library(robot CONFIG microros.yaml)
 add_executable(app "${CMAKE_CURRENT_BINARY_DIR}/robot-microros/examples/pure_sender/main.c")
 microros_image(app robot)
+add_executable(plain EXCLUDE_FROM_ALL "${CMAKE_CURRENT_BINARY_DIR}/robot-microros/examples/pure_sender/main.c")
+target_link_libraries(plain PRIVATE robot)
 """
 SMALL = """\
 version: 1
@@ -296,6 +298,23 @@ def test_a_part_of_a_project_that_fetches_the_tool(generator: str, tmp_path: Pat
     assert set(owners(data, "application")) == {"main.c.o"}
     assert data["stack"]["main"]["chain"][0]["function"] == "main"
     assert not owners(data, "other library")
+    plain_image_is_checked_by_the_command_of_the_page(project, firmware)
+
+
+def plain_image_is_checked_by_the_command_of_the_page(project: Project, firmware: Path) -> None:
+    """What target_link_libraries links is not checked by the build; one command does that."""
+    words = re.findall(r"`microros-gen (size \S+ --image \S+ --budgets)`", PAGE)[0].split()
+    words = [
+        {"build/app": project.build_folder, "plain": project.build_folder / "firmware/plain"}.get(w, w)
+        for w in words
+    ]
+    for budget, status in (("64 KiB", 0), ("128", 1)):
+        (firmware / "microros.yaml").write_text(SMALL.replace("128", budget))
+        built = project.build("--target", "plain")
+        assert built.returncode == 0, built.stdout
+        said = tool(project, *words, status=status).stderr
+        found = [(place, key) for place, _, key in EXCEEDED.findall(said)]
+        assert found == ([(":6:22", "memory.ram_budget is 128")] if status else [])
 
 
 @pytest.mark.skipif(shutil.which("arm-none-eabi-gcc") is None, reason="no arm-none-eabi-gcc")
