@@ -12,7 +12,7 @@ from microros_gen.adopt.rclc_calls import turns
 from microros_gen.model.draft import DraftValue, Remark, Setting, place
 
 _Groups = dict[str, dict[str, DraftValue]]
-# What hands memory out. For messages that are sent it has storage of its own; for others it comes from the arena.
+# Functions that return memory: for messages that are sent it comes from their storage, for others from the arena.
 _TAKES_MEMORY = re.compile(
     r"micro_ros_utilities_create_message_memory|micro_ros_string_utilities_init\w*|\w+__(create|Sequence__init)"
 )

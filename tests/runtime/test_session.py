@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Connecting, losing the session and finding back, and whatever a network can throw at a client."""
+"""Connecting, losing the session and reconnecting, and whatever a network can throw at a client."""
 
 from __future__ import annotations
 
