@@ -26,6 +26,9 @@ CALL_BYTES = 256
 """What an open request takes."""
 BASE_BYTES = 80 << 20
 """What the agent takes without a client, in ROS domains too: Python, ROS 2, and gaps on the heap."""
+BASE_DESCRIPTORS, DOMAIN_DESCRIPTORS, NODE_DESCRIPTORS = 32, 32, 2
+"""Descriptors of the agent without a client, of a ROS domain, and of a node (its events and a timer): of all objects
+a node takes most for the bytes that are counted for it."""
 HELD_CALLS_BYTES = 16 << 20
 """What requests and replies take that wait for the other side of their service (`ros/services.py`)."""
 
@@ -94,6 +97,14 @@ class Budgets:
 def cost_of(object_id: int, representation: int) -> int:
     """Return the bytes that an object takes whose representation has so many."""
     return OBJECT_BYTES + 2 * representation + ROS_BYTES.get(ObjectKind(object_id & 0x0F), 0)
+
+
+def most_descriptors(limits: Limits, connections: int) -> int:
+    """Return how many file descriptors the agent takes at most, with so many TCP connections."""
+    objects = limits.object_bytes // cost_of(ObjectKind.PARTICIPANT, 0)
+    nodes = min(objects, limits.clients * limits.objects)
+    fixed = BASE_DESCRIPTORS + limits.domains * DOMAIN_DESCRIPTORS
+    return fixed + limits.clients + connections + NODE_DESCRIPTORS * nodes
 
 
 def most_bytes(limits: Limits) -> int:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import gc
+import resource
 import sys
 import time
 from collections.abc import Sequence
@@ -13,7 +14,7 @@ from typing import Any
 
 import click
 
-from microros_gen.agent.budgets import Budgets, most_bytes
+from microros_gen.agent.budgets import Budgets, most_bytes, most_descriptors
 from microros_gen.agent.core import Agent
 from microros_gen.agent.fairness import Account, Fairness
 from microros_gen.agent.input_pool import InputPool
@@ -78,6 +79,7 @@ def serve(options: AgentOptions) -> None:
         budgets=budgets,
     )
     _tell_memory(log, limits)
+    _tell_descriptors(log, limits, streams)
     if options.verbose:
         transports = [TracedTransport(transport, log) for transport in transports]
     told = ", ".join(f"{name} {value:.10g}" for name, value in asdict(limits).items())
@@ -114,6 +116,14 @@ def _tell_memory(log: EventLog, limits: Limits) -> None:
         "calls": limits.call_bytes,
     }
     log.emit(Level.INFO, "memory", text, **{name: round(size / (1 << 20), 1) for name, size in mib.items()})
+
+
+def _tell_descriptors(log: EventLog, limits: Limits, connections: int) -> None:
+    most, allowed = most_descriptors(limits, connections), resource.getrlimit(resource.RLIMIT_NOFILE)[0]
+    text = "descriptors: at most {most} by the limits, and the system allows {allowed} (ulimit -n)"
+    if 0 <= allowed < most:  # RLIM_INFINITY is negative
+        text += ": when these are taken, further objects and connections are refused"
+    log.emit(Level.INFO, "descriptors", text, most=most, allowed=allowed)
 
 
 @dataclass(frozen=True)

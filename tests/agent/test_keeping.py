@@ -127,6 +127,36 @@ def test_one_that_is_given_up_gets_what_dds_had_when_it_is_heard_again(away: flo
     assert not client.asleep
 
 
+@pytest.mark.parametrize("arrived", [0, 7, 16])
+def test_nothing_comes_twice_to_a_client_whose_session_lives(arrived: int) -> None:
+    """It was silent for long, and its acknowledgements were lost: what comes again is known by its number."""
+    bench = subscribing(Limits(client_timeout_s=5))
+    listener = Listener(bench)
+    listener.read(stream=0x80)
+    put(bench, *range(40))
+    listener.take()
+    sent = [data for _, data in bench.transport.sent if data[1] == 0x80][:arrived]
+    bench.wait(12)
+    (client,) = bench.agent.clients
+    assert client.asleep
+    for turn in range(10):
+        first = len({data[2:4] for data in sent})
+        missing = (1 << 16 - first) - 1 & 0xFFFF if first < 16 else 0
+        listener.say(Acknack(first, missing, 0x80), stream=0)
+        sent += [data for _, data in bench.transport.sent if data[1] == 0x80]
+        if turn == 0:
+            assert not client.asleep
+            put(bench, 40)
+        bench.take()
+        sent += [data for _, data in bench.transport.sent if data[1] == 0x80]
+    by_number: dict[int, set[bytes]] = {}
+    for data in sent:
+        by_number.setdefault(int.from_bytes(data[2:4], "little"), set()).add(data)
+    assert all(len(messages) == 1 for messages in by_number.values())
+    got = [int.from_bytes(by_number[number].pop()[-4:], "little") for number in sorted(by_number)]
+    assert got == list(range(41))
+
+
 def test_it_can_be_left_out() -> None:
     bench = subscribing(Limits(keep_s=0))
     Listener(bench).read(stream=0x80)

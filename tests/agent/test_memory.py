@@ -5,17 +5,19 @@ from __future__ import annotations
 
 import contextlib
 import json
+import resource
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from agent.client import BEST_EFFORT, XrceClient, dds_type, int32_body, topic_blob, writer_blob
 from agent.fakes import Bench
-from agent.process import own_domain, running_agent
+from agent.process import AgentProcess, own_domain, running_agent
 from agent.test_budgets import OK, RESOURCES, ask, connect, reading
 from agent.test_core import entities
-from microros_gen.agent.budgets import most_bytes
+from microros_gen.agent.budgets import most_bytes, most_descriptors
 from microros_gen.agent.core import Agent
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.memory import MemoryGuard, Pressure, resident_bytes
@@ -118,11 +120,30 @@ def test_the_default_limits_fit_and_others_have_to() -> None:
     )
 
 
+def test_the_most_descriptors_follow_from_the_limits() -> None:
+    some = Limits(clients=10, objects=50, domains=1)
+    most = most_descriptors(some, 7)
+    assert most_descriptors(some, 8) == most + 1
+    assert most_descriptors(replace(some, clients=11), 7) == most + 1 + 50 * 2, "all of its objects are nodes"
+    assert most_descriptors(replace(some, domains=2), 7) > most
+    few = Limits(object_bytes=1 << 20)
+    assert most_descriptors(few, 0) < most_descriptors(Limits(), 0)
+
+
 # With ROS 2
 
 
 def rss_mib(pid: int) -> float:
     return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) / 256
+
+
+def event(agent: AgentProcess, name: str) -> dict[str, float]:
+    """Return an event that the agent logs at its start."""
+    part = f'"event": "{name}"'
+    found: dict[str, float] = json.loads(
+        next((line for line in agent.log if part in line), None) or agent.wait_for(part)
+    )
+    return found
 
 
 def lasting(client: XrceClient, number: int, depth: int) -> int:
@@ -137,7 +158,9 @@ def lasting(client: XrceClient, number: int, depth: int) -> int:
 def test_histories_stay_below_the_limit_that_was_said_and_come_back() -> None:
     """S1: it was 3.0 GB, of which 833 MB stayed. A client that behaves is served meanwhile."""
     with running_agent(own_domain(), "--log-format", "json") as agent:
-        said = json.loads(next(line for line in agent.log if '"event": "memory"' in line))
+        said, descriptors = event(agent, "memory"), event(agent, "descriptors")
+        assert len(list(Path(f"/proc/{agent.process.pid}/fd").iterdir())) < descriptors["most"]
+        assert descriptors["allowed"] == resource.getrlimit(resource.RLIMIT_NOFILE)[0]
         with XrceClient(agent.port, mtu=65_000) as client, XrceClient(agent.port, key=2) as honest:
             assert honest.connect() == OK
             count = honest.publisher("honest", "count", "std_msgs/msg/Int32", 0)
