@@ -9,6 +9,7 @@ from microros_gen.diagnostics import Diagnostics
 from microros_gen.model.application import Application
 from microros_gen.model.target import OWN_DRIVER, Target, Uart
 from microros_gen.plan.runtime import RuntimePlan
+from microros_gen.plan.streams import usual_frame
 
 DEFAULT_STACK = 2048
 _STACK_ALIGNMENT = 16  # RISC-V; the Arm procedure call standard asks for 8
@@ -18,9 +19,15 @@ _FREQUENCY_TOLERANCE = (
 _FIRST_INTERRUPT = 16  # words of a Cortex-M's vector table before that of interrupt 0
 _LEAST_TABLE = 128  # bytes; the lowest bits of VTOR are 0
 _LINE_USERS = ("serial", "custom")
-# OMG DDS-XRCE 1.0: a header of 4, a submessage of 4 and 5 (ACKNACK); and around it a frame, stuffed at the worst.
+# OMG DDS-XRCE 1.0: a header of 4, a submessage of 4 and 5 (ACKNACK).
 _ACKNACK = 13
-_FRAME = 6
+# What may be stuffed of a frame besides one byte in 32 of its message.
+_MORE_STUFFED = 2
+# The longest that an application may leave a best-effort sample alone that comes over a serial line.
+REACTION_MS = 20
+# Read of the ring at a time: a call costs little there.
+RING_CHUNK = 8
+_BITS_OF_A_BYTE = 10  # with start and stop bit
 _SERIAL_FUNCTIONS = (
     "port_serial_open",
     "port_serial_close",
@@ -126,14 +133,29 @@ def plan_board(
     )
 
 
+def has_own_line(target: Target, transport: str) -> bool:
+    """Whether a driver of this project sends and receives for the transport, by interrupts."""
+    return (
+        transport == "serial"
+        and not target.hosted
+        and target.has_image
+        and target.uart_driver not in ("none", OWN_DRIVER)
+    )
+
+
 def ring_size(runtime: RuntimePlan) -> int:
     """Return the bytes that can arrive while the application does not read, and one to spare, at most 32 KiB.
 
-    What an agent sends by itself answers what was sent to it: one message of the longest kind, and an ACKNACK for
-    each slot of the reliable stream. Each is framed, and every byte may be stuffed.
+    What an agent sends by itself answers what was sent to it: one message of the longest kind that must not be
+    lost, and an ACKNACK for each slot of the reliable stream; each is framed and stuffed as usual, and has some bytes
+    more. A larger sample comes on a best-effort stream at any time, and may be lost: of it there is what the line
+    brings in REACTION_MS, or a quarter of it where that is less, for it is decoded out of the ring while it comes.
     """
-    frames = [runtime.input_size, *([_ACKNACK] * runtime.reliable_slots)]
-    needed = sum(1 + 2 * (size + _FRAME) for size in frames)
+    frames = [runtime.line_input, *([_ACKNACK] * runtime.reliable_slots)]
+    needed = sum(usual_frame(size) + _MORE_STUFFED for size in frames)
+    if runtime.input_size > runtime.line_input:
+        in_time = runtime.serial_baud * REACTION_MS // (1000 * _BITS_OF_A_BYTE)
+        needed = max(needed, min(in_time, runtime.input_size // 4))
     return min((needed + 4) & ~3, 1 << 15)
 
 

@@ -14,13 +14,13 @@ from microros_gen.model.names import expand_topic_name
 from microros_gen.model.selection import Selection
 from microros_gen.model.target import Target
 from microros_gen.model.types import Message, TypeName
-from microros_gen.plan.board import BoardPlan, plan_board
+from microros_gen.plan.board import RING_CHUNK, BoardPlan, has_own_line, plan_board
 from microros_gen.plan.creation import CreateNames, create_size, create_text, participant_reference
 from microros_gen.plan.declared import named_at, pool, publisher_declarations, timed_qos, type_name
 from microros_gen.plan.names import dds_topic, dds_type, participant_name
 from microros_gen.plan.receiving import plan_receiving
 from microros_gen.plan.running import plan_running
-from microros_gen.plan.runtime import DISCOVERY_GROUP, RuntimePlan
+from microros_gen.plan.runtime import DISCOVERY_GROUP, LINE_CHUNK, RuntimePlan
 from microros_gen.plan.runtime_entities import NodePlan, PublisherPlan, SubscriptionPlan
 from microros_gen.plan.senders import SentStorage, plan_sent_storage
 from microros_gen.plan.serving import Serving, plan_serving
@@ -118,6 +118,7 @@ def plan_project(
     create, create_text = _create_size(
         application, selection, nodes, tuple(endpoints), names, serving, services
     )
+    own_driver = has_own_line(target, selection.transport)
     streams = plan_streams(
         application,
         selection.transport,
@@ -129,6 +130,7 @@ def plan_project(
         create_text,
         # What is kept over a sleep ends before the input buffer.
         lends_input=bool(nodes) and not selection.has("sleep_cycles"),
+        keeps_output=own_driver,
     )
     receivers = receiving.subscriptions_max + serving.services_max + serving.clients_max
     receivers -= 1 if selection.has(CLOCK_ROS) else 0  # nobody adds the subscription of /clock to an executor
@@ -167,6 +169,9 @@ def plan_project(
         else "",
         serial_baud=application.transport.baud,
         send_buffer=streams.send_buffer,
+        keeps_output=streams.keeps_output,
+        line_input=streams.line_input,
+        line_chunk=RING_CHUNK if own_driver else LINE_CHUNK,
         framing=_FRAMING[application.transport.framing],
         type_name_size=0 if nodes else _longest_type((*names, *services)) + 1,
         creation_size=streams.creation_size,

@@ -15,6 +15,8 @@ from microros_gen.plan.types_names import include_path, type_files
 
 DISCOVERY_GROUP = "239.255.0.2"
 """Where clients ask for agents and agents listen (OMG DDS-XRCE 1.0, 9.3)."""
+LINE_CHUNK = 32
+"""Bytes that are read of a line at a time."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,7 +29,9 @@ class RuntimePlan(TimesPlan):
     `client_key` None: the port supplies it (`session.key: device`).
     `entities` is preconfigured, reference, xml or binary; `creation` the stream of CREATE (best_effort, reliable).
     `transport` is udp, tcp, serial or custom; `framing` of a custom one on, off or either (chosen at run time).
-    `send_buffer`: bytes that wait for a serial line; `own_line`: the application has its functions.
+    `send_buffer`: bytes that wait for a serial line; `keeps_output`: it takes messages of the reliable stream from
+    where they are; `line_input`: the largest message that it must not lose while nobody reads; `line_chunk`: bytes
+    that are read of it at a time; `own_line`: the application has its functions.
     `fragments`: some reliable message is larger than the MTU, `reliable_slot_size` holds it whole.
     `arrives_in_fragments`: some reliable DATA is larger than the input buffer. `input_reader`: the queue whose one slot
     is the end of the input buffer, behind `input_free` bytes.
@@ -68,6 +72,9 @@ class RuntimePlan(TimesPlan):
     serial_device: str = ""
     serial_baud: int = 115_200
     send_buffer: int = 2048
+    keeps_output: bool = False
+    line_input: int = 64
+    line_chunk: int = LINE_CHUNK
     own_line: bool = False
     framing: str = "either"
     fragments: bool = False

@@ -41,6 +41,8 @@ PIECES = {"udp": 3, "tcp": 3, "serial": 8, "custom": 8}
 LEAST_PIECE = 256
 # A slot in the input buffer has to save so many bytes: it costs some hundred of flash.
 LEAST_LENT = 256
+# A message that the line's interrupt takes from its stream has to save so many bytes, for the same reason.
+LEAST_KEPT = 128
 # In front of a message that goes in fragments: FRAGMENT's header, beside that of the message.
 FRAGMENT_HEADER = 4
 # The length of a submessage has 16 bits (OMG DDS-XRCE 1.0, 8.3.4); the whole submessage is counted in as many here.
@@ -95,9 +97,10 @@ class StreamPlan:
     `arrives_in_fragments`: some reliable DATA is larger than the input buffer; it is put together in the slot of its
     reader's queue. `input_size`: the largest message of the agent, as it is told. `input_reader`: which of the received
     samples waits in the input buffer itself, at its end, and has no slot elsewhere; `input_free` bytes are in front of
-    it, which is as much as any other message takes. `send_buffer`: of a
-    serial line that sends by itself; it holds the longest frame, each of its bytes stuffed, or one message of each
-    best-effort writer.
+    it, which is as much as any other message takes. `line_input`: the largest message that comes on a reliable stream
+    or as an answer, which nobody may lose. `send_buffer`: of a serial line that sends by itself; it holds the longest
+    frame, each of its bytes stuffed, or one message of each best-effort writer. `keeps_output`: messages of the
+    reliable stream are not among them: the line takes them from where they are.
     """
 
     mtu: int
@@ -108,7 +111,9 @@ class StreamPlan:
     creation_size: int = 0
     fragments: bool = False
     reliable_input_slots: int = 0
+    line_input: int = WRITE_SIDE_INPUT
     send_buffer: int = 0
+    keeps_output: bool = False
     arrives_in_fragments: bool = False
     input_reader: int | None = None
     input_free: int = 0
@@ -145,6 +150,7 @@ def plan_streams(
     received: Iterable[Received] = (),
     create_text: int = 0,
     lends_input: bool = False,
+    keeps_output: bool = False,
 ) -> StreamPlan:
     """Size the streams; a message that cannot fit its stream is an error with the number that would do.
 
@@ -154,6 +160,7 @@ def plan_streams(
     reliable message above the MTU goes in fragments, a best-effort one and a CREATE cannot. `reliable_input`:
     the agent's reliable stream is selected; a reliable DATA above the input buffer comes in fragments,
     for the agent is told the size of that buffer. `lends_input`: a best-effort sample may wait in the input buffer.
+    `keeps_output`: the line can take a message from its stream.
     `pools.slot_size` makes each buffer at least so large.
     """
     messages, samples = tuple(written), tuple(received)
@@ -185,6 +192,14 @@ def plan_streams(
     input_size = max(
         WRITE_SIDE_INPUT, least, *(sample.piece(ceiling, PIECES[transport]) for sample in samples)
     )
+    must = [sample.piece(ceiling, PIECES[transport]) for sample in samples if sample.reliable]
+    line = _Line(
+        _send_frames(application, (m for m in messages if not m.reliable), ceiling, (create, create_text)),
+        _send_frames(application, messages, ceiling, (create, create_text)),
+    )
+    # What is dropped on its way would be broken off: where more is written than the line carries, nothing arrived.
+    kept = keeps_output and not fragments and application.on_full != "drop_oldest"
+    kept = kept and line.saves(application.transport.send_buffer)
     lent = _lent(samples, max(WRITE_SIDE_INPUT, least), ceiling, PIECES[transport]) if lends_input else None
     return StreamPlan(
         mtu=ceiling if fragments else max(best_effort, reliable, create),
@@ -199,25 +214,41 @@ def plan_streams(
         input_reader=lent[0] if lent else None,
         input_free=lent[1] if lent else 0,
         input_slot=slot_of(samples[lent[0]].max_size) if lent else 0,
-        send_buffer=_send_buffer(application, messages, ceiling, (create, create_text), diagnostics)
+        line_input=max((WRITE_SIDE_INPUT, *must)),
+        send_buffer=_send_buffer(application, messages, line.kept if kept else line.copied, diagnostics)
         if transport in _LINES
         else 0,
+        keeps_output=kept,
     )
 
 
-def _send_buffer(
-    application: Application,
-    messages: tuple[Written, ...],
-    ceiling: int,
-    create: tuple[int, int],
-    diagnostics: Diagnostics,
+@dataclass(frozen=True)
+class _Line:
+    """Bytes that the output of a serial line needs at least, without and with the messages of the reliable stream."""
+
+    kept: int
+    copied: int
+
+    def saves(self, asked: int | None) -> bool:
+        """Whether it is worth its code to leave them out, and nobody asked for room for them."""
+        return self.copied - self.kept >= LEAST_KEPT and (asked is None or asked < self.copied)
+
+
+def _send_frames(
+    application: Application, messages: Iterable[Written], ceiling: int, create: tuple[int, int]
 ) -> int:
-    """Return the bytes that a serial line needs for its output, of which one is never used."""
+    """Return the bytes of the longest frame that is copied, each stuffed, and the one that is never used."""
     session = _SESSION_MESSAGE_HARD if application.hard_liveliness_ms else _SESSION_MESSAGE
     largest = max((session, *(min(_datagram(message), ceiling) for message in messages)))
     frames = [_FRAME_FLAG + 2 * (size + _FRAME_REST) - text for size, text in ((largest, 0), create)]
-    least = max(frames) + 1
-    at_once = sum(_usual_frame(_datagram(message)) for message in messages if message.best_effort)
+    return max(frames) + 1
+
+
+def _send_buffer(
+    application: Application, messages: tuple[Written, ...], least: int, diagnostics: Diagnostics
+) -> int:
+    """Return the bytes that a serial line needs for its output, of which one is never used."""
+    at_once = sum(usual_frame(_datagram(message)) for message in messages if message.best_effort)
     asked = application.transport.send_buffer
     if asked is not None and asked < least:
         diagnostics.error(
@@ -228,7 +259,8 @@ def _send_buffer(
     return _align4(asked or max(least, at_once + 1))
 
 
-def _usual_frame(size: int) -> int:
+def usual_frame(size: int) -> int:
+    """Return the bytes that a message takes on a serial line, four times as many stuffed as of random ones."""
     return _FRAME_FLAG + _FRAME_REST + size + size // _STUFFED_SHARE
 
 

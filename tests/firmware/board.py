@@ -81,6 +81,11 @@ class Built:
         lines = check([self.tool("nm"), str(image or self.image)]).splitlines()
         return {parts[2]: int(parts[0], 16) for parts in map(str.split, lines) if len(parts) == 3}
 
+    def symbol_sizes(self, image: Path | None = None) -> dict[str, int]:
+        """Return the bytes of every symbol of an image that has a size."""
+        lines = check([self.tool("nm"), "-S", str(image or self.image)]).splitlines()
+        return {parts[3]: int(parts[1], 16) for parts in map(str.split, lines) if len(parts) == 4}
+
     def link(self, source: Path, image: Path, *flags: str) -> Path:
         """Compile an application outside of the tool and link it as OUT/README.md says, with what `size` reads."""
         compiled = image.with_suffix(".o")

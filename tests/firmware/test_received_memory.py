@@ -30,6 +30,7 @@ BEST_EFFORT = "qos: {reliability: best_effort, depth: 1}"
 LINES = {
     "serial, reliable": ("{type: serial}", "qos: {depth: 1}"),
     "serial, reliable, queue": ("{type: serial}", "queue: 1"),
+    "serial, best effort": ("{type: serial, mtu: 8192}", BEST_EFFORT),
     "udp, reliable": ("{type: udp}", "queue: 1"),
     "udp, best effort": ("{type: udp, mtu: 8192}", BEST_EFFORT),
 }

@@ -13,18 +13,20 @@ from firmware.line import Relay, scripted_agent
 
 NAME = "qemu-mps2-an386"
 LARGE, SMALL = 7000, 4000
-APPLICATION = f"""\
+WHOLE = 700
+"""Fits a message of the line: not in fragments."""
+APPLICATION = """\
 version: 1
 profiles: [pure_sender]
 liveliness: none
-transport: {{type: serial, mtu: 512}}
-pools: {{history: 2}}
+transport: {type: serial, mtu: MTU}
+pools: {history: 2}
 nodes:
   - name: large
     publishers:
-      - {{topic: text, type: std_msgs/msg/String}}
-      - {{topic: count, type: std_msgs/msg/Int32, qos: {{reliability: best_effort, depth: 1}}}}
-limits: {{std_msgs/msg/String: {{data: {LARGE}}}}}
+      - {topic: text, type: std_msgs/msg/String}
+      - {topic: count, type: std_msgs/msg/Int32, qos: {reliability: best_effort, depth: 1}}
+limits: {std_msgs/msg/String: {data: LARGE}}
 """
 REPORT = (
     "ready",
@@ -37,6 +39,14 @@ REPORT = (
     "dropped",
 )
 TICKS_PER_MS = 25_000
+
+
+def application(mtu: int, large: int) -> str:
+    return APPLICATION.replace("MTU", str(mtu)).replace("LARGE", str(large))
+
+
+def text_of(size: int) -> bytes:
+    return bytes(ord("%") + i % 90 for i in range(size))
 
 
 def counted(built: Built) -> Built:
@@ -61,8 +71,30 @@ def fragments(agent: FakeAgent) -> Iterator[tuple[bool, bytes]]:
 
 def test_a_publish_returns_at_once_when_the_line_takes_nothing(builds: Builds) -> None:
     """A fragment alone takes 45 ms on a line of 115,200 baud, and the 15 of a message 0.6 s."""
-    built = counted(builds.build(NAME, APPLICATION))
-    image = builds.application(built, "large.c")
+    stopped, agent = published_while_the_line_stands(builds, application(512, LARGE))
+    joined = [part for _, part in fragments(agent)]
+    assert b"".join(joined).count(text_of(LARGE)) == 2, "what was taken arrives whole"
+    assert len(joined) >= 2 * 14
+    assert 0 < stopped["small_taken"] < SMALL
+
+
+def test_a_message_that_is_not_copied_arrives_whole(builds: Builds) -> None:
+    """The line takes reliable messages from their slots; the ring, for best-effort ones, is smaller than one."""
+    text = application(1024, WHOLE)
+    built = builds.build(NAME, text)
+    assert built.symbol_sizes()["port_output"] < WHOLE
+    stopped, agent = published_while_the_line_stands(builds, text, f"-DLARGE_SIZE={WHOLE}")
+    whole = {m[2:4]: m for m in agent.log if m[1] == 0x80 and m[4] == 0x07}
+    assert [text_of(WHOLE) in message for message in whole.values()] == [True, True]
+    assert 0 < stopped["small_taken"] < SMALL
+
+
+def published_while_the_line_stands(
+    builds: Builds, text: str, *flags: str
+) -> tuple[dict[str, int], FakeAgent]:
+    """Return what was so when all was published, and the agent that got it when the line went on."""
+    built = counted(builds.build(NAME, text))
+    image = builds.application(built, "large.c", *flags)
     agent = FakeAgent()
     with board(built, image) as running, Relay(running.device) as relay, scripted_agent(relay.device, agent):
         running.go_on()
@@ -73,11 +105,7 @@ def test_a_publish_returns_at_once_when_the_line_takes_nothing(builds: Builds) -
         relay.stopped = False
         running.wait_for(lambda: said(running)["done"], 60)
     assert stopped["large_taken"] == 2, "the stream has two slots"
-    assert 0 < stopped["small_taken"] < SMALL
     assert stopped["dropped"] == (SMALL - stopped["small_taken"]) + 1, "each refused one is counted"
     assert stopped["small_ticks"] < 0.3 * TICKS_PER_MS, stopped
     assert stopped["large_ticks"] < 2 * TICKS_PER_MS, stopped
-    text = bytes(ord("!") + i % 90 for i in range(LARGE))
-    joined = [part for _, part in fragments(agent)]
-    assert b"".join(joined).count(text) == 2, "what was taken arrives whole"
-    assert len(joined) >= 2 * 14
+    return stopped, agent

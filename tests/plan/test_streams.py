@@ -53,6 +53,27 @@ def test_a_serial_line_has_room_for_the_longest_frame_with_every_byte_stuffed_bu
     assert plan(INT32, transport="udp")[0].send_buffer == 0
 
 
+def test_a_line_takes_large_reliable_messages_from_their_slots() -> None:
+    """Then its ring has what is copied: CREATE of 92 bytes, best-effort messages. Small ones are not worth the code."""
+
+    def kept(*written: Written, application: Application | None = None) -> tuple[bool, int]:
+        told = application or Application()
+        streams = plan_streams(told, "serial", written, 92, Diagnostics(), keeps_output=True)
+        return streams.keeps_output, streams.send_buffer
+
+    created, copied = 1 + 2 * (92 + 6) + 1 + 2, 1 + 2 * (412 + 6) + 1 + 2
+    assert kept(large(400)) == (True, created)
+    assert kept(large(100)) == (False, 1 + 2 * (112 + 6) + 1 + 2)
+    assert kept(large(400), large(300, reliable=False)) == (True, 1 + 2 * (312 + 6) + 1 + 2)
+    assert kept(large(400), large(400, reliable=False)) == (False, copied)
+    assert kept(large(60_000)) == (False, 1 + 2 * (512 + 6) + 1 + 2), (
+        "fragments are made where they are sent from"
+    )
+    assert kept(large(400), application=Application(on_full="drop_oldest")) == (False, copied)
+    asked = [Application(transport=Transport("serial", send_buffer=size)) for size in (400, 2000)]
+    assert [kept(large(400), application=a) for a in asked] == [(True, 400), (False, 2000)]
+
+
 def test_a_serial_line_has_room_for_one_message_of_each_best_effort_writer() -> None:
     streams, _ = plan(*[large(100, reliable=False)] * 5, transport="serial")
     assert 5 * (112 + 7) < streams.send_buffer < 5 * (112 + 7 + 8)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 from dataclasses import replace
 from pathlib import Path
@@ -10,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from microros_gen.plan.runtime import RuntimePlan
+from microros_gen.sources.components import components_folder
 from runtime.harness import POOL, SANITIZE, Tree, build, compilers, components, render
 
 ARENA = replace(POOL, arena_size=1024)
@@ -30,6 +32,29 @@ def test_unit(unit: str, plan: RuntimePlan, flags: tuple[str, ...], tmp_path: Pa
     names = [name for name in components(plan) if name != "port_posix"]
     tree = render(tmp_path, plan, names)
     program = build(tree, ["port_fake.c", unit], "unit", flags=flags)
+    done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+BOARD = """\
+#pragma once
+#define PORT_BOARD_RING_SIZE 64u
+#define PORT_BOARD_OUTPUT_SIZE 61u
+#define PORT_BOARD_UART_BAUD 115200u
+#define PORT_BOARD_KEEPS_OUTPUT true
+"""
+
+
+def test_messages_that_the_line_does_not_copy(tmp_path: Path) -> None:
+    """The stream, the framing and a board's line, without the board."""
+    plan = replace(POOL, transport="serial", keeps_output=True, reliable_slots=1, reliable_slot_size=300)
+    tree = render(tmp_path, plan, [name for name in components(plan) if name != "port_posix"])
+    bare = components_folder() / "port_bare"
+    shutil.copytree(bare / "include", tree.include, dirs_exist_ok=True)
+    shutil.copy(bare / "src" / "port_bare_wait.c", tree.include)
+    shutil.copy(bare / "src" / "port_bare_serial.c", tree.include)
+    (tree.include / "microros" / "port_board.h").write_text(BOARD)
+    program = build(tree, ["port_fake.c", "unit_kept.c"], "unit")
     done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 0, done.stderr
 

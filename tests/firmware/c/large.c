@@ -14,7 +14,11 @@
 
 #define SYST_CVR 0xe000e018u
 
-enum { LARGE_COUNT = 3, SMALL_COUNT = 4000, LARGE_SIZE = 7000, PAUSE_MS = 1500, STEP_MS = 2, FLUSH_MS = 20 };
+#ifndef LARGE_SIZE
+#define LARGE_SIZE 7000
+#endif
+
+enum { LARGE_COUNT = 3, SMALL_COUNT = 4000, PAUSE_MS = 1500, STEP_MS = 2, FLUSH_MS = 20 };
 
 typedef struct large_report_t {
   uint32_t ready;     /* 1: the line may stop now */
@@ -87,7 +91,7 @@ int main(void)
   rmw_context_t * context;
 
   for (uint32_t i = 0; i < LARGE_SIZE; ++i) {
-    text[i] = (char)('!' + i % 90u);
+    text[i] = (char)('%' + i % 90u); /* 7D and 7E among them */
   }
   if (!start()) {
     return 1;

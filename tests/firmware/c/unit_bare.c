@@ -158,6 +158,71 @@ static void takes_what_has_room_and_waits_for_nothing(void)
   }
 }
 
+/* A message that is not copied: KEPT_SIZE bytes, which count up from `first`. */
+typedef struct source_t {
+  uint8_t given;
+  uint8_t first;
+} source_t;
+
+enum { KEPT_SIZE = 200 };
+
+static int32_t give(void * context)
+{
+  source_t * source = (source_t *)context;
+
+  if (source->given == KEPT_SIZE) {
+    return -1;
+  }
+  ++source->given;
+  return (uint8_t)(source->first + source->given - 1u);
+}
+
+/* It goes behind what was written before, and in front of what is written while it goes; it may be larger than the ring. */
+static void sends_what_it_does_not_copy_in_its_turn(void)
+{
+  uint8_t text[PORT_BOARD_OUTPUT_SIZE] = {0};
+  uint8_t byte = 0;
+
+  for (uint32_t round = 0; round < 200u; ++round) {
+    const uint32_t before = round % OUTPUT_FITS;
+    source_t source = {0, (uint8_t)round};
+
+    EXPECT(port_serial_write(NULL, text, before));
+    asked = 0;
+    EXPECT(!port_serial_has_kept(NULL) && port_serial_send_kept(NULL, give, &source) && asked == 1u);
+    EXPECT(port_serial_has_kept(NULL) && !port_serial_send_kept(NULL, give, &source));
+    EXPECT(port_serial_room(NULL) == OUTPUT_FITS - before);
+    for (uint32_t i = 0; i < before; ++i) {
+      EXPECT(port_uart_next(&byte) && byte == 0u);
+    }
+    text[0] = 99;
+    EXPECT(port_serial_write(NULL, text, 1));
+    for (uint32_t i = 0; i < KEPT_SIZE; ++i) {
+      EXPECT(!port_serial_is_idle(NULL) && port_uart_next(&byte) && byte == (uint8_t)(round + i));
+    }
+    EXPECT(port_serial_has_kept(NULL) && port_uart_next(&byte) && byte == 99u && !port_serial_has_kept(NULL));
+    EXPECT(port_serial_is_idle(NULL) && !port_uart_next(&byte));
+    text[0] = 0;
+  }
+}
+
+static void breaks_off_what_it_does_not_copy(void)
+{
+  port_serial_t serial;
+  source_t source = {0, 0};
+  uint8_t byte = 7;
+
+  EXPECT(port_serial_open(&serial, "", PORT_BOARD_UART_BAUD));
+  EXPECT(port_serial_send_kept(&serial, give, &source) && port_uart_next(&byte));
+  EXPECT(port_serial_write(&serial, &byte, 1));
+  port_serial_break_off(&serial);
+  EXPECT(
+    !port_serial_has_kept(&serial) && port_uart_next(&byte) && !port_uart_next(&byte) && source.given == 1u);
+  EXPECT(port_serial_send_kept(&serial, give, &source));
+  port_serial_close(&serial);
+  EXPECT(port_serial_is_idle(&serial) && !port_uart_next(&byte) && source.given == 1u);
+}
+
 static void gives_up_what_was_not_sent_when_it_is_closed(void)
 {
   port_serial_t serial;
@@ -177,5 +242,7 @@ int main(void)
   opens_at_its_own_speed();
   takes_what_has_room_and_waits_for_nothing();
   gives_up_what_was_not_sent_when_it_is_closed();
+  sends_what_it_does_not_copy_in_its_turn();
+  breaks_off_what_it_does_not_copy();
   return failures == 0 ? 0 : 1;
 }

@@ -89,9 +89,8 @@ static void any_streams(void)
   xrce_stream_reliable_input_t * in = &client.reliable_input;
 
   proof_any(out->message, sizeof(out->message));
-  out->heartbeat_ms = proof_u32();
+  out->due_ms = proof_u32();
   out->since_ms = proof_u32();
-  out->held_until_ms = proof_u32();
   out->held = proof_bool();
   out->count = (uint8_t)Frama_C_interval(0, MICROROS_RELIABLE_SLOTS);
   out->head = (uint8_t)Frama_C_interval(0, MICROROS_RELIABLE_SLOTS - 1);

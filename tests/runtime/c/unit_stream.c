@@ -23,7 +23,7 @@ static void begin_at(uint16_t first)
 
 static void write_one(void)
 {
-  uint8_t * room = xrce_stream_reliable_reserve(&stream);
+  uint8_t * room = xrce_stream_reliable_reserve(&stream, &session);
 
   CHECK(room != NULL);
   memset(room, 0xab, MICROROS_RELIABLE_SLOT_SIZE - XRCE_MESSAGE_HEADER);
@@ -46,7 +46,7 @@ static void test_wrap(void)
   for (int i = 0; i < 4; ++i) {
     write_one();
   }
-  CHECK(xrce_stream_reliable_reserve(&stream) == NULL);
+  CHECK(xrce_stream_reliable_reserve(&stream, &session) == NULL);
   CHECK(session.statistics.sent == 4u);
   for (uint8_t i = 0; i < 4u; ++i) {
     CHECK(xrce_get_le16(&stream.message[i][2]) == (uint16_t)(0xfffeu + i));
@@ -115,8 +115,8 @@ static void test_drop_oldest(void)
     write_one();
   }
   CHECK(xrce_stream_reliable_drop_oldest(&stream, &session, 5));
-  CHECK(stream.first == 0u && stream.count == 3u && stream.heartbeat_ms == 5u);
-  CHECK(xrce_stream_reliable_reserve(&stream) == &stream.message[0][XRCE_MESSAGE_HEADER]);
+  CHECK(stream.first == 0u && stream.count == 3u && stream.due_ms == 5u);
+  CHECK(xrce_stream_reliable_reserve(&stream, &session) == &stream.message[0][XRCE_MESSAGE_HEADER]);
 }
 
 static void test_a_new_session_numbers_from_zero(void)

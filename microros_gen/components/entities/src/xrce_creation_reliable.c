@@ -18,7 +18,7 @@ bool xrce_creation_begin(xrce_client_t * client, uint32_t now)
       return false; /* the agent has to acknowledge these first */
     }
     stream->held = true;
-    stream->held_until_ms = now;
+    stream->due_ms = now;
   }
   return true;
 }

@@ -21,6 +21,14 @@ static struct {
   volatile uint8_t bytes[PORT_BOARD_OUTPUT_SIZE];
 } port_output;
 
+/* A message that is not copied: it goes when everything in front of `turn` has gone. The task sets `next` while it is NULL, and
+ * both may end it. */
+static struct {
+  volatile port_serial_next_t next;
+  void * context;
+  uint32_t turn;
+} port_kept;
+
 /* Returns the place `count` bytes further, which is not beyond the end. */
 static uint32_t output_after(uint32_t at, uint32_t count)
 {
@@ -77,6 +85,7 @@ void port_serial_close(port_serial_t * serial)
 {
   serial->handle = 0;
   port_uart_stop();
+  port_serial_break_off(serial);
   port_output.sent = port_output.put;
 }
 
@@ -105,16 +114,62 @@ bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size
   return true;
 }
 
-bool port_serial_is_idle(port_serial_t * serial)
+bool port_serial_send_kept(port_serial_t * serial, port_serial_next_t next, void * context)
+{
+  if (port_serial_has_kept(serial)) {
+    return false;
+  }
+  port_kept.context = context;
+  port_kept.turn = port_output.put;
+  port_kept.next = next; /* from here on it is the interrupt's */
+  port_uart_send();
+  return true;
+}
+
+void port_serial_break_off(port_serial_t * serial)
 {
   (void)serial;
-  return port_output.sent == port_output.put;
+  if (PORT_BOARD_KEEPS_OUTPUT) {
+    port_kept.next = NULL;
+  }
+}
+
+bool port_serial_has_kept(const port_serial_t * serial)
+{
+  (void)serial;
+  return PORT_BOARD_KEEPS_OUTPUT && port_kept.next != NULL;
+}
+
+bool port_serial_is_idle(port_serial_t * serial)
+{
+  return port_output.sent == port_output.put && !port_serial_has_kept(serial);
+}
+
+/* Takes a byte of a message that is not copied, when its turn has come. */
+static bool kept_next(uint32_t sent, uint8_t * byte)
+{
+  const port_serial_next_t next = port_kept.next;
+  int32_t given;
+
+  if (next == NULL || sent != port_kept.turn) {
+    return false;
+  }
+  given = next(port_kept.context);
+  if (given < 0) {
+    port_kept.next = NULL;
+    return false;
+  }
+  *byte = (uint8_t)given;
+  return true;
 }
 
 bool port_uart_next(uint8_t * byte)
 {
   const uint32_t sent = port_output.sent;
 
+  if (PORT_BOARD_KEEPS_OUTPUT && kept_next(sent, byte)) {
+    return true;
+  }
   if (sent == port_output.put) {
     return false;
   }

@@ -48,8 +48,9 @@ static uint16_t stream_pieces(const xrce_stream_reliable_t * stream, uint8_t i)
   return size <= WHOLE_SIZE ? 1u : (uint16_t)((size + PIECE_SIZE - 1u) / PIECE_SIZE);
 }
 
-uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream)
+uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream, xrce_session_t * session)
 {
+  (void)session;
   if (stream->count == MICROROS_RELIABLE_SLOTS) {
     return NULL;
   }
@@ -245,7 +246,7 @@ void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now)
   stream->blocked = false;
   stream->ending = true;
   stream->held = true;
-  stream->held_until_ms = now + MICROROS_CREATE_TIMEOUT_MS;
+  stream->due_ms = now + MICROROS_CREATE_TIMEOUT_MS;
 }
 
 void xrce_stream_reliable_step(
@@ -254,12 +255,12 @@ void xrce_stream_reliable_step(
   if (session->state != XRCE_READY) {
     return;
   }
-  if (stream->held && (settled || xrce_is_due(now, stream->held_until_ms))) {
+  if (stream->held && (settled || xrce_is_due(now, stream->due_ms))) {
     stream->held = false;
     session->statistics.resent += stream->count;
   }
   stream_flow(stream, session, now);
-  if (stream->sent != 0u && !stream->held && !stream->blocked && xrce_is_due(now, stream->heartbeat_ms)) {
+  if (stream->sent != 0u && !stream->held && !stream->blocked && xrce_is_due(now, stream->due_ms)) {
     xrce_stream_reliable_heartbeat(stream, session, stream->sent, now);
     stream->again = 0;
   }
@@ -287,7 +288,7 @@ bool xrce_stream_reliable_on_acknack(
     }
     place = 0;
   } else if (missing != 0u) {
-    stream->heartbeat_ms = now; /* it waits for what was dropped: tell it not to */
+    stream->due_ms = now; /* it waits for what was dropped: tell it not to */
   }
   for (; missing != 0u; missing >>= 1) {
     /* Every acknowledgement behind a gap names it, so each number is sent again once between two HEARTBEATs. */

@@ -14,6 +14,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "microros_config.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -21,7 +23,7 @@ extern "C" {
 /* The transport that frames go over: whoever selects this component has one. */
 struct xrce_transport_t;
 
-enum { XRCE_FRAMING_CHUNK = 32 };
+enum { XRCE_FRAMING_CHUNK = MICROROS_FRAMING_CHUNK };
 
 /* A frame that arrives. All zero: none is on its way. */
 typedef struct xrce_framing_t {
@@ -42,13 +44,25 @@ bool xrce_framing_send(struct xrce_transport_t * line, const uint8_t * message, 
  * Takes what has arrived until a frame is whole: returns the size of its message, 0 when there is none yet, -1
  * for a frame that was thrown away (broken off, stuffed wrongly, of another address, longer than `capacity`,
  * empty, CRC); only that frame is lost. `buffer` keeps the part that is there: give the same one until a message
- * came. Bytes between frames are skipped. One call takes 64 chunks at most.
+ * came. Bytes between frames are skipped. One call takes some 2,000 bytes at most.
  */
 int32_t xrce_framing_receive(
   xrce_framing_t * framing, struct xrce_transport_t * line, uint8_t * buffer, size_t capacity);
 
 /* Returns how many bytes of the buffer the frame on its way has touched at most. */
 uint32_t xrce_framing_arrived(const xrce_framing_t * framing);
+
+/* --- for this component alone --- */
+
+enum { XRCE_FRAME_FLAG = 0x7e, XRCE_FRAME_ESCAPE = 0x7d, XRCE_FRAME_FLIP = 0x20 };
+
+enum { XRCE_FRAME_ADDRESS_CLIENT = 0x01, XRCE_FRAME_ADDRESS_AGENT = 0x00 };
+
+/* Bytes before and after the payload, the flag left out. */
+enum { XRCE_FRAME_HEADER = 4, XRCE_FRAME_CRC = 2 };
+
+/* Returns the CRC of what `crc` is that of and `byte` behind it; it begins with 0. */
+uint16_t xrce_framing_crc(uint16_t crc, uint8_t byte);
 
 /* --- what the transport implements --- */
 

@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Frames a byte at a time: so the line's interrupt makes one out of a message that stays where it is. */
+#include "microros/xrce_framing_kept.h"
+
+/* What a frame that is copied goes to its line with. */
+enum { CHUNK = 16 };
+
+void xrce_frame_begin(xrce_frame_t * frame, const uint8_t * message, uint16_t size)
+{
+  frame->message = message;
+  frame->at = 0;
+  frame->size = size;
+  frame->crc = 0;
+  frame->stuffed = 0;
+}
+
+/* Returns the byte behind the flag and `at` others, unstuffed. */
+static uint8_t frame_byte(xrce_frame_t * frame, uint32_t at)
+{
+  if (at < XRCE_FRAME_HEADER) {
+    const uint32_t header =
+      XRCE_FRAME_ADDRESS_CLIENT | XRCE_FRAME_ADDRESS_AGENT << 8 | (uint32_t)frame->size << 16;
+
+    return (uint8_t)(header >> (8u * at) & 0xffu);
+  }
+  at -= XRCE_FRAME_HEADER;
+  if (at < frame->size) {
+    frame->crc = xrce_framing_crc(frame->crc, frame->message[at]);
+    return frame->message[at];
+  }
+  return (uint8_t)((uint32_t)frame->crc >> (8u * (at - frame->size)) & 0xffu);
+}
+
+int32_t xrce_frame_next(void * context)
+{
+  xrce_frame_t * frame = (xrce_frame_t *)context;
+  const uint32_t at = frame->at;
+  uint8_t byte = frame->stuffed;
+
+  frame->stuffed = 0;
+  if (byte != 0u) {
+    return byte;
+  }
+  if (at > (uint32_t)frame->size + XRCE_FRAME_HEADER + XRCE_FRAME_CRC) {
+    return -1;
+  }
+  frame->at = at + 1u;
+  if (at == 0u) {
+    return XRCE_FRAME_FLAG;
+  }
+  byte = frame_byte(frame, at - 1u);
+  if (byte == XRCE_FRAME_FLAG || byte == XRCE_FRAME_ESCAPE) {
+    frame->stuffed = byte ^ XRCE_FRAME_FLIP;
+    return XRCE_FRAME_ESCAPE;
+  }
+  return byte;
+}
+
+/* Returns how many bytes the frame has on the line. */
+static size_t frame_size(const uint8_t * message, uint16_t size)
+{
+  xrce_frame_t frame;
+  size_t count = 0;
+
+  xrce_frame_begin(&frame, message, size);
+  while (xrce_frame_next(&frame) >= 0) {
+    ++count;
+  }
+  return count;
+}
+
+/* The line gets a frame whole or not at all: so its room is asked for first. */
+bool xrce_framing_send(struct xrce_transport_t * line, const uint8_t * message, size_t size)
+{
+  xrce_frame_t frame;
+  uint8_t chunk[CHUNK];
+  size_t left;
+
+  if (size > UINT16_MAX) {
+    return false;
+  }
+  left = frame_size(message, (uint16_t)size);
+  if (left > xrce_line_room(line)) {
+    return false;
+  }
+  xrce_frame_begin(&frame, message, (uint16_t)size);
+  while (left != 0u) {
+    const size_t count = left < CHUNK ? left : (size_t)CHUNK;
+
+    for (size_t i = 0; i < count; ++i) {
+      chunk[i] = (uint8_t)((uint32_t)xrce_frame_next(&frame) & 0xffu);
+    }
+    if (!xrce_line_write(line, chunk, count)) {
+      return false;
+    }
+    left -= count;
+  }
+  return true;
+}
