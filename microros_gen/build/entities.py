@@ -15,7 +15,8 @@ from microros_gen.plan.types_own_limits import without_topic
 
 MESSAGE_STORAGE = "storage of messages sent"
 _SOURCES = {"error_state": "error text", "message_pools": MESSAGE_STORAGE}
-SHARED_STREAMS = ("reliable stream", "best-effort stream", "input stream", "input buffer")
+INPUT_BUFFER = "input buffer"
+SHARED_STREAMS = ("reliable stream", "best-effort stream", "input stream", INPUT_BUFFER)
 
 
 @dataclass(frozen=True)
@@ -74,8 +75,8 @@ _MEMBERS = {
     "reliable": "reliable stream",
     "reliable_output": "reliable stream",
     "reliable_input": "input stream",
-    "input": "input buffer",
-    "latest": "input buffer",
+    "input": INPUT_BUFFER,
+    "latest": INPUT_BUFFER,
     "slots": "queues",
     "queues": "queues",
     "requests": "requests under way",
@@ -216,7 +217,7 @@ def _publishers(
 def _receivers(
     manifest: Mapping[str, Any], kind: str, by_use: Mapping[str, int], flash: Mapping[str, int]
 ) -> Iterator[Entity]:
-    """Yield what receives, of one kind; the bytes of its queue are its own."""
+    """Yield what receives, of one kind; the bytes of its queue are its own, unless it waits in the input buffer."""
     key = RECEIVING[kind]
     declared = manifest["entities"].get(key, [])
     count = int(manifest["pools"].get(key, 0))
@@ -225,16 +226,17 @@ def _receivers(
         known = declared[index] if index < len(declared) else None
         kinds = messages_of(known["type"], manifest) if known else set(manifest["types"])
         parts = with_parts(kinds, manifest)
+        lent = known is not None and known.get("slot") == INPUT_BUFFER
         queue = known["queue"] * known["slot_size"] if known else by_use.get("queues", 0) // places
         yield Entity(
             kind,
             shown_endpoint(known) if known else f"{kind} {index} of the pool",
             known["type"] if known else None,
-            by_use.get(f"{kind} {index}", 0) + queue,
+            by_use.get(f"{kind} {index}", 0) + (0 if lent else queue),
             sum(flash.get(part, 0) for part in parts),
             sum(1 for other in declared if other["type"] == known["type"]) if known else count,
             sum(by_use.get(f"message of {name}", 0) for name in kinds),
-            (),
+            (Share(INPUT_BUFFER, by_use.get(INPUT_BUFFER, 0), places),) if lent else (),
         )
 
 

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 
 import pytest
 
@@ -79,3 +81,16 @@ def test_storage_that_the_library_binds_is_the_difference(builds: Builds) -> Non
     line = "udp, reliable"
     kept, none = (_ram(builds, _built(builds, line, 360, s), line, 360) for s in ("planned", "none"))
     assert 2 * 4 * 360 <= kept - none < 2 * 4 * 360 + 64
+
+
+@pytest.mark.parametrize(("line", "lent"), [("udp, best effort", True), ("udp, reliable", False)])
+def test_size_counts_a_slot_in_the_input_buffer_once(builds: Builds, line: str, lent: bool) -> None:
+    """What waits there is no memory of the subscription's own."""
+    need(CORTEX_M4)
+    built = _built(builds, line, 360)
+    command = [sys.executable, "-m", "microros_gen", "size", str(built.out), "--format", "json"]
+    said = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+    [scan] = [entity for entity in said["entities"] if entity["kind"] == "subscription"]
+    buffer = sum(part["bytes"] for part in said["ram"] if part["use"] == "input buffer")
+    assert (buffer > _largest(built)) == lent == (scan["ram"] < 200)
+    assert scan["shared"] == ([{"what": "input buffer", "bytes": buffer, "users": 1}] if lent else [])

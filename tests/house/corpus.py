@@ -132,6 +132,9 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "prints_uart_riscv": _BOTH + "target: {name: own.yaml}\n",
         "prints_semihosting": _BOTH + "target: {name: own.yaml}\n",
         "prints_nowhere": _BOTH + "target: {name: own.yaml}\n",
+        "kept_output": _NODES
+        + "      - {topic: large, type: std_msgs/msg/String}\nlimits: {'*': {string: 300}}\n"
+        + "target: {name: qemu-mps2-an386}\n",
         "lent_serial": _READER + _ALONE + _SERIAL,
         "lent_tcp": _READER + _ALONE + "transport: {type: tcp, agent: '127.0.0.1:8888'}\n",
     }
