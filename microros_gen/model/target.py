@@ -63,13 +63,19 @@ class Memory:
 class Stdio:
     """Where the C library's standard output goes: `to` is none, semihosting, uart or application.
 
-    `driver`, `base` and `baud` are those of the uart.
+    `driver`, `base` and `baud` are those of the uart; `floats`: newlib's printf formats %f.
     """
 
     to: str
     driver: str = "none"
     base: int = 0
     baud: int = 115_200
+    floats: bool = False
+
+    @property
+    def memory(self) -> int:
+        """Bytes that newlib may take with malloc: its streams need 436, the digits of a double up to 3,000 more."""
+        return 4096 if self.floats else 512
 
 
 @dataclass(frozen=True)

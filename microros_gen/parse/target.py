@@ -115,7 +115,8 @@ def _stdio(node: YamlNode | None) -> Stdio | None:
         return None
     base, baud = (int_of(child(node, key)) for key in ("base", "baud"))
     driver = text_of(child(node, "driver")) or Stdio.driver
-    return Stdio(text_of(child(node, "to")) or "", driver, base or 0, baud or Stdio.baud)
+    floats = bool_of(child(node, "floats")) or False
+    return Stdio(text_of(child(node, "to")) or "", driver, base or 0, baud or Stdio.baud, floats)
 
 
 def _uart(node: YamlNode | None) -> Uart | None:
@@ -241,6 +242,10 @@ def _check_stdio(node: MappingNode, port: str, diagnostics: Diagnostics) -> None
             diagnostics.error(f"stdio: {to} has no `{key}`", found.span, f"Remove `{key}`, or take to: uart")
         if found is None and to == "uart" and key != "baud":
             diagnostics.error(f"'stdio' lacks the key '{key}'", (stdio or node).span, f"Add `{key}: …`")
+    floats = child(stdio, "floats")
+    if floats is not None and port != "port_cortex_m":
+        text = f"'stdio.floats' has no effect with {port}: its C library, picolibc, always formats %f"
+        diagnostics.error(text, floats.span, "Remove `floats`")
     driver = child(stdio, "driver")
     if driver is not None and to == "uart" and text_of(driver) not in PORTS.get(port, ()):
         has = ", ".join(name for name in PORTS.get(port, ()) if name in _STDIO_DRIVERS) or "none"

@@ -33,11 +33,14 @@ emulator:
   arguments: [-M, mps2-an386, -device, "loader,file=BOOT,addr=0,force-raw=on"]
 """
 PRINTED = "number 42 ff and text\nallocator there\nline 0\nline 1\nline 2\n"
+FLOATS = "".join(f"{number:.3f} {number:e}\n" for number in (-3.140625, 1.0e-300, 1.0e15, 2.25e-308))
 PRINTING = {
     "semihosting": ("qemu-mps2-an386", "{to: semihosting}"),
     "uart": ("qemu-mps2-an386", "{to: uart, driver: cmsdk, base: 0x40005000}"),
+    "float": ("qemu-mps2-an386", "{to: semihosting, floats: true}"),
     "none": ("qemu-mps2-an386", "{to: none}"),
     "riscv semihosting": ("qemu-riscv32-virt", "{to: semihosting}"),
+    "riscv float": ("qemu-riscv32-virt", "{to: semihosting}"),
 }
 
 
@@ -94,7 +97,9 @@ def test_printf_goes_where_the_target_file_says(tmp_path: Path, way: str) -> Non
     assert {s for s in made.symbols() if NOT_NEEDED.fullmatch(s) or s.startswith("port_stdio")} == set(), (
         "the example does not print, so nothing of it is there"
     )
-    image = made.link(C_FILES / "prints.c", tmp_path / "prints.elf")
+    floats = ("-DPRINTS_FLOATS",) if way.endswith("float") else ()
+    image = made.link(C_FILES / "prints.c", tmp_path / "prints.elf", *floats)
+    expected = "" if way == "none" else PRINTED + FLOATS * len(floats)
     emulator = made.target.emulator
     assert emulator is not None
     uart = tmp_path / "uart.txt"
@@ -109,12 +114,12 @@ def test_printf_goes_where_the_target_file_says(tmp_path: Path, way: str) -> Non
         try:
             end = time.monotonic() + (1.5 if way == "none" else 30)
             found = uart if way == "uart" else printed
-            while time.monotonic() < end and (not found.exists() or len(found.read_text()) < len(PRINTED)):
+            while time.monotonic() < end and (not found.exists() or len(found.read_text()) < len(expected)):
                 time.sleep(0.05)
         finally:
             process.kill()
             process.wait(10)
-    assert found.read_text() == ("" if way == "none" else PRINTED)
+    assert found.read_text() == expected
 
 
 @pytest.mark.parametrize(
@@ -122,6 +127,7 @@ def test_printf_goes_where_the_target_file_says(tmp_path: Path, way: str) -> Non
     [
         ("flash: {origin: 0, size: 4 MiB, offset: 100}\n", "is no multiple of 128. Set flash.offset: 128"),
         ("stdio: {to: uart, driver: cmsdk, base: 0x40004000}\n", "'stdio' of mine prints to the UART of the agent"),
+        ("port: port_riscv\nstdio: {to: none, floats: true}\n", "'stdio.floats' has no effect with port_riscv"),
         ("memories: {fast: {origin: 0x21000000, size: 1 KiB, holds: [stack]}}\n", "a stack of 2048 bytes leaves"),
     ],
 )  # fmt: skip

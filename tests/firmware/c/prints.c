@@ -14,6 +14,13 @@ int main(void)
   for (unsigned i = 0; i < 3u; ++i) {
     (void)printf("line %u\n", i);
   }
+#ifdef PRINTS_FLOATS
+  static const double numbers[] = {-3.140625, 1.0e-300, 1.0e15, 2.25e-308};
+
+  for (unsigned i = 0; i < sizeof(numbers) / sizeof(numbers[0]); ++i) {
+    (void)printf("%.3f %e\n", numbers[i], numbers[i]);
+  }
+#endif
   for (;;) {
     rclc_sleep_ms(100);
   }

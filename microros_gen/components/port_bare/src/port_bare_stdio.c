@@ -3,10 +3,12 @@
 #define _XOPEN_SOURCE 700
 /*
  * What the C library needs for printf: `stdio` of the target file. Linked when the program prints, and not else. There is no
- * heap: newlib's three streams take 436 bytes of a block of their own the first time, and whatever asks for more gets
- * nothing, so %f, which newlib formats with malloc, is not for here. picolibc takes no memory at all.
+ * heap: newlib's malloc has one block, and returns NULL when that is used up. Its three streams need 436 bytes the first time,
+ * the digits of a double (`floats`) up to 3,000 more. picolibc takes no memory at all.
  */
 #include "microros/port_stdio.h"
+
+#include "microros/port_board.h"
 
 #include <errno.h>
 #include <stddef.h>
@@ -45,20 +47,28 @@ void _exit(int status);
 int _kill(int process, int number);
 int _getpid(void);
 
-enum { POOL_SIZE = 512 };
-
 /* Only the streams of newlib: a buffer for each would take 1024 more, and without one each byte goes at once. */
 static union {
   uint64_t alignment;
-  char bytes[POOL_SIZE];
+  char bytes[PORT_BOARD_STDIO_MEMORY];
 } port_stdio_pool;
+
+#if PORT_BOARD_STDIO_FLOATS
+/* newlib-nano refers to its formatter of %f weakly, so it is missing unless something else refers to it: this does, in a program
+ * that prints. The prototype is newlib's own affair; the function is not called from here. */
+int _printf_float(void);
+static int (*const volatile port_stdio_floats)(void) = _printf_float;
+#endif
 
 void * _sbrk(ptrdiff_t increment)
 {
   static ptrdiff_t used;
   const ptrdiff_t first = used;
 
-  if (increment < 0 || increment > (ptrdiff_t)POOL_SIZE - used) {
+#if PORT_BOARD_STDIO_FLOATS
+  (void)port_stdio_floats;
+#endif
+  if (increment < 0 || increment > (ptrdiff_t)PORT_BOARD_STDIO_MEMORY - used) {
     errno = ENOMEM;
     return (void *)-1;
   }
