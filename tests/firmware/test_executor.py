@@ -47,7 +47,7 @@ def test_a_timer_publishes_under_the_executor(builds: Builds, kind: str) -> None
 
 @pytest.mark.parametrize(
     ("listens", "text", "ram"),
-    [(False, 11650, 1180), (True, 15900, 1390)],
+    [(False, 11250, 1000), (True, 15500, 1220)],
     ids=["talks", "talks-and-listens"],
 )
 def test_its_size(builds: Builds, listens: bool, text: int, ram: int) -> None:
@@ -64,7 +64,7 @@ def test_the_size_of_a_server(builds: Builds) -> None:
     need(NAME)
     built = builds.build(NAME, SERVES)
     image = builds.application(built, "setbool.c")
-    assert within(built, image, 14600, 2020)
+    assert within(built, image, 14300, 1840)
     assert bounded_stack(built, image) <= 1320, "every interrupt on top of it"
 
 
