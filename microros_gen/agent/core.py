@@ -90,7 +90,7 @@ class Agent:
         self._relief = Relief(memory, self.clients, self._lobby.gate, self._lobby.dismiss, log)
         self._operations = Operations(log, self._deliveries, self._turns)
         self._processor = Processor(
-            self.clients, limits, self._operations, self._lobby, self._turns, fair, graph, self._refuse_of
+            self.clients, limits, self._operations, self._lobby, self._turns, graph, self._refuse_of
         )
 
     @property

@@ -7,7 +7,6 @@ from collections.abc import Callable
 
 from microros_gen.agent.clients import Client, ClientTable, Job
 from microros_gen.agent.cutting import TurnOverError
-from microros_gen.agent.fairness import TURN_S, Fairness
 from microros_gen.agent.graph_work import GraphWork
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.lobby import Lobby
@@ -51,7 +50,6 @@ class Processor:
         operations: Operations,
         lobby: Lobby,
         turns: Turns,
-        fair: Fairness,
         graph: GraphWork,
         refuse: Refuse,
     ) -> None:
@@ -60,7 +58,6 @@ class Processor:
         self._operations = operations
         self._lobby = lobby
         self._turns = turns
-        self._fair = fair
         self._graph = graph
         self._refuse = refuse
         self._clock = turns.clock
@@ -224,19 +221,11 @@ class Processor:
 
     def try_again(self, now: float) -> None:
         """Go on with streams that stopped: soon after each sample that DDS took, else at growing intervals."""
-        due = [client for client in self._stopped if client.retry_at <= now]
-        self._fair.order(due)
-        for client in due:
-            began = self._clock()
-            if began >= now + TURN_S:
-                break
-            self._turns.start(began)
-            self._go_on(client, began)
-            ended = self._clock()
-            client.account.bill(ended - began, ended)
+        self._turns.round([client for client in self._stopped if client.retry_at <= now], now, self._go_on)
         self.flush()
 
-    def _go_on(self, client: Client, began: float) -> None:
+    def _go_on(self, client: Client) -> None:
+        began = self._clock()
         known = self._clients.with_key(client.session.link.key) is client
         if known and client.asleep:
             client.retry_at = began + LONGEST_RETRY_S

@@ -95,14 +95,17 @@ class Turns:
 
     def run(self, now: float) -> None:
         """Let clients go on in turn, for a round."""
-        clients = [client for client in self._waiting if client.turn_at <= now]
+        self.round([client for client in self._waiting if client.turn_at <= now], now, self._go_on)
+
+    def round(self, clients: list[Client], now: float, go_on: Callable[[Client], None]) -> None:
+        """Let some clients go on, in their order; those for whom the time does not suffice stay as they are."""
         self._fair.order(clients)
         for client in clients:
             began = self.clock()
             if began >= now + TURN_S:
                 return
             self.start(began)
-            self._go_on(client)
+            go_on(client)
             ended = self.clock()
             client.account.bill(ended - began, ended)
 
