@@ -198,11 +198,13 @@ def _check_range(parameter: ParameterDecl, node: YamlNode | None, diagnostics: D
 
 def _executor(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> ExecutorDecl:
     handles = tuple(h for i in items(child(item, "handles")) if (h := named_of(i)) is not None)
-    known = {t.name for t in node.timers} | {e.topic for e in node.endpoints}
+    known = {t.name for t in node.timers} | {e.topic for e in node.endpoints if e.kind != "publisher"}
     for handle in handles:
         if handle.name not in known:
             hint = nearest(handle.name, known) or (f"There are {', '.join(sorted(known))}" if known else None)
-            diagnostics.error(f"the node has no timer, topic or service '{handle.name}'", handle.span, hint)
+            diagnostics.error(
+                f"the node has no timer, subscription or service '{handle.name}'", handle.span, hint
+            )
     timeout = time_of(child(item, "timeout"))
     return ExecutorDecl(text_of(child(item, "name")) or "", handles, timeout, item.span)
 

@@ -82,7 +82,11 @@ def _places(application: Application, key: str, declared: int, diagnostics: Diag
 
 
 def _handles(node: NodeDecl, executor: ExecutorDecl) -> int:
-    """Return how many handles an executor has: those that it names, or all that its node has."""
-    return len(executor.handles) or len(node.timers) + sum(
-        e.kind != "publisher" and not e.of_the_library for e in node.endpoints
-    )
+    """Return how many handles an executor has: those that it names, or all that its node has.
+
+    A name may be that of a service and of a client; a name before `remap:` is what the sources have.
+    """
+    names = {handle.name for handle in executor.handles}
+    received = [e for e in node.endpoints if e.kind != "publisher" and not e.of_the_library]
+    timers = sum(not names or timer.name in names for timer in node.timers)
+    return timers + sum(not names or (e.given or e.topic) in names for e in received)

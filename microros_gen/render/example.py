@@ -13,6 +13,7 @@ from microros_gen.plan.example import MemberValue, example_node, example_topics,
 from microros_gen.plan.project import Project
 from microros_gen.plan.types import TypePlan
 from microros_gen.plan.types_names import include_path, snake_case
+from microros_gen.render.example_running import Received, RunningView, Sender, running_view
 from microros_gen.render.example_services import ServiceView, service_views
 
 
@@ -61,11 +62,12 @@ class SubscriptionView(EndpointView):
 
     format: str
     value: str
+    received: Received
 
 
 @dataclass(frozen=True)
 class ExampleView:
-    """The whole example; `heading` is what its comment says of it."""
+    """The whole example; `heading` is what its comment says of it, `running` what an executor runs, if there is one."""
 
     title: str
     heading: str
@@ -81,6 +83,9 @@ class ExampleView:
     ros_time: bool
     has_epoch: bool
     shows_time: bool
+    running: RunningView | None
+    needs_port: bool
+    has_period: bool
 
 
 def example_view(project: Project) -> ExampleView:
@@ -93,27 +98,44 @@ def example_view(project: Project) -> ExampleView:
     includes = {include_path(types[name].files.header) for name in used}
     includes |= {include_path(types[name].files.storage) for name in used if types[name].storage}
     views = tuple(p.view for p in publishers)
-    shows_time = project.runtime.has_ros_time and not (views or subscriptions or project.runtime.serves)
     services = service_views(project, tuple(node.variable for node in nodes))
+    shows_time = project.runtime.has_ros_time and not (
+        views or subscriptions or project.runtime.serves or project.runtime.has_timers
+    )
+    running = None
+    if not shows_time:
+        running = running_view(
+            project,
+            [node.variable for node in nodes],
+            [Sender(view.function, view.node, view.topic) for view in views],
+            [view.received for _, view in subscriptions],
+            services,
+        )
     includes |= {include for service in services for include in service.includes}
     puts_text = any(view.texts for view in views) or any(service.filling.texts for service in services)
     if puts_text:
         includes.add("rosidl_runtime_c/string.h")
+    uses_time = any(view.stamps for view in views) or any(s.filling.stamps for s in services)
+    waits = running is not None and not running.timers
+    has_period = running is None or waits or not project.runtime.timers
     return ExampleView(
         title=project.name,
         heading=f"An application for {project.name}, to start from: copy it out of this folder and change it.",
-        summary=_summary(views, [view for _, view in subscriptions], services, shows_time),
+        summary=_summary(views, [view for _, view in subscriptions], services, shows_time, running),
         includes=tuple(sorted(includes)),
         nodes=nodes,
         publishers=views,
         subscriptions=tuple(view for _, view in subscriptions),
         services=services,
         puts_text=puts_text,
-        uses_time=any(view.stamps for view in views) or any(s.filling.stamps for s in services),
+        uses_time=uses_time,
         hosted=project.target.hosted,
         ros_time=project.runtime.has_ros_time,
         has_epoch=project.target.hosted or project.selection.has("time_sync"),
         shows_time=shows_time,
+        running=running,
+        needs_port=(uses_time and not project.runtime.has_ros_time) or waits,
+        has_period=has_period,
     )
 
 
@@ -163,9 +185,11 @@ def _summary(
     subscriptions: Sequence[SubscriptionView],
     services: Sequence[ServiceView],
     shows_time: bool,
+    running: RunningView | None,
 ) -> str:
     """Return what the example does, as a sentence without its end."""
-    every = "every EXAMPLE_PERIOD_MS milliseconds"
+    has_timers = running is not None and bool(running.timers)
+    every = "with each call of its timers" if has_timers else "every EXAMPLE_PERIOD_MS milliseconds"
     if shows_time:
         return f"looks {every} what time it is on /clock"
     said = []
@@ -174,7 +198,7 @@ def _summary(
         said.append(f"publishes {written}" + ("" if subscriptions else f" {every}"))
     if subscriptions:
         read = ", ".join(f"{s.package}/msg/{s.type} on {s.topic}" for s in subscriptions)
-        said.append(f"looks {every} for {read}")
+        said.append(f"looks {every} for {read}" if running is None else f"has an executor take {read}")
     for kind, does in (("service", "answers what it is asked as"), ("client", f"asks {every}")):
         named = ", ".join(f"{s.name} ({s.package}/srv/{s.type})" for s in services if s.kind == kind)
         said += [f"{does} {named}"] if named else []
@@ -232,6 +256,16 @@ def _subscription(
         storage=storage,
         format=shown.format if shown else "",
         value=shown.expression.format(message=name) if shown else "",
+        received=Received(
+            variable=f"subscription_{index}",
+            node=node.variable,
+            topic=endpoint.given or endpoint.topic,
+            message=name,
+            c_type=plan.c_name,
+            callback=f"on_{name}",
+            format=shown.format if shown else "",
+            value=shown.expression.replace("{message}.", "received->") if shown else "",
+        ),
     )
 
 

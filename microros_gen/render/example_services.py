@@ -28,6 +28,7 @@ class MessageView:
 class ServiceView:
     """A service server or client of the example, by `kind`.
 
+    `function` is called for what comes to a server, or sends a request; `reply_function` for what comes to a client.
     `sent` is filled as `filling` says; of `received` the first member that can be printed is `format` and `value`, both
     empty where it has none.
     """
@@ -37,6 +38,7 @@ class ServiceView:
     node: str
     node_index: int
     function: str
+    reply_function: str
     package: str
     type: str
     name: str
@@ -112,6 +114,7 @@ def _view(
         node=node[0],
         node_index=node[1],
         function=f"{'serve' if is_server else 'ask'}_{own}",
+        reply_function="" if is_server else f"on_reply_of_{own}",
         package=service.package,
         type=service.name,
         name=written,

@@ -209,7 +209,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "unknown handle": (
         f"{NODE}    timers: [{{name: tick, period: 1 s}}]\n    executors: [{{name: e, handles: [tik]}}]\n",
-        "f:4:37: error: the node has no timer, topic or service 'tik'. Did you mean 'tick'?",
+        "f:4:37: error: the node has no timer, subscription or service 'tik'. Did you mean 'tick'?",
     ),
     "host name": (
         'transport: {agent: "robot.local:8888"}\n',
