@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 @output_option
 @click.option(
     "--depfile",
-    type=click.Path(path_type=Path),
+    type=click.Path(path_type=Path, dir_okay=False),
     metavar="FILE",
     help="Write what the output was made from, as a dependency file for make, Ninja and CMake.",
 )

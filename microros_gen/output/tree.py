@@ -65,12 +65,16 @@ def write_tree(out: Path, files: Mapping[str, bytes]) -> WriteReport:
 
 
 def check_build_folders(out: Path) -> None:
-    """Raise UserError when compiling in `out` would write through a symbolic link."""
+    """Raise UserError when compiling in `out` would write through a symbolic link, or into a FIFO or device."""
     for name in BUILD_FOLDERS:
         for folder, folders, files in os.walk(out / name):
             _refuse_links(
                 out, ((Path(folder) / f).relative_to(out).as_posix() for f in (*folders, *files)), True
             )
+            for place in (Path(folder) / name for name in files):
+                if place.exists() and not place.is_file():
+                    message = f"{place} is not a regular file"
+                    raise UserError([Diagnostic(message, hint="Remove it; nothing was compiled")])
     _refuse_links(out, BUILD_FOLDERS, True)
 
 

@@ -91,3 +91,10 @@ def test_a_tool_chain_file_is_that_of_one_target_without_an_operating_system(
     assert "-mcpu=cortex-m4" in printed.out
     assert "no NAME is given" in run("targets", "--format", "cmake").err
     assert "target host has no tool-chain file" in run("targets", "host", "--format", "cmake").err
+
+
+def test_a_depfile_is_no_folder(run: Runner, folder: Path) -> None:
+    refused = run("generate", "--profile", "pure_sender", "-o", "out", "--depfile", ".")
+    assert refused.status == 2
+    assert "is a directory" in refused.err
+    assert not (folder / "out").exists()

@@ -247,3 +247,13 @@ def test_a_first_run_that_was_interrupted_can_be_taken_up(
     monkeypatch.undo()
     write_tree(out, files)
     assert held(out) == files
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are FIFOs on POSIX alone")
+@pytest.mark.parametrize("name", ["tools.json", "stamps.json"])
+def test_a_build_does_not_write_into_a_fifo(tmp_path: Path, name: str) -> None:
+    """Opening it would wait for a reader without end."""
+    (tmp_path / ".build").mkdir()
+    os.mkfifo(tmp_path / ".build" / name)
+    with pytest.raises(UserError, match="is not a regular file"):
+        tree.check_build_folders(tmp_path)
