@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import pytest
 
+from microros_gen.plan.runtime import RuntimePlan
 from runtime.conftest import Bench
 from runtime.harness import POOL
 
@@ -204,6 +205,25 @@ def test_all_acked_waits_for_the_agent(bench: Bench) -> None:
     assert (result.code, result.slept) == (2, 25)
     client.agent.silent = False
     assert client.call("acked 0 -1").code == 0
+
+
+@pytest.mark.parametrize("plan", [POOL, replace(POOL, fragments=True)], ids=["whole", "in fragments"])
+def test_held_messages_wait_for_their_writers_however_long_creation_takes(
+    bench: Bench, plan: RuntimePlan
+) -> None:
+    """Ten objects, each within its time and all after more than that; an agent drops what comes before its writer."""
+    client = bench.connected(plan)
+    client.ok("publisher 1 0 Int32 second reliable")
+    client.ok("publisher 2 0 Int32 third reliable")
+    client.agent.silent = True
+    for index in range(3):
+        client.ok(f"publish {index} {index}")
+    client.agent.restart()
+    client.spin(POOL.liveliness_attempts + 3, POOL.liveliness_period_ms)
+    client.agent.silent = False
+    client.round_trip_ms = POOL.create_timeout_ms // 5
+    client.spin(200, 10)
+    assert [client.agent.values(index) for index in range(3)] == [[0], [1], [2]]
 
 
 def test_held_messages_go_out_when_one_entity_stays_refused(bench: Bench) -> None:

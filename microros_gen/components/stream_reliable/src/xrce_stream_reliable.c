@@ -99,7 +99,7 @@ void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now)
   stream->first = 0;
   stream->unsent = (uint16_t)(((uint32_t)1u << stream->count) - 1u);
   stream->held = true;
-  stream->due_ms = now + MICROROS_CREATE_TIMEOUT_MS;
+  stream->due_ms = now + XRCE_HELD_MS;
 }
 
 static void stream_release(xrce_stream_reliable_t * stream, xrce_session_t * session, uint32_t now)

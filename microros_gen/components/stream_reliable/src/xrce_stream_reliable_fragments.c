@@ -246,7 +246,7 @@ void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now)
   stream->blocked = false;
   stream->ending = true;
   stream->held = true;
-  stream->due_ms = now + MICROROS_CREATE_TIMEOUT_MS;
+  stream->due_ms = now + XRCE_HELD_MS;
 }
 
 void xrce_stream_reliable_step(
