@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "546f3664cc778016"
-#define rcl_init rcl_init__plan_546f3664cc778016
-#define rclc_support_init rclc_support_init__plan_546f3664cc778016
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_546f3664cc778016
+#define MICROROS_PLAN_ID "6e59c064b8fc8b8d"
+#define rcl_init rcl_init__plan_6e59c064b8fc8b8d
+#define rclc_support_init rclc_support_init__plan_6e59c064b8fc8b8d
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_6e59c064b8fc8b8d
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "7ec7c4d268d048ec"
-#define rcl_init rcl_init__plan_7ec7c4d268d048ec
-#define rclc_support_init rclc_support_init__plan_7ec7c4d268d048ec
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_7ec7c4d268d048ec
+#define MICROROS_PLAN_ID "184fb51e1a41cbaa"
+#define rcl_init rcl_init__plan_184fb51e1a41cbaa
+#define rclc_support_init rclc_support_init__plan_184fb51e1a41cbaa
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_184fb51e1a41cbaa
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

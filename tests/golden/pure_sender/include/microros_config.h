@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "b2892ffd1fedd5dd"
-#define rcl_init rcl_init__plan_b2892ffd1fedd5dd
-#define rclc_support_init rclc_support_init__plan_b2892ffd1fedd5dd
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_b2892ffd1fedd5dd
+#define MICROROS_PLAN_ID "a883aa9dff0c9f71"
+#define rcl_init rcl_init__plan_a883aa9dff0c9f71
+#define rclc_support_init rclc_support_init__plan_a883aa9dff0c9f71
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_a883aa9dff0c9f71
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "79d7847032d2c2bc"
-#define rcl_init rcl_init__plan_79d7847032d2c2bc
-#define rclc_support_init rclc_support_init__plan_79d7847032d2c2bc
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_79d7847032d2c2bc
+#define MICROROS_PLAN_ID "521c03c89e71a576"
+#define rcl_init rcl_init__plan_521c03c89e71a576
+#define rclc_support_init rclc_support_init__plan_521c03c89e71a576
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_521c03c89e71a576
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "2b83b630f4012814"
-#define rcl_init rcl_init__plan_2b83b630f4012814
-#define rclc_support_init rclc_support_init__plan_2b83b630f4012814
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_2b83b630f4012814
+#define MICROROS_PLAN_ID "62c13eb9943bc37d"
+#define rcl_init rcl_init__plan_62c13eb9943bc37d
+#define rclc_support_init rclc_support_init__plan_62c13eb9943bc37d
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_62c13eb9943bc37d
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

@@ -162,6 +162,20 @@ size_t port_serial_room(port_serial_t * serial);
  * not wait where they are not more than port_serial_room says. False: they were not all taken. */
 bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size);
 
+/*
+ * The next two only where the board's line has a driver of this project, and the plan says so: a message that its owner keeps
+ * as it is until it has left goes to the line without a copy. Behind what was written before the interrupt calls `next` for
+ * each byte, until that returns -1, and then goes on with what was written since. False: another one is on its way.
+ */
+typedef int32_t (*port_serial_next_t)(void * context);
+bool port_serial_send_kept(port_serial_t * serial, port_serial_next_t next, void * context);
+
+/* Breaks it off where it stands: nobody calls `next` any more. */
+void port_serial_break_off(port_serial_t * serial);
+
+/* Returns whether such a message is on its way. */
+bool port_serial_has_kept(const port_serial_t * serial);
+
 /* Returns whether all that was handed to the line has left the program's memory. For flush and sleep. */
 bool port_serial_is_idle(port_serial_t * serial);
 

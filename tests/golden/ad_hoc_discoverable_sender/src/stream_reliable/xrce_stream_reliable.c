@@ -12,12 +12,16 @@ static uint8_t stream_slot(const xrce_stream_reliable_t * stream, uint8_t i)
   return slot < MICROROS_RELIABLE_SLOTS ? slot : (uint8_t)(slot - MICROROS_RELIABLE_SLOTS);
 }
 
-uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream)
+uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream, xrce_session_t * session)
 {
+  uint8_t * message;
+
   if (stream->count == MICROROS_RELIABLE_SLOTS) {
     return NULL;
   }
-  return &stream->message[stream_slot(stream, stream->count)][MICROROS_RELIABLE_FRONT];
+  message = stream->message[stream_slot(stream, stream->count)];
+  xrce_stream_reliable_reclaim(session, message);
+  return &message[MICROROS_RELIABLE_FRONT];
 }
 
 static bool stream_send(xrce_stream_reliable_t * stream, xrce_session_t * session, uint8_t i)
@@ -27,7 +31,7 @@ static bool stream_send(xrce_stream_reliable_t * stream, xrce_session_t * sessio
 
   xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_RELIABLE, (uint16_t)(stream->first + i));
   return xrce_transport_take_turn(&session->transport) &&
-         xrce_session_send(session, message, XRCE_MESSAGE_HEADER + (size_t)stream->size[slot]);
+         xrce_stream_reliable_send(session, message, XRCE_MESSAGE_HEADER + (size_t)stream->size[slot]);
 }
 
 /* Sends what was never sent and what the agent misses, in order, until the transport takes no more: the rest waits for the
@@ -52,7 +56,7 @@ void xrce_stream_reliable_commit(
   const uint8_t i = stream->count;
 
   stream->size[stream_slot(stream, i)] = (uint16_t)size;
-  if (i == 0u) {
+  if (i == 0u && !stream->held) {
     xrce_stream_reliable_goes_on(stream, now);
   }
   stream->count = (uint8_t)(i + 1u);
@@ -84,8 +88,9 @@ const uint8_t * xrce_stream_reliable_drop_oldest(
   stream_free(stream, 1);
   if (stream->held) {
     stream->first = first; /* what is held has no number yet */
+  } else {
+    stream->due_ms = now;
   }
-  stream->heartbeat_ms = now;
   return dropped;
 }
 
@@ -94,7 +99,7 @@ void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now)
   stream->first = 0;
   stream->unsent = (uint16_t)(((uint32_t)1u << stream->count) - 1u);
   stream->held = true;
-  stream->held_until_ms = now + MICROROS_CREATE_TIMEOUT_MS;
+  stream->due_ms = now + XRCE_HELD_MS;
 }
 
 static void stream_release(xrce_stream_reliable_t * stream, xrce_session_t * session, uint32_t now)
@@ -110,14 +115,14 @@ void xrce_stream_reliable_step(
   if (session->state != XRCE_READY) {
     return;
   }
-  if (stream->held && (settled || xrce_is_due(now, stream->held_until_ms))) {
+  if (stream->held && (settled || xrce_is_due(now, stream->due_ms))) {
     stream_release(stream, session, now);
   }
   if (stream->count == 0u || stream->held) {
     return;
   }
   stream_flow(stream, session);
-  if (stream->unsent == 0u && xrce_is_due(now, stream->heartbeat_ms)) {
+  if (stream->unsent == 0u && xrce_is_due(now, stream->due_ms)) {
     xrce_stream_reliable_heartbeat(stream, session, stream->count, now);
   }
 }
@@ -146,7 +151,7 @@ bool xrce_stream_reliable_on_acknack(
     }
     place = 0;
   } else if (missing != 0u) {
-    stream->heartbeat_ms = now; /* it waits for what was dropped: tell it not to */
+    stream->due_ms = now; /* it waits for what was dropped: tell it not to */
   }
   for (; missing != 0u; missing >>= 1) {
     if ((missing & 1u) != 0u && place < stream->count && ((uint32_t)stream->unsent >> place & 1u) == 0u) {

@@ -1,9 +1,11 @@
 /*
  * An application for pure_reader, to start from: copy it out of this folder and change it.
- * It looks every EXAMPLE_PERIOD_MS milliseconds for std_msgs/msg/Int32 on int32.
+ * It has an executor take std_msgs/msg/Int32 on int32.
  */
+#include <microros/port.h>
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>
+#include <rclc/executor.h>
 #include <rclc/rclc.h>
 #include <std_msgs/msg/int32.h>
 
@@ -23,6 +25,25 @@ static rclc_support_t support;
 static rcl_node_t node;
 static rcl_subscription_t subscription_0;
 static std_msgs__msg__Int32 int32_received_0;
+static rclc_executor_t executor;
+static uint32_t failed;
+static uint32_t ticks; /* of timers; without one: of EXAMPLE_PERIOD_MS */
+
+static void on_int32_received_0(const void * message);
+
+static rcl_ret_t executors_init(rcl_allocator_t * allocator)
+{
+  rcl_ret_t result = RCL_RET_OK;
+
+  if (result == RCL_RET_OK) {
+    result = rclc_executor_init(&executor, &support.context, 1, allocator);
+  }
+  if (result == RCL_RET_OK) {
+    result = rclc_executor_add_subscription(
+      &executor, &subscription_0, &int32_received_0, on_int32_received_0, ON_NEW_DATA);
+  }
+  return result;
+}
 
 static rcl_ret_t application_init(void)
 {
@@ -40,11 +61,12 @@ static rcl_ret_t application_init(void)
   if (result == RCL_RET_OK && !std_msgs__msg__Int32__init(&int32_received_0)) {
     result = RCL_RET_ERROR;
   }
-  return result;
+  return result == RCL_RET_OK ? executors_init(&allocator) : result;
 }
 
 static void application_fini(void)
 {
+  (void)rclc_executor_fini(&executor);
   (void)rcl_subscription_fini(&subscription_0, &node);
   (void)rcl_node_fini(&node);
   (void)rclc_support_fini(&support);
@@ -57,37 +79,39 @@ static void report(const char * what)
   rcl_reset_error();
 }
 
-/* Takes what has come since the last call. */
-static uint32_t take_int32_received_0(void)
+/* The executor took `message`; it is valid until this returns. */
+static void on_int32_received_0(const void * message)
 {
-  uint32_t failed = 0;
-  rcl_ret_t result = rcl_take(&subscription_0, &int32_received_0, NULL, NULL);
+  const std_msgs__msg__Int32 * const received = (const std_msgs__msg__Int32 *)message;
 
-  while (result != RCL_RET_SUBSCRIPTION_TAKE_FAILED) {
-    if (result != RCL_RET_OK) {
-      report("int32");
+  (void)printf("int32: %lld\n", (long long)received->data);
+  (void)fflush(stdout);
+}
+
+/* Lets the executors work for EXAMPLE_PERIOD_MS. */
+static void run(void)
+{
+  const uint32_t begin = port_time_ms();
+  uint32_t passed = 0;
+
+  while (passed < EXAMPLE_PERIOD_MS) {
+    if (rclc_executor_spin_some(&executor, (uint64_t)(EXAMPLE_PERIOD_MS - passed) * 1000000u) != RCL_RET_OK) {
+      report("executor");
       ++failed;
-    } else {
-      (void)printf("int32: %lld\n", (long long)int32_received_0.data);
-      (void)fflush(stdout);
     }
-    result = rcl_take(&subscription_0, &int32_received_0, NULL, NULL);
+    passed = port_time_ms() - begin;
   }
-  return failed;
 }
 
 int main(void)
 {
-  uint32_t failed = 0;
-
   if (application_init() != RCL_RET_OK) {
     report("start");
     application_fini();
     return 1;
   }
-  for (uint32_t count = 0; count < EXAMPLE_SAMPLES; ++count) {
-    failed += take_int32_received_0();
-    rclc_sleep_ms(EXAMPLE_PERIOD_MS);
+  for (; ticks < EXAMPLE_SAMPLES; ++ticks) {
+    run();
   }
   application_fini();
   return failed == 0 ? 0 : 1;

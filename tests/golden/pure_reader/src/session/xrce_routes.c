@@ -10,7 +10,8 @@ bool xrce_route_message(xrce_client_t * client, const uint8_t * message, size_t 
     return xrce_stream_reliable_input_take(client, message, size, now);
   }
   if (
-    message[0] == XRCE_SESSION_ID && message[1] >= XRCE_STREAM_BEST_EFFORT && message[1] < XRCE_STREAM_RELIABLE &&
+    size > XRCE_MESSAGE_HEADER && message[XRCE_MESSAGE_HEADER] == XRCE_DATA && message[0] == XRCE_SESSION_ID &&
+    message[1] >= XRCE_STREAM_BEST_EFFORT && message[1] < XRCE_STREAM_RELIABLE &&
     !xrce_stream_best_effort_input_take(&client->best_effort_input, xrce_get_le16(&message[2]))) {
     return true; /* it is older than what was handed on */
   }

@@ -5,10 +5,11 @@
 
 #include <string.h>
 
-/* What rcutils_set_default_allocator sets: one for all, since the getter takes no handle. */
-static rcutils_allocator_t * allocator_chosen(void)
+/* What rcutils_set_default_allocator sets: one for all, since the getter takes no handle. Where nobody sets one, its memory is
+ * not linked. */
+static const rcutils_allocator_t ** allocator_chosen(void)
 {
-  static rcutils_allocator_t chosen;
+  static const rcutils_allocator_t * chosen;
 
   return &chosen;
 }
@@ -27,15 +28,20 @@ rcutils_allocator_t rcutils_get_default_allocator(void)
     microros_arena_allocate, microros_arena_deallocate, microros_arena_reallocate,
     microros_arena_zero_allocate, NULL};
 
-  return allocator_chosen()->allocate != NULL ? *allocator_chosen() : arena;
+  const rcutils_allocator_t * chosen = *allocator_chosen();
+
+  return chosen != NULL ? *chosen : arena;
 }
 
 bool rcutils_set_default_allocator(rcutils_allocator_t * allocator)
 {
+  static rcutils_allocator_t kept;
+
   if (!rcutils_allocator_is_valid(allocator)) {
     return false;
   }
-  *allocator_chosen() = *allocator;
+  kept = *allocator;
+  *allocator_chosen() = &kept;
   return true;
 }
 

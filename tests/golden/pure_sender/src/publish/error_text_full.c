@@ -3,4 +3,4 @@
 #include "microros/error.h"
 
 const char microros_error_stream_full[] =
-  "publisher %s: stream full, %n unacknowledged: raise pools: {history: 5}%y";
+  "publisher %s: stream full, %n unacknowledged: the agent is away, or raise pools: {history: 5}%y";

@@ -10,19 +10,10 @@ extern "C" {
 #endif
 
 /* Returns `time + duration`, INT64_MAX at most; `duration` is not negative. */
-static inline int64_t microros_time_after(int64_t time, int64_t duration)
-{
-  return time <= INT64_MAX - duration ? time + duration : INT64_MAX;
-}
+int64_t microros_time_after(int64_t time, int64_t duration);
 
 /* Returns `later - earlier`, within INT64_MIN and INT64_MAX, whichever of them is later. */
-static inline int64_t microros_time_between(int64_t earlier, int64_t later)
-{
-  if (earlier < 0) {
-    return later <= INT64_MAX + earlier ? later - earlier : INT64_MAX;
-  }
-  return later >= INT64_MIN + earlier ? later - earlier : INT64_MIN;
-}
+int64_t microros_time_between(int64_t earlier, int64_t later);
 
 #ifdef __cplusplus
 }

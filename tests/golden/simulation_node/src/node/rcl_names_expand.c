@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rcl_names_expand.h"
 
+#include "microros/error.h"
 #include "microros/rcl_names.h"
 #include "microros/text.h"
 
@@ -113,10 +114,10 @@ size_t rcl_names_expand(const char * topic, const rcl_names_scope_t * scope, cha
 const char * rcl_names_check_full(const char * full, size_t size)
 {
   if (size >= (size_t)RCL_NAMES_FULL_SIZE) {
-    return "more than 247 bytes";
+    return MICROROS_ERROR_WORDS("more than 247 bytes");
   }
   if (full[1] == '\0') {
-    return "a part is empty";
+    return MICROROS_ERROR_WORDS("a part is empty");
   }
   return rcl_names_check_namespace(full); /* a namespace is made as such a name is */
 }

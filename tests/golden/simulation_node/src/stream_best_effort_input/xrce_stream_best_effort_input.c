@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/xrce_stream_best_effort_input.h"
 
-/* Numbers from half of 2^16 on are old. */
-enum { HALF = 0x8000 };
+/* As far as this behind the newest, a number is old; one behind that is what follows a jump. No network delays a datagram past so
+ * many others, and one forged or stale datagram must not close the stream for half of all numbers. */
+enum { OLD = 64 };
 
 void xrce_stream_best_effort_input_reset(xrce_stream_best_effort_input_t * stream)
 {
@@ -11,7 +12,7 @@ void xrce_stream_best_effort_input_reset(xrce_stream_best_effort_input_t * strea
 
 bool xrce_stream_best_effort_input_take(xrce_stream_best_effort_input_t * stream, uint16_t sequence)
 {
-  if ((uint16_t)(sequence - stream->next) >= HALF) {
+  if ((uint16_t)(stream->next - 1u - sequence) < OLD) {
     return false;
   }
   stream->next = (uint16_t)(sequence + 1u);

@@ -12,6 +12,9 @@
 extern "C" {
 #endif
 
+/* Words that become `detail`: for those who only see that there are any. */
+#define MICROROS_ERROR_WORDS(words) (words)
+
 typedef const char * microros_error_t;
 
 extern const char microros_error_argument[];

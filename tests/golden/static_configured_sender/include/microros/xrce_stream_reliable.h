@@ -18,12 +18,18 @@
 extern "C" {
 #endif
 
+/* Objects that a new session may have to create, each within its time. What is held goes out before all are there only because
+ * of one that stays refused: an agent drops what comes before its writer. */
+#define XRCE_HELD_MS                                                                                           \
+  ((MICROROS_NODES_MAX + 3u * (MICROROS_PUBLISHERS_MAX + MICROROS_SUBSCRIPTIONS_MAX) + MICROROS_SERVICES_MAX + \
+    MICROROS_CLIENTS_MAX) *                                                                                    \
+   MICROROS_CREATE_TIMEOUT_MS)
+
 /* All zero is an empty stream. */
 typedef struct xrce_stream_reliable_t {
-  uint32_t heartbeat_ms;  /* when the next HEARTBEAT is due, while something is unacknowledged */
+  uint32_t due_ms;        /* when the next HEARTBEAT is due, while something is unacknowledged; while held: until when */
   uint32_t since_ms;      /* when the agent acknowledged something last, or the first message was sent */
-  uint32_t held_until_ms; /* until then, ... */
-  bool held;              /* ... or until the agent has the writers, nothing is numbered and sent */
+  bool held;              /* until due_ms, or until the agent has the writers, nothing is numbered and sent */
   uint8_t count;          /* unacknowledged messages */
   uint8_t head;   /* slot of the oldest message */
   uint16_t first; /* its sequence number; while held: the next one's */
@@ -48,12 +54,25 @@ static inline bool xrce_stream_reliable_is_blocked(const xrce_stream_reliable_t 
 static inline void xrce_stream_reliable_goes_on(xrce_stream_reliable_t * stream, uint32_t now)
 {
   stream->since_ms = now;
-  stream->heartbeat_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
+  stream->due_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
+}
+
+/* For this component alone: sends a message of a slot, which the transport copies. */
+static inline bool xrce_stream_reliable_send(xrce_session_t * session, const uint8_t * message, size_t size)
+{
+  return xrce_session_send(session, message, size);
+}
+
+/* For this component alone: a slot is going to have another message. */
+static inline void xrce_stream_reliable_reclaim(xrce_session_t * session, const uint8_t * message)
+{
+  (void)session;
+  (void)message;
 }
 
 /* Returns room for MICROROS_RELIABLE_SLOT_SIZE - MICROROS_RELIABLE_FRONT bytes of submessages; NULL: every slot is
  * taken. */
-uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream);
+uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream, xrce_session_t * session);
 
 /* Takes `size` bytes of submessages; sends as much as the transport takes where there is a session that is not held. */
 void xrce_stream_reliable_commit(

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rcl_names.h"
 
+#include "microros/error.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -22,25 +24,25 @@ static const char * names_check_parts(const char * name)
   for (const char * at = name; *at != '\0'; ++at) {
     if (*at == '/') {
       if (at_start) {
-        return "a part is empty";
+        return MICROROS_ERROR_WORDS("a part is empty");
       }
       at_start = true;
     } else if (!names_is_word(*at)) {
-      return "only letters, digits and _";
+      return MICROROS_ERROR_WORDS("only letters, digits and _");
     } else if (at_start && names_is_digit(*at)) {
-      return "a part begins with a digit";
+      return MICROROS_ERROR_WORDS("a part begins with a digit");
     } else {
       at_start = false;
     }
   }
-  return at_start ? "a part is empty" : NULL;
+  return at_start ? MICROROS_ERROR_WORDS("a part is empty") : NULL;
 }
 
 const char * rcl_names_check_node(const char * name)
 {
   for (const char * at = name; *at != '\0'; ++at) {
     if (*at == '/') {
-      return "only letters, digits and _";
+      return MICROROS_ERROR_WORDS("only letters, digits and _");
     }
   }
   return names_check_parts(name);
@@ -62,7 +64,7 @@ const char * rcl_names_check_topic(const char * topic)
       return NULL;
     }
     if (topic[0] != '/') {
-      return "no / after ~";
+      return MICROROS_ERROR_WORDS("no / after ~");
     }
   }
   return names_check_parts(topic[0] == '/' ? topic + 1 : topic);

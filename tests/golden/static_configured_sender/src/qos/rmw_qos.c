@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rmw_qos.h"
+
+#include "microros/error.h"
 #include "microros/xrce_wire.h"
 
 #include <stdbool.h>
@@ -14,29 +16,29 @@ static bool qos_is_unlimited(const struct rmw_time_s * time)
 static const char * qos_refuse(const rmw_qos_profile_t * qos)
 {
   if (qos->reliability > RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT) {
-    return "reliability";
+    return MICROROS_ERROR_WORDS("reliability");
   }
   if (qos->durability > RMW_QOS_POLICY_DURABILITY_VOLATILE) {
-    return "durability";
+    return MICROROS_ERROR_WORDS("durability");
   }
   if (qos->history > RMW_QOS_POLICY_HISTORY_KEEP_ALL) {
-    return "history";
+    return MICROROS_ERROR_WORDS("history");
   }
   if (qos->depth > UINT16_MAX) {
-    return "depth";
+    return MICROROS_ERROR_WORDS("depth");
   }
   if (!qos_is_unlimited(&qos->deadline)) {
-    return "deadline";
+    return MICROROS_ERROR_WORDS("deadline");
   }
   if (!qos_is_unlimited(&qos->lifespan)) {
-    return "lifespan";
+    return MICROROS_ERROR_WORDS("lifespan");
   }
   if (
     qos->liveliness > RMW_QOS_POLICY_LIVELINESS_AUTOMATIC ||
     !qos_is_unlimited(&qos->liveliness_lease_duration)) {
-    return "liveliness";
+    return MICROROS_ERROR_WORDS("liveliness");
   }
-  return qos->avoid_ros_namespace_conventions ? "avoid_ros_namespace_conventions" : NULL;
+  return qos->avoid_ros_namespace_conventions ? MICROROS_ERROR_WORDS("avoid_ros_namespace_conventions") : NULL;
 }
 
 const char * rmw_qos_to_xrce(const rmw_qos_profile_t * qos, uint8_t * flags, uint16_t * depth)

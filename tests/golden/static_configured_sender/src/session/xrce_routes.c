@@ -59,7 +59,7 @@ void xrce_route_close(xrce_client_t * client)
 
 uint8_t * xrce_route_reserve(xrce_client_t * client, bool reliable)
 {
-  return reliable ? xrce_stream_reliable_reserve(&client->reliable)
+  return reliable ? xrce_stream_reliable_reserve(&client->reliable, &client->session)
                   : xrce_stream_best_effort_reserve(&client->best_effort);
 }
 
