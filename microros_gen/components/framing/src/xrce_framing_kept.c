@@ -18,8 +18,8 @@ void xrce_frame_begin(xrce_frame_t * frame, const uint8_t * message, uint16_t si
 static uint8_t frame_byte(xrce_frame_t * frame, uint32_t at)
 {
   if (at < XRCE_FRAME_HEADER) {
-    const uint32_t header =
-      XRCE_FRAME_ADDRESS_CLIENT | XRCE_FRAME_ADDRESS_AGENT << 8 | (uint32_t)frame->size << 16;
+    const uint32_t header = (uint32_t)XRCE_FRAME_ADDRESS_CLIENT | (uint32_t)XRCE_FRAME_ADDRESS_AGENT << 8 |
+                            (uint32_t)frame->size << 16;
 
     return (uint8_t)(header >> (8u * at) & 0xffu);
   }
