@@ -12,6 +12,7 @@
 #include "microros/xrce_wire.h"
 
 enum { RECEIVERS = XRCE_RECEIVERS };
+enum { MOST_REFUSALS = 16 }; /* that xrce_entities.c counts in a row */
 
 static xrce_client_t client;
 static uint8_t payload[LAST];
@@ -115,9 +116,11 @@ static void any_entities(void)
   xrce_entities_t * entities = &client.entities;
 
   entities->due_ms = proof_u32();
+  entities->asked_ms = proof_u32();
   entities->request = proof_u16();
   entities->refused_place = proof_u16();
   entities->refused_status = proof_u8();
+  entities->refusals = (uint8_t)Frama_C_interval(0, MOST_REFUSALS);
   entities->pending = proof_bool();
   entities->resting = proof_bool();
   for (uint16_t place = 0; place < XRCE_PLACES; ++place) {
@@ -146,6 +149,7 @@ static void any_receivers(void)
   proof_any(client.slots, sizeof(client.slots));
   proof_any(client.queues, sizeof(client.queues));
   reading->due_ms = proof_u32();
+  reading->asked_ms = proof_u32();
   reading->sequence = proof_u16();
   reading->request = proof_u16();
   reading->samples = proof_u16();
@@ -192,6 +196,7 @@ static void check_client(void)
   //@ check reliable_is_sound(&client.reliable);
   //@ check input_is_sound(&client.reliable_input);
   //@ check client.entities.cursor < XRCE_PLACES;
+  //@ check client.entities.refusals <= MOST_REFUSALS;
   //@ check client.reading.receiver < RECEIVERS;
   for (uint16_t i = 0; i < RECEIVERS; ++i) {
     //@ check client.receivers[i].count <= xrce_queues[i].slots;
