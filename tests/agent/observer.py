@@ -11,6 +11,9 @@
 {"do": "call", "service": "/s", "type": "rcl_interfaces/srv/GetParameterTypes", "names": [["a"], ["b", "c"]]}
                    calls at once, one call a list of names, when the service is there
 {"do": "replies"}  what the calls gave: null, or types, in the order of the calls
+{"do": "serve_names", "service": "/s"}             serves rcl_interfaces/srv/ListParameters: each prefix in capitals
+{"do": "call_names", "service": "/s", "prefixes": ["a"]}   calls one, when it is there
+{"do": "names"}    what this call gave, names and prefixes, or null
 {"do": "add", "service": "/sum"}                   serves example_interfaces/srv/AddTwoInts; with "ends": no more
 {"do": "ask_sums", "service": "/sum", "pairs": [[1, 2]]}   calls it at once, when it is there
 {"do": "sums"}     what these calls gave, or null
@@ -251,6 +254,25 @@ class _Peer:
 
     def replies(self) -> list[Any]:
         return [list(call.result().types) if call.done() else None for call in self._calls]
+
+    def serve_names(self, service: str) -> bool:
+        def answer(request: Any, response: Any) -> Any:
+            response.result.names = [prefix.upper() for prefix in request.prefixes]
+            return response
+
+        self._node.create_service(_load("rcl_interfaces/srv/ListParameters"), service, answer)
+        return True
+
+    def call_names(self, service: str, prefixes: list[str]) -> bool:
+        service_class = _load("rcl_interfaces/srv/ListParameters")
+        client = self._node.create_client(service_class, service)
+        assert client.wait_for_service(10)
+        self._calls = [client.call_async(service_class.Request(prefixes=prefixes))]
+        return True
+
+    def names(self) -> list[list[str]] | None:
+        call = self._calls[0]
+        return [call.result().result.names, call.result().result.prefixes] if call.done() else None
 
     def add(self, service: str, ends: bool = False) -> bool:
         from agent.add_two_ints import AddTwoInts

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import time
 from typing import Any
 
 import pytest
@@ -68,3 +69,37 @@ def test_rclpy_gets_what_sources_write(
         name: {key: found[name][key] for key in expected} for name, expected in EXPECTED.items()
     } == EXPECTED
     assert {name: found[name]["header"]["frame_id"] for name in FRAMES} == FRAMES
+
+
+SERVICES = """\
+version: 1
+profiles: [pure_sender]
+components: [-publish, +services, +executor]
+nodes:
+  - name: names
+    services: [{name: names, type: rcl_interfaces/srv/ListParameters}]
+    clients: [{name: /peer/names, type: rcl_interfaces/srv/ListParameters}]
+limits: {"*": {string: 17, sequence: 4}}
+"""
+
+
+@pytest.mark.parametrize("flags", [SANITIZE, ("-m32", "-O1")], ids=["sanitized", "m32"])
+def test_strings_of_services_reach_rclpy_and_come_from_it(
+    images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, flags: tuple[str, ...]
+) -> None:
+    image = images.build(image_port.port, SERVICES, "gcc", flags)
+    program = image.application(
+        C_FILES / "names.c", image.out.parent / "names", "-std=c99", "-Wall", "-Wextra", "-Werror"
+    )
+    observer.ask(do="serve_names", service="/peer/names")
+    image_port.connect(agent.port)
+    with started(program) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "reply: ONE  A NAME OF 17 BYTE\n", process.communicate()
+        observer.ask(do="call_names", service="/names", prefixes=["x", "", "seventeen letters", "last"])
+        ends_well(process)
+    end = time.monotonic() + 15
+    while (found := observer.ask(do="names")) is None:
+        assert time.monotonic() < end, "no reply"
+        time.sleep(0.02)
+    assert found == [["last", "seventeen letters", "", "x"], ["of the device"]]
