@@ -23,6 +23,11 @@ MEMORY_S = 6.0
 """Seconds after which about a third of what a client took still counts."""
 
 
+MOST_S = 0.5
+"""One change counts at most what the share has in so many seconds: on a slow machine, where a node alone may take more
+than the share of a second, who has few entities gets them within the second that clients wait."""
+
+
 class GraphWork:
     """What is left of the time for changes."""
 
@@ -41,6 +46,7 @@ class GraphWork:
     def charge(self, account: Account, seconds: float, now: float) -> None:
         """Note that a change for a client took so many seconds."""
         self._refill(now)
+        seconds = min(seconds, self._share * MOST_S)
         self._left -= seconds
         self._left_now -= seconds
         account.graph_s = _fade(account, now) + seconds

@@ -53,7 +53,7 @@ class Limits:
     """Milliseconds of work for one client before others have their turn; it goes on in its next one."""
     graph_ms_per_second: float = 200.0
     """Milliseconds of processor in a second in which nodes and endpoints of all clients come and go; one alone gets at
-    most half, and three seconds' worth may come at once. Further CREATE and DELETE wait, or are refused."""
+    most half, and three seconds' worth may come at once. Further CREATE and DELETE wait."""
     strangers_per_second: int = 2_000
     """Messages outside of any session that are answered in a second, of all senders together."""
     log_bytes_per_second: int = 16_384

@@ -189,16 +189,21 @@ class Processor:
         return False
 
     def _may_change(self, client: Client, data: bytes, at: int, end: int) -> bool:
-        """Return whether a client may create or delete one more object now; it may always leave."""
+        """Return whether a client may create or delete one more object now; it may always leave.
+
+        What comes on a best-effort stream cannot be left unacknowledged until there is time for it: it is begun, and
+        waits for that as any other work.
+        """
         now = self._clock()
         if _of_client(data, at, end):
             return True
-        return self._graph.allows(client.account, now) and client.rate.take(now)
+        allowed = client.stream < STREAM_RELIABLE or self._graph.allows(client.account, now)
+        return allowed and client.rate.take(now)
 
     def _refuse_costly(self, client: Client, data: bytes, at: int, end: int) -> None:
         if end - at >= DATA_PREFIX:
             self._operations.refuse(client, data, at, Status.RESOURCES, self._clock())
-        detail = f"more than {self._limits.operations_per_second} CREATE and DELETE in a second, or too costly ones"
+        detail = f"more than {self._limits.operations_per_second} CREATE and DELETE in a second"
         self._refuse(MalformedError("too_many_operations", detail), data, client)
 
     def _stop(self, client: Client, unfinished: Ready, error: BusyError, kind: str = "publish_waits") -> bool:

@@ -332,6 +332,23 @@ def test_a_client_that_waits_for_its_turn_is_told_again_what_it_has_not_acknowle
     assert any(sent.startswith("81 00 00 00 0b") for sent in bench.wait(2)), "no HEARTBEAT"
 
 
+@pytest.mark.parametrize("stream", [1, 0x80], ids=["best effort", "reliable"])
+@pytest.mark.parametrize("change_s", [0.03, 0.15, 0.4])
+def test_a_slow_machine_refuses_no_entities(stream: int, change_s: float) -> None:
+    """Each change may take longer than the share of a second has; a client waits a second for each."""
+    bench = costly(Limits(), change_s)
+    bench.now += 10.0
+    creates = (*entities(1, topic="slow"), *reader_entities(4, topic="slower"))
+    for sequence, create in enumerate(creates):
+        asked = bench.now
+        answers = bench.say(message(create, stream=stream, sequence=sequence))
+        while not any(" 05 01 " in answer for answer in answers):
+            answers = bench.wait(0.01, 0.01)
+            assert bench.now - asked < 1.0 + change_s
+    assert bench.log.counters.keys() <= {"operations_wait"}
+    assert len([label for label in bench.bridge.graph if "slow" in label]) == 2
+
+
 def test_who_leaves_in_the_middle_leaves_nothing() -> None:
     bench = costly()
     bench.say(message(application(WRITERS, "rt/z"), stream=0))
