@@ -39,7 +39,12 @@ class Target:
     longest: int = 600
 
 
-FRAMING = Target("framing", ("fuzz_framing.c",), replace(POOL, transport="serial"), ("xrce_framing.c",))
+FRAMING = Target(
+    "framing",
+    ("fuzz_framing.c",),
+    replace(POOL, transport="serial"),
+    ("xrce_framing.c", "xrce_framing_send.c"),
+)
 SESSION = Target(
     "session",
     ("fuzz_session.c", "port_agent.c", "types_read.c"),
