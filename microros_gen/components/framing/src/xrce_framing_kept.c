@@ -18,10 +18,11 @@ void xrce_frame_begin(xrce_frame_t * frame, const uint8_t * message, uint16_t si
 static uint8_t frame_byte(xrce_frame_t * frame, uint32_t at)
 {
   if (at < XRCE_FRAME_HEADER) {
-    const uint32_t header = (uint32_t)XRCE_FRAME_ADDRESS_CLIENT | (uint32_t)XRCE_FRAME_ADDRESS_AGENT << 8 |
-                            (uint32_t)frame->size << 16;
+    const uint8_t header[XRCE_FRAME_HEADER] = {
+      XRCE_FRAME_ADDRESS_CLIENT, XRCE_FRAME_ADDRESS_AGENT, (uint8_t)((uint32_t)frame->size & 0xffu),
+      (uint8_t)((uint32_t)frame->size >> 8)};
 
-    return (uint8_t)(header >> (8u * at) & 0xffu);
+    return header[at];
   }
   at -= XRCE_FRAME_HEADER;
   if (at < frame->size) {
@@ -85,15 +86,16 @@ bool xrce_framing_send(struct xrce_transport_t * line, const uint8_t * message, 
   }
   xrce_frame_begin(&frame, message, (uint16_t)size);
   while (left != 0u) {
-    const size_t count = left < CHUNK ? left : (size_t)CHUNK;
+    size_t count = 0;
 
-    for (size_t i = 0; i < count; ++i) {
-      chunk[i] = (uint8_t)((uint32_t)xrce_frame_next(&frame) & 0xffu);
+    while (count < sizeof(chunk) && left != 0u) {
+      chunk[count] = (uint8_t)((uint32_t)xrce_frame_next(&frame) & 0xffu);
+      ++count;
+      --left;
     }
     if (!xrce_line_write(line, chunk, count)) {
       return false;
     }
-    left -= count;
   }
   return true;
 }
