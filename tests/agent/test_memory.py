@@ -181,7 +181,7 @@ def test_histories_stay_below_the_limit_that_was_said_and_come_back() -> None:
             assert most - before > 8, "samples were kept"
             assert most < said["limit"]
             assert client.leave() == OK
-            end = time.monotonic() + 20
+            end = time.monotonic() + 60
             while (left := rss_mib(agent.process.pid)) > before + 8 and time.monotonic() < end:
                 time.sleep(0.1)
             print(f"RSS {before:.0f} MiB before, {most:.0f} at most, {left:.0f} after it left")
