@@ -19,6 +19,11 @@ from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
 from pygments.formatters import HtmlFormatter
 
+from microros_gen.agent.configuration import parser as agent_parser
+from microros_gen.application import parser as application_parser
+from microros_gen.platform import target_file
+from microros_gen.selection import profile_file
+
 ROOT = Path(__file__).resolve().parents[1]
 OUTSIDE = {"README.md": "overview.md", "examples/README.md": "examples.md"}
 """Markdown outside of docs/ that is part of the site, and its page."""
@@ -37,13 +42,20 @@ _SCHEMAS = {
     ),
 }
 
+SCHEMA_FILES = {
+    "application": application_parser.SCHEMA,
+    "profile": profile_file.SCHEMA,
+    "target": target_file.SCHEMA,
+    "agent": agent_parser.SCHEMA,
+}
+
 
 @cache
 def generated() -> dict[str, str]:
     """Return the pages that are made from the code: path below docs/ → Markdown."""
     pages = {"reference/command_line.md": command_line.page()}
     for name, (title, introduction) in _SCHEMAS.items():
-        pages[f"reference/{name}_file.md"] = schemas.page(title, introduction, f"{name}.schema.json")
+        pages[f"reference/{name}_file.md"] = schemas.page(title, introduction, SCHEMA_FILES[name])
     return pages | {f"reference/c/{name}.md": text for name, text in c_api.pages().items()}
 
 

@@ -10,8 +10,8 @@ from types import SimpleNamespace
 
 from generators.c_headers import Item, Section, read_header
 from generators.markdown import cell
-from microros_gen.render.environment import make_environment
-from microros_gen.sources.components import components_folder, load_catalogue
+from microros_gen.documents.templates import make_environment
+from microros_gen.selection.find_components import components_folder, load_catalogue
 
 PORT_HEADERS = {
     "microros/port.h": "support",

@@ -6,25 +6,27 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 from generators.markdown import cell, table
-from microros_gen.parse.schema import Schema, load_schema
+from microros_gen.documents.schema import Schema, load_schema
 
 _WORDS = {"integer": "whole number", "number": "number", "string": "text", "boolean": "true or false"}
 _WORDS |= {"array": "list", "object": "mapping", "null": "nothing"}
 
 
-def page(title: str, introduction: str, schema_name: str) -> str:
-    """Return the page of one file; `schema_name` is a file beside `microros_gen/parse/schema.py`."""
-    schema = load_schema(schema_name)
+def page(title: str, introduction: str, schema_file: Path) -> str:
+    """Return the page of one file; `schema_file` is its schema."""
+    schema = load_schema(schema_file)
     parts = [f"# {title}", introduction, *_keys(schema, schema, "")]
     for name in _shared(schema):
         part = schema["$defs"][name]
         if any(_named(part)):
             parts += [f"## {name}", cell(part["description"].rstrip(".")) + ".", *_keys(schema, part, name)]
     parts.append(
-        f"Made from `microros_gen/parse/{schema_name}` (JSON Schema, draft 2020-12), which editors take as well."
+        f"Made from `{schema_file.parent.name}/{schema_file.name}` below `microros_gen/` (JSON Schema, draft 2020-12),"
+        " which editors take as well."
     )
     return "\n\n".join(parts) + "\n"
 

@@ -7,15 +7,15 @@ from collections.abc import Callable
 
 import click
 
-from microros_gen.build.budget import store_advice
-from microros_gen.build.folder import Folder
-from microros_gen.build.report import check_budgets, measure_folder
-from microros_gen.cli.advice import plan_advice
-from microros_gen.cli.options import SelectionOptions
-from microros_gen.cli.pipeline import Planned, plan_request, resolve_request
-from microros_gen.cli.request import read_request
+from microros_gen.compiler.advice import plan_advice
+from microros_gen.compiler.options import SelectionOptions
+from microros_gen.compiler.pipeline import Planned, plan_request, resolve_request
+from microros_gen.compiler.request import read_request
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Span, UserError
 from microros_gen.diagnostics.diagnostic import Severity
+from microros_gen.image.budget import store_advice
+from microros_gen.image.folder import Folder
+from microros_gen.image.report import check_budgets, measure_folder
 
 
 def check_planned(planned: Planned, read: Callable[[], Folder], options: SelectionOptions) -> None:

@@ -9,16 +9,17 @@ from typing import Any
 
 import click
 
-from microros_gen.build.compile import compile_project
-from microros_gen.build.folder import read_folder
-from microros_gen.build.measure import measure_library
-from microros_gen.build.toolchain import Toolchain, find_toolchain
 from microros_gen.cli.budgets import check_planned
 from microros_gen.cli.generate import files_line, plan, write
-from microros_gen.cli.options import SelectionOptions, output_option, selection_options
-from microros_gen.cli.pipeline import Planned
+from microros_gen.cli.options import output_option, selection_options
 from microros_gen.cli.summary import built_summary, plan_summary
+from microros_gen.compiler.options import SelectionOptions
+from microros_gen.compiler.pipeline import Planned
+from microros_gen.image.folder import read_folder
 from microros_gen.output.tree import check_build_folders
+from microros_gen.toolchain.compile import compile_project
+from microros_gen.toolchain.measure import measure_library
+from microros_gen.toolchain.toolchain import Toolchain, find_toolchain
 
 
 @click.command()

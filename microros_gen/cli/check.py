@@ -8,9 +8,10 @@ from typing import Any
 
 import click
 
-from microros_gen.cli.options import SelectionOptions, selection_options
-from microros_gen.cli.pipeline import plan_request, render_request, resolve_request, warnings_text
-from microros_gen.cli.request import read_request
+from microros_gen.cli.options import selection_options
+from microros_gen.compiler.options import SelectionOptions
+from microros_gen.compiler.pipeline import plan_request, render_request, resolve_request, warnings_text
+from microros_gen.compiler.request import read_request
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.output.golden import golden_differences
 from microros_gen.output.tree import write_tree

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import click
 
-from microros_gen.build.explain import Explainer, Explanation
-from microros_gen.build.report import measure
 from microros_gen.cli.options import check_map, image_option, map_option
-from microros_gen.sources.components import components_folder, load_catalogue
+from microros_gen.image.explain import Explainer, Explanation
+from microros_gen.image.report import measure
+from microros_gen.selection.find_components import components_folder, load_catalogue
 
 
 @click.command()

@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from microros_gen.cli.options import SelectionOptions, output_option, selection_options
+from microros_gen.cli.options import output_option, selection_options
+from microros_gen.compiler.options import SelectionOptions
 from microros_gen.output.runs import Run, find_run, record_run
 
 if TYPE_CHECKING:
-    from microros_gen.cli.pipeline import Planned
+    from microros_gen.compiler.pipeline import Planned
     from microros_gen.output.tree import WriteReport
 
 
@@ -47,8 +48,8 @@ def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
         click.echo(last.warnings, nl=False, err=True)
         click.echo(last.summary + _files_line(last.out, 0, last.files, 0), nl=False)
         return
-    from microros_gen.cli.pipeline import read_paths
     from microros_gen.cli.summary import plan_summary
+    from microros_gen.compiler.pipeline import read_paths
     from microros_gen.output.depfile import write_depfile
     from microros_gen.output.tree import JOURNAL, MANIFEST
 
@@ -69,9 +70,9 @@ def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
 
 def plan(options: SelectionOptions, output: Path | None) -> tuple[Planned, Path]:
     """Decide everything; return the plan and the folder that it is for. Nothing is written yet."""
-    from microros_gen.cli.pipeline import plan_request
-    from microros_gen.cli.pipeline import resolve_request as resolve
-    from microros_gen.cli.request import read_request
+    from microros_gen.compiler.pipeline import plan_request
+    from microros_gen.compiler.pipeline import resolve_request as resolve
+    from microros_gen.compiler.request import read_request
     from microros_gen.diagnostics import Diagnostics
     from microros_gen.output.tree import check_owned
 
@@ -86,7 +87,7 @@ def plan(options: SelectionOptions, output: Path | None) -> tuple[Planned, Path]
 
 def write(planned: Planned, out: Path) -> WriteReport:
     """Render the plan and write it; return what was done to the folder."""
-    from microros_gen.cli.pipeline import render_request
+    from microros_gen.compiler.pipeline import render_request
     from microros_gen.output.tree import write_tree
 
     return write_tree(out, render_request(planned))

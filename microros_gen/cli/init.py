@@ -61,8 +61,8 @@ def command(
     microros-gen init my_robot --profile pure_reader --target qemu-mps2-an386
     microros-gen init my_robot --from old/src --from-colcon-meta old/app-colcon.meta
     """
-    from microros_gen.cli.init_folder import write_folder
-    from microros_gen.cli.init_sources import Wish, draft_of
+    from microros_gen.migrate.application_folder import write_folder
+    from microros_gen.migrate.proposal import Wish, draft_of
 
     wish = Wish(folder, profiles, target, sources, metas, interface_paths, checked)
     return write_folder(wish, draft_of(wish))

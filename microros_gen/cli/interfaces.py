@@ -10,15 +10,15 @@ from typing import Any
 
 import click
 
-from microros_gen.cli.interface_files import one_idl, write_descriptions, write_idl
 from microros_gen.cli.options import interface_path_option
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Severity, UserError
-from microros_gen.model.application import Named
-from microros_gen.model.derived import declaring_name, parts_of
-from microros_gen.model.msg_text import type_text, value_text
-from microros_gen.model.types import Action, Constant, Declaration, Field, Message, Service, Value
-from microros_gen.resolve.interfaces import InterfaceSet, resolve_interfaces
-from microros_gen.sources.interfaces import InterfaceFinder, types_in
+from microros_gen.documents.named import Named
+from microros_gen.interfaces.closure import InterfaceSet, resolve_interfaces
+from microros_gen.interfaces.derived import declaring_name, parts_of
+from microros_gen.interfaces.find import InterfaceFinder, types_in
+from microros_gen.interfaces.msg.text import type_text, value_text
+from microros_gen.interfaces.types import Action, Constant, Declaration, Field, Message, Service, Value
+from microros_gen.output.interface_files import one_idl, write_descriptions, write_idl
 
 
 @click.command()

@@ -4,27 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
 F = TypeVar("F", bound=Callable[..., Any])
-
-
-@dataclass(frozen=True)
-class SelectionOptions:
-    """What the command line selects; empty means: the application file or the default decides."""
-
-    config: Path | None
-    profiles: tuple[str, ...]
-    interfaces: tuple[str, ...]
-    interface_paths: tuple[Path, ...]
-    target: str | None
-    agent: str | None
-    components: tuple[str, ...] = ()
-    default_target: str | None = None
 
 
 interface_path_option = click.option(

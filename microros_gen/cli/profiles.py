@@ -9,15 +9,16 @@ from pathlib import Path
 
 import click
 
-from microros_gen.cli.resolve_format import FORMATS, format_selection, format_table
+from microros_gen.application.model import Application
+from microros_gen.cli.tables import FORMATS, format_selection, format_table
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.model.application import Application, Named
-from microros_gen.model.component import Catalogue, Middleware, Profile, ProfileSet
-from microros_gen.model.selection import Selection
-from microros_gen.resolve.profiles import axes_of, resolve_profiles
-from microros_gen.resolve.selection import resolve_selection
-from microros_gen.sources.components import load_catalogue
-from microros_gen.sources.profiles import load_builtin_profiles, load_middleware, load_profiles
+from microros_gen.documents.named import Named
+from microros_gen.selection.component import Catalogue, Middleware, Profile, ProfileSet
+from microros_gen.selection.find_components import load_catalogue
+from microros_gen.selection.find_profiles import load_builtin_profiles, load_middleware, load_profiles
+from microros_gen.selection.model import Selection
+from microros_gen.selection.profiles import axes_of, resolve_profiles
+from microros_gen.selection.resolve import resolve_selection
 
 
 @click.command()

@@ -9,14 +9,15 @@ from typing import Any
 
 import click
 
-from microros_gen.cli.options import SelectionOptions, selection_options
-from microros_gen.cli.pipeline import Planned, plan_request, resolve_request, warnings_text
-from microros_gen.cli.request import read_request
-from microros_gen.cli.resolve_format import format_selection, format_table, selection_data
+from microros_gen.cli.options import selection_options
+from microros_gen.cli.tables import format_selection, format_table, selection_data
+from microros_gen.client.plan.streams import StreamPlan
+from microros_gen.compiler.options import SelectionOptions
+from microros_gen.compiler.pipeline import Planned, plan_request, resolve_request, warnings_text
+from microros_gen.compiler.request import read_request
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.plan.layout import ILP32
-from microros_gen.plan.streams import StreamPlan
-from microros_gen.plan.types import DATA_MODELS, TypePlan
+from microros_gen.typesupport.plan.layout import ILP32
+from microros_gen.typesupport.plan.types import DATA_MODELS, TypePlan
 
 
 @click.command()

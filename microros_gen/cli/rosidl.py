@@ -14,9 +14,9 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from microros_gen.cli.generate import plan, write
-from microros_gen.cli.options import SelectionOptions
+from microros_gen.compiler.options import SelectionOptions
 from microros_gen.diagnostics import UserError
-from microros_gen.plan.capacity import Defaults
+from microros_gen.typesupport.plan.capacity import Defaults
 
 _APPLICATION = """\
 version: 1

@@ -17,13 +17,13 @@ from typing import Any
 
 import click
 
-from microros_gen.build.records import Located, locate
-from microros_gen.cli.emulator import Emulator, Machine
 from microros_gen.cli.options import image_option
+from microros_gen.client.plan.runtime import DISCOVERY_GROUP
 from microros_gen.diagnostics import Diagnostic, UserError
+from microros_gen.documents.files import read_json
+from microros_gen.image.records import Located, locate
 from microros_gen.output.tree import MANIFEST
-from microros_gen.plan.runtime import DISCOVERY_GROUP
-from microros_gen.sources.files import read_json
+from microros_gen.toolchain.emulator import Emulator, Machine
 
 AGENT_READY = "agent ready"
 

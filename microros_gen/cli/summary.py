@@ -6,13 +6,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from microros_gen.build.compile import BuildReport
-from microros_gen.build.measure import Usage
-from microros_gen.cli.pipeline import Planned
-from microros_gen.plan.message_pools import open_members
-from microros_gen.plan.runtime import RuntimePlan
-from microros_gen.plan.runtime_entities import PublisherPlan, SubscriptionPlan
-from microros_gen.plan.services import ServicePlan
+from microros_gen.client.plan.runtime import RuntimePlan
+from microros_gen.client.plan.runtime_entities import PublisherPlan, SubscriptionPlan
+from microros_gen.client.plan.services import ServicePlan
+from microros_gen.compiler.pipeline import Planned
+from microros_gen.toolchain.compile import BuildReport
+from microros_gen.toolchain.measure import Usage
+from microros_gen.typesupport.plan.message_pools import open_members
 
 _SHOWN = 6
 """Members that a line names."""

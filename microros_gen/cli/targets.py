@@ -11,10 +11,10 @@ from typing import Any
 
 import click
 
-from microros_gen.cli.resolve_format import format_table
+from microros_gen.cli.tables import format_table
 from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
-from microros_gen.model.target import Emulator, Region, Target, Uart, UniqueId
-from microros_gen.sources.targets import builtin_targets, read_target
+from microros_gen.platform.find import builtin_targets, read_target
+from microros_gen.platform.target import Emulator, Region, Target, Uart, UniqueId
 
 _COLUMNS = ("target", "what", "image", "needs")
 
@@ -67,8 +67,8 @@ def _toolchain(target: Target | None) -> bytes:
             f"target {target.name} has no tool-chain file: CMake finds the compiler of this machine by itself"
         )
         raise UserError([Diagnostic(what, hint=hint)])
-    from microros_gen.render.board import render_toolchain
-    from microros_gen.render.environment import shared_environment
+    from microros_gen.client.views.board import render_toolchain
+    from microros_gen.documents.templates import shared_environment
 
     return render_toolchain(target, shared_environment())
 

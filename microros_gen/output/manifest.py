@@ -11,12 +11,12 @@ from pathlib import PurePath
 from typing import Any
 
 from microros_gen import __version__
-from microros_gen.model.application import Memory
-from microros_gen.model.type_description import individual_type_description
-from microros_gen.model.types import Message, NamedType, TypeName, element_of
-from microros_gen.plan.project import Project
-from microros_gen.plan.runtime_entities import PublisherPlan
-from microros_gen.render.project import without_folder
+from microros_gen.application.model import Memory
+from microros_gen.client.plan.project import Project
+from microros_gen.client.plan.runtime_entities import PublisherPlan
+from microros_gen.client.views.project import without_folder
+from microros_gen.interfaces.type_description import individual_type_description
+from microros_gen.interfaces.types import Message, NamedType, TypeName, element_of
 
 
 def manifest(project: Project, inputs: Mapping[str, bytes], outputs: Mapping[str, bytes]) -> bytes:

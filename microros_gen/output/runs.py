@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import microros_gen
-from microros_gen.sources.files import read_json
+from microros_gen.documents.files import read_json
 
 # What decides besides files: where interfaces are searched, and which Python's packages.
 _ENVIRONMENT = ("AMENT_PREFIX_PATH", "COLCON_PREFIX_PATH")

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from microros_gen.diagnostics import Diagnostic, UserError
-from microros_gen.sources.files import read_bytes, read_json
+from microros_gen.documents.files import read_bytes, read_json
 
 MANIFEST = "manifest.json"
 JOURNAL = ".microros-gen-journal.json"

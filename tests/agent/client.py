@@ -14,14 +14,7 @@ from agent.serial_link import SerialLink
 from microros_gen.agent.wire.cdr import Writer
 from microros_gen.agent.wire.constants import OBJECT_AGENT, OBJECT_CLIENT, Format, ObjectKind
 from microros_gen.agent.wire.data_messages import WriteData
-from microros_gen.agent.wire.entity_messages import (
-    Acknack,
-    Create,
-    Delete,
-    Fragment,
-    Heartbeat,
-    StatusReply,
-)
+from microros_gen.agent.wire.entity_messages import Acknack, Create, Delete, Fragment, Heartbeat, StatusReply
 from microros_gen.agent.wire.message import Header, header_size, join, split
 from microros_gen.agent.wire.session_messages import CreateClient, GetInfo, Info, StatusAgent
 from microros_gen.agent.wire.submessages import Submessage, decode, encode

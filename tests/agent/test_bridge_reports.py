@@ -27,7 +27,7 @@ from microros_gen.agent.ros.bridge import (
     TypeMismatch,
 )
 from microros_gen.agent.ros.reports import graph_reporter
-from microros_gen.cli.type_hashes import type_hashes
+from microros_gen.interfaces.type_hashes import type_hashes
 
 pytestmark = pytest.mark.ros
 

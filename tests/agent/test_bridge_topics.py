@@ -16,7 +16,7 @@ from microros_gen.agent.representation import Durability, Qos, Topic
 from microros_gen.agent.ros import raw_types
 from microros_gen.agent.ros.bridge import BridgeError, Reader
 from microros_gen.agent.wire.constants import Status
-from microros_gen.cli.type_hashes import type_hashes
+from microros_gen.interfaces.type_hashes import type_hashes
 
 pytestmark = pytest.mark.ros
 

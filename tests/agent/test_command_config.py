@@ -10,17 +10,17 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft202012Validator
 
+from microros_gen.agent.configuration.model import PtyChoice, SerialChoice, SocketChoice
+from microros_gen.agent.configuration.parser import SCHEMA, parse_agent_file
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.transport.tcp import TcpLimits
-from microros_gen.cli.agent_options import AgentOptions, _one_each
-from microros_gen.cli.agent_start import serve
-from microros_gen.cli.agent_types import ManifestOf, TypeHashes, read_manifests
-from microros_gen.cli.type_hashes import type_hashes
+from microros_gen.cli.agent.options import AgentOptions, _one_each
+from microros_gen.cli.agent.start import serve
+from microros_gen.cli.agent.types import ManifestOf, TypeHashes, read_manifests
 from microros_gen.diagnostics import Diagnostics, Source, UserError
-from microros_gen.model.agent_file import PtyChoice, SerialChoice, SocketChoice
-from microros_gen.parse.agent_file import SCHEMA, parse_agent_file
-from microros_gen.parse.schema import load_schema
+from microros_gen.documents.schema import load_schema
+from microros_gen.interfaces.type_hashes import type_hashes
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples/agent/agent.yaml"
 NOTHING = {

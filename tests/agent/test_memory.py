@@ -22,7 +22,7 @@ from microros_gen.agent.core import Agent
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.memory import MemoryGuard, Pressure, resident_bytes
 from microros_gen.agent.wire.constants import Format
-from microros_gen.cli.agent_start import check_memory
+from microros_gen.cli.agent.start import check_memory
 from microros_gen.diagnostics import UserError
 
 MIB = 1 << 20

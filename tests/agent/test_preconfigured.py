@@ -13,6 +13,7 @@ from agent.client import int32_body
 from agent.fakes import Bench, FakeReplier, FakeRequester, FakeSource
 from agent.test_core import message
 from agent.test_core_reading import FOREVER
+from microros_gen.agent.configuration.entities_file import parse_preconfigured
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.wire.data_messages import ReadData, WriteData
@@ -20,7 +21,6 @@ from microros_gen.agent.wire.entity_messages import Delete, Heartbeat
 from microros_gen.agent.wire.message import Header, join
 from microros_gen.agent.wire.submessages import encode
 from microros_gen.diagnostics import Diagnostics, Source, UserError
-from microros_gen.parse.preconfigured import parse_preconfigured
 
 KEY = "0xA1B2C3D4"
 SERVICE = "/arm [std_srvs/srv/SetBool]"

@@ -25,7 +25,7 @@ from agent.process import AgentProcess, own_domain, running_agent
 from microros_gen.agent.wire.constants import Format
 from microros_gen.agent.wire.data_messages import Data, DeliveryControl, ReadData
 from microros_gen.agent.wire.submessages import encode
-from microros_gen.cli.type_hashes import type_hashes
+from microros_gen.interfaces.type_hashes import type_hashes
 
 pytestmark = pytest.mark.ros
 

@@ -10,14 +10,14 @@ from dataclasses import replace
 import pytest
 from runtime.harness import POOL
 
+from microros_gen.application.model import MOST_HISTORY
+from microros_gen.application.parser import parse_application
+from microros_gen.client.plan.declared import LARGEST_POOL
+from microros_gen.client.plan.runtime import RuntimePlan
+from microros_gen.client.plan.streams import LARGEST_MTU
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.model.application import MOST_HISTORY
-from microros_gen.parse.application import parse_application
-from microros_gen.plan.declared import LARGEST_POOL
-from microros_gen.plan.runtime import RuntimePlan
-from microros_gen.plan.streams import LARGEST_MTU
-from microros_gen.render.environment import make_environment
-from microros_gen.sources.components import components_folder
+from microros_gen.documents.templates import make_environment
+from microros_gen.selection.find_components import components_folder
 
 TEXT = re.compile(
     r'^const char (microros_error_\w+)\[\] =\n? *((?:"[^"\n]*"(?: XRCE_\w+ )?\s*)+);', re.MULTILINE
@@ -98,7 +98,7 @@ def test_a_full_stream_advises_what_helps(slots: int, on_full: str, advice: list
 
 def test_the_schema_has_the_numbers_that_advice_stops_at() -> None:
     schema = json.loads(
-        (components_folder().parent / "parse/application.schema.json").read_text(encoding="utf-8")
+        (components_folder().parent / "application/application.schema.json").read_text(encoding="utf-8")
     )
     assert schema["properties"]["pools"]["properties"]["history"]["maximum"] == MOST_HISTORY
     template = (components_folder() / "support/include/microros/error.h.j2").read_text(encoding="utf-8")

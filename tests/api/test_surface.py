@@ -17,9 +17,9 @@ import yaml
 from runtime.harness import Tree, compile_objects, link
 
 from microros_gen.cli.generate import plan, write
-from microros_gen.cli.options import SelectionOptions
-from microros_gen.sources.components import load_catalogue
-from microros_gen.sources.interfaces import shipped_folder
+from microros_gen.compiler.options import SelectionOptions
+from microros_gen.interfaces.find import shipped_folder
+from microros_gen.selection.find_components import load_catalogue
 
 SURFACE = yaml.safe_load((Path(__file__).parent / "surface.yaml").read_text(encoding="utf-8"))
 EVERYTHING = """\

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from microros_gen.model.application import Application, LimitRule, ParameterDecl, TimerDecl
+from microros_gen.application.model import Application, LimitRule, ParameterDecl, TimerDecl
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from microros_gen.application.model import Application
+from microros_gen.application.parser import parse_application
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.model.application import Application
-from microros_gen.parse.application import parse_application
 
 NODE = "nodes:\n  - name: n\n"
 PUBLISHER = "{topic: %s, type: std_msgs/msg/Bool}"

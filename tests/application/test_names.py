@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from microros_gen.model.names import (
+from microros_gen.application.names import (
     absolute,
     expand_topic_name,
     expanded_fault,

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from microros_gen.application.find import read_application
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.sources.application import read_application
 
 
 def test_the_file_of_the_folder_is_taken_where_there_is_one(tmp_path: Path) -> None:

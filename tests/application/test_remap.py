@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
+from microros_gen.application.model import NodeDecl
+from microros_gen.application.names import expand_topic_name
+from microros_gen.application.parser import parse_application
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.model.application import NodeDecl
-from microros_gen.model.names import expand_topic_name
-from microros_gen.parse.application import parse_application
 
 NODE = """\
 nodes:

@@ -11,13 +11,15 @@ import pytest
 from jsonschema import Draft202012Validator
 from key_cases import CASES, RESERVED
 
+from microros_gen.application.parser import SCHEMA as APPLICATION_SCHEMA
+from microros_gen.application.parser import parse_application
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.model.application import Named
-from microros_gen.model.component import Profile
-from microros_gen.parse.application import parse_application
-from microros_gen.parse.profile import AXES, parse_profile
-from microros_gen.parse.schema import APPLICATION_SCHEMA, PROFILE_SCHEMA, load_schema
-from microros_gen.parse.yaml_tree import parse_yaml, to_data
+from microros_gen.documents.named import Named
+from microros_gen.documents.schema import load_schema
+from microros_gen.documents.yaml_tree import parse_yaml, to_data
+from microros_gen.selection.component import Profile
+from microros_gen.selection.profile_file import AXES, parse_profile
+from microros_gen.selection.profile_file import SCHEMA as PROFILE_SCHEMA
 
 APPLICATION = load_schema(APPLICATION_SCHEMA)
 PROFILE = load_schema(PROFILE_SCHEMA)
@@ -116,8 +118,8 @@ def test_both_schemas_have_the_axes_of_the_parser() -> None:
 
 
 def test_the_schema_files_are_tidy() -> None:
-    for name in (APPLICATION_SCHEMA, PROFILE_SCHEMA):
-        text = json.dumps(load_schema(name))
+    for path in (APPLICATION_SCHEMA, PROFILE_SCHEMA):
+        text = json.dumps(load_schema(path))
         assert "SPDX-License-Identifier: Apache-2.0" in text
 
 

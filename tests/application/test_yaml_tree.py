@@ -12,8 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.parse import yaml_tree
-from microros_gen.parse.yaml_tree import MappingNode, ScalarNode, parse_yaml, to_data
+from microros_gen.documents import yaml_tree
+from microros_gen.documents.yaml_tree import MappingNode, ScalarNode, parse_yaml, to_data
 
 LOADERS = [True, False]
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from matrix import ALSO, ROOT, VARIANTS, Tree, check, compile_tree, has
 
-from microros_gen.build.toolchain import WARNINGS
+from microros_gen.toolchain.toolchain import WARNINGS
 
 TreeOf = Callable[[str], Tree]
 
@@ -63,7 +63,7 @@ def test_it_compiles_without_a_warning_and_links(
 
 def test_the_variants_select_every_file(tree_of: TreeOf) -> None:
     """A new file of a ready component must come into the matrix; what only boards have is built in tests/firmware."""
-    from microros_gen.sources.components import load_catalogue
+    from microros_gen.selection.find_components import load_catalogue
 
     selected = {source for name in VARIANTS if name not in ALSO for source in tree_of(name).sources}
     ready = [component for component in load_catalogue().values() if component.ready]

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.build.archive import read_archive
-from microros_gen.build.records import RECORDS, locate
 from microros_gen.diagnostics import UserError
+from microros_gen.image.records import RECORDS, locate
+from microros_gen.toolchain.archive import read_archive
 
 
 class BuildFolder:

@@ -16,23 +16,23 @@ import pytest
 from matrix import has
 from size_images import APPLICATION, BOARDS, PROBE, build, tool
 
-from microros_gen.build.attribution import attribute, attribute_library
-from microros_gen.build.budget import budget_lines
-from microros_gen.build.callgraph import parse_call_graph
-from microros_gen.build.compile import CALL_GRAPH, MAP, compile_tree
-from microros_gen.build.disassembly import parse_disassembly
-from microros_gen.build.elf import Elf
-from microros_gen.build.entities import MESSAGE_STORAGE
-from microros_gen.build.folder import read_folder
-from microros_gen.build.linker_map import parse_map
-from microros_gen.build.pointers import read_pointers
-from microros_gen.build.records import ImageRecord
-from microros_gen.build.report import SizeReport, measure
-from microros_gen.build.stack import bound_of, shown_name
-from microros_gen.build.toolchain import find_toolchain
-from microros_gen.cli.size_format import size_table
+from microros_gen.cli.size.format import size_table
 from microros_gen.diagnostics import Diagnostics, UserError
-from microros_gen.sources.targets import read_target
+from microros_gen.image.attribution import attribute, attribute_library
+from microros_gen.image.budget import budget_lines
+from microros_gen.image.callgraph import parse_call_graph
+from microros_gen.image.disassembly import parse_disassembly
+from microros_gen.image.elf import Elf
+from microros_gen.image.entities import MESSAGE_STORAGE
+from microros_gen.image.folder import read_folder
+from microros_gen.image.linker_map import parse_map
+from microros_gen.image.pointers import read_pointers
+from microros_gen.image.records import ImageRecord
+from microros_gen.image.report import SizeReport, measure
+from microros_gen.image.stack import bound_of, shown_name
+from microros_gen.platform.find import read_target
+from microros_gen.toolchain.compile import CALL_GRAPH, MAP, compile_tree
+from microros_gen.toolchain.toolchain import find_toolchain
 
 pytestmark = pytest.mark.skipif(not has("gcc") or not has("size"), reason="no gcc or no size")
 LINK_FLAGS = ("-Wl,--gc-sections", "-Wl,-z,now")

@@ -12,10 +12,10 @@ from pathlib import Path
 import pytest
 from matrix import ALSO, FIRST, VARIANTS, Tree, check, compile_tree, has
 
-from microros_gen.build.compile import object_name
 from microros_gen.cli import main as cli
-from microros_gen.sources.components import components_folder
-from microros_gen.sources.interfaces import shipped_folder
+from microros_gen.interfaces.find import shipped_folder
+from microros_gen.selection.find_components import components_folder
+from microros_gen.toolchain.compile import object_name
 
 pytestmark = pytest.mark.skipif(not has("gcc") or not has("nm"), reason="no gcc or no nm")
 TreeOf = Callable[[str], Tree]

@@ -12,7 +12,7 @@ import pytest
 from cli.conftest import Runner
 
 from microros_gen.cli.main import _COMMANDS
-from microros_gen.model.xrce import BUILTIN_PROFILES
+from microros_gen.selection.xrce import BUILTIN_PROFILES
 
 IDL = str(Path(__file__).resolve().parents[2] / "microros_gen" / "idl")
 ALL_COMMANDS = [*_COMMANDS, "agent udp4"]

@@ -16,9 +16,9 @@ import pytest
 from cli.conftest import Outcome, Runner
 
 import microros_gen
-from microros_gen.cli import request
+from microros_gen.compiler import request
+from microros_gen.interfaces.find import shipped_folder
 from microros_gen.output import runs
-from microros_gen.sources.interfaces import shipped_folder
 
 APPLICATION = """\
 version: 1
@@ -326,6 +326,6 @@ def test_it_imports_nothing_that_a_full_run_needs(folder: Path) -> None:
         "yaml",
         "lark",
         "jsonschema",
-        "microros_gen.cli.pipeline",
-        "microros_gen.cli.request",
+        "microros_gen.compiler.pipeline",
+        "microros_gen.compiler.request",
     }

@@ -13,23 +13,23 @@ from pathlib import Path
 import pytest
 from cli.conftest import Runner
 
-from microros_gen.adopt.c_program import read_program
-from microros_gen.adopt.c_tokens import read_c
-from microros_gen.adopt.colcon_meta import read_settings
+from microros_gen.agent.configuration.entities_file import parse_preconfigured
+from microros_gen.agent.configuration.parser import parse_agent_file
+from microros_gen.application.parser import parse_application
 from microros_gen.diagnostics import Diagnostics, Source, Span, UserError
 from microros_gen.diagnostics.diagnostic import LONGEST_LINE, Diagnostic
 from microros_gen.diagnostics.internal import reads
-from microros_gen.model.types import TypeName
-from microros_gen.parse.action import parse_action
-from microros_gen.parse.agent_file import parse_agent_file
-from microros_gen.parse.application import parse_application
-from microros_gen.parse.component import parse_component
-from microros_gen.parse.idl import parse_idl
-from microros_gen.parse.msg import parse_msg
-from microros_gen.parse.preconfigured import parse_preconfigured
-from microros_gen.parse.profile import parse_profile
-from microros_gen.parse.srv import parse_srv
-from microros_gen.parse.target import parse_target
+from microros_gen.interfaces.msg.action import parse_action
+from microros_gen.interfaces.msg.parser import parse_msg
+from microros_gen.interfaces.msg.srv import parse_srv
+from microros_gen.interfaces.omg_idl.parser import parse_idl
+from microros_gen.interfaces.types import TypeName
+from microros_gen.migrate.c_program import read_program
+from microros_gen.migrate.c_tokens import read_c
+from microros_gen.migrate.colcon_meta import read_settings
+from microros_gen.platform.target_file import parse_target
+from microros_gen.selection.component_file import parse_component
+from microros_gen.selection.profile_file import parse_profile
 
 ROOT = Path(__file__).resolve().parents[2]
 MUTATIONS = int(os.environ.get("MUTATIONS", "60"))  # of each seed; thousands by hand
@@ -214,7 +214,7 @@ def test_an_exception_outside_of_any_text_is_a_diagnostic_too(
     def fails(*_: object) -> None:
         raise ZeroDivisionError("by accident")
 
-    monkeypatch.setattr("microros_gen.cli.pipeline.resolve_profiles", fails)
+    monkeypatch.setattr("microros_gen.compiler.pipeline.resolve_profiles", fails)
     outcome = run("resolve", "--profile", "pure_sender")
     assert outcome.status == 2
     assert "microros-gen: error: internal error: ZeroDivisionError: by accident" in outcome.err

@@ -17,7 +17,7 @@ from cli.conftest import Runner
 
 import microros_gen
 from microros_gen.cli import main as cli
-from microros_gen.cli.size_html import HEIGHT, WIDTH, treemap
+from microros_gen.cli.size.html import HEIGHT, WIDTH, treemap
 
 pytestmark = pytest.mark.skipif(not shutil.which("gcc"), reason="no gcc")
 SCHEMA = json.loads(

@@ -20,7 +20,7 @@ from agent.process import own_domain, running_agent
 from cmake_build.projects import BOARD, EXAMPLE, PAGE, ROOT, Project, run
 from e2e.relay import Relay
 
-SCHEMA = json.loads((ROOT / "microros_gen/cli/size.schema.json").read_text(encoding="utf-8"))
+SCHEMA = json.loads((ROOT / "microros_gen/cli/size/size.schema.json").read_text(encoding="utf-8"))
 EXCEEDED = re.compile(r"microros\.yaml(:\d+:\d+): error: (.*?): \d+ bytes, and (memory\.\w+ is \d+)")
 BUDGETS = "memory: {ram_budget: 1 KiB, flash_budget: 10 KiB, stack: 512}\n"
 

@@ -18,16 +18,16 @@ from pathlib import Path
 
 import click
 import pytest
+from microros_gen.cli.agent.command.command import command
 
+from microros_gen.agent.configuration.entities_file import KINDS, parse_preconfigured
+from microros_gen.agent.configuration.parser import parse_agent_file
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.processing import Processor
 from microros_gen.agent.ros import reports
 from microros_gen.agent.transport.tcp import TcpLimits
-from microros_gen.cli.agent import command
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.parse.agent_file import parse_agent_file
-from microros_gen.parse.preconfigured import KINDS, parse_preconfigured
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs/agent.md").read_text(encoding="utf-8")

@@ -23,7 +23,7 @@ from agent.process import own_domain, running_agent
 from docs.console import ROOT
 
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.sources.targets import read_target
+from microros_gen.platform.find import read_target
 
 BOARDS = ROOT / "examples" / "boards"
 STAND_INS = Path(__file__).parent / "stand_ins"

@@ -17,10 +17,10 @@ from click.testing import CliRunner
 from docs.console import ROOT
 from generators import c_api, command_line
 from generators.c_headers import read_header
-from hooks import generated
+from hooks import SCHEMA_FILES, generated
 
 from microros_gen.cli.main import cli
-from microros_gen.parse.schema import load_schema
+from microros_gen.documents.schema import load_schema
 
 SURFACE = yaml.safe_load((ROOT / "tests/api/surface.yaml").read_text(encoding="utf-8"))
 SCHEMAS = ("application", "profile", "target", "agent")
@@ -61,7 +61,7 @@ def described(part: Any, path: str = "") -> Iterator[tuple[str, str]]:
 @pytest.mark.parametrize("name", SCHEMAS)
 def test_every_key_is_there_with_its_meaning(name: str) -> None:
     page = generated()[f"reference/{name}_file.md"]
-    keys = dict(described(load_schema(f"{name}.schema.json")))
+    keys = dict(described(load_schema(SCHEMA_FILES[name])))
     assert not [key for key, meaning in keys.items() if not meaning]
     rows = re.findall(r"(?m)^\| \[?`([^`]+)`.*?\| (.*?) \| (.*) \|$", page)
     assert {key.rpartition(".")[2] for key in keys} == {row[0] for row in rows}
@@ -153,7 +153,7 @@ typedef void (*call_t)(void * data);
 
 def test_two_runs_write_the_same() -> None:
     """In a process with other hashes too."""
-    script = "import json; from hooks import generated; print(json.dumps(generated()))"
+    script = "import json; from hooks import SCHEMA_FILES, generated; print(json.dumps(generated()))"
     environment = {"PYTHONPATH": f"{ROOT}:{ROOT / 'docs'}", "PYTHONHASHSEED": "4711", "PATH": ""}
     done = subprocess.run(
         [sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True

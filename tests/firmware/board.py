@@ -19,12 +19,12 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.build.compile import CALL_GRAPH
-from microros_gen.cli.emulator import Emulator, Machine
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.model.target import Target
-from microros_gen.sources.interfaces import shipped_folder
-from microros_gen.sources.targets import builtin_targets, read_target
+from microros_gen.interfaces.find import shipped_folder
+from microros_gen.platform.find import builtin_targets, read_target
+from microros_gen.platform.target import Target
+from microros_gen.toolchain.compile import CALL_GRAPH
+from microros_gen.toolchain.emulator import Emulator, Machine
 
 C_FILES = Path(__file__).parent / "c"
 BOARDS = tuple(name for name in builtin_targets() if name.startswith("qemu-"))

@@ -15,7 +15,7 @@ from firmware.board import C_FILES, Built, board, build, check, need
 from firmware.line import scripted_agent
 from firmware.test_images import NOT_NEEDED
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.sources.targets import read_target
+from microros_gen.platform.find import read_target
 
 DMA, FAST, OFFSET = 0x21800000, 0x21000000, 0x10000
 BOOTED = f"""\

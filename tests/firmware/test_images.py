@@ -113,7 +113,7 @@ def own_board(tmp_path_factory: pytest.TempPathFactory) -> Built:
     assert done.returncode == 0, done.stderr
     assert "none: your application provides port_serial_open" in done.stdout
     from microros_gen.diagnostics import Diagnostics
-    from microros_gen.sources.targets import read_target
+    from microros_gen.platform.find import read_target
 
     found = read_target("mine.yaml", home, None, Diagnostics())
     assert found is not None

@@ -9,14 +9,14 @@ from pathlib import Path
 import pytest
 
 from firmware.board import C_FILES, check
-from microros_gen.build.toolchain import WARNINGS
+from microros_gen.application.model import Application, Transport
+from microros_gen.client.plan.board import plan_board, ring_size
+from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.model.application import Application, Transport
-from microros_gen.model.target import Uart
-from microros_gen.plan.board import plan_board, ring_size
-from microros_gen.plan.runtime import RuntimePlan
-from microros_gen.sources.components import components_folder
-from microros_gen.sources.targets import read_target
+from microros_gen.platform.find import read_target
+from microros_gen.platform.target import Uart
+from microros_gen.selection.find_components import components_folder
+from microros_gen.toolchain.toolchain import WARNINGS
 
 COMPONENTS = components_folder()
 BOARD = (

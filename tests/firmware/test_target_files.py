@@ -10,11 +10,11 @@ import yaml
 from jsonschema import Draft202012Validator
 
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.model.target import OPTIONAL_REGISTERS, OWN_DRIVER, PORTS, REGISTERS, Region
-from microros_gen.parse.schema import TARGET_SCHEMA, load_schema
-from microros_gen.sources.components import load_catalogue
-from microros_gen.sources.runtime import TARGETS
-from microros_gen.sources.targets import FoundTarget, builtin_targets, read_target
+from microros_gen.documents.schema import load_schema
+from microros_gen.platform.find import TARGETS, FoundTarget, builtin_targets, read_target
+from microros_gen.platform.target import OPTIONAL_REGISTERS, OWN_DRIVER, PORTS, REGISTERS, Region
+from microros_gen.platform.target_file import SCHEMA as TARGET_SCHEMA
+from microros_gen.selection.find_components import load_catalogue
 
 SCHEMA = load_schema(TARGET_SCHEMA)
 BOARD = """\

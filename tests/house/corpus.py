@@ -17,9 +17,9 @@ from pathlib import Path
 from types import MappingProxyType
 
 from microros_gen.cli.generate import plan, write
-from microros_gen.cli.options import SelectionOptions
-from microros_gen.sources.components import components_folder, load_catalogue
-from microros_gen.sources.interfaces import shipped_folder
+from microros_gen.compiler.options import SelectionOptions
+from microros_gen.interfaces.find import shipped_folder
+from microros_gen.selection.find_components import components_folder, load_catalogue
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples"

@@ -23,7 +23,7 @@ from house.corpus import (
     width_flags,
 )
 
-from microros_gen.sources.components import components_folder
+from microros_gen.selection.find_components import components_folder
 
 SUPPRESSIONS = ROOT / "tests" / "house" / "cppcheck-suppressions.txt"
 TIDY = ROOT / ".clang-tidy"

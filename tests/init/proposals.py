@@ -6,9 +6,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+from microros_gen.application.model import Application
+from microros_gen.application.parser import parse_application
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.model.application import Application
-from microros_gen.parse.application import parse_application
 
 Init = Callable[..., tuple[int, str, str]]
 Entity = tuple[str, str, str, str]

@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 from proposals import Init, application_in, undecided_in
 
-from microros_gen.adopt.colcon_meta import read_settings
-from microros_gen.adopt.meta_draft import meta_draft
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.model.draft import Draft
+from microros_gen.migrate.colcon_meta import read_settings
+from microros_gen.migrate.draft import Draft
+from microros_gen.migrate.meta_draft import meta_draft
 
 RMW = "rmw_microxrcedds"
 CLIENT = "microxrcedds_client"

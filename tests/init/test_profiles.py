@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 from proposals import Init, application_in, entities_of
 
-from microros_gen.build.toolchain import WARNINGS
 from microros_gen.cli import main as cli
-from microros_gen.cli.init_sources import Wish
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.sources.targets import builtin_targets, read_target
+from microros_gen.migrate.proposal import Wish
+from microros_gen.platform.find import builtin_targets, read_target
+from microros_gen.toolchain.toolchain import WARNINGS
 
 READY = (
     "pure_sender",

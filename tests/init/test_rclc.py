@@ -9,11 +9,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from microros_gen.adopt.rclc_draft import Adopted, rclc_draft
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.model.component import Catalogue
-from microros_gen.model.draft import DraftEndpoint
-from microros_gen.sources.components import declared_functions, load_catalogue
+from microros_gen.migrate.draft import DraftEndpoint
+from microros_gen.migrate.rclc_draft import Adopted, rclc_draft
+from microros_gen.selection.component import Catalogue
+from microros_gen.selection.find_components import declared_functions, load_catalogue
 
 NODE = 'rclc_node_init_default(&node, "n", "", &support);'
 INT32 = "ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32)"

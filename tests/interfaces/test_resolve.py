@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 
 from microros_gen.diagnostics import Diagnostics, Source, Span
-from microros_gen.model.application import Named
-from microros_gen.model.types import NamedType, TypeName, element_of
-from microros_gen.resolve.interfaces import InterfaceSet, resolve_interfaces
-from microros_gen.sources.interfaces import InterfaceFinder, Origin, shipped_folder
+from microros_gen.documents.named import Named
+from microros_gen.interfaces.closure import InterfaceSet, resolve_interfaces
+from microros_gen.interfaces.find import InterfaceFinder, Origin, shipped_folder
+from microros_gen.interfaces.types import NamedType, TypeName, element_of
 
 
 def package(folder: Path, name: str, kind: str = "msg", **types: str) -> Path:

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from test_resolve import names, package, resolve
 
-from microros_gen.model.types import TypeName
-from microros_gen.resolve.interfaces import split_type_name
-from microros_gen.sources.interfaces import InterfaceFinder, shipped_folder
+from microros_gen.interfaces.closure import split_type_name
+from microros_gen.interfaces.find import InterfaceFinder, shipped_folder
+from microros_gen.interfaces.types import TypeName
 
 SHIPPED = InterfaceFinder(shipped=shipped_folder())
 SET_BOOL = TypeName("std_srvs", "srv", "SetBool")

@@ -14,12 +14,12 @@ from typing import Any
 import pytest
 
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.model.application import Named
-from microros_gen.model.derived import parts_of
-from microros_gen.model.msg_text import declaration_text, message_text
-from microros_gen.model.types import Constant, Field, Message, TypeName
-from microros_gen.resolve.interfaces import Interface, InterfaceSet, resolve_interfaces
-from microros_gen.sources.interfaces import InterfaceFinder, shipped_folder
+from microros_gen.documents.named import Named
+from microros_gen.interfaces.closure import Interface, InterfaceSet, resolve_interfaces
+from microros_gen.interfaces.derived import parts_of
+from microros_gen.interfaces.find import InterfaceFinder, shipped_folder
+from microros_gen.interfaces.msg.text import declaration_text, message_text
+from microros_gen.interfaces.types import Constant, Field, Message, TypeName
 
 SHARE = Path(sys.prefix) / "share"
 # Not in the wheels of ROS 2 on PyPI: written from what is publicly known of them.

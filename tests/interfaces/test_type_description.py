@@ -12,9 +12,11 @@ import pytest
 from rosidl_pipeline import ros_message
 
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.model.application import Named
-from microros_gen.model.type_description import type_description, type_hash, type_id
-from microros_gen.model.types import (
+from microros_gen.documents.named import Named
+from microros_gen.interfaces.closure import InterfaceSet, resolve_interfaces
+from microros_gen.interfaces.find import InterfaceFinder
+from microros_gen.interfaces.type_description import type_description, type_hash, type_id
+from microros_gen.interfaces.types import (
     ArrayType,
     Constant,
     Field,
@@ -25,8 +27,6 @@ from microros_gen.model.types import (
     StringType,
     TypeName,
 )
-from microros_gen.resolve.interfaces import InterfaceSet, resolve_interfaces
-from microros_gen.sources.interfaces import InterfaceFinder
 
 SHARE = Path(sys.prefix) / "share"
 

@@ -10,11 +10,11 @@ from xml.etree import ElementTree
 import pytest
 
 from microros_gen.cli.generate import plan
-from microros_gen.cli.options import SelectionOptions
-from microros_gen.cli.pipeline import render_request
+from microros_gen.client.plan.creation import CreateNames, create_size
+from microros_gen.compiler.options import SelectionOptions
+from microros_gen.compiler.pipeline import render_request
 from microros_gen.diagnostics import UserError
-from microros_gen.plan.creation import CreateNames, create_size
-from microros_gen.sources.interfaces import shipped_folder
+from microros_gen.interfaces.find import shipped_folder
 
 NODES = """\
 version: 1

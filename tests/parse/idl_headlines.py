@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.parse.idl import parse_idl
+from microros_gen.interfaces.omg_idl.parser import parse_idl
 
 
 def headlines(texts: list[str]) -> list[str]:

@@ -7,7 +7,8 @@ import string
 
 from hypothesis import strategies as st
 
-from microros_gen.model.types import (
+from microros_gen.interfaces.msg.names import C_KEYWORDS, CPP_KEYWORDS
+from microros_gen.interfaces.types import (
     ArrayType,
     Constant,
     ElementType,
@@ -21,7 +22,6 @@ from microros_gen.model.types import (
     StringType,
     TypeName,
 )
-from microros_gen.parse.msg_names import C_KEYWORDS, CPP_KEYWORDS
 
 NAME = TypeName("pkg_a", "msg", "Foo")
 IDENTIFIERS = st.from_regex(r"[a-zA-Z][a-zA-Z0-9_]{0,8}", fullmatch=True).filter(

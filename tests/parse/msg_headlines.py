@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.model.types import TypeName
-from microros_gen.parse.msg import parse_msg
+from microros_gen.interfaces.msg.parser import parse_msg
+from microros_gen.interfaces.types import TypeName
 
 
 def headlines(texts: list[str]) -> list[str]:

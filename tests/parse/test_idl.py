@@ -12,8 +12,9 @@ from idl_corpus import BAD, BAD_PARTS, GOOD, const, default, msg, parts
 from idl_strategies import NAME, messages
 
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.model.idl_text import idl_text
-from microros_gen.model.types import (
+from microros_gen.interfaces.omg_idl.parser import parse_idl, read_idl
+from microros_gen.interfaces.omg_idl.text import idl_text
+from microros_gen.interfaces.types import (
     Action,
     ArrayType,
     Message,
@@ -24,7 +25,6 @@ from microros_gen.model.types import (
     StringType,
     TypeName,
 )
-from microros_gen.parse.idl import parse_idl, read_idl
 
 
 def found(text: str, kind: str = "msg") -> list[str]:

@@ -29,11 +29,11 @@ from idl_strategies import messages
 from rosidl_idl_pipeline import RosMessage, ros_c_compiles, ros_cpp_compiles, ros_idl, ros_makes_python
 
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.model.derived import messages_of
-from microros_gen.model.idl_text import idl_text
-from microros_gen.model.type_description import individual_type_description
-from microros_gen.model.types import Message
-from microros_gen.parse.idl import IdlFile, read_idl
+from microros_gen.interfaces.derived import messages_of
+from microros_gen.interfaces.omg_idl.parser import IdlFile, read_idl
+from microros_gen.interfaces.omg_idl.text import idl_text
+from microros_gen.interfaces.type_description import individual_type_description
+from microros_gen.interfaces.types import Message
 
 pytestmark = pytest.mark.ros
 

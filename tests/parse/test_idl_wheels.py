@@ -15,10 +15,14 @@ from pathlib import Path
 import pytest
 
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.model.derived import messages_of, structures_of
-from microros_gen.model.idl_text import idl_text
-from microros_gen.model.type_description import type_hash
-from microros_gen.model.types import (
+from microros_gen.interfaces.derived import messages_of, structures_of
+from microros_gen.interfaces.msg.action import parse_action
+from microros_gen.interfaces.msg.parser import parse_msg
+from microros_gen.interfaces.msg.srv import parse_srv
+from microros_gen.interfaces.omg_idl.parser import parse_idl, read_idl
+from microros_gen.interfaces.omg_idl.text import idl_text
+from microros_gen.interfaces.type_description import type_hash
+from microros_gen.interfaces.types import (
     Action,
     ArrayType,
     Constant,
@@ -31,10 +35,6 @@ from microros_gen.model.types import (
     Service,
     TypeName,
 )
-from microros_gen.parse.action import parse_action
-from microros_gen.parse.idl import parse_idl, read_idl
-from microros_gen.parse.msg import parse_msg
-from microros_gen.parse.srv import parse_srv
 
 pytestmark = pytest.mark.ros
 SHARE = Path(sys.prefix) / "share"

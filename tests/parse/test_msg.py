@@ -14,8 +14,11 @@ from hypothesis import strategies as st
 from msg_corpus import BAD, GOOD
 
 from microros_gen.diagnostics import Diagnostics, Severity, Source
-from microros_gen.model.msg_text import message_text
-from microros_gen.model.types import (
+from microros_gen.interfaces.find import shipped_folder
+from microros_gen.interfaces.msg.names import C_KEYWORDS, CPP_KEYWORDS
+from microros_gen.interfaces.msg.parser import parse_msg
+from microros_gen.interfaces.msg.text import message_text
+from microros_gen.interfaces.types import (
     ArrayType,
     Constant,
     ElementType,
@@ -29,9 +32,6 @@ from microros_gen.model.types import (
     TypeName,
     Value,
 )
-from microros_gen.parse.msg import parse_msg
-from microros_gen.parse.msg_names import C_KEYWORDS, CPP_KEYWORDS
-from microros_gen.sources.interfaces import shipped_folder
 
 NAME = TypeName("pkg_a", "msg", "Foo")
 

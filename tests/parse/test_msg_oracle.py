@@ -15,9 +15,9 @@ from msg_corpus import BAD, DIFFERENCES, GOOD, RIGHT_NAMES, WRONG_NAMES, Differe
 from rosidl_pipeline import adapter_message, ros_message
 
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.model.type_description import individual_type_description
-from microros_gen.model.types import Message, TypeName
-from microros_gen.parse.msg import parse_msg
+from microros_gen.interfaces.msg.parser import parse_msg
+from microros_gen.interfaces.type_description import individual_type_description
+from microros_gen.interfaces.types import Message, TypeName
 
 pytestmark = pytest.mark.ros
 NAME = TypeName("pkg_a", "msg", "Foo")

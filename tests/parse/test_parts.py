@@ -17,12 +17,12 @@ from rosidl_pipeline import adapter_parts, ros_declaration
 from test_msg import messages, without_places
 
 from microros_gen.diagnostics import Diagnostics, Severity, Source
-from microros_gen.model.derived import derived_name, make_declaration, parts_of, structures_of
-from microros_gen.model.msg_text import declaration_text
-from microros_gen.model.type_description import type_description
-from microros_gen.model.types import Action, Message, NamedType, Primitive, Service, TypeName, element_of
-from microros_gen.parse.action import parse_action
-from microros_gen.parse.srv import parse_srv
+from microros_gen.interfaces.derived import derived_name, make_declaration, parts_of, structures_of
+from microros_gen.interfaces.msg.action import parse_action
+from microros_gen.interfaces.msg.srv import parse_srv
+from microros_gen.interfaces.msg.text import declaration_text
+from microros_gen.interfaces.type_description import type_description
+from microros_gen.interfaces.types import Action, Message, NamedType, Primitive, Service, TypeName, element_of
 
 INSTALLED = sorted((Path(sys.prefix) / "share").glob("*/srv/*.srv"))
 INSTALLED += sorted((Path(sys.prefix) / "share").glob("*/action/*.action"))

@@ -7,13 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.cli.options import SelectionOptions
-from microros_gen.cli.pipeline import plan_request, resolve_request
-from microros_gen.cli.request import request_of
+from microros_gen.client.plan.project import Project
+from microros_gen.client.views.example import ExampleView, example_view
+from microros_gen.client.views.example_running import RunningView
+from microros_gen.compiler.options import SelectionOptions
+from microros_gen.compiler.pipeline import plan_request, resolve_request
+from microros_gen.compiler.request import request_of
 from microros_gen.diagnostics import Diagnostics, Source, UserError
-from microros_gen.plan.project import Project
-from microros_gen.render.example import ExampleView, example_view
-from microros_gen.render.example_running import RunningView
 
 HEAD = "version: 1\nprofiles: [pure_sender, pure_reader]\nlimits: {'*': {string: 16}}\n"
 NODE = """\

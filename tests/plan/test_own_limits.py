@@ -10,16 +10,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from microros_gen.application.model import LimitRule
 from microros_gen.cli.generate import plan
-from microros_gen.cli.options import SelectionOptions
-from microros_gen.cli.pipeline import Planned
+from microros_gen.compiler.options import SelectionOptions
+from microros_gen.compiler.pipeline import Planned
 from microros_gen.diagnostics import Diagnostics, UserError
-from microros_gen.model.application import LimitRule
-from microros_gen.model.types import Field, Message, NamedType, SequenceType, StringType, TypeName
-from microros_gen.plan.capacity import Capacities, Defaults, Entity, Root, plan_capacities
-from microros_gen.plan.types import TypePlan, plan_types
-from microros_gen.plan.types_own_limits import without_topic
-from microros_gen.sources.interfaces import shipped_folder
+from microros_gen.interfaces.find import shipped_folder
+from microros_gen.interfaces.types import Field, Message, NamedType, SequenceType, StringType, TypeName
+from microros_gen.typesupport.plan.capacity import Capacities, Defaults, Entity, Root, plan_capacities
+from microros_gen.typesupport.plan.own_limits import without_topic
+from microros_gen.typesupport.plan.types import TypePlan, plan_types
 
 NOTE = TypeName("pkg", "msg", "Note")
 NOTES = TypeName("pkg", "msg", "Notes")

@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 
 from microros_gen.cli.generate import plan
-from microros_gen.cli.options import SelectionOptions
-from microros_gen.cli.pipeline import Planned, render_request
+from microros_gen.client.plan.runtime_entities import QueuePlan
+from microros_gen.compiler.options import SelectionOptions
+from microros_gen.compiler.pipeline import Planned, render_request
 from microros_gen.diagnostics import UserError
-from microros_gen.plan.runtime_entities import QueuePlan
-from microros_gen.sources.interfaces import shipped_folder
+from microros_gen.interfaces.find import shipped_folder
 
 NODES = """\
 version: 1

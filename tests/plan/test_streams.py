@@ -9,9 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from microros_gen.diagnostics import Diagnostics
-from microros_gen.model.application import Application, Named, Transport
-from microros_gen.plan.streams import (
+from microros_gen.application.model import Application, Transport
+from microros_gen.client.plan.streams import (
     DEFAULT_MTU,
     LARGEST_BODY,
     Received,
@@ -19,7 +18,9 @@ from microros_gen.plan.streams import (
     Written,
     plan_streams,
 )
-from microros_gen.resolve.declared import STREAM_BEST_EFFORT, STREAM_RELIABLE_INPUT, stream_demands
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.documents.named import Named
+from microros_gen.selection.declared import STREAM_BEST_EFFORT, STREAM_RELIABLE_INPUT, stream_demands
 
 INT32 = Written("std_msgs/msg/Int32 on /count", 4, True, False)
 RELIABLE = Application(creation=Named("reliable"))

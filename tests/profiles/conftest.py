@@ -9,14 +9,15 @@ from pathlib import Path
 import pytest
 from small_catalogue import Outcome, small_catalogue
 
+from microros_gen.application.model import Application
+from microros_gen.application.parser import parse_application
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.model.application import Application, Named
-from microros_gen.model.component import Catalogue, Middleware
-from microros_gen.parse.application import parse_application
-from microros_gen.resolve.profiles import resolve_profiles
-from microros_gen.resolve.selection import resolve_selection
-from microros_gen.sources.components import load_catalogue
-from microros_gen.sources.profiles import load_middleware, load_profiles
+from microros_gen.documents.named import Named
+from microros_gen.selection.component import Catalogue, Middleware
+from microros_gen.selection.find_components import load_catalogue
+from microros_gen.selection.find_profiles import load_middleware, load_profiles
+from microros_gen.selection.profiles import resolve_profiles
+from microros_gen.selection.resolve import resolve_selection
 
 
 @pytest.fixture(scope="session")

@@ -6,8 +6,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from microros_gen.model.component import Catalogue, Component
-from microros_gen.model.selection import Selection
+from microros_gen.selection.component import Catalogue, Component
+from microros_gen.selection.model import Selection
 
 
 def _component(name: str, layer: str = "middleware", **rest: object) -> Component:

@@ -8,13 +8,13 @@ from pathlib import Path
 
 import pytest
 
+from microros_gen.client.plan.board import BoardPlan
+from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.diagnostics import UserError
-from microros_gen.model.component import Catalogue, Middleware, SourceFile
-from microros_gen.model.target import Target
-from microros_gen.model.xrce import MICRO_ROS_COMPONENTS
-from microros_gen.plan.board import BoardPlan
-from microros_gen.plan.runtime import RuntimePlan
-from microros_gen.sources.components import components_folder, load_catalogue
+from microros_gen.platform.target import Target
+from microros_gen.selection.component import Catalogue, Middleware, SourceFile
+from microros_gen.selection.find_components import components_folder, load_catalogue
+from microros_gen.selection.xrce import MICRO_ROS_COMPONENTS
 
 GOOD = """\
 component: x

@@ -10,15 +10,15 @@ import pytest
 from small_catalogue import Outcome
 
 from microros_gen.diagnostics import Diagnostics, Source, UserError
-from microros_gen.model.application import Named
-from microros_gen.parse.profile import parse_middleware, parse_profile
-from microros_gen.resolve.profiles import resolve_profiles
-from microros_gen.sources.profiles import (
+from microros_gen.documents.named import Named
+from microros_gen.selection.find_profiles import (
     load_builtin_profiles,
     load_middleware,
     load_profiles,
     profiles_folder,
 )
+from microros_gen.selection.profile_file import parse_middleware, parse_profile
+from microros_gen.selection.profiles import resolve_profiles
 
 Resolve = Callable[..., Outcome]
 
@@ -225,8 +225,8 @@ def test_profiles_are_found_in_a_wheel(tmp_path: Path, monkeypatch: pytest.Monke
     installed = tmp_path / "microros_gen" / "profiles"
     installed.mkdir(parents=True)
     (tmp_path / "profiles").mkdir()
-    module = tmp_path / "microros_gen" / "sources" / "profiles.py"
-    monkeypatch.setattr("microros_gen.sources.profiles.__file__", str(module))
+    module = tmp_path / "microros_gen" / "selection" / "find_profiles.py"
+    monkeypatch.setattr("microros_gen.selection.find_profiles.__file__", str(module))
     assert profiles_folder() == installed.resolve()
     installed.rmdir()
     assert profiles_folder() == (tmp_path / "profiles").resolve()

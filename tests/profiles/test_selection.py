@@ -11,8 +11,8 @@ import pytest
 from small_catalogue import Outcome
 
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.model.xrce import BUILTIN_PROFILES
-from microros_gen.resolve.selection import check_ready
+from microros_gen.selection.resolve import check_ready
+from microros_gen.selection.xrce import BUILTIN_PROFILES
 
 Resolve = Callable[..., Outcome]
 

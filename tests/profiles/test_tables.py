@@ -9,11 +9,11 @@ from itertools import combinations, product
 import pytest
 from small_catalogue import Outcome
 
-from microros_gen.model.component import Catalogue, Middleware
-from microros_gen.model.selection import Selection
-from microros_gen.model.xrce import BUILTIN_PROFILES, MICRO_ROS_COMPONENTS, SUBMESSAGES, XRCE_PROFILES
-from microros_gen.sources.components import load_catalogue
-from microros_gen.sources.profiles import load_builtin_profiles
+from microros_gen.selection.component import Catalogue, Middleware
+from microros_gen.selection.find_components import load_catalogue
+from microros_gen.selection.find_profiles import load_builtin_profiles
+from microros_gen.selection.model import Selection
+from microros_gen.selection.xrce import BUILTIN_PROFILES, MICRO_ROS_COMPONENTS, SUBMESSAGES, XRCE_PROFILES
 
 # Columns: BUILTIN_PROFILES in its order.
 COMPONENTS_OF_PROFILES = """

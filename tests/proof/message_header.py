@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from microros_gen.model.types import (
+from microros_gen.interfaces.types import (
     ArrayType,
     FieldType,
     NamedType,
@@ -14,7 +14,7 @@ from microros_gen.model.types import (
     StringType,
     TypeName,
 )
-from microros_gen.plan.types import TypePlan
+from microros_gen.typesupport.plan.types import TypePlan
 
 HEAD = '#ifndef PROOF_TYPES_H\n#define PROOF_TYPES_H\n\n#include "sized.h"\n'
 

@@ -20,9 +20,9 @@ from house import corpus
 from house.corpus import INTERFACES, ROOT, tree_key
 
 from microros_gen.cli.generate import plan, write
-from microros_gen.cli.options import SelectionOptions
-from microros_gen.plan.types import TypePlan
-from microros_gen.sources.interfaces import shipped_folder
+from microros_gen.compiler.options import SelectionOptions
+from microros_gen.interfaces.find import shipped_folder
+from microros_gen.typesupport.plan.types import TypePlan
 from proof.message_header import header, stems
 
 FOLDER = Path(__file__).resolve().parent

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.plan.runtime import RuntimePlan
+from microros_gen.client.plan.runtime import RuntimePlan
 from runtime.driver import Client
 from runtime.fake_agent import FakeAgent
 from runtime.harness import POOL, build, components, render

@@ -18,8 +18,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from microros_gen.plan.runtime import RuntimePlan
-from microros_gen.plan.runtime_entities import QueuePlan
+from microros_gen.client.plan.runtime import RuntimePlan
+from microros_gen.client.plan.runtime_entities import QueuePlan
 from runtime.harness import POOL, READER, Tree, build, components, render
 
 CORPUS = Path(__file__).resolve().parents[1] / "fuzz" / "corpus"

@@ -15,13 +15,13 @@ from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from microros_gen.build.toolchain import LIBRARY_FLAGS, WARNINGS
-from microros_gen.model.selection import ChosenComponent, Selection
-from microros_gen.model.types import TypeName
-from microros_gen.plan.runtime import RuntimePlan
-from microros_gen.plan.runtime_entities import NodePlan, PublisherPlan, QueuePlan
-from microros_gen.render.environment import make_environment
-from microros_gen.sources.components import components_folder, load_catalogue
+from microros_gen.client.plan.runtime import RuntimePlan
+from microros_gen.client.plan.runtime_entities import NodePlan, PublisherPlan, QueuePlan
+from microros_gen.documents.templates import make_environment
+from microros_gen.interfaces.types import TypeName
+from microros_gen.selection.find_components import components_folder, load_catalogue
+from microros_gen.selection.model import ChosenComponent, Selection
+from microros_gen.toolchain.toolchain import LIBRARY_FLAGS, WARNINGS
 
 FIXTURES = Path(__file__).parent / "c"
 INT32 = TypeName("std_msgs", "msg", "Int32")

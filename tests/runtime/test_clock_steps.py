@@ -15,9 +15,9 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.plan.runtime import DISCOVERY_GROUP, RuntimePlan
-from microros_gen.plan.runtime_entities import QueuePlan
-from microros_gen.sources.components import components_folder
+from microros_gen.client.plan.runtime import DISCOVERY_GROUP, RuntimePlan
+from microros_gen.client.plan.runtime_entities import QueuePlan
+from microros_gen.selection.find_components import components_folder
 from runtime.conftest import Bench
 from runtime.driver import Client
 from runtime.harness import POOL, READER, SERVER, components

@@ -9,9 +9,9 @@ from dataclasses import replace
 
 import pytest
 
-from microros_gen.plan.creation import CreateNames, create_size, participant_reference
-from microros_gen.plan.runtime import RuntimePlan
-from microros_gen.plan.runtime_entities import NodePlan, PublisherPlan
+from microros_gen.client.plan.creation import CreateNames, create_size, participant_reference
+from microros_gen.client.plan.runtime import RuntimePlan
+from microros_gen.client.plan.runtime_entities import NodePlan, PublisherPlan
 from runtime.conftest import Bench
 from runtime.creating_agent import CREATE, DELETE, CreatingAgent
 from runtime.driver import Client

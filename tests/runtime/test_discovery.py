@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.plan.runtime import DISCOVERY_GROUP
+from microros_gen.client.plan.runtime import DISCOVERY_GROUP
 from runtime.harness import POOL, build, components, render
 from runtime.test_tcp import TcpAgent, serving
 from runtime.test_udp import UdpAgent

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.plan.runtime import RuntimePlan
-from microros_gen.plan.runtime_entities import QueuePlan, TimerPlan
+from microros_gen.client.plan.runtime import RuntimePlan
+from microros_gen.client.plan.runtime_entities import QueuePlan, TimerPlan
 from runtime.harness import EXECUTOR, ROS_TIME, SANITIZE, Tree, build, compilers, components, render
 
 MS = 1_000_000

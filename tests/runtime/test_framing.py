@@ -13,7 +13,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from microros_gen.sources.components import components_folder
+from microros_gen.selection.find_components import components_folder
 from runtime.frames import CLIENT, Event, crc16, events, frame, stuffed
 from runtime.harness import FIXTURES, POOL, SANITIZE, Tree, compile_objects, components, link, render
 

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.plan.runtime import RuntimePlan
+from microros_gen.client.plan.runtime import RuntimePlan
 from runtime.fake_agent import FakeAgent
 from runtime.frames import AGENT, CLIENT, events, frame
 from runtime.harness import POOL, Tree, build, components, render

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import pytest
 
-from microros_gen.plan.runtime_entities import QueuePlan
+from microros_gen.client.plan.runtime_entities import QueuePlan
 from runtime.conftest import Bench
 from runtime.driver import Client
 from runtime.harness import POOL, READER

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from microros_gen.cli.generate import plan, write
-from microros_gen.cli.options import SelectionOptions
-from microros_gen.sources.interfaces import shipped_folder
+from microros_gen.compiler.options import SelectionOptions
+from microros_gen.interfaces.find import shipped_folder
 from runtime.driver import Client
 from runtime.fake_agent import FakeAgent
 from runtime.harness import Tree, build

@@ -9,9 +9,9 @@ from dataclasses import replace
 
 import pytest
 
-from microros_gen.model.names import expand_topic_name
-from microros_gen.plan.runtime import RuntimePlan
-from microros_gen.plan.runtime_entities import QueuePlan, SubscriptionPlan
+from microros_gen.application.names import expand_topic_name
+from microros_gen.client.plan.runtime import RuntimePlan
+from microros_gen.client.plan.runtime_entities import QueuePlan, SubscriptionPlan
 from runtime.conftest import Bench
 from runtime.driver import Client
 from runtime.harness import DECLARED, INT32, POOL, READER, STRING

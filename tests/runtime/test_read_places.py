@@ -9,8 +9,8 @@ from dataclasses import dataclass, field, replace
 
 import pytest
 
-from microros_gen.plan.runtime import RuntimePlan
-from microros_gen.plan.runtime_entities import QueuePlan
+from microros_gen.client.plan.runtime import RuntimePlan
+from microros_gen.client.plan.runtime_entities import QueuePlan
 from runtime.conftest import Bench
 from runtime.driver import Client
 from runtime.harness import POOL, READER

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.plan.runtime import RuntimePlan
-from microros_gen.plan.runtime_entities import QueuePlan, SubscriptionPlan
+from microros_gen.client.plan.runtime import RuntimePlan
+from microros_gen.client.plan.runtime_entities import QueuePlan, SubscriptionPlan
 from runtime.conftest import Bench
 from runtime.driver import Client
 from runtime.harness import DECLARED, INT32, READER, SERVER

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import pytest
 
-from microros_gen.model.application import SessionTimes
+from microros_gen.application.model import SessionTimes
 from runtime.conftest import Bench
 from runtime.driver import Client
 from runtime.harness import SERVER

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.plan.runtime import RuntimePlan
+from microros_gen.client.plan.runtime import RuntimePlan
 from runtime.driver import Client
 from runtime.harness import POOL, build, components, render
 from runtime.test_discovery import info, locator

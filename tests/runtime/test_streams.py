@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import pytest
 
-from microros_gen.plan.runtime import RuntimePlan
+from microros_gen.client.plan.runtime import RuntimePlan
 from runtime.conftest import Bench
 from runtime.harness import POOL
 

@@ -9,7 +9,7 @@ import threading
 from dataclasses import replace
 from pathlib import Path
 
-from microros_gen.plan.runtime_entities import QueuePlan
+from microros_gen.client.plan.runtime_entities import QueuePlan
 from runtime.harness import EXECUTOR, build, components, render
 from runtime.reading_agent import ReadingAgent
 

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.model.application import SessionTimes
-from microros_gen.plan.runtime import RuntimePlan
-from microros_gen.plan.session_times import plan_times
+from microros_gen.application.model import SessionTimes
+from microros_gen.client.plan.runtime import RuntimePlan
+from microros_gen.client.plan.session_times import plan_times
 from runtime.conftest import Bench
 from runtime.driver import Client
 from runtime.fake_agent import FakeAgent

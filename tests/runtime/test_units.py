@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.plan.runtime import RuntimePlan
-from microros_gen.sources.components import components_folder
+from microros_gen.client.plan.runtime import RuntimePlan
+from microros_gen.selection.find_components import components_folder
 from runtime.harness import POOL, SANITIZE, Tree, build, compilers, components, render
 
 ARENA = replace(POOL, arena_size=1024)

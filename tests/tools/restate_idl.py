@@ -18,12 +18,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from microros_gen.diagnostics import Diagnostics, UserError
-from microros_gen.model.application import Named
-from microros_gen.model.derived import make_declaration, parts_of
-from microros_gen.model.msg_text import declaration_text
-from microros_gen.model.types import Declaration, Message
-from microros_gen.resolve.interfaces import Interface, resolve_interfaces
-from microros_gen.sources.interfaces import InterfaceFinder, shipped_folder
+from microros_gen.documents.named import Named
+from microros_gen.interfaces.closure import Interface, resolve_interfaces
+from microros_gen.interfaces.derived import make_declaration, parts_of
+from microros_gen.interfaces.find import InterfaceFinder, shipped_folder
+from microros_gen.interfaces.msg.text import declaration_text
+from microros_gen.interfaces.types import Declaration, Message
 
 PACKAGES = (
     "action_msgs",

@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 from ts_build import TEST_RULES, Generated, compile_shared, differing_rules, generate, interfaces
 
-from microros_gen.sources.interfaces import InterfaceFinder
+from microros_gen.interfaces.find import InterfaceFinder
 
 
 @pytest.fixture(scope="session")

@@ -10,7 +10,7 @@ from ts_build import Generated
 from ts_padding import padding
 from ts_values import CStructs, Randomizer, to_ros
 
-from microros_gen.plan.types import TypePlan
+from microros_gen.typesupport.plan.types import TypePlan
 
 pytestmark = pytest.mark.ros
 

@@ -9,14 +9,14 @@ from pathlib import Path
 
 import pytest
 
+from microros_gen.application.limit_tree import PROPOSED_LIMITS
+from microros_gen.application.model import LimitRule
 from microros_gen.diagnostics import Diagnostics, Source, Span, UserError
-from microros_gen.model.application import LimitRule
-from microros_gen.model.limit_tree import PROPOSED_LIMITS
-from microros_gen.model.types import Message, TypeName
-from microros_gen.parse.msg import parse_msg
-from microros_gen.plan.capacity import Capacities, Defaults, Entity, Origin, Root, plan_capacities
-from microros_gen.plan.types import plan_types
-from microros_gen.plan.types_size import WireSizes
+from microros_gen.interfaces.msg.parser import parse_msg
+from microros_gen.interfaces.types import Message, TypeName
+from microros_gen.typesupport.plan.capacity import Capacities, Defaults, Entity, Origin, Root, plan_capacities
+from microros_gen.typesupport.plan.size import WireSizes
+from microros_gen.typesupport.plan.types import plan_types
 
 FILES = {
     "Leaf": "string text\nstring<=10 brief\nuint8[] raw\n",

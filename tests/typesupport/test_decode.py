@@ -18,8 +18,8 @@ from ts_build import Generated
 from ts_decoder import BOUND, CAPACITY, END, VALUE, Decoder, Refused
 from ts_values import Randomizer, from_ros, ros_class, to_ros
 
-from microros_gen.model.types import NamedType, TypeName, element_of
-from microros_gen.plan.types import TypePlan
+from microros_gen.interfaces.types import NamedType, TypeName, element_of
+from microros_gen.typesupport.plan.types import TypePlan
 
 pytestmark = pytest.mark.ros
 

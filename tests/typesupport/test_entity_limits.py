@@ -14,7 +14,7 @@ import pytest
 from ts_build import WARNINGS, run
 
 from microros_gen.cli import main as cli
-from microros_gen.sources.interfaces import shipped_folder
+from microros_gen.interfaces.find import shipped_folder
 
 pytestmark = pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
 

@@ -10,7 +10,7 @@ import pytest
 from ts_build import Generated
 from ts_values import CString, CStructs, Randomizer, from_ros, ros_class
 
-from microros_gen.plan.types import TypePlan
+from microros_gen.typesupport.plan.types import TypePlan
 
 pytestmark = pytest.mark.ros
 pytest.importorskip("rclpy")

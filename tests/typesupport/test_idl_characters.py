@@ -19,10 +19,10 @@ from ts_decoder import Decoder
 from ts_rosidl import RosPackage, make_ros_package
 from ts_values import Randomizer
 
-from microros_gen.plan.types import TypePlan
-from microros_gen.plan.types_members import TABLES_HEADER
-from microros_gen.render.environment import shared_environment
-from microros_gen.render.types_members import render_members
+from microros_gen.documents.templates import shared_environment
+from microros_gen.typesupport.plan.members import TABLES_HEADER
+from microros_gen.typesupport.plan.types import TypePlan
+from microros_gen.typesupport.views.members import render_members
 
 pytestmark = pytest.mark.ros
 pytest.importorskip("rosidl_typesupport_fastrtps_c")

@@ -13,10 +13,10 @@ from pathlib import Path
 import pytest
 from ts_build import COMPONENTS, WARNINGS, Generated, generate, run
 
+from microros_gen.application.model import LimitRule
 from microros_gen.cli.generate import plan, write
-from microros_gen.cli.options import SelectionOptions
-from microros_gen.model.application import LimitRule
-from microros_gen.sources.interfaces import shipped_folder
+from microros_gen.compiler.options import SelectionOptions
+from microros_gen.interfaces.find import shipped_folder
 
 TYPES = (
     "std_msgs/msg/Int32",

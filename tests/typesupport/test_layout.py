@@ -11,15 +11,10 @@ from pathlib import Path
 import pytest
 from ts_build import Generated, run
 
-from microros_gen.model.types import (
-    Primitive,
-    SequenceType,
-    StringType,
-    element_of,
-)
-from microros_gen.plan.layout import LP64, StructLayouts
-from microros_gen.plan.types import TypePlan
-from microros_gen.plan.types_size import members
+from microros_gen.interfaces.types import Primitive, SequenceType, StringType, element_of
+from microros_gen.typesupport.plan.layout import LP64, StructLayouts
+from microros_gen.typesupport.plan.size import members
+from microros_gen.typesupport.plan.types import TypePlan
 
 pytestmark = pytest.mark.ros
 

@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 
 from microros_gen.cli import main as cli
-from microros_gen.plan.message_pools import BlockSize, block_sizes
-from microros_gen.sources.interfaces import shipped_folder
+from microros_gen.interfaces.find import shipped_folder
+from microros_gen.typesupport.plan.message_pools import BlockSize, block_sizes
 
 PROGRAM = Path(__file__).parent / "message_memory.c"
 PACKAGE = {

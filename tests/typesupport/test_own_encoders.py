@@ -13,8 +13,8 @@ import pytest
 from ts_build import WARNINGS, run
 
 from microros_gen.cli.generate import plan, write
-from microros_gen.cli.options import SelectionOptions
-from microros_gen.sources.interfaces import shipped_folder
+from microros_gen.compiler.options import SelectionOptions
+from microros_gen.interfaces.find import shipped_folder
 
 APPLICATION = """\
 version: 1

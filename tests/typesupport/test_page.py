@@ -9,14 +9,14 @@ from pathlib import Path
 import pytest
 from ts_build import COMPONENTS, generate
 
+from microros_gen.application.model import LimitRule
 from microros_gen.diagnostics import Diagnostics, Source, UserError
-from microros_gen.model.application import LimitRule
-from microros_gen.model.types import Message, Primitive, StringType, TypeName
-from microros_gen.parse.idl import parse_idl
-from microros_gen.parse.msg import parse_msg
-from microros_gen.plan.types import LARGEST_BODY
-from microros_gen.plan.types_size import WireSizes
-from microros_gen.render.types_struct import declaration
+from microros_gen.interfaces.msg.parser import parse_msg
+from microros_gen.interfaces.omg_idl.parser import parse_idl
+from microros_gen.interfaces.types import Message, Primitive, StringType, TypeName
+from microros_gen.typesupport.plan.size import WireSizes
+from microros_gen.typesupport.plan.types import LARGEST_BODY
+from microros_gen.typesupport.views.struct import declaration
 
 ROOT = COMPONENTS.parents[1]
 PAGE = (ROOT / "docs" / "typesupport.md").read_text(encoding="utf-8")

@@ -16,8 +16,8 @@ from ts_decoder import Decoder
 from ts_padding import padding
 from ts_values import CStructs, Randomizer, to_ros
 
+from microros_gen.application.model import LimitRule
 from microros_gen.cli import main as cli
-from microros_gen.model.application import LimitRule
 
 pytestmark = pytest.mark.ros
 

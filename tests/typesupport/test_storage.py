@@ -9,16 +9,9 @@ import pytest
 from ts_build import Generated
 from ts_values import CStructs, from_ros, ros_class
 
-from microros_gen.model.types import (
-    ArrayType,
-    NamedType,
-    SequenceType,
-    StringType,
-    TypeName,
-    element_of,
-)
-from microros_gen.plan.layout import LP64
-from microros_gen.plan.types_size import TypeLimits
+from microros_gen.interfaces.types import ArrayType, NamedType, SequenceType, StringType, TypeName, element_of
+from microros_gen.typesupport.plan.layout import LP64
+from microros_gen.typesupport.plan.size import TypeLimits
 
 pytestmark = pytest.mark.ros
 pytest.importorskip("rclpy")

@@ -10,14 +10,14 @@ from pathlib import Path
 import pytest
 from ts_build import TEST_RULES, WARNINGS, Generated, generate, run
 
+from microros_gen.application.model import LimitRule
 from microros_gen.diagnostics import UserError
-from microros_gen.model.application import LimitRule
-from microros_gen.model.types import Primitive
-from microros_gen.plan.types_names import snake_case
-from microros_gen.render.environment import make_environment
-from microros_gen.render.types import render_types
-from microros_gen.render.types_decode import render_decoders
-from microros_gen.render.types_text import comment_lines, number, string
+from microros_gen.documents.templates import make_environment
+from microros_gen.interfaces.types import Primitive
+from microros_gen.typesupport.plan.names import snake_case
+from microros_gen.typesupport.views.decode import render_decoders
+from microros_gen.typesupport.views.text import comment_lines, number, string
+from microros_gen.typesupport.views.types import render_types
 
 NASTY = """# Speed [m/s] */ int injected; /* and more
 # trigraph ??/

@@ -19,7 +19,7 @@ from ts_build import WARNINGS, run
 from ts_utilities import APPLICATION, CASES, PACKAGE, PROGRAM, SMALL
 
 from microros_gen.cli import main as cli
-from microros_gen.sources.interfaces import shipped_folder
+from microros_gen.interfaces.find import shipped_folder
 
 pytestmark = pytest.mark.skipif(
     shutil.which("gcc") is None or shutil.which("nm") is None, reason="no gcc or no nm"

@@ -9,9 +9,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from microros_gen.application.model import LimitRule
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.model.application import LimitRule, Named
-from microros_gen.model.types import (
+from microros_gen.documents.named import Named
+from microros_gen.documents.templates import shared_environment
+from microros_gen.interfaces.closure import InterfaceSet, resolve_interfaces
+from microros_gen.interfaces.find import InterfaceFinder
+from microros_gen.interfaces.types import (
     FieldType,
     Message,
     NamedType,
@@ -20,15 +24,12 @@ from microros_gen.model.types import (
     TypeName,
     element_of,
 )
-from microros_gen.plan.capacity import Capacities, Defaults, Root, plan_capacities
-from microros_gen.plan.message_pools import pool_pointers
-from microros_gen.plan.types import TypePlan, plan_types
-from microros_gen.plan.types_size import is_fixed_field
-from microros_gen.render.environment import shared_environment
-from microros_gen.render.types import render_types
-from microros_gen.render.types_decode import render_decoders
-from microros_gen.resolve.interfaces import InterfaceSet, resolve_interfaces
-from microros_gen.sources.interfaces import InterfaceFinder
+from microros_gen.typesupport.plan.capacity import Capacities, Defaults, Root, plan_capacities
+from microros_gen.typesupport.plan.message_pools import pool_pointers
+from microros_gen.typesupport.plan.size import is_fixed_field
+from microros_gen.typesupport.plan.types import TypePlan, plan_types
+from microros_gen.typesupport.views.decode import render_decoders
+from microros_gen.typesupport.views.types import render_types
 
 COMPONENTS = Path(__file__).resolve().parents[2] / "microros_gen" / "components"
 COMPONENT_HEADERS = ("cdr", "cdr_decode", "rosidl_runtime", "memory")

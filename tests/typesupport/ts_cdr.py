@@ -13,7 +13,7 @@ import struct
 from collections.abc import Mapping
 from typing import Any
 
-from microros_gen.model.types import (
+from microros_gen.interfaces.types import (
     ArrayType,
     ElementType,
     Message,

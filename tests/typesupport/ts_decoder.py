@@ -11,8 +11,8 @@ from test_bytes import Fault, MessageType, message_type
 from ts_build import Generated
 from ts_values import CStructs
 
-from microros_gen.plan.layout import LP64
-from microros_gen.plan.types import TypePlan
+from microros_gen.typesupport.plan.layout import LP64
+from microros_gen.typesupport.plan.types import TypePlan
 
 DECODE = ctypes.CFUNCTYPE(
     ctypes.c_bool,

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from microros_gen.model.types import (
+from microros_gen.interfaces.types import (
     ArrayType,
     ElementType,
     Message,

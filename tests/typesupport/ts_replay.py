@@ -15,7 +15,7 @@ import ts_cdr
 from ts_build import Generated
 from ts_values import Randomizer
 
-from microros_gen.plan.types import TypePlan
+from microros_gen.typesupport.plan.types import TypePlan
 
 COMMON = """
 #include <stdint.h>

@@ -17,7 +17,7 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosbags.typesys.base import normalize_fieldname
 from ts_values import Tree
 
-from microros_gen.model.types import (
+from microros_gen.interfaces.types import (
     ArrayType,
     ElementType,
     Message,

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from microros_gen.plan.types_names import snake_case
+from microros_gen.typesupport.plan.names import snake_case
 
 PREFIX = Path(sys.prefix)
 ROOM = 4096

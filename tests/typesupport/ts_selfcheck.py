@@ -10,7 +10,7 @@ from pathlib import Path
 
 from ts_build import Generated
 
-from microros_gen.model.types import (
+from microros_gen.interfaces.types import (
     ArrayType,
     Field,
     NamedType,
@@ -19,8 +19,8 @@ from microros_gen.model.types import (
     StringType,
     element_of,
 )
-from microros_gen.plan.types import TypePlan
-from microros_gen.plan.types_size import members
+from microros_gen.typesupport.plan.size import members
+from microros_gen.typesupport.plan.types import TypePlan
 
 PRELUDE = """
 #include <stdio.h>

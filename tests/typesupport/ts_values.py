@@ -12,8 +12,8 @@ import sys
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from microros_gen.model.derived import declaring_name
-from microros_gen.model.types import (
+from microros_gen.interfaces.derived import declaring_name
+from microros_gen.interfaces.types import (
     ArrayType,
     ElementType,
     Field,
@@ -25,8 +25,8 @@ from microros_gen.model.types import (
     TypeName,
     element_of,
 )
-from microros_gen.plan.types_names import snake_case
-from microros_gen.plan.types_size import FieldLimits, TypeLimits, members
+from microros_gen.typesupport.plan.names import snake_case
+from microros_gen.typesupport.plan.size import FieldLimits, TypeLimits, members
 
 C_TYPES: dict[Primitive, Any] = {
     Primitive.BOOL: ctypes.c_bool,

@@ -13,13 +13,7 @@ from typing import Any
 from microros_gen.agent.ros.bridge import BridgeError, BusyError, GraphReport
 from microros_gen.agent.ros.graph import Endpoint, Events
 from microros_gen.agent.ros.layout import SerializedMessage
-from microros_gen.agent.ros.libraries import (
-    FAILURES,
-    OK,
-    SUBSCRIPTION_TAKE_FAILED,
-    first_line,
-    new_bytes,
-)
+from microros_gen.agent.ros.libraries import FAILURES, OK, SUBSCRIPTION_TAKE_FAILED, first_line, new_bytes
 from microros_gen.agent.ros.raw_types import RawTypes
 from microros_gen.agent.ros.wakeups import Notify, Wakeups
 

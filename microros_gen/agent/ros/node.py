@@ -8,14 +8,7 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 from microros_gen.agent.representation.description import Durability, Qos, Service, Topic
-from microros_gen.agent.ros.bridge import (
-    BridgeError,
-    HashOf,
-    Reader,
-    Replier,
-    Requester,
-    Writer,
-)
+from microros_gen.agent.ros.bridge import BridgeError, HashOf, Reader, Replier, Requester, Writer
 from microros_gen.agent.ros.endpoints import RawReader, RawWriter, Ros
 from microros_gen.agent.ros.graph import Comparison, Endpoint, Events, TopicTypes
 from microros_gen.agent.ros.libraries import FAILURES, first_line

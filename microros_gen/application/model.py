@@ -1,0 +1,266 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The application file (design: "The application file"), as data. None means: not said, the default holds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from microros_gen.diagnostics import Span
+from microros_gen.documents.named import Named
+
+
+@dataclass(frozen=True)
+class ComponentChange:
+    """`+timers` (add) or `-ping` (drop)."""
+
+    name: str
+    add: bool
+    span: Span | None = None
+
+
+def component_change(text: str, span: Span | None) -> ComponentChange:
+    """Return what `timers`, `+timers` (both add) or `-timers` (drop) says."""
+    return ComponentChange(text.lstrip("+-"), not text.startswith("-"), span)
+
+
+DISCOVERY_PORT = 7400
+"""Where agents are asked for by multicast, unless the application says another port."""
+
+
+LARGEST_UDP_PAYLOAD = 65_507
+"""Bytes that fit one UDP datagram over IPv4 (RFC 768, RFC 791)."""
+
+MOST_HISTORY = 16
+"""Most messages that a reliable stream keeps; application.schema.json says it too."""
+
+
+@dataclass(frozen=True)
+class Transport:
+    """How the firmware reaches its agent. `mtu`: largest datagram or frame payload, bytes; None: planned.
+
+    `type_span` None and `type` udp: the application does not say, so a profile's or the target's choice holds.
+    `device` and `baud` are the serial line's; `framing` None: a custom transport chooses at run time.
+    `send_buffer`: bytes that wait for a serial line; None: planned. `discover`: the agent is to be found by
+    multicast to this port; None: `host` and `port` say where it is, or, where `agent_span` is None too, the
+    selection decides.
+    """
+
+    type: str = "udp"
+    host: str = "127.0.0.1"
+    port: int = 8888
+    mtu: int | None = None
+    span: Span | None = None
+    mtu_span: Span | None = None
+    type_span: Span | None = None
+    agent_span: Span | None = None
+    device: str = "/dev/ttyUSB0"
+    baud: int = 115_200
+    framing: bool | None = None
+    discover: int | None = None
+    send_buffer: int | None = None
+
+
+@dataclass(frozen=True)
+class Qos:
+    """QoS of an endpoint.
+
+    The values are those of rmw/types.h in lower case, the defaults rmw_qos_profile_default. `deadline_ms` and
+    `lifespan_ms`: 0 for none.
+    """
+
+    reliability: str = "reliable"
+    durability: str = "volatile"
+    history: str = "keep_last"
+    depth: int = 10
+    span: Span | None = None
+    deadline_ms: int = 0
+    lifespan_ms: int = 0
+
+
+@dataclass(frozen=True)
+class LimitRule:
+    """One capacity rule. `path` is `*`, a type (`sensor_msgs/msg/Imu`) or a type and a field path below it.
+
+    `path` for a field is `("sensor_msgs/msg/Imu", "header", "frame_id")`. `string` counts bytes without the
+    terminator, `sequence` counts elements; None where the rule says nothing of it. `single` is true for a
+    field that got one number (`position: 6`): then both hold it, and it means whichever of the two the field
+    is; for a sequence of strings it is ambiguous. In the own limits of an endpoint, `*` holds for all of its
+    message.
+    """
+
+    path: tuple[str, ...]
+    string: int | None = None
+    sequence: int | None = None
+    span: Span | None = None
+    single: bool = False
+
+
+CLOCK_TOPIC = "/clock"
+"""The source of ROS time (design.ros2.org, "Clock and Time")."""
+
+
+@dataclass(frozen=True)
+class EndpointDecl:
+    """A publisher, subscription, service or client of a node.
+
+    `topic` holds the service's name for the latter two. {node} and {ns} in it are replaced. `queue`: how many samples
+    wait on the device at most until they are taken; None: follows from the depth. Publishers have none. `stored`: the
+    library has storage for what is received (`storage: none`: the program has). `given`: the
+    fully qualified name that the source has, where `remap:` makes it `topic`; empty: the same.
+    `of_the_library`: nobody declared it, and the library itself opens it.
+    """
+
+    kind: str
+    topic: str
+    type: str
+    qos: Qos = Qos()
+    limits: tuple[LimitRule, ...] = ()
+    span: Span | None = None
+    type_span: Span | None = None
+    topic_span: Span | None = None
+    queue: int | None = None
+    stored: bool = True
+    given: str = ""
+    of_the_library: bool = False
+
+
+@dataclass(frozen=True)
+class TimerDecl:
+    """A timer of a node; its period in microseconds. `kind` is what makes it ready: clock, rtos or hardware."""
+
+    name: str
+    period_us: int
+    span: Span | None = None
+    kind: str = "clock"
+
+
+@dataclass(frozen=True)
+class ParameterDecl:
+    """A parameter of a node. `type` is bool, integer, double or string.
+
+    `size` bounds a string, bytes without its terminator. `minimum`, `maximum` and `step` are the range of
+    rcl_interfaces/msg/ParameterDescriptor; None: no range.
+    """
+
+    name: str
+    type: str
+    default: bool | int | float | str | None = None
+    description: str = ""
+    read_only: bool = False
+    minimum: int | float | None = None
+    maximum: int | float | None = None
+    step: int | float | None = None
+    size: int | None = None
+    span: Span | None = None
+
+
+@dataclass(frozen=True)
+class ExecutorDecl:
+    """An executor and what it runs: names of timers, topics and services of the node, in this order.
+
+    `handles` empty: everything of the node. `timeout_us` is how long one spin waits for work at most.
+    """
+
+    name: str
+    handles: tuple[Named, ...] = ()
+    timeout_us: int | None = None
+    span: Span | None = None
+
+
+@dataclass(frozen=True)
+class NodeDecl:
+    """A node and what it owns. `given_name`, `given_namespace`: what the source has, where `remap:` changes them.
+
+    `clock_topic`: where a rule of `remap:` puts /clock, to which a node subscribes by itself; empty: no rule.
+    """
+
+    name: str
+    namespace: str = "/"
+    domain_id: int = 0
+    endpoints: tuple[EndpointDecl, ...] = ()
+    span: Span | None = None
+    timers: tuple[TimerDecl, ...] = ()
+    parameters: tuple[ParameterDecl, ...] = ()
+    executors: tuple[ExecutorDecl, ...] = ()
+    name_span: Span | None = None
+    given_name: str = ""
+    given_namespace: str = ""
+    clock_topic: str = ""
+    clock_span: Span | None = None
+
+
+@dataclass(frozen=True)
+class Memory:
+    """Budgets and the arena, bytes; None: no budget. `messages` of each sender get storage; None: not said."""
+
+    arena: int = 0
+    messages: int | None = None
+    ram_budget: int | None = None
+    flash_budget: int | None = None
+    stack: int | None = None
+    ram_span: Span | None = None
+    flash_span: Span | None = None
+    arena_span: Span | None = None
+    stack_span: Span | None = None
+
+
+@dataclass(frozen=True)
+class TargetRef:
+    """`name` of a built-in target or path of a target file."""
+
+    name: str = "host"
+    rtos: str | None = None
+    span: Span | None = None
+    rtos_span: Span | None = None
+
+
+@dataclass(frozen=True)
+class SessionTimes:
+    """Times of the protocol, milliseconds; None: as the plan derives it from `round_trip` and the transport."""
+
+    round_trip: int | None = None
+    retry_max: int | None = None
+    heartbeat: int | None = None
+    liveliness_period: int | None = None
+    liveliness_timeout: int | None = None
+    connect_timeout: int | None = None
+    create_timeout: int | None = None
+    close_timeout: int | None = None
+
+
+@dataclass(frozen=True)
+class Application:
+    """The whole file. `interfaces` are `pkg` or `pkg/msg/Type`.
+
+    `hard_liveliness_ms`: how long the agent goes on without hearing the client; 0: as it likes.
+    `pools` count entities where no nodes are given. `creation` (best_effort, reliable) is the stream of CREATE; None:
+    best effort. `clock` (steady, ros) is an axis like `entities` and `liveliness`. `interface_paths` are relative to
+    the file. `implied` are the endpoints of the library itself where there are no nodes (with nodes they are among
+    their endpoints). `spans` holds the places of top-level keys and of the keys of `pools` (as `pools.history`), for
+    later steps.
+    """
+
+    distro: str = "jazzy"
+    profiles: tuple[Named, ...] = ()
+    components: tuple[ComponentChange, ...] = ()
+    entities: Named | None = None
+    creation: Named | None = None
+    liveliness: Named | None = None
+    transport: Transport = Transport()
+    session_key: int | str | None = None
+    hard_liveliness_ms: int = 0
+    times: SessionTimes = SessionTimes()
+    target: TargetRef = TargetRef()
+    nodes: tuple[NodeDecl, ...] = ()
+    interfaces: tuple[Named, ...] = ()
+    interface_paths: tuple[Named, ...] = ()
+    pools: Mapping[str, int] = field(default_factory=dict)
+    limits: tuple[LimitRule, ...] = ()
+    memory: Memory = Memory()
+    on_full: str = "error"
+    on_full_block_ms: int = 0
+    error_text: bool = True
+    clock: Named | None = None
+    implied: tuple[EndpointDecl, ...] = ()
+    spans: Mapping[str, Span] = field(default_factory=dict)

@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`nodes:` of the application file → node declarations, with the rules of ROS 2 for names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+from microros_gen.application.limits import endpoint_limits
+from microros_gen.application.model import EndpointDecl, ExecutorDecl, NodeDecl, ParameterDecl, TimerDecl
+from microros_gen.application.names import (
+    absolute,
+    expand_topic_name,
+    expanded_fault,
+    namespace_fault,
+    node_name_fault,
+    substitute,
+    topic_fault,
+)
+from microros_gen.application.qos import endpoint_qos
+from microros_gen.application.remap import rename_endpoints, rename_node
+from microros_gen.diagnostics import Diagnostics, Span, nearest
+from microros_gen.documents.tree_values import (
+    bool_of,
+    child,
+    int_of,
+    items,
+    named_of,
+    number_of,
+    report_name,
+    size_of,
+    span_of,
+    text_of,
+    time_of,
+)
+from microros_gen.documents.yaml_tree import ScalarNode, YamlNode
+
+# List in the file → kind of endpoint, and the key of its name.
+ENDPOINTS = {
+    "publishers": ("publisher", "topic"),
+    "subscriptions": ("subscription", "topic"),
+    "services": ("service", "name"),
+    "clients": ("client", "name"),
+}
+_VALUE_TYPES: Mapping[str, tuple[type, ...]] = {
+    "bool": (bool,),
+    "integer": (int,),
+    "double": (int, float),
+    "string": (str,),
+}
+
+
+def parse_nodes(tree: YamlNode | None, diagnostics: Diagnostics) -> tuple[NodeDecl, ...]:
+    """Return the declarations below `nodes:`; faulty names and references are errors at their places."""
+    nodes = tuple(_node(item, diagnostics) for item in items(tree))
+    seen: dict[str, NodeDecl] = {}
+    for node in nodes:
+        full = expand_topic_name(node.name, node.name, node.namespace)
+        first = seen.setdefault(full, node)
+        if first is not node and first.name_span:
+            message = f"there are two nodes '{full}'; the first is in line {first.name_span.line}"
+            diagnostics.error(message, node.name_span, "Give each a name or a namespace of its own")
+    return nodes
+
+
+def _node(item: YamlNode, diagnostics: Diagnostics) -> NodeDecl:
+    name, namespace = child(item, "name"), child(item, "namespace")
+    report_name(name, "the node name", node_name_fault, diagnostics)
+    placed = namespace is None or report_name(namespace, "the namespace", namespace_fault, diagnostics)
+    node = NodeDecl(
+        name=text_of(name) or "",
+        namespace=absolute((text_of(namespace) if placed else None) or "/"),
+        domain_id=int_of(child(item, "domain_id")) or 0,
+        span=item.span,
+        timers=tuple(_timer(t, diagnostics) for t in items(child(item, "timers"))),
+        parameters=tuple(_parameter(p, diagnostics) for p in items(child(item, "parameters"))),
+        name_span=span_of(name) or item.span,
+    )
+    remap = child(item, "remap")
+    node = rename_node(node, remap, diagnostics)
+    node = replace(node, endpoints=tuple(_endpoints(item, node, diagnostics)))
+    executors = tuple(_executor(e, node, diagnostics) for e in items(child(item, "executors")))
+    for kind, named in (("timer", node.timers), ("parameter", node.parameters), ("executor", executors)):
+        check_unique(kind, [(n.name, n.span) for n in named], diagnostics)
+    return rename_endpoints(replace(node, executors=executors), remap, diagnostics)
+
+
+def _endpoints(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> Iterator[EndpointDecl]:
+    for key, (kind, name_key) in ENDPOINTS.items():
+        for endpoint in items(child(item, key)):
+            name, type_node = child(endpoint, name_key), child(endpoint, "type")
+            what = "the topic name" if name_key == "topic" else "the service name"
+            if report_name(name, what, topic_fault, diagnostics):
+                _check_expanded(name, what, node, diagnostics)
+            type_name = text_of(type_node) or ""
+            yield EndpointDecl(
+                kind=kind,
+                topic=substitute(text_of(name) or "", node.name, node.namespace),
+                type=type_name,
+                qos=endpoint_qos(child(endpoint, "qos"), diagnostics),
+                limits=endpoint_limits(child(endpoint, "limits"), type_name),
+                span=endpoint.span,
+                type_span=span_of(type_node),
+                topic_span=span_of(name),
+                queue=int_of(child(endpoint, "queue")),
+                stored=text_of(child(endpoint, "storage")) != "none",
+            )
+
+
+def _check_expanded(name: YamlNode | None, what: str, node: NodeDecl, diagnostics: Diagnostics) -> None:
+    text = text_of(name)
+    if text is not None and name is not None and node.name:
+        fault = expanded_fault(expand_topic_name(text, node.name, node.namespace))
+        if fault:
+            full = expand_topic_name(text, node.name, node.namespace)
+            shown = full if len(full) <= 60 else f"{full[:60]}…"
+            diagnostics.error(f"{what} '{shown}' {fault.message}", name.span, fault.hint)
+
+
+def _timer(item: YamlNode, diagnostics: Diagnostics) -> TimerDecl:
+    return TimerDecl(
+        name=text_of(child(item, "name")) or "",
+        period_us=positive_time(item, "period", diagnostics) or 0,
+        span=item.span,
+        kind=text_of(child(item, "kind")) or TimerDecl.kind,
+    )
+
+
+def positive_time(item: YamlNode, key: str, diagnostics: Diagnostics) -> int | None:
+    """Return the time of `key` in microseconds; less than one is an error."""
+    node = child(item, key)
+    time = time_of(node)
+    if time == 0:
+        diagnostics.error(
+            f"'{key}' must be at least 1 us; it is {text_of(node)}", span_of(node), "Write a longer time"
+        )
+    return time
+
+
+def _parameter(item: YamlNode, diagnostics: Diagnostics) -> ParameterDecl:
+    bounds, default = child(item, "range"), child(item, "default")
+    value = default.value if isinstance(default, ScalarNode) else None
+    parameter = ParameterDecl(
+        name=text_of(child(item, "name")) or "",
+        type=text_of(child(item, "type")) or "",
+        default=value,
+        description=text_of(child(item, "description")) or "",
+        read_only=bool_of(child(item, "read_only")) or False,
+        minimum=number_of(child(bounds, "min")),
+        maximum=number_of(child(bounds, "max")),
+        step=number_of(child(bounds, "step")),
+        size=size_of(child(item, "size")),
+        span=item.span,
+    )
+    _check_default(parameter, default, diagnostics)
+    _check_range(parameter, bounds, diagnostics)
+    return parameter
+
+
+def _check_default(parameter: ParameterDecl, node: YamlNode | None, diagnostics: Diagnostics) -> None:
+    wanted = _VALUE_TYPES.get(parameter.type)
+    value = parameter.default
+    if wanted is None or value is None or node is None:
+        return
+    if not isinstance(value, wanted) or (isinstance(value, bool) and parameter.type != "bool"):
+        message = f"the default of the parameter '{parameter.name}' is no {parameter.type}"
+        hint = "Write true or false" if parameter.type == "bool" else "Change it, or the type"
+        diagnostics.error(message, node.span, hint)
+    elif isinstance(value, (int, float)) and parameter.minimum is not None and parameter.maximum is not None:
+        if not parameter.minimum <= value <= parameter.maximum:
+            message = f"the default of the parameter '{parameter.name}' is not in its range"
+            diagnostics.error(message, node.span, f"It goes from {parameter.minimum} to {parameter.maximum}")
+    elif isinstance(value, str) and parameter.size is not None and len(value.encode()) > parameter.size:
+        message = f"the default of the parameter '{parameter.name}' is longer than its size"
+        diagnostics.error(message, node.span, f"Set size: {len(value.encode())}")
+
+
+def _check_range(parameter: ParameterDecl, node: YamlNode | None, diagnostics: Diagnostics) -> None:
+    if node is None:
+        return
+    if parameter.type in ("bool", "string"):
+        message = f"the parameter '{parameter.name}' is a {parameter.type}, which has no range"
+        diagnostics.error(message, node.span, "Remove `range`")
+    elif (
+        parameter.minimum is not None
+        and parameter.maximum is not None
+        and parameter.minimum > parameter.maximum
+    ):
+        message = f"the range of the parameter '{parameter.name}' is empty: min is above max"
+        diagnostics.error(message, node.span, "Exchange them")
+
+
+def _executor(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> ExecutorDecl:
+    handles = tuple(h for i in items(child(item, "handles")) if (h := named_of(i)) is not None)
+    known = {t.name for t in node.timers} | {e.topic for e in node.endpoints if e.kind != "publisher"}
+    for handle in handles:
+        if handle.name not in known:
+            hint = nearest(handle.name, known) or (f"There are {', '.join(sorted(known))}" if known else None)
+            diagnostics.error(
+                f"the node has no timer, subscription or service '{handle.name}'", handle.span, hint
+            )
+    timeout = time_of(child(item, "timeout"))
+    return ExecutorDecl(text_of(child(item, "name")) or "", handles, timeout, item.span)
+
+
+def check_unique(kind: str, named: list[tuple[str, Span | None]], diagnostics: Diagnostics) -> None:
+    """Report names that come twice among things of one kind."""
+    seen: dict[str, Span | None] = {}
+    for name, span in named:
+        first = seen.get(name)
+        if name in seen and name:
+            where = f"; the first is in line {first.line}" if first else ""
+            diagnostics.error(f"there are two {kind}s '{name}'{where}", span, "Give each a name of its own")
+        seen.setdefault(name, span)

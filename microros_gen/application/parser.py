@@ -1,0 +1,265 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The application file (`microros.yaml`) → Application."""
+
+from __future__ import annotations
+
+import ipaddress
+import re
+from pathlib import Path
+from types import MappingProxyType
+
+from microros_gen.application.limits import application_limits
+from microros_gen.application.model import (
+    DISCOVERY_PORT,
+    LARGEST_UDP_PAYLOAD,
+    Application,
+    Memory,
+    TargetRef,
+    Transport,
+    component_change,
+)
+from microros_gen.application.nodes import parse_nodes
+from microros_gen.application.session_times import hard_liveliness, session_times
+from microros_gen.diagnostics import Diagnostics, Source, Span, reads
+from microros_gen.documents.named import Named
+from microros_gen.documents.schema import load_schema, validate
+from microros_gen.documents.tree_values import (
+    bool_of,
+    child,
+    entries,
+    int_of,
+    items,
+    named_of,
+    size_of,
+    span_of,
+    text_of,
+)
+from microros_gen.documents.yaml_tree import MappingNode, ScalarNode, YamlNode, parse_yaml
+
+SCHEMA = Path(__file__).with_name("application.schema.json")
+LONGEST_BLOCK_MS = 60_000
+"""Longest time that `on_full: block …` may take, milliseconds."""
+
+_BLOCK = re.compile(r"block ([0-9]{1,12}) ?(ms|s)")
+_POOLS_BESIDE_NODES = (
+    "history",
+    "input_history",
+    "slot_size",
+    "timers",
+    "executors",
+    "handles",
+    "guard_conditions",
+    "wait_sets",
+    "ros_clocks",
+    "jump_callbacks",
+)
+_WITHOUT_ADDRESS = ("serial", "custom")
+_ONLY_FOR = {"device": "serial", "baud": "serial", "send_buffer": "serial", "framing": "custom"}
+
+
+@reads
+def parse_application(source: Source, diagnostics: Diagnostics) -> Application | None:
+    """Return the application that `source` describes; None where `diagnostics` got errors from it.
+
+    Every fault is reported in one run: what the schema refuses, and what is wrong with names, addresses and
+    times.
+    """
+    found = Diagnostics()
+    tree = parse_yaml(source, found)
+    if tree is not None or not found.has_errors():
+        validate(tree, source, load_schema(SCHEMA), found)
+    application = _application(tree, found) if isinstance(tree, MappingNode) else None
+    diagnostics.extend(sorted(found, key=lambda d: (d.span.line, d.span.column) if d.span else (0, 0)))
+    return None if found.has_errors() else application
+
+
+def _application(tree: MappingNode, diagnostics: Diagnostics) -> Application:
+    default = Application()
+    nodes = parse_nodes(child(tree, "nodes"), diagnostics)
+    pools = {e.key: n for e in entries(child(tree, "pools")) if (n := int_of(e.value)) is not None}
+    if nodes:
+        _check_pools(child(tree, "pools"), diagnostics)
+    on_full, block_ms = _on_full(child(tree, "on_full"), diagnostics)
+    return Application(
+        distro=text_of(child(tree, "distro")) or default.distro,
+        profiles=_names(child(tree, "profiles")),
+        components=tuple(component_change(c.name, c.span) for c in _names(child(tree, "components"))),
+        entities=named_of(child(tree, "entities")),
+        creation=named_of(child(tree, "creation")),
+        liveliness=named_of(child(tree, "liveliness")),
+        transport=_transport(child(tree, "transport"), diagnostics),
+        session_key=_session_key(child(child(tree, "session"), "key")),
+        hard_liveliness_ms=hard_liveliness(child(tree, "session"), diagnostics),
+        times=session_times(child(tree, "session"), diagnostics),
+        target=_target(child(tree, "target")),
+        nodes=nodes,
+        interfaces=_names(child(tree, "interfaces")),
+        interface_paths=_names(child(tree, "interface_paths")),
+        pools=MappingProxyType(pools),
+        limits=application_limits(child(tree, "limits")),
+        memory=_memory(child(tree, "memory")),
+        on_full=on_full,
+        on_full_block_ms=block_ms,
+        error_text=text_of(child(tree, "errors")) != "code",
+        clock=named_of(child(tree, "clock")),
+        spans=MappingProxyType(_spans(tree)),
+    )
+
+
+def _check_pools(node: YamlNode | None, diagnostics: Diagnostics) -> None:
+    for entry in entries(node):
+        if entry.key not in _POOLS_BESIDE_NODES:
+            message = f"'pools.{entry.key}' has no effect: with `nodes` there is what they declare"
+            diagnostics.warning(message, entry.key_span, "Remove it")
+
+
+def _names(node: YamlNode | None) -> tuple[Named, ...]:
+    return tuple(named for item in items(node) if (named := named_of(item)) is not None)
+
+
+def _spans(tree: MappingNode) -> dict[str, Span]:
+    spans = {entry.key: entry.key_span for entry in tree}
+    for owner in ("pools", "memory", "session", "transport"):
+        spans |= {f"{owner}.{entry.key}": entry.key_span for entry in entries(child(tree, owner))}
+    return spans
+
+
+def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
+    if node is None:
+        return Transport()
+    kind, agent, mtu = child(node, "type"), child(node, "agent"), child(node, "mtu")
+    type_name = text_of(kind) or Transport().type
+    discover = parse_discover(text_of(agent) or "", span_of(agent), diagnostics)
+    address = None if discover is not None else _agent(agent, diagnostics)
+    host, port = address or (Transport().host, Transport().port)
+    if agent is not None and type_name in _WITHOUT_ADDRESS:
+        message = f"transport: {type_name} has no agent address"
+        diagnostics.error(message, agent.span, "Remove `agent`, or take type: udp or tcp")
+    for key, only in _ONLY_FOR.items():
+        if child(node, key) is not None and type_name != only:
+            message = f"transport: {type_name} has no `{key}`"
+            diagnostics.error(message, span_of(child(node, key)), f"Remove `{key}`, or take type: {only}")
+    size = int_of(mtu)
+    if size is not None and type_name == "udp" and size > LARGEST_UDP_PAYLOAD:
+        message = f"'transport.mtu' is {size}; a UDP datagram holds {LARGEST_UDP_PAYLOAD}"
+        diagnostics.error(message, span_of(mtu), f"Set mtu: {LARGEST_UDP_PAYLOAD} or less")
+    return Transport(
+        type=type_name,
+        host=host,
+        port=port,
+        mtu=size,
+        span=node.span,
+        mtu_span=span_of(mtu),
+        type_span=span_of(kind),
+        agent_span=span_of(agent),
+        device=text_of(child(node, "device")) or Transport().device,
+        baud=int_of(child(node, "baud")) or Transport().baud,
+        framing=bool_of(child(node, "framing")),
+        discover=discover,
+        send_buffer=int_of(child(node, "send_buffer")),
+    )
+
+
+def parse_discover(text: str, span: Span | None, diagnostics: Diagnostics) -> int | None:
+    """Return the port of `discover` or `discover:7401`, which agents are searched for with; None: it is an address."""
+    word, separator, port = text.partition(":")
+    if word != "discover":
+        return None
+    if separator and not (re.fullmatch(r"[0-9]{1,5}", port) and 1 <= int(port) <= 65535):
+        message = f"the port of the search must be a whole number between 1 and 65535; it is '{port}'"
+        diagnostics.error(message, span, "Write `agent: discover`: agents listen at 7400")
+        return DISCOVERY_PORT
+    return int(port) if separator else DISCOVERY_PORT
+
+
+def _agent(node: YamlNode | None, diagnostics: Diagnostics) -> tuple[str, int] | None:
+    """Return host and port; a host name and a missing or wrong port are errors."""
+    text = text_of(node)
+    return None if text is None else parse_agent_address(text, span_of(node), diagnostics)
+
+
+def parse_agent_address(text: str, span: Span | None, diagnostics: Diagnostics) -> tuple[str, int] | None:
+    """Return host and port of `192.168.1.10:8888` or `[fd00::1]:8888`; None and an error where it is neither."""
+    if text.count(":") > 1 and not re.fullmatch(r"\[.*\]:[^:\]]*", text):
+        message = f"the agent '{text}' has an IPv6 address that is not in brackets, or lacks its port"
+        diagnostics.error(message, span, 'Write it as "[::1]:8888"')
+        return None
+    host, separator, port = text.rpartition(":")
+    if not separator:
+        diagnostics.error(f"the agent '{text}' lacks its port", span, f'Write "{text}:8888"')
+        return None
+    valid = _check_host(host, span, diagnostics)
+    if not re.fullmatch(r"[0-9]{1,5}", port) or not 1 <= int(port) <= 65535:
+        message = f"the agent's port must be a whole number between 1 and 65535; it is '{port}'"
+        diagnostics.error(message, span, "The public agent's examples use 8888")
+        return None
+    return (host.strip("[]"), int(port)) if valid else None
+
+
+def _check_host(host: str, span: Span | None, diagnostics: Diagnostics) -> bool:
+    if host.startswith("["):
+        return _check_ipv6(host.strip("[]"), span, diagnostics)
+    try:
+        ipaddress.IPv4Address(host)
+    except ValueError as fault:
+        if re.fullmatch(r"[0-9.]*", host):
+            reason = str(fault).split(" in ")[0]
+            hint = f"Write four numbers from 0 to 255 without leading zeros ({reason})"
+            diagnostics.error(f"the agent's address '{host}' is no IPv4 address", span, hint)
+        else:
+            hint = "A device has no DNS to resolve it: write the IPv4 address"
+            diagnostics.error(f"the agent's address '{host}' is a host name", span, hint)
+        return False
+    return True
+
+
+def _check_ipv6(host: str, span: Span | None, diagnostics: Diagnostics) -> bool:
+    try:
+        zone = ipaddress.IPv6Address(host).scope_id
+    except ValueError as fault:
+        hint = f"Write up to eight groups of hexadecimal digits ({str(fault).split(' in ')[0]})"
+        diagnostics.error(f"the agent's address '{host}' is no IPv6 address", span, hint)
+        return False
+    if zone is not None:
+        message = f"the agent's address '{host}' names the interface '{zone}' of one machine"
+        diagnostics.error(message, span, "Write an address that the device can use without it")
+    return zone is None
+
+
+def _session_key(node: YamlNode | None) -> int | str | None:
+    number = int_of(node)
+    return number if number is not None else text_of(node)
+
+
+def _target(node: YamlNode | None) -> TargetRef:
+    if isinstance(node, ScalarNode):
+        return TargetRef(text_of(node) or TargetRef().name, None, node.span)
+    name, rtos = child(node, "name"), child(node, "rtos")
+    return TargetRef(text_of(name) or TargetRef().name, text_of(rtos), span_of(name), span_of(rtos))
+
+
+def _memory(node: YamlNode | None) -> Memory:
+    parts = {key: child(node, key) for key in ("arena", "ram_budget", "flash_budget", "stack")}
+    return Memory(
+        arena=size_of(parts["arena"]) or 0,
+        messages=int_of(child(node, "messages")),
+        ram_budget=size_of(parts["ram_budget"]),
+        flash_budget=size_of(parts["flash_budget"]),
+        stack=size_of(parts["stack"]),
+        ram_span=span_of(parts["ram_budget"]),
+        flash_span=span_of(parts["flash_budget"]),
+        arena_span=span_of(parts["arena"]),
+        stack_span=span_of(parts["stack"]),
+    )
+
+
+def _on_full(node: YamlNode | None, diagnostics: Diagnostics) -> tuple[str, int]:
+    text = text_of(node) or "error"
+    match = _BLOCK.fullmatch(text)
+    if match is None:
+        return text, 0
+    milliseconds = int(match.group(1)) * (1000 if match.group(2) == "s" else 1)
+    if not 1 <= milliseconds <= LONGEST_BLOCK_MS:
+        message = f"'on_full: {text}' must block between 1 ms and {LONGEST_BLOCK_MS // 1000} s"
+        diagnostics.error(message, span_of(node), "`on_full: error` does not block at all")
+    return "block", milliseconds

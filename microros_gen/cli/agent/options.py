@@ -1,0 +1,270 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What every transport's command of the agent takes, and the configuration file; the command line wins."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
+from pathlib import Path
+from typing import Any
+
+import click
+
+from microros_gen.agent.configuration.model import (
+    AgentFile,
+    NamedPath,
+    PtyChoice,
+    SerialChoice,
+    TransportChoice,
+)
+from microros_gen.agent.configuration.parser import DISCOVERY_PORT, parse_agent_file
+from microros_gen.agent.limits import Limits
+from microros_gen.cli.agent.types import ManifestOf
+from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, Span, UserError, nearest
+from microros_gen.documents.files import read_text
+
+DEFAULTS = Limits()
+MAXIMUM_DOMAIN = 232
+"""Largest ROS domain id: the ports of larger ones do not exist (RTPS 2.2, 9.6.1)."""
+
+_VALUE = re.compile(r"[\w.+-]+")
+
+
+def _file_option(name: str, text: str, metavar: str = "FILE") -> Callable[..., Any]:
+    return click.option(
+        name, multiple=True, type=click.Path(path_type=Path), metavar=metavar, help=f"{text} May be repeated."
+    )
+
+
+_COMMON = (
+    click.option(
+        "-c",
+        "--config",
+        type=click.Path(path_type=Path),
+        metavar="FILE",
+        help="Configuration file; the other options win over it, transports replace its own.",
+    ),
+    click.option(
+        "--domain",
+        type=click.IntRange(0, MAXIMUM_DOMAIN),
+        help="Put every client into this ROS domain. Default: the one that the client asks for.",
+    ),
+    click.option(
+        "--discovery",
+        is_flag=True,
+        help="Answer clients that look for agents in the multicast group 239.255.0.2.",
+    ),
+    click.option(
+        "--discovery-port",
+        type=click.IntRange(1, 65535),
+        help=f"The port of --discovery, which it implies. Default: {DISCOVERY_PORT}.",
+    ),
+    click.option(
+        "--client-timeout",
+        type=click.FloatRange(min=0.1),
+        metavar="SECONDS",
+        help="A client that is not heard for this long leaves the ROS graph; when it is heard again, its entities"
+        f" return. Before that it is asked for a sign of life. Default: {DEFAULTS.client_timeout_s:g}.",
+    ),
+    click.option(
+        "--max-clients",
+        type=click.IntRange(1, 65535),
+        help=f"Further clients are refused. Default: {DEFAULTS.clients}.",
+    ),
+    click.option(
+        "--limit",
+        "limits",
+        multiple=True,
+        metavar="NAME=NUMBER",
+        help="Any other limit of the configuration file, as message_bytes=65536. May be repeated.",
+    ),
+    _file_option(
+        "--references",
+        "XML profiles that clients name instead of describing their entities, as the public agent takes them"
+        " with -r; `build` writes OUT/agent/references.xml.",
+    ),
+    _file_option(
+        "--entities",
+        "Entities (JSON) to make for clients that create none, when they open their session; `build` writes"
+        " OUT/agent/entities.json.",
+    ),
+    click.option(
+        "--manifest",
+        multiple=True,
+        metavar="[KEY=]FILE",
+        help="OUT/manifest.json of a client (of the nodes in it, or of the client with this key, as 0xA1B2C3D4): ROS 2"
+        " is told its type hashes, and a difference is reported by name. May be repeated.",
+    ),
+    _file_option(
+        "--interface-path",
+        "Package, folder of packages or colcon workspace with interface files; searched before the ament index, pip"
+        " and the shipped set.",
+        "DIR",
+    ),
+    click.option(
+        "-v",
+        "--verbose",
+        count=True,
+        help="-v: a line for each message; -vv: each message decoded and in hexadecimal.",
+    ),
+    click.option(
+        "--log-format",
+        type=click.Choice(["text", "json"]),
+        help="Log for people, or one JSON object a line. Default: text.",
+    ),
+)
+
+
+def common_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add them; the command gets them as keyword arguments, to be handed on to `AgentOptions.of`."""
+    for option in reversed(_COMMON):
+        function = option(function)
+    return function
+
+
+@dataclass(frozen=True)
+class AgentOptions:
+    """What one agent is started with."""
+
+    transports: tuple[TransportChoice, ...] = ()
+    discovery: int | None = None
+    domain: int | None = None
+    limits: Limits = DEFAULTS
+    references: tuple[Path, ...] = ()
+    entities: tuple[Path, ...] = ()
+    manifests: tuple[ManifestOf, ...] = ()
+    interface_paths: tuple[Path, ...] = ()
+    log_format: str = "text"
+    verbose: int = 0
+    places: Mapping[Path, Span] = field(default_factory=dict, compare=False)
+    """Where the configuration file names a path."""
+
+    @staticmethod
+    def of(given: Sequence[dict[str, Any]], transports: Iterable[TransportChoice]) -> AgentOptions:
+        """Return what the command line (`given`: the common options of each place) and the file say together.
+
+        UserError: a file or a limit that does not hold, an option with two values, or no transport.
+        """
+        one = _one_each(given)
+        file, folder = _read_file(one["config"])
+        chosen = tuple(transports) or tuple(_near(folder, choice) for choice in file.transports)
+        if not chosen:
+            hint = "Name one, as `microros-gen agent udp4 --port 8888`, or a --config that does"
+            raise UserError([Diagnostic("the agent has no transport", hint=hint)])
+        asked = one["discovery_port"] or (DISCOVERY_PORT if one["discovery"] else None)
+        return AgentOptions(
+            transports=chosen,
+            discovery=file.discovery if asked is None else asked,
+            domain=file.domain if one["domain"] is None else one["domain"],
+            limits=_limits(file, one),
+            references=_paths(folder, file.references, one["references"]),
+            entities=_paths(folder, file.entities, one["entities"]),
+            manifests=(
+                *(ManifestOf.of(named.path, folder, named.span) for named in file.manifests),
+                *(ManifestOf.of(text, Path()) for text in one["manifest"]),
+            ),
+            interface_paths=_paths(folder, file.interface_paths, one["interface_path"]),
+            log_format=one["log_format"] or file.log_format or "text",
+            verbose=one["verbose"] or file.verbose or 0,
+            places={folder / n.path: n.span for n in _named(file) if n.span is not None},
+        )
+
+
+def _one_each(given: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """Return one value of each option: lists joined, counts added; UserError for two that differ."""
+    joined = dict(given[0])
+    for place in given[1:]:
+        for name, value in place.items():
+            before = joined[name]
+            if value is None or value is False:
+                continue
+            if isinstance(value, tuple) or name == "verbose":
+                joined[name] = before + value
+            elif before is None or before is False or before == value:
+                joined[name] = value
+            else:
+                option = "--" + name.replace("_", "-")
+                reason = f"{option} has two values, {before} and {value}: it holds for the whole agent"
+                raise UserError([Diagnostic(reason, hint="Give it once")])
+    return joined
+
+
+def _read_file(path: Path | None) -> tuple[AgentFile, Path]:
+    if path is None:
+        return AgentFile(), Path()
+    diagnostics = Diagnostics()
+    sources = read_sources([path], diagnostics)
+    diagnostics.check()
+    file = parse_agent_file(sources[0], diagnostics)
+    diagnostics.check()
+    return file, path.parent
+
+
+def _named(file: AgentFile) -> tuple[NamedPath, ...]:
+    return (*file.references, *file.entities, *file.interface_paths)
+
+
+def read_sources(
+    paths: Sequence[Path], diagnostics: Diagnostics, places: Mapping[Path, Span] | None = None
+) -> list[Source]:
+    """Return the texts of some files; one that cannot be read is an error, at its place where somebody named it."""
+    known = places or {}
+    sources = []
+    for path in dict.fromkeys(paths):
+        try:
+            sources.append(Source(str(path), read_text(path, encoding="utf-8-sig")))
+        except OSError as error:
+            diagnostics.error(f"{path} cannot be read: {error.strerror}", known.get(path))
+        except UnicodeDecodeError as error:
+            diagnostics.error(
+                f"{path} is not UTF-8 (byte {error.start})", known.get(path), "Save it as UTF-8"
+            )
+    return sources
+
+
+def _near(folder: Path, choice: TransportChoice) -> TransportChoice:
+    if isinstance(choice, SerialChoice):
+        return replace(choice, device=str(folder / choice.device))
+    if isinstance(choice, PtyChoice) and choice.link:
+        return replace(choice, link=str(folder / choice.link))
+    return choice
+
+
+def _paths(folder: Path, of_file: Sequence[NamedPath], given: Sequence[Path]) -> tuple[Path, ...]:
+    return tuple(dict.fromkeys((*(folder / named.path for named in of_file), *given)))
+
+
+def _limits(file: AgentFile, one: dict[str, Any]) -> Limits:
+    """Return the limits: defaults, then the file's, then those of the command line."""
+    chosen: dict[str, Any] = dict(file.limits)
+    diagnostics = Diagnostics()
+    for text in one["limits"]:
+        name, _, value = text.partition("=")
+        number = _limit(name, value, diagnostics)
+        if number is not None:
+            chosen[name] = number
+    diagnostics.check()
+    if one["client_timeout"] is not None:
+        chosen["client_timeout_s"] = one["client_timeout"]
+    if one["max_clients"] is not None:
+        chosen["clients"] = one["max_clients"]
+    return replace(DEFAULTS, **chosen)
+
+
+def _limit(name: str, value: str, diagnostics: Diagnostics) -> float | None:
+    """Return the value of `--limit NAME=VALUE`, judged as in a file; an error where there is no such thing."""
+    names = [field.name for field in fields(Limits)]
+    if name not in names:
+        hint = nearest(name, names) or f"Known are {', '.join(names)}"
+        diagnostics.error(f"there is no limit '{name}'", hint=hint)
+        return None
+    if not _VALUE.fullmatch(value):
+        diagnostics.error(f"'limits.{name}' must be a number", hint=f"Write --limit {name}=NUMBER")
+        return None
+    found = Diagnostics()
+    source = Source("--limit", f"version: 1\nlimits: {{{name}: {value}}}")
+    limits = dict(parse_agent_file(source, found).limits)
+    for diagnostic in found:
+        diagnostics.error(diagnostic.message, hint=diagnostic.hint)
+    return limits.get(name)

@@ -1,0 +1,269 @@
+# SPDX-License-Identifier: Apache-2.0
+"""From options to a running agent: files first, then transports, then ROS 2."""
+
+from __future__ import annotations
+
+import gc
+import resource
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import click
+
+from microros_gen.agent.budgets import Budgets, most_bytes, most_descriptors
+from microros_gen.agent.configuration.entities_file import parse_preconfigured
+from microros_gen.agent.configuration.model import PtyChoice, SerialChoice, SocketChoice, TransportChoice
+from microros_gen.agent.core import Agent
+from microros_gen.agent.fairness import Account, Fairness
+from microros_gen.agent.input_pool import InputPool
+from microros_gen.agent.limits import Limits
+from microros_gen.agent.log import EventLog, Level
+from microros_gen.agent.manifests import Manifests
+from microros_gen.agent.memory import MemoryGuard
+from microros_gen.agent.preconfigured import Preconfigured
+from microros_gen.agent.readiness import notify
+from microros_gen.agent.representation import References
+from microros_gen.agent.representation.reference_file import read_references
+from microros_gen.agent.ros.rclpy_bridge import open_bridge
+from microros_gen.agent.ros.reports import graph_reporter
+from microros_gen.agent.server import Server, stopped_by_signals
+from microros_gen.agent.trace import TracedTransport
+from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.transport.sockets import PROTOCOLS
+from microros_gen.cli.agent.options import AgentOptions, read_sources
+from microros_gen.cli.agent.types import ClientTypes, HashOf, TypeHashes, read_manifests
+from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
+from microros_gen.interfaces.type_hashes import type_hashes
+
+
+def serve(options: AgentOptions) -> None:
+    """Serve until a signal comes; a ready line for each transport goes to stdout. UserError: it cannot start."""
+    _check_system()
+    files = _files(options)
+    as_json = options.log_format == "json"
+    log = EventLog(sys.stderr, as_json, options.verbose, bytes_per_second=options.limits.log_bytes_per_second)
+    for name in files.hashes.differences(files.clients):
+        text = (
+            "{type}: its definition on this machine is not the one that a client was generated with; ROS 2 nodes that"
+            " use the one here will misread it"
+        )
+        log.emit(Level.WARNING, "type_hash_differs", text, type=name)
+    limits = options.limits
+    streams = connections(options.transports)
+    check_memory(limits)
+    pool, budgets = InputPool(limits.input_bytes, limits.clients + streams), Budgets(limits, streams)
+    shared = Shared(pool, budgets.output, Fairness(), Account())
+    transports = open_transports(options.transports, options.discovery, log, shared)
+    try:
+        report, wait_s = graph_reporter(log), limits.request_wait_s
+        bridge = open_bridge(limits.domains, options.domain, files.hashes, report, wait_s)
+    except UserError:
+        _close(transports)
+        raise
+    manifests = Manifests(files.clients.by_client)
+    agent = Agent(
+        bridge,
+        log,
+        limits,
+        files.references,
+        files.preconfigured,
+        manifests=manifests,
+        pool=pool,
+        fair=shared.fair,
+        strangers=shared.strangers,
+        memory=MemoryGuard(limits.memory_bytes, trim=bridge.trim),
+        budgets=budgets,
+    )
+    _tell_memory(log, limits)
+    _tell_descriptors(log, limits, streams)
+    if options.verbose:
+        transports = [TracedTransport(transport, log) for transport in transports]
+    told = ", ".join(f"{name} {value:.10g}" for name, value in asdict(limits).items())
+    log.emit(Level.INFO, "limits", f"limits: {told}", **asdict(limits))
+    server = Server(agent, transports, log)
+    announcements = EventLog(sys.stdout, as_json)
+    gc.collect()
+    gc.freeze()  # modules and libraries stay: to look through them now and then would stop the agent for 20 ms
+    with stopped_by_signals(server):
+        notify("READY=1")
+        server.run(lambda transport: _announce(announcements, transport), time.monotonic)
+
+
+def check_memory(limits: Limits) -> None:
+    """Raise UserError when the pools do not fit the memory that the agent may take."""
+    wanted = most_bytes(limits)
+    if wanted > limits.memory_bytes:
+        message = f"the limits allow {wanted} bytes together, and memory_bytes {limits.memory_bytes}"
+        pools = "history_bytes, object_bytes, input_bytes, output_bytes or call_bytes"
+        raise UserError([Diagnostic(message, hint=f"Lower {pools}, or set memory_bytes: {wanted}")])
+
+
+def _tell_memory(log: EventLog, limits: Limits) -> None:
+    text = (
+        "memory: at most {limit} MiB, of them for clients {history} of histories, {objects} of objects, {input} of"
+        " input, {output} of output, {calls} of open requests (limits: memory_bytes, …)"
+    )
+    mib = {
+        "limit": limits.memory_bytes,
+        "history": limits.history_bytes,
+        "objects": limits.object_bytes,
+        "input": limits.input_bytes,
+        "output": limits.output_bytes,
+        "calls": limits.call_bytes,
+    }
+    log.emit(Level.INFO, "memory", text, **{name: round(size / (1 << 20), 1) for name, size in mib.items()})
+
+
+def _tell_descriptors(log: EventLog, limits: Limits, connections: int) -> None:
+    most, allowed = most_descriptors(limits, connections), resource.getrlimit(resource.RLIMIT_NOFILE)[0]
+    text = "descriptors: at most {most} by the limits, and the system allows {allowed} (ulimit -n)"
+    if 0 <= allowed < most:  # RLIM_INFINITY is negative
+        text += ": when these are taken, further objects and connections are refused"
+    log.emit(Level.INFO, "descriptors", text, most=most, allowed=allowed)
+
+
+@dataclass(frozen=True)
+class Shared:
+    """What the agent and its transports have in common.
+
+    What all hold of messages that are not complete counts in `pool`, what waits to be sent in `output`; `fair` says
+    whose turn it is; `strangers` pays for who has no session.
+    """
+
+    pool: InputPool
+    output: InputPool
+    fair: Fairness
+    strangers: Account
+
+
+def open_transports(
+    choices: Sequence[TransportChoice], discovery: int | None, log: EventLog, shared: Shared
+) -> list[Transport]:
+    """Return open transports, and discovery of them at port `discovery`; UserError names all that fail."""
+    opened: list[Transport] = []
+    diagnostics = Diagnostics()
+    for choice in dict.fromkeys(choices):
+        try:
+            opened.append(_open(choice, log, shared))
+        except UserError as error:
+            diagnostics.extend(replace(d, span=d.span or choice.span) for d in error.diagnostics)
+    try:
+        diagnostics.check()
+        if discovery is not None:
+            opened.append(_discovery(opened, log, discovery))
+    except UserError:
+        _close(opened)
+        raise
+    return opened
+
+
+def connections(choices: Sequence[TransportChoice]) -> int:
+    """Return how many TCP connections transports may have together."""
+    from microros_gen.agent.transport.tcp import TcpLimits
+
+    streams = [c for c in choices if isinstance(c, SocketChoice) and PROTOCOLS[c.kind].stream]
+    return sum(int(dict(c.limits).get("connections", TcpLimits.connections)) for c in streams)
+
+
+def _open(choice: TransportChoice, log: EventLog, shared: Shared) -> Transport:
+    from microros_gen.agent.transport.serial import Pty, serial_line
+    from microros_gen.agent.transport.tcp import Tcp, TcpLimits
+    from microros_gen.agent.transport.udp import Udp
+
+    if isinstance(choice, SerialChoice):
+        return serial_line(choice.device, choice.baud, log)
+    if isinstance(choice, PtyChoice):
+        return Pty(log, Path(choice.link) if choice.link else None)
+    protocol = PROTOCOLS[choice.kind]
+    host = choice.bind or protocol.loopback
+    if not protocol.stream:
+        return Udp(protocol, host, choice.port, shared.fair, shared.strangers)
+    limits: dict[str, Any] = dict(choice.limits)
+    tcp_limits = replace(TcpLimits(), **limits)
+    return Tcp(
+        protocol,
+        host,
+        choice.port,
+        log,
+        tcp_limits,
+        shared.pool,
+        shared.output,
+        shared.fair,
+        shared.strangers,
+    )
+
+
+def _discovery(opened: Sequence[Transport], log: EventLog, port: int) -> Transport:
+    from microros_gen.agent.transport.discovery import Discovery
+    from microros_gen.agent.transport.tcp import Tcp
+    from microros_gen.agent.transport.udp import Udp
+
+    return Discovery([t for t in opened if isinstance(t, Udp | Tcp)], log, port)
+
+
+def _check_system() -> None:
+    """ROS 2's packages, and the system calls that the agent waits with, are Linux's."""
+    if sys.platform != "linux":
+        hint = (
+            "Under Windows run it in WSL 2 (usbipd attach --wsl hands serial devices on), on macOS in a virtual"
+            " machine; clients reach it over UDP, TCP or a serial line"
+        )
+        raise UserError([Diagnostic("the agent needs Linux", hint=hint)])
+
+
+def _close(transports: Sequence[Transport]) -> None:
+    for transport in transports:
+        transport.close()
+
+
+@dataclass(frozen=True)
+class _Files:
+    """What the files say."""
+
+    references: References
+    preconfigured: Preconfigured
+    clients: ClientTypes
+    hashes: TypeHashes
+
+
+def _files(options: AgentOptions) -> _Files:
+    """Return what the files say; UserError with the faults of all of them."""
+    diagnostics = Diagnostics()
+    references, preconfigured = References(), Preconfigured()
+    places = options.places
+    profiles = read_sources(options.references, diagnostics, places)
+    entities = read_sources(options.entities, diagnostics, places)
+    clients = read_manifests(options.manifests, diagnostics)
+    of_files: HashOf = _nobody
+    try:
+        of_files = type_hashes(options.interface_paths)
+    except UserError as error:
+        missing = next((path for path in options.interface_paths if not path.exists()), Path())
+        span = places.get(missing)
+        diagnostics.extend(replace(d, span=d.span or span) for d in error.diagnostics)
+    try:
+        references = read_references(profiles)
+    except UserError as error:
+        diagnostics.extend(error.diagnostics)
+    try:
+        preconfigured = Preconfigured(parse_preconfigured(entities, diagnostics))
+    except UserError as error:
+        diagnostics.extend(error.diagnostics)
+    diagnostics.check()
+    for diagnostic in diagnostics:  # warnings
+        click.echo(diagnostic.render(), err=True)
+    return _Files(references, preconfigured, clients, TypeHashes(of_files, clients.common))
+
+
+def _nobody(_type_name: str) -> None:
+    """Know no type."""
+
+
+def _announce(announcements: EventLog, transport: Transport) -> None:
+    kind, _, address = transport.label.partition(" ")
+    text = "agent ready: {transport} {address}"
+    announcements.emit(Level.INFO, "ready", text, transport=kind, address=address)

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`microros-gen size`: flash, RAM and stack of what was built."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from microros_gen.cli.budgets import check_recorded
+from microros_gen.cli.options import check_map, image_option, map_option
+from microros_gen.cli.size.format import size_json, size_table
+from microros_gen.image.folder import read_folder
+from microros_gen.image.report import check_budgets, measure_folder
+
+
+@click.command()
+@click.argument("out", type=click.Path(path_type=Path))
+@image_option(
+    "Measure this image of yours, which was linked with OUT's library. Default: the one that was built."
+)
+@map_option
+@click.option(
+    "--format",
+    "kind",
+    type=click.Choice(("table", "json", "html")),
+    default="table",
+    show_default=True,
+    help="Tables for people, JSON for programs (keys: docs/size.md), or one page to look at and print.",
+)
+@click.option("--all", "every", is_flag=True, help="List every symbol too (table; JSON and HTML always do).")
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="Write to FILE instead of the standard output.",
+)
+@click.option(
+    "--budgets",
+    "check",
+    is_flag=True,
+    help="Check the budgets alone, as `build` does after linking, and print nothing where they hold.",
+)
+def command(
+    out: Path,
+    image: Path | None,
+    linker_map: Path | None,
+    kind: str,
+    every: bool,
+    output: Path | None,
+    check: bool,
+) -> None:
+    """Show what OUT takes: flash and RAM per component, entity and symbol, and the worst stack.
+
+    OUT is what `build` wrote, or a CMake build folder (of microros_add_library and microros_image, `init` or colcon),
+    whose own image is measured. The figures are those of the linked image, and add up to what `size` of the tool
+    chain says. For a target without an image they are those of the library, before a linker drops what is not used.
+    Ends with 1 when a budget of the application file (memory.ram_budget, flash_budget, stack) is exceeded, and says
+    what would bring it down.
+
+    \b
+    microros-gen size build/pure_sender
+    microros-gen size my_robot/build
+    microros-gen size build/pure_sender --image robot.elf --all
+    microros-gen size my_robot/build --format html -o size.html
+    microros-gen size build/pure_sender --format json | jq .totals
+    """
+    check_map(image, linker_map)
+    folder = read_folder(out, image, linker_map)
+    if check:
+        check_recorded(folder)
+        return
+    report = measure_folder(folder)
+    if kind == "html":
+        from microros_gen.cli.size.html import size_html
+
+        text = size_html(report)
+    else:
+        text = size_json(report) if kind == "json" else size_table(report, every)
+    if output is None:
+        click.echo(text, nl=False)
+    else:
+        output.write_text(text, encoding="utf-8", newline="\n")
+    check_budgets(report.budgets, {})

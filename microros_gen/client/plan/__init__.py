@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Decide entities, streams, queues, names and times of the client."""

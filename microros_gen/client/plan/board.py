@@ -1,0 +1,310 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a board without an operating system needs as numbers and names: its vector table, stack, ring and UART."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from microros_gen.application.model import Application
+from microros_gen.client.plan.runtime import RuntimePlan
+from microros_gen.client.plan.streams import usual_frame
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.platform.target import OWN_DRIVER, Target, Uart
+
+DEFAULT_STACK = 2048
+_STACK_ALIGNMENT = 16  # RISC-V; the Arm procedure call standard asks for 8
+_FREQUENCY_TOLERANCE = (
+    0.025  # a frame of ten bits is sampled in the middle of its bits: each side may err by half of 5 %
+)
+_FIRST_INTERRUPT = 16  # words of a Cortex-M's vector table before that of interrupt 0
+_LEAST_TABLE = 128  # bytes; the lowest bits of VTOR are 0
+_LINE_USERS = ("serial", "custom")
+# OMG DDS-XRCE 1.0: a header of 4, a submessage of 4 and 5 (ACKNACK).
+_ACKNACK = 13
+# What may be stuffed of a frame besides one byte in 32 of its message.
+_MORE_STUFFED = 2
+# The longest that an application may leave a best-effort sample alone that comes over a serial line.
+REACTION_MS = 20
+# Read of the ring at a time: a call costs little there.
+RING_CHUNK = 8
+_BITS_OF_A_BYTE = 10  # with start and stop bit
+_SERIAL_FUNCTIONS = (
+    "port_serial_open",
+    "port_serial_close",
+    "port_serial_room",
+    "port_serial_write",
+    "port_serial_is_idle",
+    "port_serial_read",
+)
+_UART_FUNCTIONS = ("port_uart_start", "port_uart_stop", "port_uart_send")
+_LOCK_FUNCTIONS = ("port_lock", "port_unlock")
+_UDP_FUNCTIONS = ("port_udp_open", "port_udp_close", "port_udp_send", "port_udp_receive")
+
+
+@dataclass(frozen=True)
+class BoardPlan:
+    """Sizes are bytes. `vectors` are handlers by interrupt number, `handlers` those that the application provides.
+
+    `entry` is where the program begins, `first` what lies first in flash, in the section `first_section`.
+    `application_functions` are functions of microros/port.h that only the application can provide; then the
+    example is not linked. `serial_driver` is `none` where nothing uses the line, or the board has none.
+    """
+
+    stack_size: int = 0
+    ring_size: int = 0
+    output_size: int = 0
+    ticks_per_ms: int = 0
+    serial_driver: str = "none"
+    uart_divisor: int = 0
+    tx_irq: int = 0
+    tx_pin: int = 0
+    rx_pin: int = 0
+    has_fpu: bool = False
+    vectors: tuple[str, ...] = ()
+    handlers: tuple[str, ...] = ()
+    entry: str = ""
+    first: str = ""
+    first_section: str = ""
+    application_functions: tuple[str, ...] = ()
+    stdio: str = "absent"
+    stdio_driver: str = "none"
+    stdio_divisor: int = 0
+
+    @property
+    def has_stdio(self) -> bool:
+        """Whether the port has what the C library's standard output needs."""
+        return self.stdio != "absent"
+
+    @property
+    def has_serial_driver(self) -> bool:
+        """Whether this project has the serial line of the board, with a driver of its own or the application's."""
+        return self.serial_driver != "none"
+
+    @property
+    def drives_itself(self) -> bool:
+        """Whether the application has the driver of the line."""
+        return self.serial_driver == OWN_DRIVER
+
+
+def plan_board(
+    application: Application, target: Target, runtime: RuntimePlan, diagnostics: Diagnostics
+) -> BoardPlan:
+    """Decide what start-up, linker script and drivers print; for a hosted target nothing of it matters."""
+    if target.hosted:
+        return BoardPlan()
+    _check_unique_id(application, target, runtime, diagnostics)
+    has_line = target.has_image or target.uart_driver == OWN_DRIVER
+    driver = target.uart_driver if has_line and runtime.transport in _LINE_USERS else "none"
+    functions = _application_functions(runtime.transport, driver)
+    functions += _LOCK_FUNCTIONS if runtime.multithread else ()
+    if not target.has_image:
+        return BoardPlan(
+            ring_size=ring_size(runtime),
+            output_size=runtime.send_buffer,
+            serial_driver=driver,
+            application_functions=functions,
+        )
+    uart = target.uart if driver not in ("none", OWN_DRIVER) else None
+    entry, first, section, handler, unused = _NAMES[target.port]
+    _check_vectors(target, uart, application, diagnostics)
+    stdio = target.stdio
+    return BoardPlan(
+        stdio=stdio.to if stdio else "absent",
+        stdio_driver=stdio.driver if stdio else "none",
+        stdio_divisor=_stdio_divisor(target, uart, runtime, application, diagnostics),
+        stack_size=_stack_size(application, target, diagnostics),
+        ring_size=ring_size(runtime),
+        output_size=runtime.send_buffer,
+        ticks_per_ms=target.clock_hz // 1000,
+        serial_driver=driver,
+        uart_divisor=_divisor(uart, target, application, diagnostics) if uart else 0,
+        tx_irq=uart.tx_irq if uart else 0,
+        tx_pin=uart.tx_pin & 0xFFFFFFFF if uart else 0,
+        rx_pin=uart.rx_pin & 0xFFFFFFFF if uart else 0,
+        has_fpu=any(flag in ("-mfloat-abi=hard", "-mfloat-abi=softfp") for flag in target.c_flags),
+        vectors=_vectors(target, uart, handler, unused),
+        handlers=tuple(sorted({name for _, name in target.interrupts})),
+        entry=entry,
+        first=first,
+        first_section=section,
+        application_functions=functions
+        + tuple(name for name in (target.clocks_hook, target.watchdog_hook) if name)
+        + (("port_stdio_put",) if stdio and stdio.to == "application" else ()),
+    )
+
+
+def has_own_line(target: Target, transport: str) -> bool:
+    """Whether a driver of this project sends and receives for the transport, by interrupts."""
+    return (
+        transport == "serial"
+        and not target.hosted
+        and target.has_image
+        and target.uart_driver not in ("none", OWN_DRIVER)
+    )
+
+
+def ring_size(runtime: RuntimePlan) -> int:
+    """Return the bytes that can arrive while the application does not read, and one to spare, at most 32 KiB.
+
+    What an agent sends by itself answers what was sent to it: one message of the longest kind that must not be
+    lost, and an ACKNACK for each slot of the reliable stream; each is framed and stuffed as usual, and has some bytes
+    more. A larger sample comes on a best-effort stream at any time, and may be lost: of it there is what the line
+    brings in REACTION_MS, or a quarter of it where that is less, for it is decoded out of the ring while it comes.
+    """
+    frames = [runtime.line_input, *([_ACKNACK] * runtime.reliable_slots)]
+    needed = sum(usual_frame(size) + _MORE_STUFFED for size in frames)
+    if runtime.input_size > runtime.line_input:
+        in_time = runtime.serial_baud * REACTION_MS // (1000 * _BITS_OF_A_BYTE)
+        needed = max(needed, min(in_time, runtime.input_size // 4))
+    return min((needed + 4) & ~3, 1 << 15)
+
+
+# port → entry, what lies first in flash, its section, the UART's handler, what stands for an unused interrupt
+_NAMES = {
+    "port_cortex_m": (
+        "port_cortex_m_reset",
+        "port_cortex_m_vectors",
+        ".rodata.port_cortex_m_vectors",
+        "port_cortex_m_uart_interrupt",
+        "port_cortex_m_fault",
+    ),
+    "port_riscv": (
+        "port_riscv_reset",
+        "port_riscv_reset",
+        ".text.port_riscv_reset",
+        "port_riscv_uart_interrupt",
+        "",
+    ),
+}
+
+
+def _vectors(target: Target, uart: Uart | None, handler: str, unused: str) -> tuple[str, ...]:
+    named = dict(target.interrupts)
+    if uart is not None:
+        named |= dict.fromkeys(uart.interrupts, handler)
+    return tuple(named.get(number, unused) for number in range(max(named, default=0) + 1))
+
+
+def _application_functions(transport: str, driver: str) -> tuple[str, ...]:
+    if transport == "serial" and driver == "none":
+        return _SERIAL_FUNCTIONS
+    if driver == OWN_DRIVER:
+        return _UART_FUNCTIONS
+    return _UDP_FUNCTIONS if transport == "udp" else ()
+
+
+def _check_unique_id(
+    application: Application, target: Target, runtime: RuntimePlan, diagnostics: Diagnostics
+) -> None:
+    if application.session_key is None and not target.has_unique_id and runtime.entities != "preconfigured":
+        diagnostics.warning(
+            "all boards with this image have the same client key, and two of them take each other's session: the "
+            f"target {target.name} names no unique id",
+            application.target.span,
+            "Write where it is into the target file: `unique_id: {address: 0x1FFF7A10, words: 3}`, or give each "
+            f"board a key of its own: `session: {{key: 0x{runtime.client_key or 0:08X}}}`",
+        )
+    if isinstance(application.session_key, str) and not target.has_unique_id:
+        diagnostics.error(
+            f"session.key: device needs a number that no other device has, and the target {target.name} names none",
+            application.spans.get("session") or application.target.span,
+            "Write where it is into the target file: `unique_id: {address: 0x1FFF7A10, words: 3}`, or give each "
+            "device a `session: {key: N}` of its own",
+        )
+
+
+def _check_vectors(
+    target: Target, uart: Uart | None, application: Application, diagnostics: Diagnostics
+) -> None:
+    """Report a vector table where the processor cannot have one (Armv6-M, Armv7-M: VTOR, "TBLOFF")."""
+    flash = target.flash
+    if flash is None or not flash.offset or target.port != "port_cortex_m":
+        return
+    words = _FIRST_INTERRUPT + len(_vectors(target, uart, "", ""))
+    alignment = max(_LEAST_TABLE, 1 << (4 * words - 1).bit_length())
+    if "-mcpu=cortex-m0" in target.c_flags:
+        diagnostics.error(
+            f"the Cortex-M0 of {target.name} has no vector table offset register: 'flash.offset' has no effect",
+            application.target.span,
+            "Let the bootloader hand interrupts on, or remove it",
+        )
+    elif flash.first % alignment:
+        upwards = (flash.first + alignment - 1) // alignment * alignment - flash.origin
+        diagnostics.error(
+            f"the vector table of {target.name} would begin at {flash.first:#x}, which is no multiple of {alignment}",
+            application.target.span,
+            f"Set flash.offset: {upwards}",
+        )
+
+
+def _stdio_divisor(
+    target: Target,
+    uart: Uart | None,
+    runtime: RuntimePlan,
+    application: Application,
+    diagnostics: Diagnostics,
+) -> int:
+    stdio = target.stdio
+    if stdio is None or stdio.to != "uart":
+        return 0
+    if uart is not None and uart.base == stdio.base and runtime.transport == "serial":
+        diagnostics.error(
+            f"'stdio' of {target.name} prints to the UART of the agent",
+            application.target.span,
+            "Give it another base, or take `stdio: {to: semihosting}`",
+        )
+    clock_hz = target.uart.clock_hz if target.uart else 0
+    found = _nearest_divisor(stdio.driver, clock_hz or target.clock_hz, stdio.baud)
+    if found.error > _FREQUENCY_TOLERANCE:
+        diagnostics.error(
+            f"{stdio.baud} baud cannot be had from {clock_hz or target.clock_hz} Hz by the UART of 'stdio'",
+            application.target.span,
+            f"The nearest rate is {found.nearest}: `stdio: {{baud: {found.nearest}}}`",
+        )
+    return found.divisor
+
+
+def _stack_size(application: Application, target: Target, diagnostics: Diagnostics) -> int:
+    asked = application.memory.stack
+    size = DEFAULT_STACK if asked is None else asked
+    size = (size + _STACK_ALIGNMENT - 1) // _STACK_ALIGNMENT * _STACK_ALIGNMENT
+    region = target.stack_region
+    assert region is not None
+    if size > region.size or (region is target.ram and size == region.size):
+        diagnostics.error(
+            f"a stack of {size} bytes leaves nothing of the {region.size} bytes of RAM of {target.name}",
+            application.memory.stack_span or application.target.span,
+            "Lower memory.stack",
+        )
+    return size
+
+
+def _divisor(uart: Uart, target: Target, application: Application, diagnostics: Diagnostics) -> int:
+    """Return the value of the UART's baud register for the application's rate."""
+    clock, baud = uart.clock_hz or target.clock_hz, application.transport.baud
+    if uart.driver == "nrf51":
+        # nRF51 Reference Manual, BAUDRATE: 32 bits of fraction of 16 MHz, of which the upper 20 count.
+        return ((baud << 32) // 16_000_000 + 0x800) & 0xFFFFF000
+    found = _nearest_divisor(uart.driver, clock, baud)
+    if found.error > _FREQUENCY_TOLERANCE:
+        diagnostics.error(
+            f"{baud} baud cannot be had from {clock} Hz by the UART of {target.name}",
+            application.transport.span or application.target.span,
+            f"The nearest rate is {found.nearest}: `transport: {{baud: {found.nearest}}}`",
+        )
+    return found.divisor
+
+
+@dataclass(frozen=True)
+class _Divisor:
+    """A divisor, the rate that it gives, and how far that is from what was asked, as a share."""
+
+    divisor: int
+    nearest: int
+    error: float
+
+
+def _nearest_divisor(driver: str, clock: int, baud: int) -> _Divisor:
+    step, lowest, largest = {"cmsdk": (1, 16, 0xFFFFF), "ns16550": (16, 1, 0xFFFF)}[driver]
+    divisor = min(max(round(clock / (step * baud)), lowest), largest)
+    return _Divisor(divisor, clock // (step * divisor), abs(clock / (step * divisor) / baud - 1))

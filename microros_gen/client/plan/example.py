@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The profile's example application: its names, which members of each message it fills, and with what."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from microros_gen.interfaces.types import Field, Message, NamedType, Primitive, StringType, TypeName
+from microros_gen.typesupport.plan.names import snake_case
+
+_TIME = TypeName("builtin_interfaces", "msg", "Time")
+# Enough to see every part of an Imu move, and still readable for a message of a hundred members.
+_MOST_VALUES = 16
+
+
+@dataclass(frozen=True)
+class MemberValue:
+    """A member path (`linear_acceleration.x`) and the C expression or text that it gets."""
+
+    member: str
+    value: str
+
+
+@dataclass(frozen=True)
+class Filling:
+    """What the example writes into one message: time stamps, numbers from its counter, texts."""
+
+    stamps: tuple[str, ...]
+    values: tuple[MemberValue, ...]
+    texts: tuple[MemberValue, ...]
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What the example prints of a message that it received: a format and an argument, where {message} is its name."""
+
+    format: str
+    expression: str
+
+
+def example_node(project: str) -> str:
+    """Return the name of the example's node where the application file declares none."""
+    return project.replace("+", "_")
+
+
+def example_topics(roots: Sequence[TypeName]) -> tuple[tuple[TypeName, str], ...]:
+    """Return a topic for each of `roots`, by which the example without `nodes:` publishes it."""
+    topics = [snake_case(root.name) for root in roots]
+    return tuple(
+        (root, topic if topics.count(topic) == 1 else f"{root.package}/{topic}")
+        for root, topic in zip(roots, topics, strict=True)
+    )
+
+
+def plan_filling(message: Message, messages: Mapping[TypeName, Message], text: str) -> Filling:
+    """Fill every plain member of `message` without a default of its own; arrays and sequences stay."""
+    members = tuple(_plain_members(message, messages, ""))
+    stamps = tuple(path for path, field in members if field.type == NamedType(_TIME))
+    numbers = [(path, f.type) for path, f in members if isinstance(f.type, Primitive)]
+    values = tuple(MemberValue(path, _expression(kind)) for path, kind in numbers[:_MOST_VALUES])
+    texts = tuple(
+        MemberValue(path, text)
+        for path, f in members
+        if isinstance(f.type, StringType)
+        and not f.type.wide
+        and (f.type.bound is None or f.type.bound >= len(text))
+    )
+    return Filling(stamps, values, texts)
+
+
+def plan_shown(message: Message, messages: Mapping[TypeName, Message]) -> Shown | None:
+    """Return the first number or text of `message` as printf takes it; None: it has neither."""
+    for path, field in _plain_members(message, messages, "", with_default=True):
+        if field.type == NamedType(_TIME):
+            return Shown("%d.%09u s", f"(int){{message}}.{path}.sec, (unsigned){{message}}.{path}.nanosec")
+        if isinstance(field.type, StringType) and not field.type.wide:
+            return Shown("%s", f"{{message}}.{path}.data")
+        if isinstance(field.type, Primitive):
+            real = field.type in (Primitive.FLOAT32, Primitive.FLOAT64)
+            return Shown("%g" if real else "%lld", f"({'double' if real else 'long long'}){{message}}.{path}")
+    return None
+
+
+def _plain_members(
+    message: Message, messages: Mapping[TypeName, Message], prefix: str, *, with_default: bool = False
+) -> Iterator[tuple[str, Field]]:
+    for field in message.fields:
+        path = f"{prefix}{field.name}"
+        if field.default is not None and not with_default:
+            continue
+        if isinstance(field.type, NamedType) and field.type.name != _TIME:
+            yield from _plain_members(
+                messages[field.type.name], messages, f"{path}.", with_default=with_default
+            )
+        elif isinstance(field.type, (Primitive, StringType, NamedType)):
+            yield path, field
+
+
+def _expression(kind: Primitive) -> str:
+    if kind is Primitive.BOOL:
+        return "(count % 2u) == 1u"
+    if kind is Primitive.FLOAT32:
+        return "0.1f * (float)count"
+    if kind is Primitive.FLOAT64:
+        return "0.1 * (double)count"
+    return "count" if kind is Primitive.UINT32 else f"({kind.c_type})count"

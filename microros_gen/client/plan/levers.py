@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The numbers of an application file that memory grows with: queues, the history and limits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+from microros_gen.application.model import Application, EndpointDecl, LimitRule
+from microros_gen.client.plan.project import Project
+from microros_gen.typesupport.plan.capacity import Capacities, Capacity
+
+
+@dataclass(frozen=True)
+class Lever:
+    """A number of the application file, which is `now`.
+
+    `text` says that it is another one; `put` returns an application with another one.
+    """
+
+    now: int
+    text: Callable[[int], str]
+    put: Callable[[Application, int], Application]
+
+
+def queue_levers(project: Project) -> Iterator[Lever]:
+    """Yield the queues that have more than one place, those of the largest messages first."""
+    application, queues = project.application, project.runtime.queues
+    if not application.nodes:
+        now = application.pools.get("queue", max((q.slots for q in queues), default=1))
+        if now > 1:
+            yield _pool("queue", now)
+        return
+    endpoints = [e for kind in ("subscription", "service", "client") for e in _of_kind(application, kind)]
+    of_endpoints = queues[len(queues) - len(endpoints) :]  # the library's own come first
+    pairs = sorted(
+        ((e, q) for e, q in zip(endpoints, of_endpoints, strict=True) if q.slots > 1),
+        key=lambda pair: -pair[1].slots * pair[1].slot_size,
+    )
+    for endpoint, queue in pairs:
+        yield _queue(endpoint, queue.slots)
+
+
+def history_lever(project: Project) -> Lever | None:
+    """Return the history of reliable streams; None where it has one place or none."""
+    slots = project.streams.reliable_slots
+    return _pool("history", slots) if slots > 1 else None
+
+
+def limit_levers(capacities: Capacities) -> Iterator[Lever]:
+    """Yield the limits above 1, the largest first."""
+    for capacity in sorted(capacities.decided, key=lambda c: (-c.value, str(c.root), c.path, c.kind)):
+        if capacity.value > 1:
+            yield _limit(capacity)
+
+
+def _pool(key: str, now: int) -> Lever:
+    return Lever(
+        now,
+        lambda value: f"pools.{key} {now} → {value}",
+        lambda application, value: replace(application, pools={**application.pools, key: value}),
+    )
+
+
+def _queue(endpoint: EndpointDecl, now: int) -> Lever:
+    place = f"of the {endpoint.kind} {endpoint.given or endpoint.topic} (now {now})"
+    return Lever(
+        now,
+        lambda value: f"queue: {value} {place}",
+        lambda application, value: _with_queue(application, endpoint, value),
+    )
+
+
+def _limit(capacity: Capacity) -> Lever:
+    name = f"limits: {capacity.root} {'.'.join(capacity.path)} {capacity.kind} {capacity.value}"
+    return Lever(
+        capacity.value,
+        lambda value: f"{name} → {value}",
+        lambda application, value: _with_limit(application, capacity, value),
+    )
+
+
+def _of_kind(application: Application, kind: str) -> list[EndpointDecl]:
+    return [e for node in application.nodes for e in node.endpoints if e.kind == kind]
+
+
+def _with_queue(application: Application, endpoint: EndpointDecl, queue: int) -> Application:
+    nodes = tuple(
+        replace(
+            node, endpoints=tuple(replace(e, queue=queue) if e == endpoint else e for e in node.endpoints)
+        )
+        for node in application.nodes
+    )
+    return replace(application, nodes=nodes)
+
+
+def _with_limit(application: Application, capacity: Capacity, value: int) -> Application:
+    path = (str(capacity.root), *capacity.path)
+    others = tuple(rule for rule in application.limits if rule.path != path)
+    mine = [rule for rule in application.limits if rule.path == path and not rule.single]
+    rule = mine[0] if mine else LimitRule(path)
+    rule = replace(rule, string=value) if capacity.kind == "string" else replace(rule, sequence=value)
+    return replace(application, limits=(*others, rule))

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The declared entities of the C runtime: nodes, publishers, subscriptions and timers, and the queues of samples."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from microros_gen.interfaces.dds_names import dds_type
+from microros_gen.interfaces.types import TypeName
+
+
+@dataclass(frozen=True)
+class NodePlan:
+    """A declared node. `participant_name` is what goes on the wire: `name`, or `namespace/name`.
+
+    `given_name` and `given_namespace` are what the source passes, where `remap:` changes them.
+    """
+
+    index: int
+    name: str
+    namespace: str
+    participant_name: str
+    domain_id: int
+    given_name: str = ""
+    given_namespace: str = ""
+
+    @property
+    def source_name(self) -> str:
+        """The name that the source passes."""
+        return self.given_name or self.name
+
+    @property
+    def source_namespace(self) -> str:
+        """The namespace that the source passes, as ROS 2 reports it."""
+        return "/" + (self.given_namespace or self.namespace).strip("/")
+
+    @property
+    def full_namespace(self) -> str:
+        """The namespace as ROS 2 reports it: `/`, `/a/b`."""
+        return "/" + self.namespace.strip("/")
+
+
+@dataclass(frozen=True)
+class PublisherPlan:
+    """A declared publisher; `topic` is the expanded ROS name (`/imu/data`), `dds_topic` is `rt` + topic.
+
+    `limited` begins the C names of its type under limits of its own (typesupport/plan/own_limits.py); empty: those
+    of the type. `given` is the expanded name that the source has, where `remap:` makes it `topic`.
+    """
+
+    index: int
+    node: int
+    topic: str
+    dds_topic: str
+    type: TypeName
+    reliable: bool
+    limited: str = field(default="", repr=False)
+    given: str = field(default="", repr=False)
+
+    @property
+    def dds_type(self) -> str:
+        """The type's name on the wire: `std_msgs::msg::dds_::Int32_`."""
+        return dds_type(self.type)
+
+
+@dataclass(frozen=True)
+class SubscriptionPlan:
+    """A declared subscription, as PublisherPlan.
+
+    `index` counts subscriptions alone. For a message of variable length, `storage` is what the names of its storage
+    begin with in C, `header` declares it, `c_type` is its struct and `buffers`: what holds while none of its
+    members has memory of the application's. `stored`: the library has such storage and binds the message to it.
+    """
+
+    index: int
+    node: int
+    topic: str
+    dds_topic: str
+    type: TypeName
+    reliable: bool
+    storage: str = ""
+    header: str = ""
+    c_type: str = ""
+    buffers: tuple[str, ...] = ()
+    stored: bool = False
+    given: str = field(default="", repr=False)
+
+    @property
+    def dds_type(self) -> str:
+        """The type's name on the wire: `std_msgs::msg::dds_::Int32_`."""
+        return dds_type(self.type)
+
+
+@dataclass(frozen=True)
+class QueuePlan:
+    """What waits for the application to take it: `slots` samples, of at most `slot_size` bytes each.
+
+    A sample is what DATA carries behind the object's id: the CDR body, for a service behind 24 bytes (who asks), for a
+    client behind 4 (which request).
+    """
+
+    slots: int
+    slot_size: int
+
+
+@dataclass(frozen=True)
+class TimerPlan:
+    """A declared timer; its period in nanoseconds. `kind` is clock, rtos or hardware: what makes it ready."""
+
+    index: int
+    node: int
+    name: str
+    period_ns: int
+    kind: str = "clock"

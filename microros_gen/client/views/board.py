@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Prepared view of a board: what README.md, CMakeLists.txt and toolchain.cmake print about it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from jinja2 import Environment
+
+from microros_gen.client.plan.project import Project
+from microros_gen.platform.target import Target
+
+
+@dataclass(frozen=True)
+class BoardView:
+    """Flags are one text each. `script` is the linker script below the output folder, empty without an image.
+
+    `functions` are those of microros/port.h that the application provides, as they are printed.
+    """
+
+    target: str
+    suffix: str
+    link_flags: str
+    script: str
+    stack: int
+    functions: str
+    is_arm: bool
+
+
+@dataclass(frozen=True)
+class _ToolchainView:
+    target: str
+    compiler: str
+    c_flags: str
+
+
+def render_toolchain(target: Target, environment: Environment) -> bytes:
+    """Return the CMake tool-chain file of a target without an operating system."""
+    view = _ToolchainView(target.name, target.compilers[0], " ".join(target.c_flags))
+    return environment.get_template("project/toolchain.cmake.j2").render(view=view).encode()
+
+
+def board_view(project: Project) -> BoardView | None:
+    """Return the view of a target without an operating system; None for others."""
+    target = project.target
+    if target.hosted:
+        return None
+    return BoardView(
+        target=target.name,
+        suffix=target.image_suffix,
+        link_flags=" ".join((*target.link_flags, *target.libraries)),
+        script=project.linker_script or "",
+        stack=project.board.stack_size,
+        functions=", ".join(f"`{name}`" for name in project.board.application_functions),
+        is_arm=target.port == "port_cortex_m",
+    )

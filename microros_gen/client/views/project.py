@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Renders a project: every file of the output folder but the manifest, as bytes by relative path."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from jinja2 import Environment
+
+from microros_gen.application.model import Memory
+from microros_gen.client.plan.project import Project
+from microros_gen.client.plan.runtime_entities import PublisherPlan
+from microros_gen.client.views.agent_files import render_agent_files
+from microros_gen.client.views.board import BoardView, board_view, render_toolchain
+from microros_gen.client.views.example import example_view
+from microros_gen.selection.component import Component
+from microros_gen.selection.component_sources import ComponentFile
+from microros_gen.typesupport.views.decode import render_decoders
+from microros_gen.typesupport.views.members import render_members
+from microros_gen.typesupport.views.types import render_types
+
+IMAGE_CMAKE = "microros_image.cmake"
+
+
+@dataclass(frozen=True)
+class _Row:
+    name: str
+    reasons: str
+
+
+@dataclass(frozen=True)
+class _Bytes:
+    name: str
+    bytes: int
+
+
+@dataclass(frozen=True)
+class _ProjectView:
+    title: str
+    image: str
+    example: str
+    sources: tuple[str, ...]
+    components: tuple[_Row, ...]
+    entities: tuple[str, ...]
+    agent: str
+    agent_file: str
+    declared: bool
+    memory: tuple[_Bytes, ...]
+    board: BoardView | None
+    has_image: bool
+    budgets: str
+
+
+@dataclass(frozen=True)
+class _UnselectedView:
+    message: str
+
+
+def render_project(
+    project: Project,
+    files: Iterable[ComponentFile],
+    unselected: Iterable[Component],
+    environment: Environment,
+) -> dict[str, bytes]:
+    """Return the bytes of every file by its path below the output folder.
+
+    `files` are those of the selected components; `unselected` are the others, whose public headers become one
+    `#error` each.
+    """
+    rendered = _component_files(project, files, environment)
+    pools = frozenset(pool.kind for pool in project.runtime.message_pools)
+    rendered |= render_types(project.types, environment, project.selection.has("services"), pools)
+    rendered |= render_decoders(project.types, environment)
+    if project.selection.has("micro_ros_utilities"):
+        rendered |= render_members(project.types, environment, pools)
+    rendered |= render_agent_files(project)
+    for path, content in _unselected_headers(unselected, environment):
+        rendered.setdefault(path, content)
+    template = environment.get_template("example/main.c.j2")
+    rendered[project.example] = template.render(view=example_view(project)).encode()
+    view = _project_view(project, rendered)
+    for name in ("CMakeLists.txt", "sources.txt", "README.md"):
+        rendered[name] = environment.get_template(f"project/{name}.j2").render(view=view).encode()
+    rendered[IMAGE_CMAKE] = environment.get_template(f"project/{IMAGE_CMAKE}").render().encode()
+    if view.board is not None:
+        rendered["toolchain.cmake"] = render_toolchain(project.target, environment)
+    return rendered
+
+
+def _budgets(memory: Memory) -> str:
+    """Return the budgets as one text: an image is linked again, and checked, when it changes."""
+    budgets = (("ram", memory.ram_budget), ("flash", memory.flash_budget), ("stack", memory.stack))
+    return ", ".join(f"{name} {size}" for name, size in budgets if size is not None)
+
+
+def library_sources(files: Iterable[str]) -> tuple[str, ...]:
+    """Return the C and assembly files of the library among `files`, sorted."""
+    return tuple(sorted(f for f in files if f.startswith("src/") and f.endswith((".c", ".S"))))
+
+
+def _component_files(
+    project: Project, files: Iterable[ComponentFile], environment: Environment
+) -> dict[str, bytes]:
+    context = {
+        "plan": project.runtime,
+        "selection": project.selection,
+        "target": project.target,
+        "board": project.board,
+        "headers": tuple(sorted(h for c in project.selection.components for h in c.component.headers)),
+    }
+    return {
+        file.path: environment.get_template(file.template).render(context).encode()
+        if file.template
+        else file.content
+        for file in files
+    }
+
+
+def _unselected_headers(
+    components: Iterable[Component], environment: Environment
+) -> Iterable[tuple[str, bytes]]:
+    template = environment.get_template("project/unselected.h.j2")
+    for component in components:
+        advice = f"is not selected: add `{_key(component)}` to microros.yaml and generate again"
+        message = (
+            f"The component '{component.name}' {advice if component.ready else 'is not in this version yet'}"
+        )
+        content = template.render(view=_UnselectedView(message)).encode()
+        yield from ((f"include/{header}", content) for header in component.headers)
+
+
+def _key(component: Component) -> str:
+    """Return what selects a component in the application file."""
+    if component.layer == "port":
+        return "target: {name: …}"
+    transport = component.name.removeprefix("transport_")
+    is_transport = transport != component.name
+    return f"transport: {{type: {transport}}}" if is_transport else f"components: [+{component.name}]"
+
+
+def without_folder(reason: str) -> str:
+    """Return `… (microros.yaml:9)` for `… (some/folder/microros.yaml:9)`: output depends on content alone."""
+    return re.sub(r"\((?:[^()]*[/\\])?([^()/\\]+:\d+)\)", r"(\1)", reason)
+
+
+def _line(project: Project) -> int:
+    board = project.board
+    return board.ring_size + board.output_size if board.has_serial_driver else 0
+
+
+def _own_limits(project: Project, publisher: PublisherPlan) -> str:
+    own = project.own_limits(publisher)
+    return f", limits of its own: at most {own.max_encoded_size} bytes" if own else ""
+
+
+def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectView:
+    runtime = project.runtime
+    declared = [f"node `{n.name}` in `{n.namespace}`" for n in runtime.nodes]
+    declared += [
+        f"publisher `{p.topic}` of {p.type}, {'reliable' if p.reliable else 'best effort'}{_own_limits(project, p)}"
+        for p in runtime.publishers
+    ]
+    declared += [
+        f"subscription `{s.topic}` of {s.type}, {'reliable' if s.reliable else 'best effort'}"
+        for s in runtime.subscriptions
+    ]
+    declared += [f"{s.kind} `{s.name}` of {s.type}" for s in (*runtime.services, *runtime.clients)]
+    pools = [
+        f"up to {runtime.nodes_max} node(s), named by the application",
+    ]
+    pools += [f"subscription `{e.topic}` of {e.type}" for e in project.application.implied]
+    of_roots = ", ".join(str(root) for root in project.roots)
+    for name, places in (
+        ("publisher", runtime.publishers_max),
+        ("subscription", runtime.application_subscriptions),
+    ):
+        pools += [f"up to {places} {name}(s) of {of_roots}"] if places else []
+    for name, places in (("service", runtime.services_max), ("client", runtime.clients_max)):
+        pools += [f"up to {places} {name}(s)"] if places else []
+    return _ProjectView(
+        title=project.name,
+        image=project.name,
+        example=project.example,
+        sources=library_sources(rendered),
+        components=tuple(
+            _Row(c.component.name, ", ".join(without_folder(r) for r in c.reasons))
+            for c in project.selection.components
+        ),
+        entities=tuple(declared or pools),
+        board=board_view(project),
+        has_image=not project.lacks_image,
+        budgets=_budgets(project.application.memory),
+        agent=project.selection.entities,
+        declared=runtime.declared,
+        agent_file=next((path for path in rendered if path.startswith("agent/")), ""),
+        memory=(
+            _Bytes("reliable output", runtime.reliable_slots * runtime.reliable_slot_size),
+            _Bytes("best-effort output", runtime.best_effort_size),
+            _Bytes("input", runtime.input_buffer_size),
+            *((_Bytes("serial line, both directions", _line(project)),) if _line(project) else ()),
+            *((_Bytes("queues", runtime.queues_size),) if runtime.queues else ()),
+        ),
+    )

@@ -1,0 +1,323 @@
+# SPDX-License-Identifier: Apache-2.0
+"""From a request to the bytes of every file: calls the steps in their order."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from microros_gen.application.find import APPLICATION_FILE
+from microros_gen.application.model import Application, EndpointDecl
+from microros_gen.client.plan.agent_files import check_entities
+from microros_gen.client.plan.declared import (
+    check_types,
+    declarations,
+    full_name,
+    node_name,
+    service_parts,
+    type_name,
+)
+from microros_gen.client.plan.project import Project, plan_project
+from microros_gen.client.plan.service_limits import service_roots
+from microros_gen.client.plan.stream_budget import check_stream_budget
+from microros_gen.client.plan.streams import DEFAULT_MTU, WRITE_DATA_OVERHEAD
+from microros_gen.compiler.options import SelectionOptions
+from microros_gen.compiler.request import Request
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.documents.named import Named
+from microros_gen.interfaces.closure import InterfaceSet, resolve_interfaces, split_type_name
+from microros_gen.interfaces.derived import declaring_name, derived_name
+from microros_gen.interfaces.find import InterfaceFinder
+from microros_gen.interfaces.types import TypeName
+from microros_gen.selection.clock import CLOCK_ROS, with_clock
+from microros_gen.selection.component import Catalogue, Profile
+from microros_gen.selection.component_sources import ComponentFile, read_headers, read_sources
+from microros_gen.selection.find_components import load_catalogue
+from microros_gen.selection.find_profiles import load_middleware, load_profiles
+from microros_gen.selection.model import Selection
+from microros_gen.selection.profiles import resolve_profiles
+from microros_gen.selection.resolve import check_ready, resolve_selection
+from microros_gen.typesupport.plan.capacity import Capacities, Defaults, Entity, Root, plan_capacities
+from microros_gen.typesupport.plan.types import plan_types
+
+DEFAULT_INTERFACE = "std_msgs/msg/Int32"
+
+
+@dataclass(frozen=True)
+class Resolved:
+    """A request with its selection and the user's own profiles that it came from."""
+
+    request: Request
+    own_profiles: tuple[Profile, ...]
+    catalogue: Catalogue
+    selection: Selection
+
+
+@dataclass(frozen=True)
+class Planned:
+    """A resolved request with its plan and with what `capacities` had to assume.
+
+    `searched` are the paths that decide where each interface is found; `warnings` the text for stderr.
+    """
+
+    resolved: Resolved
+    interfaces: InterfaceSet
+    searched: tuple[Path, ...]
+    capacities: Capacities
+    project: Project
+    warnings: str = ""
+
+
+def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
+    """Resolve profiles and components; what sends or receives and names no type gets the default one."""
+    catalogue = load_catalogue()
+    profiles = load_profiles(request.application.profiles, request.profiles_near, diagnostics)
+    resolved = resolve_profiles(profiles, diagnostics)
+    diagnostics.check()
+    target = request.target
+    selection = resolve_selection(
+        request.application,
+        resolved,
+        catalogue,
+        load_middleware(),
+        diagnostics,
+        target.port,
+        target.transport,
+    )
+    diagnostics.check()
+    own = tuple(p for p in profiles.profiles.values() if not p.builtin)
+    application = request.application
+    clock_alone = selection.serves_only("subscribe", CLOCK_ROS) and not selection.has("publish")
+    names_none = not application.nodes and not application.interfaces
+    if names_none and selection.has("cdr") and not clock_alone:
+        application = replace(application, interfaces=(Named(DEFAULT_INTERFACE),))
+    _check_interfaces_have_a_use(application, selection, diagnostics)
+    diagnostics.check()
+    request = replace(request, application=with_clock(application, selection, diagnostics))
+    diagnostics.check()
+    return Resolved(request, own, catalogue, selection)
+
+
+def _check_interfaces_have_a_use(
+    application: Application, selection: Selection, diagnostics: Diagnostics
+) -> None:
+    if selection.has("cdr"):
+        return
+    for named in application.interfaces:
+        diagnostics.error(
+            f"nothing that is selected sends or receives messages, and '{named.name}' is one",
+            named.span,
+            "Select a profile or component that does (publish, subscribe, services), or `cdr` for encoders alone",
+        )
+
+
+def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Diagnostics) -> Planned:
+    """Find the interfaces and plan sizes, names and entities. Raises UserError with all that is wrong."""
+    planned = _planned(resolved, options, diagnostics)
+
+    def other(application: Application) -> Project:
+        request = replace(resolved.request, application=application)
+        return _planned(replace(resolved, request=request), options, Diagnostics()).project
+
+    check_stream_budget(planned.project, planned.capacities, other, diagnostics)
+    diagnostics.check()
+    return replace(planned, warnings=warnings_text(diagnostics))
+
+
+def _planned(resolved: Resolved, options: SelectionOptions, diagnostics: Diagnostics) -> Planned:
+    """Plan as plan_request does; the budget of RAM is not looked at."""
+    request, application, selection = resolved.request, resolved.request.application, resolved.selection
+    check_ready(selection, diagnostics)
+    check_entities(application, selection, diagnostics)
+    check_types(application, diagnostics)
+    own = [request.near / path.name for path in application.interface_paths]
+    finder = InterfaceFinder.from_environment((*options.interface_paths, *own))
+    spans = {request.near / path.name: path.span for path in application.interface_paths}
+    finder.check_paths(diagnostics, spans)
+    interfaces = _interfaces(resolved, finder, diagnostics)
+    capacities = _capacities(resolved, interfaces, diagnostics)
+    diagnostics.check()
+    received = _received(application, selection, capacities)
+    types = plan_types(interfaces.messages, capacities, interfaces.type_hash, diagnostics, received)
+    diagnostics.check()
+    project = plan_project(
+        application,
+        selection,
+        resolved.request.target,
+        types,
+        _published(interfaces, application),
+        diagnostics,
+        tuple(name for name in interfaces.roots if name.kind == "srv"),
+    )
+    diagnostics.check()
+    packages = sorted({entry.name.package for entry in interfaces})
+    searched = tuple(finder.deciding(packages))
+    return Planned(resolved, interfaces, searched, capacities, project)
+
+
+def render_request(planned: Planned) -> dict[str, bytes]:
+    """Return every file of the output folder, the manifest among them."""
+    from microros_gen.client.views.project import render_project
+    from microros_gen.documents.templates import make_environment
+    from microros_gen.output.manifest import manifest
+    from microros_gen.output.runs import compiled_templates
+    from microros_gen.output.tree import MANIFEST
+
+    chosen = {c.component.name for c in planned.project.selection.components}
+    unselected = [c for c in planned.resolved.catalogue.values() if c.name not in chosen]
+    environment = make_environment(compiled=compiled_templates(os.environ))
+    files = render_project(planned.project, _component_files(planned.project), unselected, environment)
+    inputs = dict(planned.resolved.request.inputs)
+    own = planned.resolved.own_profiles
+    inputs |= {f"profile {p.name}": p.span.source.text.encode() for p in own if p.span}
+    inputs |= {
+        f"target {Path(s.name).name}": s.text.encode() for s in planned.resolved.request.found_target.own
+    }
+    inputs |= {str(entry.name): entry.source.text.encode() for entry in planned.interfaces}
+    files[MANIFEST] = manifest(planned.project, inputs, files)
+    return files
+
+
+def read_paths(planned: Planned) -> Iterator[Path]:
+    """Yield every file that the plan was made from, and every path that would matter if there were one."""
+    request = planned.resolved.request
+    near = request.near
+    yield request.config or near / APPLICATION_FILE
+    asked = [request.profiles_near / name.name for name in request.application.profiles]
+    own = [Path(p.span.source.name) for p in planned.resolved.own_profiles if p.span]
+    yield from (Path(f"{path}{suffix}") for path in asked for suffix in ("", ".yaml", ".yml"))
+    yield from (candidate for path in own for candidate in (path, path.with_suffix(".yaml")))
+    yield near / request.application.target.name
+    yield from (Path(source.name) for source in request.found_target.own)
+    yield from planned.searched
+    for entry in planned.interfaces:
+        yield from (entry.place.folder / entry.name.kind, Path(entry.source.name))
+
+
+def warnings_text(diagnostics: Diagnostics) -> str:
+    """Return what was found and is no error, as it goes to stderr."""
+    return "".join(f"{diagnostic.render()}\n" for diagnostic in diagnostics)
+
+
+def _requested(application: Application) -> tuple[Named, ...]:
+    declared = tuple(
+        Named(_of_kind(endpoint), endpoint.type_span or endpoint.span)
+        for endpoints in (*(node.endpoints for node in application.nodes), application.implied)
+        for endpoint in endpoints
+    )
+    return declared + application.interfaces
+
+
+def _interfaces(resolved: Resolved, finder: InterfaceFinder, diagnostics: Diagnostics) -> InterfaceSet:
+    """Return the closure of what is requested; where no message is among it, the default one for publishers.
+
+    Services and actions bring the types that they exchange; nobody publishes those.
+    """
+    application = resolved.request.application
+    requested = _requested(application)
+    interfaces = resolve_interfaces(requested, finder, diagnostics)
+    diagnostics.check()
+    if application.nodes or _published(interfaces, application) or not resolved.selection.has("publish"):
+        return interfaces
+    diagnostics.warning(
+        f"there is no message to publish among the interfaces, so {DEFAULT_INTERFACE} is added",
+        next((named.span for named in requested), None),
+        "Services and actions bring their types and no publishers; add a message with --interface pkg/msg/Type",
+    )
+    interfaces = resolve_interfaces((*requested, Named(DEFAULT_INTERFACE)), finder, diagnostics)
+    diagnostics.check()
+    return interfaces
+
+
+def _of_kind(endpoint: EndpointDecl) -> str:
+    """Return the full name of an endpoint's type: `pkg/Type` of a service is `pkg/srv/Type`."""
+    name = split_type_name(endpoint.type, "srv" if endpoint.kind in ("service", "client") else "msg")
+    return endpoint.type if name is None else str(name)
+
+
+def _published(interfaces: InterfaceSet, application: Application) -> tuple[TypeName, ...]:
+    """Return the requested types that publishers can have: messages, not what services and actions exchange.
+
+    What the library alone asked for is not among them.
+    """
+    asked = {named.name for named in application.interfaces}
+    own = {type_name(e.type) for e in application.implied if e.type not in asked}
+    own = {name for name in own if name.package not in asked}
+    return tuple(name for name in interfaces.roots if name.kind == "msg" and name not in own)
+
+
+def _capacities(resolved: Resolved, interfaces: InterfaceSet, diagnostics: Diagnostics) -> Capacities:
+    request, application = resolved.request, resolved.request.application
+    room = (application.transport.mtu or DEFAULT_MTU[resolved.selection.transport]) - WRITE_DATA_OVERHEAD
+    declared = [
+        Root(
+            type_name(endpoint.type),
+            endpoint.limits,
+            endpoint.type_span or endpoint.span,
+            room,
+            Entity(kind, index, full_name(node, endpoint), node_name(node), kind == "publisher"),
+        )
+        for kind in ("publisher", "subscription")
+        for index, (_, node, endpoint) in enumerate(declarations(application, kind))
+    ]
+    declared += service_roots(application, interfaces.messages, room)
+    known = {root.type for root in declared}
+    # A declared service exchanges a request and a response; its event, which ROS 2 derives, needs no limits.
+    known |= {
+        derived_name(declaring_name(root.type), "Event") for root in declared if root.type.kind == "srv"
+    }
+    roots = declared + [
+        _root(name, application, room) for name in interfaces.message_roots if name not in known
+    ]
+    defaults = Defaults(None, None) if request.from_file else Defaults()
+    return plan_capacities(interfaces.messages, roots, application.limits, defaults, diagnostics)
+
+
+def _received(application: Application, selection: Selection, capacities: Capacities) -> tuple[TypeName, ...]:
+    """Return the types that have a decoder: those that are received where entities alone decode, else every root."""
+    decoding = next((c for c in selection.components if c.component.name == "cdr_decode"), None)
+    if decoding is None:
+        return ()
+    by_entities = all(reason.startswith("needed by ") for reason in decoding.reasons)
+    of_the_clock = selection.serves_only("subscribe", CLOCK_ROS) and not selection.has("services")
+    if not by_entities or not (application.nodes or of_the_clock):
+        return tuple(capacities.limits)
+    received = {type_name(e.type) for _, _, e in declarations(application, "subscription")}
+    received |= {type_name(e.type) for e in application.implied}
+    for kind in ("service", "client"):
+        for _, _, endpoint in declarations(application, kind):
+            service = type_name(endpoint.type, "srv")
+            received |= {derived_name(service, part) for part, sends in service_parts(kind) if not sends}
+    return tuple(name for name in capacities.limits if name in received)
+
+
+def _root(name: TypeName, application: Application, room: int) -> Root:
+    spans = {i.name: i.span for i in application.interfaces}
+    declared = declaring_name(name)
+    asked = (str(name), str(declared), f"{name.package}/{declared.name}", name.package)
+    span = next((spans[text] for text in asked if text in spans), None)
+    return Root(name, (), span, room)
+
+
+def _component_files(project: Project) -> tuple[ComponentFile, ...]:
+    files: list[ComponentFile] = []
+    for chosen in project.selection.components:
+        component = chosen.component
+        names = tuple(
+            source.path
+            for source in component.sources
+            if all(_attribute(project, key) == value for key, value in source.when)
+        )
+        files += read_headers(component.name)
+        files += read_sources(component.name, names)
+    return tuple(files)
+
+
+def _attribute(project: Project, key: str) -> object:
+    """Return what a condition of a component's file compares: of the runtime, the board or the target."""
+    for place in (project.runtime, project.board, project.target):
+        if hasattr(place, key):
+            return getattr(place, key)
+    raise AssertionError(f"no plan has the attribute '{key}'")

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The application file and the options of a command → what the user asks for; options win over the file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from microros_gen.application.find import read_application
+from microros_gen.application.model import Application, TargetRef, Transport, component_change
+from microros_gen.application.parser import parse_agent_address, parse_application, parse_discover
+from microros_gen.compiler.options import SelectionOptions
+from microros_gen.diagnostics import Diagnostics, Source, Span
+from microros_gen.documents.named import Named
+from microros_gen.platform.find import FoundTarget, builtin_targets, read_target
+from microros_gen.platform.target import Target
+
+
+@dataclass(frozen=True)
+class Request:
+    """What the user asked for, read but not yet resolved.
+
+    Names of files in the application file are relative to `near`, its folder; names of profiles on the command
+    line to the current folder, `profiles_near`.
+    """
+
+    application: Application
+    from_file: bool
+    config: Path | None
+    near: Path
+    profiles_near: Path
+    found_target: FoundTarget
+    inputs: Mapping[str, bytes]
+
+    @property
+    def target(self) -> Target:
+        """What the C compiler is told, and which port the image stands on."""
+        return self.found_target.target
+
+
+def read_request(options: SelectionOptions, diagnostics: Diagnostics) -> Request:
+    """Read the application file where there is one and let the options win over it."""
+    source = read_application(options.config, Path.cwd(), diagnostics)
+    diagnostics.check()
+    near = options.config.parent if options.config else Path()
+    return request_of(source, near, options, diagnostics)
+
+
+def request_of(
+    source: Source | None, near: Path, options: SelectionOptions, diagnostics: Diagnostics
+) -> Request:
+    """Return the request of an application file in the folder `near`, or of the options alone."""
+    application = parse_application(source, diagnostics) if source else Application()
+    diagnostics.check()
+    assert application is not None
+    application = _with_options(application, options, diagnostics)
+    profiles_near = Path() if options.profiles else near
+    _refuse_rtos(application.target, diagnostics)
+    target = read_target(application.target.name, near, application.target.span, diagnostics)
+    diagnostics.check()
+    assert target is not None
+    inputs = {"microros.yaml": source.text.encode()} if source else {}
+    return Request(application, source is not None, options.config, near, profiles_near, target, inputs)
+
+
+def _refuse_rtos(target: TargetRef, diagnostics: Diagnostics) -> None:
+    if target.rtos not in (None, "none"):
+        diagnostics.error(
+            f"no port for the RTOS {target.rtos!r} is here yet",
+            target.rtos_span,
+            "leave `rtos` out and define port_time_ms, port_sleep_ms and what else the library's port gives "
+            "over your RTOS: your functions win over the archive's (microros/port.h)",
+        )
+
+
+def _with_options(
+    application: Application, options: SelectionOptions, diagnostics: Diagnostics
+) -> Application:
+    if options.profiles:
+        application = replace(application, profiles=_named(options.profiles, "--profile"))
+    if options.interfaces:
+        added = _named(options.interfaces, "--interface")
+        application = replace(application, interfaces=application.interfaces + added)
+    if options.components:
+        named_components = _named(options.components, "--component")
+        changes = tuple(component_change(c.name, c.span) for c in named_components)
+        application = replace(application, components=application.components + changes)
+    if options.target:
+        (named,) = _named((options.target,), "--target")
+        target = replace(application.target, name=named.name, span=named.span)
+        application = replace(application, target=target)
+    elif application.target.span is None and options.default_target in builtin_targets():
+        target = replace(application.target, name=str(options.default_target))
+        application = replace(application, target=target)
+    if options.agent:
+        (named,) = _named((options.agent,), "--agent")
+        application = replace(application, transport=_with_agent(application.transport, named, diagnostics))
+    return application
+
+
+def _with_agent(transport: Transport, agent: Named, diagnostics: Diagnostics) -> Transport:
+    """Return the transport to an agent at `HOST:PORT`, or at the other end of a device named by its path."""
+    is_device = agent.name.startswith("/")
+    chosen = transport.type if transport.type_span else None
+    if is_device and chosen in (None, "serial"):
+        return replace(
+            transport, type="serial", type_span=transport.type_span or agent.span, device=agent.name
+        )
+    if is_device or chosen in ("serial", "custom"):
+        what = "device" if is_device else "agent address"
+        hint = "Give the path of a device, as in /dev/ttyUSB0" if chosen == "serial" else "Leave it out"
+        diagnostics.error(f"transport: {chosen} has no {what}", agent.span, hint)
+        return transport
+    discover = parse_discover(agent.name, agent.span, diagnostics)
+    if discover is not None:
+        return replace(transport, discover=discover, agent_span=agent.span)
+    address = parse_agent_address(agent.name, agent.span, diagnostics)
+    if address is None:
+        return transport
+    return replace(transport, host=address[0], port=address[1], discover=None, agent_span=agent.span)
+
+
+def _named(values: Iterable[str], option: str) -> tuple[Named, ...]:
+    """Give each value a place on the command line, as diagnostics print it."""
+    found = []
+    for value in values:
+        text = f"{option} {value}"
+        span = Span(Source("<command line>", text), 1, len(option) + 2, len(text) + 1)
+        found.append(Named(value, span))
+    return tuple(found)

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Validation of a YAML tree against a JSON Schema (draft 2020-12), in words and with places.
+
+Each schema is a file next to the parser that uses it, for editors too. Keywords of this project in them, which
+other tools take as annotations: `x-expects` (what a value must be, in words), `x-keys` (what keys must be),
+`x-reserved` (what a key is kept for), `x-format` (for hints).
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any, cast
+
+from microros_gen.diagnostics import Diagnostics, Source, Span
+from microros_gen.documents.schema_words import describe_mismatch, describe_unknown_key, key_without_space
+from microros_gen.documents.yaml_tree import MappingNode, SequenceNode, YamlNode, to_data
+
+Schema = dict[str, Any]
+
+
+def load_schema(path: Path) -> Schema:
+    """Return the schema in the file `path`."""
+    return cast(Schema, json.loads(path.read_text(encoding="utf-8")))
+
+
+def validate(tree: YamlNode | None, source: Source, schema: Schema, diagnostics: Diagnostics) -> None:
+    """Report each difference between `tree` and `schema` at its place, in the order of the text."""
+    if tree is None:
+        diagnostics.error("the file says nothing", Span(source, 1, 1), "Write `key: value` lines")
+        return
+    from jsonschema import Draft202012Validator  # slow to import, and most runs of the tool validate nothing
+
+    found = Diagnostics()
+    for error in Draft202012Validator(schema).iter_errors(cast(Any, to_data(tree))):
+        _report(tree, error, found)
+    diagnostics.extend(sorted(found, key=lambda d: (d.span.line, d.span.column) if d.span else (0, 0)))
+
+
+def _report(tree: YamlNode, error: Any, diagnostics: Diagnostics) -> None:
+    path = list(error.absolute_path)
+    node = _node_at(tree, path)
+    schema = cast(Schema, error.schema)
+    label = path_label(path)
+    if error.validator == "additionalProperties" and isinstance(node, MappingNode):
+        for entry in node:
+            if _is_unknown(entry.key, schema):
+                message, hint = describe_unknown_key(entry.key, label, schema)
+                diagnostics.error(message, entry.key_span, hint)
+    elif error.validator == "required" and isinstance(node, MappingNode):
+        for key in cast("list[str]", error.validator_value):
+            meant = any(key_without_space(entry.key, schema) == key for entry in node)
+            if key not in node.entries and not meant:
+                owner = f"'{label}' lacks" if label else "the file lacks"
+                diagnostics.error(f"{owner} the key '{key}'", node.span, f"Add `{key}: …`")
+    elif error.validator == "not" and "x-reserved" in schema:
+        message = (
+            f"the key '{path[-1]}' is reserved for {schema['x-reserved']}, which this version does not have"
+        )
+        diagnostics.error(message, _key_span(tree, path), "Remove it")
+    elif error.validator == "uniqueItems" and isinstance(node, SequenceNode):
+        _report_twins(node, label, diagnostics)
+    else:
+        message, hint = describe_mismatch(node, label, schema)
+        diagnostics.error(message, node.span, hint)
+
+
+def path_label(path: list[str | int]) -> str:
+    """Return a path as it is printed: `nodes[0].publishers[1].topic`."""
+    text = ""
+    for step in path:
+        if isinstance(step, int):
+            text += f"[{step}]"
+        else:
+            text += f".{step}" if re.fullmatch(r"\w+", step) else f'["{step}"]'
+    return text.lstrip(".")
+
+
+def _is_unknown(key: str, schema: Schema) -> bool:
+    patterns = schema.get("patternProperties", {})
+    return key not in schema.get("properties", {}) and not any(re.search(p, key) for p in patterns)
+
+
+def _report_twins(node: SequenceNode, label: str, diagnostics: Diagnostics) -> None:
+    seen: dict[str, int] = {}
+    for item in node.items:
+        text = repr(to_data(item))
+        if text in seen:
+            message = f"'{label}' has {text} twice; first in line {seen[text]}"
+            diagnostics.error(message, item.span, "Remove one of them")
+        seen.setdefault(text, item.span.line)
+
+
+def _node_at(tree: YamlNode, path: list[str | int]) -> YamlNode:
+    node = tree
+    for step in path:
+        if isinstance(node, SequenceNode) and isinstance(step, int):
+            node = node.items[step]
+        elif isinstance(node, MappingNode) and isinstance(step, str):
+            node = node.entries[step].value
+    return node
+
+
+def _key_span(tree: YamlNode, path: list[str | int]) -> Span:
+    owner = _node_at(tree, path[:-1])
+    key = path[-1]
+    if isinstance(owner, MappingNode) and isinstance(key, str):
+        return owner.entries[key].key_span
+    return owner.span

@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a schema says, in plain words."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from microros_gen.diagnostics import nearest
+from microros_gen.documents.yaml_tree import MappingNode, ScalarNode, SequenceNode, YamlNode
+
+_TYPES = {
+    "string": "a text",
+    "integer": "a whole number",
+    "number": "a number",
+    "boolean": "true or false",
+    "array": "a list",
+    "object": "a mapping of keys and values",
+}
+_OLD_BOOLEANS = {"yes": "true", "on": "true", "y": "true", "no": "false", "off": "false", "n": "false"}
+# `pkg/Type`, and what C++, Python and IDL write
+_LOOSE_TYPE = re.compile(
+    r"([a-z][a-z0-9_]*)(?:/|::|\.)(?:(?:msg|srv|action)(?:/|::|\.))?([A-Z][A-Za-z0-9_]*)"
+)
+_QOS_PROFILES = {
+    "sensor_data": "{reliability: best_effort, depth: 5}",
+    "best_effort": "{reliability: best_effort}",
+    "reliable": "{reliability: reliable}",
+    "default": "{depth: 10}",
+    "transient_local": "{durability: transient_local}",
+    "parameters": "{depth: 1000}",
+    "services_default": "{depth: 10}",
+    "system_default": "{depth: 10}",
+}
+"""What people write for `qos:` (names of rmw_qos_profile_…, policies) → the same as a mapping."""
+_OLD_NUMBER = re.compile(r"[-+]?([0-9][0-9_]*(:[0-5]?[0-9])+|[0-9]+(_[0-9]+)+|0b[01]+)")
+
+
+def describe_mismatch(node: YamlNode, label: str, schema: dict[str, Any]) -> tuple[str, str | None]:
+    """Return message and hint for a value that is not what `schema` asks for."""
+    what = f"'{label}'" if label else "the file"
+    return f"{what} must be {expectation(schema)}; it is {found(node)}", _hint(node, schema)
+
+
+def describe_unknown_key(key: str, label: str, schema: dict[str, Any]) -> tuple[str, str | None]:
+    """Return message and hint for a key that `schema` does not have."""
+    where = f"'{label}'" if label else "the file"
+    begun = key_without_space(key, schema)
+    if begun is not None:
+        return (
+            f"{where} has no key '{key}'",
+            f"Write `{begun}: {key[len(begun) + 1 :]}`, with a space after the colon",
+        )
+    if "x-keys" in schema:
+        corrected = _full_type(key, schema.get("x-format"))
+        hint = f"Write {corrected}" if corrected else nearest(key, schema.get("properties", {}))
+        return f"the keys of {where} must be {schema['x-keys']}; '{key}' is not", hint
+    known = [k for k, value in schema.get("properties", {}).items() if "x-reserved" not in value]
+    return f"{where} has no key '{key}'", nearest(key, known) or f"Known are {', '.join(known)}"
+
+
+def key_without_space(key: str, schema: dict[str, Any]) -> str | None:
+    """Return the key that somebody meant who wrote `topic:x`, which is one word to YAML; else None."""
+    begun, separator, _ = key.partition(":")
+    return begun if separator and begun in schema.get("properties", {}) else None
+
+
+def expectation(schema: dict[str, Any]) -> str:
+    """Return what a value must be: `x-expects`, or what type, enum, const and range say."""
+    if "x-expects" in schema:
+        return str(schema["x-expects"])
+    if "enum" in schema:
+        *first, last = [str(value) for value in schema["enum"]]
+        return f"{', '.join(first)} or {last}" if first else last
+    kinds = schema.get("type", [])
+    words = " or ".join(_TYPES[kind] for kind in ([kinds] if isinstance(kinds, str) else kinds))
+    low, high = schema.get("minimum"), schema.get("maximum")
+    if low is not None and high is not None:
+        return f"{words} between {low} and {high}"
+    return f"{words} of at least {low}" if low is not None else words
+
+
+def found(node: YamlNode) -> str:
+    """Return what stands there instead."""
+    if isinstance(node, SequenceNode):
+        return "a list"
+    if isinstance(node, MappingNode):
+        return "a mapping" if node.entries else "an empty mapping"
+    if node.value is None:
+        return "empty"
+    if isinstance(node.value, str):
+        return f"the text '{node.text}'"
+    return str(node.text)
+
+
+def _hint(node: YamlNode, schema: dict[str, Any]) -> str | None:
+    kinds = schema.get("type", [])
+    kinds = [kinds] if isinstance(kinds, str) else kinds
+    if isinstance(node, ScalarNode):
+        return _scalar_hint(node, kinds, schema)
+    if isinstance(node, MappingNode) and kinds == ["array"]:
+        return "Begin each item with '- ', or write [ … ]"
+    return None
+
+
+def _scalar_hint(node: ScalarNode, kinds: list[str], schema: dict[str, Any]) -> str | None:
+    text = node.text
+    if "enum" in schema:
+        return nearest(text, [str(value) for value in schema["enum"]])
+    if "array" in kinds and node.value is not None:
+        return f"Write it as a list: [{text}]"
+    if "boolean" in kinds and text.lower() in _OLD_BOOLEANS:
+        return f"'{text}' is a text in YAML 1.2; write {_OLD_BOOLEANS[text.lower()]}"
+    numeric = "integer" in kinds or "number" in kinds
+    if numeric and isinstance(node.value, str) and re.fullmatch(r"[-+]?[0-9]+", text):
+        return "Remove the quotes"
+    if numeric and _OLD_NUMBER.fullmatch(text):
+        return f"'{text}' is a text in YAML 1.2; write the number in decimal, or in hex with 0x"
+    if kinds == ["string"] and not isinstance(node.value, str) and node.value is not None:
+        return f'Put it into quotes: "{text}"' if "pattern" not in schema else None
+    if kinds == ["object"] and key_without_space(text, schema) is not None:
+        begun, _, value = text.partition(":")
+        return f"Write `{begun}: {value}`, with a space after the colon"
+    profile = _QOS_PROFILES.get(text.lower().removeprefix("rmw_qos_profile_"))
+    if profile is not None and "reliability" in schema.get("properties", {}):
+        return f"Write `qos: {profile}`"
+    corrected = _full_type(text, schema.get("x-format"))
+    return f"Write {corrected}" if corrected else None
+
+
+def _full_type(text: str, kind: str | None) -> str | None:
+    match = _LOOSE_TYPE.fullmatch(text) if kind else None
+    return f"{match.group(1)}/{kind}/{match.group(2)}" if match else None

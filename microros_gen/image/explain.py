@@ -1,0 +1,313 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Why something is in an image: where it comes from, who refers to it, who chose it, what would remove it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+
+from microros_gen.diagnostics import Diagnostic, UserError, nearest
+from microros_gen.image.attribution import Piece, attribute_library
+from microros_gen.image.entities import RECEIVING, messages_of, shown_endpoint, with_parts
+from microros_gen.image.folder import Folder
+from microros_gen.image.references import References, read_references
+from microros_gen.image.report import SizeReport
+from microros_gen.image.stack import shown_name
+from microros_gen.selection.component import Catalogue
+
+_NEEDED_BY = "needed by "
+_ERROR = re.compile(r'^#error\s+"?(.*?)"?\s*$', re.MULTILINE)
+_LISTED = 12
+_OTHERS = ("application", "other library", "start-up", "compiler", "C library")
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """What is known of one thing. `kind` is symbol, file, component or type.
+
+    `chain` is a way of references from the program's start to it; `reasons` are the manifest's; `removes` says what
+    in the application file would take it away, all of it together; each of `choices` does so alone; `holds` lists
+    what it is made of, with bytes.
+    """
+
+    kind: str
+    name: str
+    of: str
+    place: str
+    flash: int
+    ram: int
+    present: bool
+    note: str = ""
+    reasons: tuple[str, ...] = ()
+    chain: tuple[str, ...] = ()
+    entities: tuple[str, ...] = ()
+    removes: tuple[str, ...] = ()
+    choices: tuple[str, ...] = ()
+    holds: tuple[tuple[str, int], ...] = ()
+
+
+class Explainer:
+    """Answers questions about one output folder. `sources_of` gives the C text of a component's files."""
+
+    def __init__(
+        self, report: SizeReport, catalogue: Catalogue, sources_of: Callable[[str], Iterable[bytes]]
+    ) -> None:
+        self._report = report
+        self._folder: Folder = report.folder
+        self._catalogue = catalogue
+        self._sources_of = sources_of
+        self._references: References | None = None
+
+    def explain(self, query: str) -> Explanation:
+        """Return what is known of a symbol (also by a unique beginning), file, component or type.
+
+        Raises UserError with the nearest name where nothing has that name.
+        """
+        for answer in (self._component, self._type, self._file, self._own, self._symbol, self._absent):
+            found = answer(query)
+            if found is not None:
+                return found
+        known = {*self._names(), *self._folder.components, *self._catalogue, *self._folder.manifest["types"]}
+        known |= {name.rpartition("/")[2] for name in self._folder.manifest["outputs"]}
+        beginning = sorted(name for name in self._names() if name.startswith(query))
+        hint = f"It may be {', '.join(beginning[:6])}" if beginning else nearest(query, known)
+        raise UserError(
+            [
+                Diagnostic(
+                    f"{self._folder.path} has no symbol, file, component or type '{query}'",
+                    hint=hint or f"`microros-gen size {self._folder.path} --all` lists the symbols",
+                )
+            ]
+        )
+
+    def _component(self, query: str) -> Explanation | None:
+        if query in self._folder.components:
+            pieces = [
+                p for p in self._report.pieces if p.owner.name == query and p.owner.group == "component"
+            ]
+            component = self._catalogue.get(query)
+            return self._of_pieces("component", query, pieces, component.summary if component else "")
+        if query in self._catalogue:
+            return self._unselected(query, query)
+        return None
+
+    def _type(self, query: str) -> Explanation | None:
+        if query not in self._folder.manifest["types"]:
+            return None
+        pieces = [p for p in self._report.pieces if p.owner.group == "type support" and p.owner.name == query]
+        return self._of_pieces("type", query, pieces, "")
+
+    def _file(self, query: str) -> Explanation | None:
+        names = [*self._folder.manifest["outputs"]]
+        exact = [n for n in names if n == query or n == f"include/{query}"]
+        found = exact or sorted(n for n in names if n.rpartition("/")[2] == query)
+        if not found:
+            return None
+        if len(found) > 1:
+            hint = f"Say which: {', '.join(found)}"
+            raise UserError([Diagnostic(f"there are {len(found)} files named {query}", hint=hint)])
+        name = found[0]
+        text = (self._folder.path / name).read_text(encoding="utf-8", errors="replace")
+        refusal = _ERROR.search(text) if name.endswith(".h") else None
+        if refusal and text.count("\n") < 20:
+            return Explanation("file", name, "", name, 0, 0, False, f"Including it is an error: {refusal[1]}")
+        pieces = [p for p in self._report.pieces if p.source == name]
+        return self._of_pieces("file", name, pieces, self._header_note(name))
+
+    def _own(self, query: str) -> Explanation | None:
+        """Explain an object or archive that is not the library's: `app.c`, `app.c.o`, `libdriver.a`."""
+        names = (query, f"{query}.o", f"{query}.obj")
+        pieces = [p for p in self._report.pieces if p.owner.group in _OTHERS and p.owner.name in names]
+        return self._of_pieces("file", query, pieces, pieces[0].owner.group) if pieces else None
+
+    def _symbol(self, query: str) -> Explanation | None:
+        names = self._names()
+        exact = [n for n in names if n == query]
+        found = exact or sorted(n for n in names if n.startswith(query))
+        if len(found) != 1:
+            return None
+        pieces = names[found[0]]
+        piece = pieces[0]
+        answer = self._of_pieces("symbol", found[0], pieces, "")
+        place = self._report.facts.places.get(piece.address)
+        where = piece.source or ""
+        if place is not None and place.line:
+            where = f"{self._folder.shown_file(place.file)}:{place.line}"
+        return _with_place(answer, where)
+
+    def _absent(self, query: str) -> Explanation | None:
+        """Explain a symbol that the linker dropped, or that a component brings that is not selected."""
+        if self._folder.image:
+            for piece in attribute_library(self._folder):
+                if piece.symbol and shown_name(piece.symbol) == query:
+                    note = "It is in the library, and the linker left it out: nothing that runs refers to it"
+                    name, source = piece.owner.name, piece.source or ""
+                    reasons = tuple(self._folder.manifest["selection"]["reasons"].get(name, ()))
+                    return Explanation("symbol", query, name, source, 0, 0, False, note, reasons)
+        word = re.compile(rb"^[^\s#/].*\b" + re.escape(query.encode()) + rb"\(", re.MULTILINE)
+        for name in sorted(set(self._catalogue) - set(self._folder.components)):
+            if any(word.search(text) for text in self._sources_of(name)):
+                return self._unselected(name, query)
+        return None
+
+    def _unselected(self, component: str, query: str) -> Explanation:
+        kind = "component" if query == component else "symbol"
+        known = self._catalogue[component]
+        state = "" if known.ready else " It is planned: a build names it as missing."
+        note = (
+            f"Not selected. `components: [+{component}]` in microros.yaml adds it ({known.summary}).{state}"
+        )
+        return Explanation(kind, query, component, "", 0, 0, False, note)
+
+    def _of_pieces(self, kind: str, name: str, pieces: list[Piece], note: str) -> Explanation:
+        owner = self._owner_of(kind, name, pieces)
+        flash, ram = sum(p.flash for p in pieces), sum(p.ram for p in pieces)
+        reasons = tuple(self._folder.manifest["selection"]["reasons"].get(owner, ()))
+        if (
+            not pieces
+            and kind in ("component", "file", "type")
+            and self._folder.image
+            and not note.endswith("header")
+        ):
+            left = "nothing of it is in the image: the linker left out what nobody refers to, or it has headers only"
+            note = f"{note}; {left}" if note else left
+        source = pieces[0].source or "" if kind in ("symbol", "file") and pieces else ""
+        return Explanation(
+            kind,
+            name,
+            owner,
+            source,
+            flash,
+            ram,
+            bool(pieces),
+            note,
+            reasons,
+            self._chain(pieces),
+            tuple(self._entities(owner)),
+            tuple(dict.fromkeys(self._removes(owner))),
+            tuple(dict.fromkeys(self._file_choice(pieces, kind))),
+            _holds(pieces) if kind != "symbol" else (),
+        )
+
+    def _owner_of(self, kind: str, name: str, pieces: list[Piece]) -> str:
+        if pieces:
+            return pieces[0].owner.name
+        if kind == "file":
+            parts = name.split("/")
+            by_header = [
+                c.name for c in self._catalogue.values() if name.removeprefix("include/") in c.headers
+            ]
+            return (
+                by_header[0]
+                if by_header
+                else self._folder.types.get(name, parts[1] if len(parts) > 2 else "")
+            )
+        return name
+
+    def _header_note(self, name: str) -> str:
+        return "a header" if name.endswith(".h") else ""
+
+    def _chain(self, pieces: Iterable[Piece]) -> tuple[str, ...]:
+        if not self._folder.image:
+            return ()
+        if self._references is None:
+            self._references = read_references(self._folder, self._report.pieces)
+        stack = self._report.stack
+        roots = ("main", *(b.name for b in (stack.main, *stack.handlers) if b))
+        chains = [
+            self._references.chain((p.source, p.symbol), roots)
+            for p in sorted(pieces, key=lambda p: (-p.size, p.address))
+            if p.symbol and p.source and not p.symbol.startswith('"')
+        ]
+        found = min((c for c in chains if c), key=len, default=())
+        return tuple(shown_name(name) for name in found)
+
+    def _names(self) -> dict[str, list[Piece]]:
+        """Return the named pieces of the image by the name that the application writes."""
+        found: dict[str, list[Piece]] = {}
+        for piece in self._report.pieces:
+            for name in (piece.symbol, *piece.aliases):
+                if name and not name.startswith('"'):
+                    found.setdefault(shown_name(name), []).append(piece)
+        return found
+
+    def _entities(self, owner: str) -> Iterator[str]:
+        """Yield the entities that need what belongs to `owner`; nothing where the whole session does."""
+        manifest = self._folder.manifest
+        publishers, types = manifest["entities"]["publishers"], manifest["types"]
+        for publisher in publishers:
+            kind = publisher["type"]
+            fits = {
+                "publish": True,
+                "stream_reliable": publisher["reliable"],
+                "stream_best_effort": not publisher["reliable"],
+            }.get(owner, owner == kind or owner in types[kind]["parts"])
+            if fits:
+                yield f"publisher {publisher['topic']} ({kind})"
+        yield from self._receiving(owner)
+        if owner == "node":
+            yield from (f"node {n['name']}" for n in manifest["entities"]["nodes"])
+
+    def _receiving(self, owner: str) -> Iterator[str]:
+        manifest = self._folder.manifest
+        for kind, key in RECEIVING.items():
+            component = "subscribe" if kind == "subscription" else "services"
+            for entity in manifest["entities"].get(key, ()):
+                if owner == component or owner in with_parts(messages_of(entity["type"], manifest), manifest):
+                    yield f"{kind} {shown_endpoint(entity)} ({entity['type']})"
+
+    def _removes(self, owner: str, seen: frozenset[str] = frozenset()) -> Iterator[str]:
+        reasons = self._folder.manifest["selection"]["reasons"]
+        if owner in self._folder.manifest["types"]:
+            yield f"removing what uses {owner} from `nodes:` or `interfaces:`"
+        for reason in reasons.get(owner, ()):
+            if reason.startswith(_NEEDED_BY):
+                name = reason.removeprefix(_NEEDED_BY)
+                if name not in seen:
+                    yield from self._removes(name, seen | {owner})
+            else:
+                yield _change(reason, owner)
+
+    def _file_choice(self, pieces: Iterable[Piece], kind: str) -> Iterator[str]:
+        """Yield what else could stand for a file that one choice of the plan selects."""
+        sources = sorted({p.source for p in pieces if p.source}) if kind in ("file", "symbol") else ()
+        for source in sources:
+            component = self._catalogue.get(source.split("/")[1]) if source.count("/") > 1 else None
+            for file in component.sources if component else ():
+                if file.path.removesuffix(".j2") == source.rpartition("/")[2] and file.when:
+                    wanted = ", ".join(f"{key} = {value}" for key, value in file.when)
+                    yield f"another choice of {wanted}: this file stands for it"
+
+
+def _change(reason: str, owner: str) -> str:
+    """Return what a user changes to take a reason away."""
+    if reason.startswith("profile "):
+        return f"another profile than {reason.removeprefix('profile ')}"
+    if reason.startswith("components: "):
+        return f"`{reason}` taken out"
+    for axis, others in (
+        ("liveliness: ping", "liveliness: acknack, or none"),
+        ("liveliness: ", "another `liveliness:`"),
+        ("entities: ", "another `entities:` (preconfigured has no code for it)"),
+        ("transport: ", "another `transport: {type: …}`"),
+        ("target: ", "another target"),
+        ("a reliable publisher", "`qos: {reliability: best_effort}`, or no such publisher"),
+        ("a best effort publisher", "`qos: {reliability: reliable}`, or no such publisher"),
+    ):
+        if reason.startswith(axis):
+            return f"{others} (now: {reason})"
+    return f"a change of: {reason}" if reason else f"leaving out {owner}"
+
+
+def _holds(pieces: Iterable[Piece]) -> tuple[tuple[str, int], ...]:
+    sizes: dict[str, int] = {}
+    for piece in pieces:
+        name = shown_name(piece.symbol) if piece.symbol else f"({piece.input or piece.section})"
+        sizes[name] = sizes.get(name, 0) + piece.size
+    return tuple(sorted(sizes.items(), key=lambda s: (-s[1], s[0]))[:_LISTED])
+
+
+def _with_place(answer: Explanation, place: str) -> Explanation:
+
+    return replace(answer, place=place)

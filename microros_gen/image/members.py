@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which source of the library an object was made from, whoever compiled it: by its name and its symbols."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from pathlib import Path, PurePosixPath
+
+from microros_gen.documents.files import read_text
+from microros_gen.toolchain.compile import object_name
+
+_ENDINGS = re.compile(r"(\.(c|S|s))?\.(o|obj|lo|rel)$")
+_WORD = re.compile(r"[A-Za-z_]\w*")
+_SUFFIX = re.compile(r"(__plan_[0-9a-f]{16})?(\..*)?$")
+"""What ties a symbol to its plan, and what compilers add to a name: `.constprop.0`, `.1234`."""
+
+
+class Sources:
+    """The sources of an output folder, by the names that build systems give to their objects."""
+
+    def __init__(self, folder: Path, sources: Iterable[str]) -> None:
+        """Note the names; texts are read when they are needed."""
+        self._folder = folder
+        self._words: dict[str, frozenset[str]] = {}
+        self._by_stem: dict[str, list[str]] = {}
+        for source in sources:
+            for stem in {PurePosixPath(source).stem, PurePosixPath(object_name(source)).stem}:
+                self._by_stem.setdefault(stem, []).append(source)
+
+    def candidates(self, name: str) -> Sequence[str]:
+        """Return the sources that an object of this name may be made from: `xrce_session.c.obj`."""
+        base = name.rpartition("/")[2]
+        return self._by_stem.get(_ENDINGS.sub("", base), ()) if _ENDINGS.search(base) else ()
+
+    def of(self, name: str, symbols: Iterable[str]) -> str | None:
+        """Return the source of an object with these symbols, most of which it has to have; None: it is not ours."""
+        names = [_SUFFIX.sub("", symbol) for symbol in symbols]
+        best, most = None, len(names) / 2
+        for source in self.candidates(name) if names else ():
+            known = self._words_of(source)
+            count = sum(1 for symbol in names if symbol in known)
+            if count > most:
+                best, most = source, count
+        return best
+
+    def _words_of(self, source: str) -> frozenset[str]:
+        if source not in self._words:
+            try:
+                text = read_text(self._folder / source, errors="replace")
+            except OSError:
+                text = ""
+            self._words[source] = frozenset(_WORD.findall(text))
+        return self._words[source]

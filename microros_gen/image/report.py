@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Everything that `size` shows of an output folder, measured once."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from elftools.common.exceptions import DWARFError, ELFError
+
+from microros_gen.diagnostics import Diagnostic, Source, Span, UserError
+from microros_gen.image.attribution import Piece, attribute, attribute_library
+from microros_gen.image.budget import BudgetLine, advice_text, budget_lines, exceeded_message
+from microros_gen.image.callgraph import CallGraph, build_call_graph
+from microros_gen.image.dwarf import Facts, Part, read_facts, read_variables
+from microros_gen.image.elf import Elf
+from microros_gen.image.entities import Entity, RamPart, entities, ram_parts
+from microros_gen.image.folder import Folder, read_folder
+from microros_gen.image.stack import StackReport, shown_name, stack_report
+
+_CALL = re.compile(r"\b([a-z]\w*)\(")
+_PRIVATE = "microros"
+"""The folder of headers that applications need not include."""
+
+
+@dataclass(frozen=True)
+class SizeReport:
+    """What an output folder takes. Without an image the pieces are those of every object of the library."""
+
+    folder: Folder
+    pieces: tuple[Piece, ...]
+    facts: Facts
+    ram: tuple[RamPart, ...]
+    entities: tuple[Entity, ...]
+    graph: CallGraph | None
+    stack: StackReport
+    budgets: tuple[BudgetLine, ...]
+
+    @property
+    def mapped(self) -> bool:
+        """Whether the linker left a map; a library needs none."""
+        return self.folder.image is None or bool(self.folder.placed)
+
+    @property
+    def totals(self) -> Mapping[str, int]:
+        """Bytes of text, data and bss, as `size` counts them."""
+        return {kind: sum(p.size for p in self.pieces if p.kind == kind) for kind in ("text", "data", "bss")}
+
+
+def measure(path: Path, image: Path | None = None, linker_map: Path | None = None) -> SizeReport:
+    """Measure an output folder, or the image of a user's that was linked with its library.
+
+    `path`, `image` and `linker_map` are as `locate` takes them. UserError where there is nothing that was built, or
+    files are not what they should be.
+    """
+    return measure_folder(read_folder(path, image, linker_map))
+
+
+def measure_folder(folder: Folder) -> SizeReport:
+    """Measure what was read. UserError where the image, or an object of it, is no whole ELF file."""
+    try:
+        return _measure_library(folder) if folder.image is None else _measure_image(folder, folder.image)
+    except (ELFError, DWARFError) as error:
+        what = f"{folder.image or folder.path} cannot be measured: {error}"
+        raise UserError([Diagnostic(what, hint="Link it again")], status=1) from error
+
+
+def static_memory(folder: Folder) -> int:
+    """Return the static memory of the library in what was built, bytes; much faster than to measure everything."""
+    pieces = attribute_library(folder) if folder.image is None else attribute(folder, Elf(folder.image))
+    return sum(p.ram for p in pieces if p.owner.group in ("component", "type support"))
+
+
+def _measure_image(folder: Folder, path: Path) -> SizeReport:
+    image = Elf(path)
+    if folder.linked is not None:
+        _check_plan(folder, image)
+    pieces = attribute(folder, image)
+    facts = read_facts(image)
+    parts = ram_parts(folder, pieces, facts)
+    graph = build_call_graph(folder, image, pieces)
+    stack = stack_report(graph, image, public_functions(folder, pieces))
+    budgets = budget_lines(folder, pieces, parts, stack)
+    return SizeReport(folder, pieces, facts, parts, entities(folder, pieces, parts), graph, stack, budgets)
+
+
+def _check_plan(folder: Folder, image: Elf) -> None:
+    """Refuse an image of another plan: each library and each application refer to the symbol of theirs."""
+    suffix = f"__plan_{folder.manifest['plan']}"
+    if not any(symbol.name.endswith(suffix) for symbol in image.symbols):
+        what = f"{image.path} was not linked with the library of {folder.path} as it is now"
+        raise UserError([Diagnostic(what, hint="Link it again, or give the folder of its library")])
+
+
+def public_functions(folder: Folder, pieces: Iterable[Piece]) -> frozenset[str]:
+    """Return the functions of the library in the image that a public header declares."""
+    declared: set[str] = set()
+    for path in sorted((folder.path / "include").rglob("*.h")):
+        if path.relative_to(folder.path / "include").parts[0] != _PRIVATE:
+            declared.update(_CALL.findall(path.read_text(encoding="utf-8", errors="replace")))
+    mine = (p.symbol for p in pieces if p.function and p.symbol and p.owner.group == "component")
+    return frozenset(name for name in mine if shown_name(name) in declared)
+
+
+def check_budgets(budgets: Iterable[BudgetLine], places: Mapping[str, Span | None]) -> None:
+    """Raise UserError with status 1 when a budget is exceeded. `places` are where the application sets them."""
+    found = [
+        Diagnostic(
+            exceeded_message(line),
+            places.get(line.key) or _span(line),
+            advice_text(line),
+        )
+        for line in budgets
+        if line.exceeded
+    ]
+    if found:
+        raise UserError(found, status=1)
+
+
+def _measure_library(folder: Folder) -> SizeReport:
+    pieces = attribute_library(folder)
+    facts = _library_facts(folder, pieces)
+    parts = ram_parts(folder, pieces, facts)
+    stack = StackReport(False, "there is no image: calls are not linked yet", 0, None, (), (), 0)
+    budgets = budget_lines(folder, pieces, parts, stack)
+    return SizeReport(folder, pieces, facts, parts, entities(folder, pieces, parts), None, stack, budgets)
+
+
+def _library_facts(folder: Folder, pieces: Iterable[Piece]) -> Facts:
+    """Return types and parts of the variables of the library's objects."""
+    types: dict[int, str] = {}
+    parts: dict[int, tuple[Part, ...]] = {}
+    known: dict[str, Mapping[str, tuple[str, tuple[Part, ...]]]] = {}
+    for piece in pieces:
+        if piece.ram and piece.symbol and piece.source:
+            if piece.source not in known:
+                item = folder.object(piece.source)
+                known[piece.source] = read_variables(item) if item is not None else {}
+            found = known[piece.source].get(piece.symbol.partition(".")[0])
+            if found:
+                types[piece.address], parts[piece.address] = found
+    return Facts(types, parts, {})
+
+
+def _span(line: BudgetLine) -> Span | None:
+    """Return the place that the manifest names; the application file itself is not at hand."""
+    if not line.place:
+        return None
+    name, _, number = line.place.rpartition(":")
+    return Span(Source(name, ""), int(number), 1)

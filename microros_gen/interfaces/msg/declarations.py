@@ -1,0 +1,368 @@
+# SPDX-License-Identifier: Apache-2.0
+"""From the syntax tree of one declaration in a .msg file to a field or a constant, with every check of its
+parts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from lark import Token, Tree
+
+from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
+from microros_gen.interfaces.msg import names as msg_names
+from microros_gen.interfaces.msg.values import (
+    InvalidValueError,
+    positive_integer,
+    primitive_value,
+    scalar_value,
+    string_elements,
+)
+from microros_gen.interfaces.types import (
+    ArrayType,
+    Constant,
+    ElementType,
+    Field,
+    FieldType,
+    NamedType,
+    Primitive,
+    ScalarValue,
+    SequenceType,
+    StringType,
+    TypeName,
+    Value,
+)
+
+LARGEST_BOUND = 2**32 - 1
+"""The most elements or characters that CDR can count: lengths have 32 bits (DDS-XTypes 1.3, 7.4.3)."""
+
+_PRIMITIVES = {p.value: p for p in Primitive if p.in_msg}
+_OTHER_LANGUAGES = {
+    **{
+        "boolean": "bool",
+        "octet": "byte",
+        "short": "int16",
+        "int": "int32",
+        "long": "int64",
+        "unsigned": "uint32",
+    },
+    **{"float": "float32", "double": "float64", "str": "string", "wchar": "wstring"},
+}
+_ONCE_PRIMITIVE = {"time": "builtin_interfaces/Time", "duration": "builtin_interfaces/Duration"}
+
+
+class SyntaxNode(Protocol):
+    """A node of lark's tree, as lark 1.x and lark-parser 0.12 both type it."""
+
+    @property
+    def data(self) -> str:
+        """The name of the rule or its alias."""
+
+    @property
+    def children(self) -> list[Any]:
+        """Nodes and tokens."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """One declaration as text; `commented` says whether a comment stands behind it."""
+
+    source: Source
+    number: int
+    text: str
+    commented: bool
+
+    def span(self, column: int, end: int) -> Span:
+        """Return the place from `column` up to `end` (exclusive) in this line."""
+        return Span(self.source, self.number, column, max(end, column + 1))
+
+    def span_of(self, token: Token) -> Span:
+        """Return the place of `token` without the space around it."""
+        column = _column(token) + len(token) - len(token.lstrip())
+        return self.span(column, column + len(token.strip()))
+
+
+@dataclass(frozen=True)
+class Declaration:
+    """A field or constant (without its comment) and where its name stands."""
+
+    element: Field | Constant
+    name_span: Span
+
+    @property
+    def name(self) -> str:
+        """The declared name."""
+        return self.element.name
+
+
+class _DeclarationError(Exception):
+    """One error in a declaration: its place, what is wrong and a hint."""
+
+    def __init__(self, span: Span, message: str, hint: str | None = None) -> None:
+        super().__init__(message)
+        self.span, self.message, self.hint = span, message, hint
+
+
+def read_declaration(
+    tree: SyntaxNode, line: Line, package: str, diagnostics: Diagnostics
+) -> Declaration | None:
+    """Return what `tree` declares, or None with errors in `diagnostics`; `package` is that of the file."""
+    if tree.data == "constant":
+        return _constant(tree, line, diagnostics)
+    return _field(tree, line, package, diagnostics)
+
+
+def _constant(tree: SyntaxNode, line: Line, diagnostics: Diagnostics) -> Declaration | None:
+    type_node, name, *rest = tree.children
+    kind, name_ok = None, False
+    with _reported(diagnostics):
+        kind = _constant_type(type_node, line)
+    with _reported(diagnostics):
+        name_ok = _check_name(name, line, msg_names.constant_name_fault)
+    if kind is None or not name_ok:
+        return None
+    warning = msg_names.constant_name_warning(str(name))
+    if warning is not None:
+        diagnostics.warning(warning[0], line.span_of(name), warning[1])
+    with _reported(diagnostics):
+        value = _scalar(kind, rest[0] if rest else None, line, diagnostics)
+        return Declaration(Constant(str(name), kind, value, span=_whole(line, name)), line.span_of(name))
+    return None
+
+
+def _field(tree: SyntaxNode, line: Line, package: str, diagnostics: Diagnostics) -> Declaration | None:
+    type_node, name, *rest = tree.children
+    field_type, name_ok = None, False
+    with _reported(diagnostics):
+        _check_no_equal(line)
+        name_ok = _check_name(name, line, msg_names.field_name_fault)
+    with _reported(diagnostics):
+        field_type = _field_type(type_node, line, package)
+    if field_type is None or not name_ok:
+        return None
+    warning = msg_names.field_name_warning(str(name))
+    if warning is not None:
+        diagnostics.warning(warning[0], line.span_of(name), warning[1])
+    with _reported(diagnostics):
+        default = _default(field_type, rest[0], line, diagnostics) if rest else None
+        field_type = _as_jazzy_reads(field_type, line, diagnostics)
+        warning = None if default is None else msg_names.value_warning(field_type, default)
+        if warning is not None:
+            place = line.span(line.text.rindex("[") + 1, len(line.text) + 1)
+            diagnostics.warning(warning[0], place, warning[1])
+        return Declaration(Field(str(name), field_type, default, span=_whole(line, name)), line.span_of(name))
+    return None
+
+
+@contextmanager
+def _reported(diagnostics: Diagnostics) -> Iterator[None]:
+    """Turn the error of one part into a diagnostic and go on."""
+    try:
+        yield
+    except _DeclarationError as fault:
+        diagnostics.error(fault.message, fault.span, fault.hint)
+
+
+def _whole(line: Line, name: Token) -> Span:
+    """Return the place of a declaration: type and name."""
+    return line.span(1, _column(name) + len(name))
+
+
+def _check_name(name: Token, line: Line, fault_of: Callable[[str], tuple[str, str | None] | None]) -> bool:
+    fault = fault_of(str(name))
+    if fault is not None:
+        raise _DeclarationError(line.span_of(name), *fault)
+    return True
+
+
+def _field_type(node: SyntaxNode, line: Line, package: str) -> FieldType:
+    if node.data != "array":
+        return _element_type(node, line, package)
+    element_node, extent = node.children
+    element = _element_type(element_node, line, package)
+    if extent.data == "unbounded":
+        return SequenceType(element)
+    size = _bound(
+        _token(extent), line, "the size of an array" if extent.data == "fixed" else "the bound of a sequence"
+    )
+    return ArrayType(element, size) if extent.data == "fixed" else SequenceType(element, size)
+
+
+def _constant_type(node: SyntaxNode, line: Line) -> Primitive | StringType:
+    start = _token(node)
+    if node.data == "array":
+        raise _DeclarationError(
+            line.span_of(start), "a constant cannot be an array", "Declare one constant for each element"
+        )
+    if node.data == "string" and len(node.children) > 1:
+        raise _DeclarationError(
+            line.span_of(start), "the type of a constant has no bound", f"Write '{start}'"
+        )
+    element = _element_type(node, line, "")
+    if isinstance(element, NamedType):
+        raise _DeclarationError(
+            line.span_of(start), "a constant has a primitive type or is a string", "Take another type"
+        )
+    return element
+
+
+def _element_type(node: SyntaxNode, line: Line, package: str) -> ElementType:
+    if node.data == "primitive":
+        return _PRIMITIVES[str(node.children[0])]
+    if node.data == "string":
+        wide = node.children[0] == "wstring"
+        if len(node.children) == 1:
+            return StringType(wide)
+        return StringType(wide, _bound(node.children[1], line, "the bound of a string"))
+    return NamedType(_type_name(node.children, line, package))
+
+
+def _type_name(parts: list[Token], line: Line, package: str) -> TypeName:
+    first, last = parts[0], parts[-1]
+    span = line.span(_column(first), _column(last) + len(last))
+    written = "/".join(parts)
+    if len(parts) > 2:
+        raise _DeclarationError(span, f"'{written}' is not a type", f"Write '{parts[0]}/{parts[-1]}'")
+    if written in _ONCE_PRIMITIVE:
+        raise _DeclarationError(
+            span, f"'{written}' is no type of ROS 2", f"Write '{_ONCE_PRIMITIVE[written]}'"
+        )
+    if len(parts) == 2:
+        fault = msg_names.package_name_fault(str(first))
+        if fault is not None:
+            raise _DeclarationError(line.span_of(first), fault)
+        package = str(first)
+    fault = msg_names.type_name_fault(str(last))
+    if fault is not None:
+        raise _DeclarationError(span, fault, _type_hint(str(last)) if len(parts) == 1 else None)
+    return TypeName(package, "msg", str(last))
+
+
+def _type_hint(name: str) -> str | None:
+    if name in _OTHER_LANGUAGES:
+        return f"Write '{_OTHER_LANGUAGES[name]}'"
+    return nearest(name, [*_PRIMITIVES, "string", "wstring"])
+
+
+def _bound(token: Token, line: Line, what: str) -> int:
+    number = positive_integer(str(token))
+    if number is None:
+        hint = "Write '<=N' for at most N elements" if token[0] in "<>" else None
+        raise _DeclarationError(
+            line.span_of(token), f"{what} is a whole number above zero, not '{token}'", hint
+        )
+    if number > LARGEST_BOUND:
+        raise _DeclarationError(line.span_of(token), f"{what} is at most {LARGEST_BOUND}, not {number}")
+    return number
+
+
+def _default(field_type: FieldType, node: SyntaxNode | Token, line: Line, diagnostics: Diagnostics) -> Value:
+    if isinstance(field_type, (Primitive, StringType)):
+        assert isinstance(node, Token)
+        return _scalar(field_type, node, line, diagnostics)
+    if isinstance(field_type, NamedType) or isinstance(field_type.element, NamedType):
+        assert isinstance(node, Token)
+        raise _DeclarationError(line.span_of(node), "a field of a message's type has no default", "Remove it")
+    assert isinstance(node, Tree)  # the grammar has no other default for these arrays
+    tokens: list[Any] = node.children
+    values = _elements(field_type.element, tokens, line)
+    _check_count(field_type, len(values), line)
+    return values
+
+
+def _check_no_equal(line: Line) -> None:
+    _, _, rest = line.text.partition(" ")
+    if "=" in rest:
+        column = len(line.text) - len(rest) + rest.index("=") + 1
+        raise _DeclarationError(
+            line.span(column, column + 1),
+            "a default cannot hold '=': ROS 2 takes this line for a constant",
+            "A constant is written 'type NAME=value'",
+        )
+
+
+def _scalar(
+    kind: Primitive | StringType, node: Token | None, line: Line, diagnostics: Diagnostics
+) -> ScalarValue:
+    """Return the value of a constant or default; `node` is None where nothing stands behind the `=`."""
+    if node is None:
+        if isinstance(kind, StringType):
+            return ""
+        raise _DeclarationError(
+            line.span(len(line.text) + 1, 0), "the constant has no value", "Write it behind the '='"
+        )
+    text = str(node)
+    try:
+        value = scalar_value(kind, text)
+    except InvalidValueError as fault:
+        raise _DeclarationError(line.span_of(node), fault.message, fault.hint) from None
+    if isinstance(kind, StringType) and text[0] in "\"'" and (text[-1] != text[0] or text in "\"'"):
+        reason = "The '#' begins a comment, inside of quotes too" if line.commented else "Close it"
+        diagnostics.warning(f"the quote is not closed: the text is {value!r}", line.span_of(node), reason)
+    return value
+
+
+def _elements(kind: ElementType, tokens: list[Token], line: Line) -> tuple[ScalarValue, ...]:
+    if isinstance(kind, StringType):
+        try:
+            return string_elements(kind, [str(token) for token in tokens])
+        except InvalidValueError as fault:
+            raise _DeclarationError(_over(tokens, line), fault.message, fault.hint) from None
+    assert isinstance(kind, Primitive)
+    values = []
+    for token in tokens:
+        try:
+            values.append(primitive_value(kind, token.strip()))
+        except InvalidValueError as fault:
+            raise _DeclarationError(line.span_of(token), fault.message, fault.hint) from None
+    return tuple(values)
+
+
+def _over(tokens: list[Token], line: Line) -> Span:
+    first, last = line.span_of(tokens[0]), line.span_of(tokens[-1])
+    return line.span(first.column, last.end_column or last.column + 1)
+
+
+def _check_count(field_type: ArrayType | SequenceType, count: int, line: Line) -> None:
+    span = line.span(len(line.text), len(line.text) + 1)
+    if isinstance(field_type, ArrayType):
+        if count != field_type.size:
+            raise _DeclarationError(span, f"the default has {count} elements and the array {field_type.size}")
+    elif field_type.bound is not None and count > field_type.bound:
+        raise _DeclarationError(
+            span, f"the default has {count} elements and the sequence takes {field_type.bound}"
+        )
+
+
+def _as_jazzy_reads(field_type: FieldType, line: Line, diagnostics: Diagnostics) -> FieldType:
+    """Return the type that rosidl_parser of Jazzy makes of it.
+
+    It takes the bound of a wide string for the bound of the sequence around it where that has none of its
+    own, so the type hash and every peer have the bounded sequence.
+    """
+    if not isinstance(field_type, SequenceType) or field_type.bound is not None:
+        return field_type
+    element = field_type.element
+    if not isinstance(element, StringType) or not element.wide or element.bound is None:
+        return field_type
+    diagnostics.warning(
+        f"ROS 2 Jazzy reads wstring<={element.bound}[] as a sequence of at most {element.bound} elements",
+        line.span(1, line.text.index(" ") + 1),
+        f"Write wstring<={element.bound}[<=N] with the number of elements that you mean",
+    )
+    return SequenceType(element, element.bound)
+
+
+def _token(node: SyntaxNode) -> Token:
+    """Return the first token below `node`."""
+    first: Any = node
+    while isinstance(first, Tree):
+        first = first.children[0]
+    token: Token = first
+    return token
+
+
+def _column(token: Token) -> int:
+    return token.column or 1

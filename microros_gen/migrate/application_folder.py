@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The files of a new application folder: all of them decided first, then written, none of them over another."""
+
+from __future__ import annotations
+
+import os
+import shlex
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import click
+
+from microros_gen import __version__
+from microros_gen.application.find import APPLICATION_FILE
+from microros_gen.client.views.example import example_view
+from microros_gen.compiler.pipeline import Planned, plan_request, render_request, resolve_request
+from microros_gen.compiler.request import request_of
+from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, UserError
+from microros_gen.documents.templates import shared_environment
+from microros_gen.migrate.code import c_sources
+from microros_gen.migrate.draft import Draft
+from microros_gen.migrate.draft_text import UNDECIDED, draft_text
+from microros_gen.migrate.limits import LOWER_LIMITS
+from microros_gen.migrate.proposal import Wish
+from microros_gen.output.tree import write_files
+
+WORKFLOW = ".github/workflows/microros.yml"
+_TEMPLATES = {
+    "CMakeLists.txt": "CMakeLists.txt.j2",
+    "README.md": "README.md.j2",
+    ".gitignore": "gitignore.j2",
+    WORKFLOW: "workflow.yml.j2",
+}
+
+
+@dataclass(frozen=True)
+class _View:
+    """What the templates below templates/init print."""
+
+    name: str
+    version: str
+    target: str
+    toolchain: bool
+    languages: str
+    has_image: bool
+    package: str
+    sources: tuple[str, ...]
+    include_folders: tuple[str, ...]
+    own_sources: bool
+    code: str
+    interface_paths: str
+    check_options: str
+    agent: str
+    undecided: int
+    golden: bool
+    checked: bool
+
+
+def write_folder(wish: Wish, draft: Draft) -> int:
+    """Write the folder of `draft` and tell what it holds; return the exit status, 2 where it does not build.
+
+    Raises UserError, and writes nothing, where a file is in the way or where a profile alone does not plan.
+    """
+    undecided = [remark for remark in draft.all_remarks if remark.undecided]
+    with _made(wish.folder):
+        text, planned, found = _planned(wish, draft)
+        if planned is None and not wish.adopts:
+            found.check()
+        files = _files(wish, text, planned, len(undecided))
+        _refuse_to_overwrite(wish.folder, files)
+        write_files(wish.folder, files)
+    for remark in undecided:
+        tell = found.error if remark.refused else found.warning
+        tell(remark.text, remark.span, remark.refused or None)
+    for diagnostic in found:
+        click.echo(diagnostic.render(), err=True)
+    builds = planned is not None and not any(remark.refused for remark in undecided)
+    _tell(wish, files, len(undecided), builds)
+    return 0 if builds else 2
+
+
+@contextmanager
+def _made(folder: Path) -> Iterator[None]:
+    """Make the folder, which paths of the application file start at; take it away again where it stays empty."""
+    missing = [path for path in (folder, *folder.parents) if not path.exists()]
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        hint = "Name a new folder" if folder.is_file() else "Name a folder that can be written"
+        message = f"cannot make the folder {folder}: {error.strerror}"
+        raise UserError([Diagnostic(message, hint=hint)]) from error
+    try:
+        yield
+    except UserError:
+        for path in missing:
+            with suppress(OSError):
+                path.rmdir()
+        raise
+
+
+def _heading(wish: Wish) -> list[str]:
+    lines = [f"What {wish.name} has; `microros-gen resolve` says what follows from it."]
+    read = [str(path) for path in (wish.sources, *wish.metas) if path is not None]
+    if read:
+        lines += [f"Proposed by `microros-gen init` from {', '.join(read)}."]
+    return lines
+
+
+def _planned(wish: Wish, draft: Draft) -> tuple[str, Planned | None, Diagnostics]:
+    """Return the text of the proposal, its plan and what was found; the first limits for "*" with which it plans."""
+    first: tuple[str, Planned | None, Diagnostics] | None = None
+    for lower in (None, *(LOWER_LIMITS if "*" in draft.limits else ())):
+        limits = draft.limits if lower is None else {**draft.limits, "*": lower}
+        text, found = draft_text(replace(draft, limits=limits), _heading(wish)), Diagnostics()
+        planned = _plan(wish, text, found)
+        if planned is not None:
+            return text, planned, found
+        first = first or (text, planned, found)
+        if not any(diagnostic.too_large for diagnostic in found):
+            break
+    assert first is not None
+    return first
+
+
+def _plan(wish: Wish, text: str, diagnostics: Diagnostics) -> Planned | None:
+    """Return the plan of the proposal, or None with what is against it in `diagnostics`."""
+    source = Source(str(wish.folder / APPLICATION_FILE), text)
+    try:
+        resolved = resolve_request(request_of(source, wish.folder, wish.options(), diagnostics), diagnostics)
+        return plan_request(resolved, wish.options(), diagnostics)
+    except UserError as error:
+        diagnostics.extend(error.diagnostics)
+        return None
+
+
+def _files(wish: Wish, text: str, planned: Planned | None, undecided: int) -> dict[str, bytes]:
+    """Return what is written, by its path below the folder."""
+    files = {APPLICATION_FILE: text.encode()}
+    environment = shared_environment()
+    toolchain = None
+    if planned is not None:
+        rendered = render_request(planned)
+        if wish.checked:
+            files |= {f"golden/{name}": content for name, content in rendered.items()}
+        toolchain = rendered.get("toolchain.cmake")
+        if wish.sources is None:
+            heading = f"What {wish.name} does."
+            view = replace(example_view(planned.project), heading=heading)
+            files["main.c"] = environment.get_template("example/main.c.j2").render(view=view).encode()
+    if toolchain is not None:
+        files["toolchain.cmake"] = toolchain
+    view_of_folder = _view(wish, planned, toolchain is not None, undecided)
+    for name, template in _TEMPLATES.items():
+        if name == WORKFLOW and not wish.checked:
+            continue
+        files[name] = environment.get_template(f"init/{template}").render(view=view_of_folder).encode()
+    return files
+
+
+def _view(wish: Wish, planned: Planned | None, toolchain: bool, undecided: int) -> _View:
+    project = planned.project if planned is not None else None
+    sources = c_sources(wish.sources) if wish.sources is not None else ()
+    shown = tuple(_relative(path, wish.folder) for path in sources) or ("main.c",)
+    paths = [_relative(path, wish.folder) for path in wish.interface_paths]
+    discovery = project is not None and project.selection.has("discovery")
+    return _View(
+        name=wish.name,
+        version=__version__,
+        target=project.target.name if project else wish.target or "host",
+        toolchain=toolchain,
+        languages="C CXX" if any(not name.endswith(".c") for name in shown) else "C",
+        has_image=project is None or project.target.has_image,
+        package=project.target.package if project and not project.target.hosted else "",
+        sources=shown,
+        include_folders=tuple(sorted({_relative(path.parent, wish.folder) for path in sources})),
+        own_sources=bool(sources),
+        code=f"`{_relative(wish.sources, wish.folder)}`" if wish.sources is not None else "`main.c`",
+        interface_paths="".join(f' "{path}"' for path in paths),
+        check_options="".join(f" --interface-path {shlex.quote(path)}" for path in paths),
+        agent="udp4 --port 8888" + (" --discovery" if discovery else ""),
+        undecided=undecided,
+        golden=planned is not None,
+        checked=wish.checked,
+    )
+
+
+def _relative(path: Path, folder: Path) -> str:
+    return Path(os.path.relpath(path, folder)).as_posix()
+
+
+def _refuse_to_overwrite(folder: Path, files: Mapping[str, bytes]) -> None:
+    there = sorted(name for name in files if (folder / name).exists())
+    if there:
+        shown = ", ".join(there[:3]) + (f" and {len(there) - 3} more" if len(there) > 3 else "")
+        message = f"{folder} holds files that would be written: {shown}"
+        raise UserError(
+            [Diagnostic(message, hint="Name a new folder, or move them away; nothing was changed")]
+        )
+
+
+def _tell(wish: Wish, files: Mapping[str, bytes], undecided: int, builds: bool) -> None:
+    own = sorted(name for name in files if not name.startswith("golden/"))
+    click.echo(f"{wish.folder}: {', '.join(own)}")
+    if len(own) < len(files):
+        click.echo(f"golden copy of {len(files) - len(own)} files in {wish.folder / 'golden'}")
+    if undecided:
+        click.echo(
+            f"{undecided} to be decided by you: look for {UNDECIDED} in {wish.folder / APPLICATION_FILE}"
+        )
+    if not builds:
+        click.echo("it does not build before the errors are gone")
+        return
+    click.echo(f"cmake -S {wish.folder} -B {wish.folder / 'build'} && cmake --build {wish.folder / 'build'}")

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Finds and reads the C and C++ sources of an application."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.documents.files import read_text
+
+COMPILED = (".c", ".cc", ".cpp", ".cxx", ".ino")
+"""What a compiler is given; .ino are sketches, which Arduino makes into C++."""
+
+READ = (*COMPILED, ".h", ".hh", ".hpp")
+"""What says something about the application."""
+
+_LARGEST = 1 << 20
+_MANIFEST = "manifest.json"  # in every folder that this tool wrote
+_LEFT_OUT = ("build", "install", "log", "managed_components", "node_modules")
+
+
+def c_sources(folder: Path) -> tuple[Path, ...]:
+    """Return the files below `folder`, or the file that it names, that a compiler is given, sorted."""
+    return tuple(path for path in _paths(folder) if path.suffix in COMPILED)
+
+
+def read_code(folder: Path, diagnostics: Diagnostics) -> tuple[Source, ...]:
+    """Return the texts of all sources and headers below `folder`, sorted by path; a file is taken too.
+
+    Bytes that are no UTF-8 are replaced: only comments and strings have them. Errors where there is nothing to read.
+    """
+    if not folder.exists():
+        diagnostics.error(f"there is no '{folder}'", hint="Give the folder of the application's sources")
+        return ()
+    found: list[Source] = []
+    for path in _paths(folder):
+        try:
+            if path.stat().st_size <= _LARGEST:
+                found.append(Source(str(path), read_text(path, errors="replace")))
+        except OSError as error:
+            diagnostics.error(f"cannot read '{path}': {error.strerror}")
+    if not found and not diagnostics.has_errors():
+        hint = f"Files that are read end in {', '.join(READ)}"
+        diagnostics.error(f"'{folder}' has no C or C++ sources", hint=hint)
+    return tuple(found)
+
+
+def _paths(folder: Path) -> list[Path]:
+    if folder.is_file():
+        return [folder]
+    found = (path for path in folder.rglob("*") if path.suffix in READ and path.is_file())
+    generated = {path.parent for path in folder.rglob(_MANIFEST)}
+    return sorted(
+        path
+        for path in found
+        if not _is_left_out(path.relative_to(folder)) and not generated.intersection(path.parents)
+    )
+
+
+def _is_left_out(path: Path) -> bool:
+    return any(part.startswith(".") or part in _LEFT_OUT for part in path.parts[:-1])

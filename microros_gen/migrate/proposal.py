@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What `init` is asked for, and the proposal that it makes of it."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import click
+
+from microros_gen.compiler.options import SelectionOptions
+from microros_gen.compiler.pipeline import DEFAULT_INTERFACE, resolve_request
+from microros_gen.compiler.request import request_of
+from microros_gen.diagnostics import Diagnostics, Source, UserError
+from microros_gen.documents.files import read_text
+from microros_gen.documents.named import Named
+from microros_gen.interfaces.closure import resolve_interfaces
+from microros_gen.interfaces.derived import parts_of
+from microros_gen.interfaces.find import InterfaceFinder
+from microros_gen.interfaces.types import Declaration, Message
+from microros_gen.migrate.code import read_code
+from microros_gen.migrate.colcon_meta import MetaSetting, read_settings
+from microros_gen.migrate.draft import Draft, DraftValue, Flow, Remark
+from microros_gen.migrate.first import AGENT, first_draft
+from microros_gen.migrate.limits import DEFAULT_LIMITS, limits_of
+from microros_gen.migrate.meta_draft import meta_draft
+from microros_gen.migrate.rclc_draft import Adopted, rclc_draft
+from microros_gen.selection.find_components import declared_functions, load_catalogue
+from microros_gen.selection.resolve import check_ready
+
+DEFAULT_PROFILE = "pure_sender"
+DEFAULT_SERVICE = "example_interfaces/srv/AddTwoInts"
+
+
+@dataclass(frozen=True)
+class Wish:
+    """The arguments of `init`; `checked`: with a golden copy and the workflow that compares it."""
+
+    folder: Path
+    profiles: tuple[str, ...]
+    target: str | None
+    sources: Path | None
+    metas: tuple[Path, ...]
+    interface_paths: tuple[Path, ...]
+    checked: bool = False
+
+    @property
+    def name(self) -> str:
+        """The name of the application: that of the folder, as CMake targets and ROS nodes can have it."""
+        words = re.findall(r"[a-z0-9]+", self.folder.resolve().name.lower())
+        name = "_".join(words)
+        return name if name[:1].isalpha() else f"app_{name}".rstrip("_")
+
+    def seen_from_folder(self, name: str) -> str:
+        """Return the name of a profile or target; a file of the user's as a path relative to the new folder."""
+        is_file = name.endswith((".yaml", ".yml"))
+        return Path(os.path.relpath(name, self.folder)).as_posix() if is_file else name
+
+    @property
+    def adopts(self) -> bool:
+        """Whether there is something to be read."""
+        return self.sources is not None or bool(self.metas)
+
+    def options(self) -> SelectionOptions:
+        """Return the options of the other commands for this."""
+        return SelectionOptions(None, (), (), self.interface_paths, None, None)
+
+
+def draft_of(wish: Wish) -> Draft:
+    """Return the proposal. Raises UserError where something cannot be read."""
+    if not wish.adopts:
+        return _of_profiles(wish)
+    diagnostics = Diagnostics()
+    settings = [setting for path in wish.metas for setting in _settings_of(path, diagnostics)]
+    adopted = _of_code(wish.sources, diagnostics) if wish.sources is not None else None
+    diagnostics.check()
+    for diagnostic in diagnostics:
+        click.echo(diagnostic.render(), err=True)
+    draft = meta_draft(settings, declared=adopted is not None)
+    return _with_defaults(wish, draft if adopted is None else _joined(wish, draft, adopted))
+
+
+def _of_code(folder: Path, diagnostics: Diagnostics) -> Adopted:
+    sources = read_code(folder, diagnostics)
+    diagnostics.check()
+    catalogue = load_catalogue()
+    return rclc_draft(sources, declared_functions(catalogue), catalogue, diagnostics)
+
+
+def _joined(wish: Wish, meta: Draft, adopted: Adopted) -> Draft:
+    """Return what sources and settings say together; the sources have the last word."""
+    code = adopted.draft
+    groups = {name: dict(values) for name, values in meta.groups.items()}
+    for name, values in code.groups.items():
+        groups[name] = {**groups.get(name, {}), **values}
+    return replace(
+        code,
+        components=tuple(sorted({*meta.components, *code.components})),
+        settings=meta.settings,
+        groups=groups,
+        limits=_limits(wish, adopted),
+        remarks=(*code.remarks, *meta.remarks),
+    )
+
+
+def _limits(wish: Wish, adopted: Adopted) -> Mapping[str, DraftValue]:
+    """Return the limits; where a type is not found, that is told when the proposal is planned."""
+    types = [e.type for node in adopted.draft.nodes for e in node.endpoints if e.type]
+    finder = InterfaceFinder.from_environment(wish.interface_paths)
+    try:
+        interfaces = resolve_interfaces(tuple(Named(t) for t in dict.fromkeys(types)), finder, Diagnostics())
+    except UserError:
+        return {"*": DEFAULT_LIMITS}
+    exchanged = [message.name for root in interfaces.roots for message in _own(interfaces.declaration(root))]
+    return limits_of(adopted.capacities, exchanged, interfaces.messages)
+
+
+def _own(declaration: Declaration) -> tuple[Message, ...]:
+    """Return what is exchanged: the message, or the request and response of a service."""
+    if isinstance(declaration, Message):
+        return (declaration,)
+    return tuple(message for _, message in parts_of(declaration))
+
+
+def _settings_of(path: Path, diagnostics: Diagnostics) -> tuple[MetaSetting, ...]:
+    try:
+        source = Source(str(path), read_text(path))
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "it is not UTF-8 text"
+        diagnostics.error(f"cannot read '{path}': {reason}", hint="Give the path of a colcon.meta")
+        return ()
+    return read_settings(source, diagnostics)
+
+
+def _with_defaults(wish: Wish, draft: Draft) -> Draft:
+    """Return the proposal with what every application file has: what it does, and with which types."""
+    remarks = list(draft.remarks)
+    profiles = wish.profiles or draft.profiles
+    if not profiles and not draft.nodes:
+        profiles = (DEFAULT_PROFILE,)
+        remarks.append(
+            Remark(f"what the application does is not said anywhere: `profiles` has {DEFAULT_PROFILE}")
+        )
+    interfaces = draft.interfaces
+    if not draft.nodes:
+        interfaces = (DEFAULT_INTERFACE, *((DEFAULT_SERVICE,) if "+services" in draft.components else ()))
+        text = f"which types it uses is not said anywhere: `interfaces` has {' and '.join(interfaces)}"
+        more = "With `nodes`, as `init --from SRC_DIR` proposes them, everything has its exact size"
+        remarks.append(Remark(f"{text}. {more}"))
+    settings = dict(draft.settings)
+    if any(endpoint.kind != "subscription" for node in draft.nodes for endpoint in node.endpoints):
+        settings.setdefault("on_full", DraftValue(Flow("block 1 s"), "as rmw_microxrcedds does by itself"))
+    groups = dict(draft.groups)
+    transport = groups.pop("transport", {})
+    if "type" not in transport and wish.target in (None, "host"):
+        agent = "discover" if "+discovery" in draft.components else AGENT
+        transport = {"type": DraftValue("udp"), "agent": DraftValue(agent), **transport}
+    if transport:
+        groups = {"transport": transport, **groups}
+    target = DraftValue(wish.seen_from_folder(wish.target or "host"), "`microros-gen targets` lists them")
+    limits = draft.limits if draft.nodes else {"*": DEFAULT_LIMITS}
+    return replace(
+        draft,
+        profiles=tuple(wish.seen_from_folder(profile) for profile in profiles),
+        interfaces=interfaces,
+        settings={"target": target, **settings},
+        groups=groups,
+        limits=limits,
+        remarks=tuple(remarks),
+    )
+
+
+def _of_profiles(wish: Wish) -> Draft:
+    diagnostics = Diagnostics()
+    profiles = wish.profiles or (DEFAULT_PROFILE,)
+    options = SelectionOptions(None, profiles, (), wish.interface_paths, wish.target, None)
+    resolved = resolve_request(request_of(None, Path(), options, diagnostics), diagnostics)
+    check_ready(resolved.selection, diagnostics)
+    diagnostics.check()
+    named = tuple(wish.seen_from_folder(profile) for profile in profiles)
+    return first_draft(resolved.selection, named, wish.name, wish.seen_from_folder(wish.target or "host"))

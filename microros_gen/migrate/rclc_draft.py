@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The sources of an rclc application → a proposed application file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+
+from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.migrate.c_program import Call, CFile, read_program
+from microros_gen.migrate.c_tokens import read_c
+from microros_gen.migrate.c_values import Values, handle_of
+from microros_gen.migrate.capacities import Fact, find_capacities
+from microros_gen.migrate.draft import Draft, DraftNode, DraftValue, Remark, place
+from microros_gen.migrate.missing import find_missing
+from microros_gen.migrate.rclc_calls import (
+    ENDPOINT_CALLS,
+    NODE_CALLS,
+    TIMER_CALLS,
+    FoundEndpoint,
+    FoundNode,
+    find_endpoints,
+    find_nodes,
+    find_timers,
+)
+from microros_gen.migrate.rclc_settings import find_settings
+from microros_gen.selection.component import Catalogue
+
+_STARTS = ("main", "appMain", "app_main", "setup")
+_PREFIXES = ("RCUTILS_LOG_", "rcl_", "rclc_", "rmw_", "rcutils_", "rosidl_runtime_c__", "micro_ros_", "uxr_")
+# What starts a second task: POSIX, FreeRTOS, Zephyr, CMSIS-RTOS, NuttX
+_TASKS = frozenset(
+    (
+        "pthread_create",
+        "xTaskCreate",
+        "xTaskCreateStatic",
+        "xTaskCreatePinnedToCore",
+        "k_thread_create",
+        "osThreadNew",
+        "task_create",
+    )
+)
+_THREADS = frozenset(("std", "thread"))
+_AXES = ("transport_", "entities_", "port_", "liveliness_", "clock_ros", "ping", "stream_")
+_GIVEN = (("publish", "pure_sender"), ("subscribe", "pure_reader"))
+_PROFILES = (("pure_sender", "publisher"), ("pure_reader", "subscription"))
+
+
+@dataclass(frozen=True)
+class Adopted:
+    """The proposal, and the capacities that the sources give to members of messages."""
+
+    draft: Draft
+    capacities: tuple[Fact, ...]
+
+
+def rclc_draft(
+    sources: Iterable[Source],
+    declared: Mapping[str, str],
+    catalogue: Catalogue,
+    diagnostics: Diagnostics,
+) -> Adopted:
+    """Return what the sources of one application propose.
+
+    `declared` says which component declares a function. Errors where the sources are several applications, or none.
+    """
+    files = read_program(read_c(source) for source in sources)
+    _check_one(files, diagnostics)
+    values = Values(files)
+    calls = [call for file in files for call in file.calls]
+    nodes, remarks = _nodes(calls, values)
+    endpoints = {endpoint.kind for node in nodes for endpoint in node.endpoints}
+    profiles = tuple(profile for profile, kind in _PROFILES if kind in endpoints)
+    own = {function.name for file in files for function in file.functions}
+    called = [call for call in calls if call.name not in own and call.name.startswith(_PREFIXES)]
+    remarks += find_missing(called, declared)
+    remarks += _macros(files)
+    settings, more = find_settings(calls, values)
+    groups = {**settings, **_executors(calls)}
+    draft = Draft(
+        profiles=profiles,
+        components=_components(_wanted(files, called, declared, catalogue), catalogue, profiles),
+        interfaces=_types_without_entity(nodes),
+        nodes=nodes,
+        groups=groups,
+        remarks=(*remarks, *more),
+    )
+    if not nodes and not called:
+        diagnostics.error(
+            "these sources call nothing of rclc or rcl",
+            hint="Give the folder of one application: it calls rclc_support_init",
+        )
+    return Adopted(draft, tuple(find_capacities(files, calls, values)))
+
+
+def _types_without_entity(nodes: Iterable[DraftNode]) -> tuple[str, ...]:
+    """Return the types of endpoints whose name is not known: the sources include their headers all the same."""
+    endpoints = [endpoint for node in nodes for endpoint in node.endpoints]
+    named = {endpoint.type for endpoint in endpoints if endpoint.name}
+    return tuple(sorted({endpoint.type for endpoint in endpoints if endpoint.type} - named))
+
+
+def _check_one(files: Iterable[CFile], diagnostics: Diagnostics) -> None:
+    starts = [function for file in files for function in file.functions if function.name in _STARTS]
+    for start in starts[1:]:
+        if start.name == starts[0].name:
+            diagnostics.error(
+                f"there are several applications here: {start.name}() stands also in {place(starts[0].span)}",
+                start.span,
+                "Give the folder or file of one of them",
+            )
+
+
+def _nodes(calls: list[Call], values: Values) -> tuple[tuple[DraftNode, ...], list[Remark]]:
+    """Return the nodes with what they own."""
+    found = _unique(find_nodes(calls, values))
+    endpoints = find_endpoints(calls, values)
+    timers = tuple(timer.draft for timer in find_timers(calls, values))
+    remarks: list[Remark] = []
+    owned: dict[int, list[FoundEndpoint]] = {index: [] for index in range(len(found))}
+    for endpoint in endpoints if found else ():
+        index = _owner(endpoint, found)
+        if index is None:
+            reason = f"which node the {endpoint.draft.kind} is of: `{endpoint.node}` may be one of several"
+            mark = Remark(reason, endpoint.call.span)
+            endpoint = replace(
+                endpoint, draft=replace(endpoint.draft, remarks=(*endpoint.draft.remarks, mark))
+            )
+        owned[index or 0].append(endpoint)
+    nodes: list[DraftNode] = []
+    for index, node in enumerate(found):
+        own = tuple(endpoint.draft for endpoint in _once(owned[index]))
+        domain = _domain(calls, values, remarks) if index == 0 else nodes[0].domain_id
+        nodes.append(replace(node.draft, endpoints=own, timers=() if index else timers, domain_id=domain))
+    return tuple(nodes), remarks
+
+
+def _unique(found: list[FoundNode]) -> list[FoundNode]:
+    """Return the nodes, each once: an application that connects again creates its node again."""
+    kept: dict[tuple[str, str, str], FoundNode] = {}
+    for node in found:
+        key = (node.draft.name, node.draft.namespace, "" if node.draft.name else node.handle)
+        kept.setdefault(key, node)
+    return list(kept.values())
+
+
+def _once(endpoints: Iterable[FoundEndpoint]) -> Iterable[FoundEndpoint]:
+    """Yield each endpoint once: an application that connects again creates it again; turns of a loop are several."""
+    seen = set()
+    for endpoint in endpoints:
+        draft = endpoint.draft
+        key = (draft.kind, draft.name, draft.type, endpoint.call.turn)
+        if key not in seen or not all(key[:3]):
+            seen.add(key)
+            yield endpoint
+
+
+def _owner(endpoint: FoundEndpoint, nodes: list[FoundNode]) -> int | None:
+    """Return the index of the node that an endpoint is of; None where it can be more than one."""
+    named = [i for i, node in enumerate(nodes) if node.handle and node.handle == endpoint.node]
+    near = [i for i in named if nodes[i].call.function == endpoint.call.function]
+    for found in (near, named, list(range(len(nodes)))):
+        if len(found) == 1:
+            return found[0]
+    return None
+
+
+def _domain(calls: Iterable[Call], values: Values, remarks: list[Remark]) -> int:
+    for call in calls:
+        if call.name == "rcl_init_options_set_domain_id" and len(call.arguments) == 2:
+            domain = values.number(call.arguments[1], call)
+            if isinstance(domain, int):
+                return domain
+            remarks.append(Remark(f"the domain: {domain.reason}", call.span))
+    return 0
+
+
+def _macros(files: Iterable[CFile]) -> list[Remark]:
+    """Return a remark for each macro with arguments whose body creates something: such calls are not followed."""
+    creating = {*ENDPOINT_CALLS, *NODE_CALLS, *TIMER_CALLS}
+    return [
+        Remark(
+            f"the macro {macro.name} creates something; what its uses create is not known here", macro.span
+        )
+        for file in files
+        for macro in file.macros
+        if macro.has_arguments and any(token.text in creating for token in macro.body)
+    ]
+
+
+def _executors(calls: Iterable[Call]) -> dict[str, dict[str, DraftValue]]:
+    """Return `pools.executors` where the sources have more than one: a declared application has one by default."""
+    inits = {
+        handle_of(call.arguments[0]): call
+        for call in calls
+        if call.name == "rclc_executor_init" and call.arguments
+    }
+    if len(inits) < 2:
+        return {}
+    last = list(inits.values())[-1]
+    return {"pools": {"executors": DraftValue(len(inits), f"{last.name} ({place(last.span)})")}}
+
+
+def _wanted(
+    files: Iterable[CFile], called: Iterable[Call], declared: Mapping[str, str], catalogue: Catalogue
+) -> set[str]:
+    """Return the components that declare what is called, have the headers that are included, or serve several tasks."""
+    headers = {header: component.name for component in catalogue.values() for header in component.headers}
+    found = {declared[call.name] for call in called if call.name in declared}
+    found |= {headers[name] for file in files for name in file.text.includes if name in headers}
+    starts = {call.name for file in files for call in file.calls} & _TASKS
+    names = {token.text for file in files for token in file.text.tokens if token.kind == "name"}
+    return found | ({"multithread"} if starts or names >= _THREADS else set())
+
+
+def _components(wanted: set[str], catalogue: Catalogue, profiles: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the components that have to be named: without those that others bring along."""
+    wanted = {name for name in wanted | {"node"} if catalogue[name].ready and not name.startswith(_AXES)}
+    given = {component for component, profile in _GIVEN if profile in profiles}
+    given |= {"node"} if profiles else set()
+    brought = {below for name in wanted | given for below in _below(name, catalogue)}
+    return tuple(f"+{name}" for name in sorted(wanted - brought - given))
+
+
+def _below(name: str, catalogue: Catalogue) -> set[str]:
+    found: set[str] = set()
+    pending = list(catalogue[name].needs)
+    while pending:
+        needed = pending.pop()
+        if needed not in found:
+            found.add(needed)
+            pending += catalogue[needed].needs
+    return found

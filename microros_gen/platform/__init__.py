@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Targets: what the C compiler is told, and which ports the library uses."""

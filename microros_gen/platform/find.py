@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Finds and reads target files: the built-in ones, and a user's own by its path."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
+from microros_gen.documents.files import read_text
+from microros_gen.documents.tree_values import text_of
+from microros_gen.documents.yaml_tree import MappingNode
+from microros_gen.platform.target import Target
+from microros_gen.platform.target_file import merge_target, parse_target, target_of
+
+TARGETS = Path(__file__).resolve().parent.parent / "targets"
+
+
+@dataclass(frozen=True)
+class FoundTarget:
+    """A target, and the files of the user's that it came from, the one that was asked for first."""
+
+    target: Target
+    own: tuple[Source, ...] = ()
+
+
+def builtin_targets() -> tuple[str, ...]:
+    """Return the names of the built-in targets, sorted."""
+    return tuple(sorted(path.stem for path in TARGETS.glob("[a-z]*.yaml")))
+
+
+def read_target(name: str, near: Path, span: Span | None, diagnostics: Diagnostics) -> FoundTarget | None:
+    """Read a target by its name, or a file by its path (relative to `near`) with all that it extends.
+
+    None and errors in `diagnostics` where there is none or one of its files does not hold.
+    """
+    found = Diagnostics()
+    reader = _Reader(found)
+    node = reader.read(name, near, span)
+    target = target_of(node, found) if node is not None else None
+    diagnostics.extend(found)
+    return FoundTarget(target, tuple(reader.own)) if target is not None else None
+
+
+class _Reader:
+    """Follows `extends` from file to file."""
+
+    def __init__(self, diagnostics: Diagnostics) -> None:
+        self.own: list[Source] = []
+        self._diagnostics = diagnostics
+        self._way: list[Path] = []
+
+    def read(self, name: str, near: Path, span: Span | None) -> MappingNode | None:
+        """Return what a target says, and below it what it extends."""
+        known = builtin_targets()
+        builtin = name in known or (near == TARGETS and (TARGETS / f"{name}.yaml").is_file())
+        if not builtin and not name.endswith((".yaml", ".yml")):
+            hint = nearest(name, known) or f"There are: {', '.join(known)}; or give the path of a target file"
+            self._diagnostics.error(f"there is no target '{name}'", span, hint)
+            return None
+        path = TARGETS / f"{name}.yaml" if builtin else near / name
+        if path.resolve() in self._way:
+            self._diagnostics.error(f"'{name}' extends itself", span, "Extend a built-in target at the end")
+            return None
+        self._way.append(path.resolve())
+        source = self._source(path, name, span)
+        node = parse_target(source, self._diagnostics, builtin) if source is not None else None
+        if source is None or node is None:
+            return None
+        if not builtin:
+            self.own.append(source)
+        return self._extended(node, path.parent)
+
+    def _extended(self, node: MappingNode, near: Path) -> MappingNode | None:
+        below = node.get("extends")
+        if below is None:
+            return node
+        base = self.read(text_of(below) or "", near, below.span)
+        return merge_target(node, base) if base is not None else None
+
+    def _source(self, path: Path, shown: str, span: Span | None) -> Source | None:
+        try:
+            return Source(str(path), read_text(path))
+        except (OSError, UnicodeDecodeError) as error:
+            reason = error.strerror if isinstance(error, OSError) else error
+            hint = f"There are: {', '.join(builtin_targets())}; a path is relative to the file that names it"
+            self._diagnostics.error(f"cannot read the target file '{shown}': {reason}", span, hint)
+            return None

@@ -1,0 +1,272 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Target files → Target. A file may extend another one: `merge_target` lays it over what that one says."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from pathlib import Path
+
+from microros_gen.diagnostics import Diagnostics, Source, reads
+from microros_gen.documents.tree_values import bool_of, child, entries, int_of, items, size_of, text_of
+from microros_gen.documents.yaml_tree import Entry, MappingNode, SequenceNode, YamlNode, parse_yaml
+from microros_gen.platform.target import (
+    OWN_DRIVER,
+    PORTS,
+    REGISTERS,
+    Emulator,
+    Memory,
+    Region,
+    Stdio,
+    Target,
+    Uart,
+    UniqueId,
+)
+
+SCHEMA = Path(__file__).with_name("target.schema.json")
+_REQUIRED = ("target", "summary", "port", "compilers", "archivers", "package")
+_ADDED = ("c_flags", "link_flags", "libraries")
+_ADDRESS_SPACE = 1 << 32
+# Where the transmit interrupt is when nobody says: CMSDK systems have it next to the one that receives.
+_TX_AFTER_RX = {"cmsdk": 1}
+_STDIO_DRIVERS = ("cmsdk", "ns16550")
+
+
+@reads
+def parse_target(source: Source, diagnostics: Diagnostics, builtin: bool = False) -> MappingNode | None:
+    """Return what one target file says; None and errors in `diagnostics` where it does not hold.
+
+    A user's file is validated against its JSON Schema; `builtin` files are not, tests do that.
+    """
+    found = Diagnostics()
+    tree = parse_yaml(source, found)
+    if not found.has_errors() and not (builtin and isinstance(tree, MappingNode)):
+        from microros_gen.documents.schema import load_schema, validate
+
+        validate(tree, source, load_schema(SCHEMA), found)
+    diagnostics.extend(found)
+    return tree if isinstance(tree, MappingNode) and not found.has_errors() else None
+
+
+def merge_target(node: MappingNode, base: MappingNode) -> MappingNode:
+    """Lay `node` over the target that it extends: lists of flags and libraries grow, all else is replaced."""
+    merged = {**base.entries, **node.entries}
+    for key in _ADDED:
+        own, below = node.entries.get(key), base.entries.get(key)
+        if own is not None and below is not None:
+            both = SequenceNode((*items(below.value), *items(own.value)), own.value.span)
+            merged[key] = Entry(key, own.key_span, both)
+    return MappingNode(merged, node.span)
+
+
+def target_of(node: MappingNode, diagnostics: Diagnostics) -> Target | None:
+    """Return the target that a (merged) tree describes; None and errors where something lacks or contradicts."""
+    for key in _REQUIRED:
+        if key not in node.entries:
+            hint = f"Add `{key}: …`, or `extends: cortex-m4` and its like, which have it"
+            diagnostics.error(f"the target lacks the key '{key}'", node.span, hint)
+    _check(node, diagnostics)
+    return None if diagnostics.has_errors() else _target(node)
+
+
+def _target(node: MappingNode) -> Target:
+    return Target(
+        name=_text(node, "target"),
+        summary=_text(node, "summary"),
+        port=_text(node, "port"),
+        compilers=_texts(node.get("compilers")),
+        archivers=_texts(node.get("archivers")),
+        package=_text(node, "package"),
+        c_flags=_texts(node.get("c_flags")),
+        link_flags=_texts(node.get("link_flags")),
+        libraries=_texts(node.get("libraries")),
+        image_suffix=_text(node, "image_suffix"),
+        hosted=bool_of(node.get("hosted")) or False,
+        data_model=text_of(node.get("data_model")) or Target.data_model,
+        transport=text_of(node.get("transport")),
+        clock_hz=int_of(node.get("clock_hz")) or 0,
+        flash=_region(node.get("flash")),
+        ram=_region(node.get("ram")),
+        uart=_uart(node.get("uart")),
+        unique_id=_unique_id(node.get("unique_id")),
+        emulator=_emulator(node.get("emulator")),
+        interrupts=tuple(
+            sorted((int(e.key), text_of(e.value) or "") for e in entries(node.get("interrupts")))
+        ),
+        registers=tuple(sorted((e.key, int_of(e.value) or 0) for e in entries(node.get("registers")))),
+        memories=tuple(_memory(e) for e in entries(node.get("memories"))),
+        clocks_hook=text_of(child(node.get("hooks"), "clocks")) or "",
+        watchdog_hook=text_of(child(node.get("hooks"), "watchdog")) or "",
+        stdio=_stdio(node.get("stdio")),
+    )
+
+
+def _region(node: YamlNode | None) -> Region | None:
+    if node is None:
+        return None
+    origin, size, offset = child(node, "origin"), child(node, "size"), child(node, "offset")
+    return Region(int_of(origin) or 0, size_of(size) or 0, size_of(offset) or 0)
+
+
+def _memory(entry: Entry) -> Memory:
+    region = _region(entry.value) or Region(0, 0)
+    return Memory(entry.key, region, _texts(child(entry.value, "holds")))
+
+
+def _stdio(node: YamlNode | None) -> Stdio | None:
+    if node is None:
+        return None
+    base, baud = (int_of(child(node, key)) for key in ("base", "baud"))
+    driver = text_of(child(node, "driver")) or Stdio.driver
+    floats = bool_of(child(node, "floats")) or False
+    return Stdio(text_of(child(node, "to")) or "", driver, base or 0, baud or Stdio.baud, floats)
+
+
+def _uart(node: YamlNode | None) -> Uart | None:
+    if node is None:
+        return None
+    base, irq, clock_hz = (int_of(child(node, key)) or 0 for key in ("base", "irq", "clock_hz"))
+    pins = [int_of(child(node, key)) for key in ("tx_pin", "rx_pin")]
+    tx_pin, rx_pin = (-1 if pin is None else pin for pin in pins)
+    driver, tx_irq = text_of(child(node, "driver")) or "", int_of(child(node, "tx_irq"))
+    if tx_irq is None:
+        tx_irq = irq + _TX_AFTER_RX.get(driver, 0)
+    return Uart(driver, base, irq, clock_hz, tx_pin, rx_pin, tx_irq)
+
+
+def _unique_id(node: YamlNode | None) -> UniqueId | None:
+    if node is None:
+        return None
+    return UniqueId(int_of(child(node, "address")) or 0, int_of(child(node, "words")) or 0)
+
+
+def _emulator(node: YamlNode | None) -> Emulator | None:
+    if node is None:
+        return None
+    program, package = (text_of(child(node, key)) or "" for key in ("program", "package"))
+    return Emulator(program, package, _texts(child(node, "arguments")))
+
+
+def _check(node: MappingNode, diagnostics: Diagnostics) -> None:
+    """Report what the schema cannot say: what belongs together, and what the port does not have."""
+    port = text_of(node.get("port")) or ""
+    _check_memory(node, diagnostics)
+    _check_uart(node, port, diagnostics)
+    _check_interrupts(node, diagnostics)
+    _check_stdio(node, port, diagnostics)
+    _check_image_keys(node, diagnostics)
+    if node.get("flash") is None or bool_of(node.get("hosted")):
+        return
+    for name in REGISTERS.get(port, ()):
+        if child(node.get("registers"), name) is None:
+            hint = f"Add `registers: {{{name}: 0x…}}`"
+            diagnostics.error(f"{port} needs the address of {name}", node.span, hint)
+
+
+def _check_uart(node: MappingNode, port: str, diagnostics: Diagnostics) -> None:
+    uart, driver = node.get("uart"), child(node.get("uart"), "driver")
+    if driver is None:
+        return
+    if text_of(driver) == OWN_DRIVER:
+        for entry in entries(uart):
+            if entry.key != "driver":
+                message = f"'uart.{entry.key}' has no effect: the application drives the line"
+                diagnostics.error(message, entry.key_span, "Remove it; its handlers go into `interrupts:`")
+        return
+    for key in ("base", "irq"):
+        if child(uart, key) is None:
+            diagnostics.error(f"'uart' lacks the key '{key}'", (uart or node).span, f"Add `{key}: …`")
+    if text_of(driver) not in PORTS.get(port, ()):
+        has = ", ".join((*PORTS.get(port, ()), OWN_DRIVER))
+        hint = f"Its drivers are: {has}. Without `uart:` the application provides port_serial_*"
+        diagnostics.error(f"{port} has no driver '{text_of(driver)}'", driver.span, hint)
+
+
+def _check_memory(node: MappingNode, diagnostics: Diagnostics) -> None:
+    flash, ram = node.get("flash"), node.get("ram")
+    for name, there, other, lacks in (("flash", flash, "ram", ram), ("ram", ram, "flash", flash)):
+        if there is not None and lacks is None:
+            hint = f"Add `{other}: {{origin: 0x20000000, size: 64 KiB}}`"
+            diagnostics.error(f"'{name}' without '{other}' makes no image", there.span, hint)
+    if flash is None or ram is None:
+        return
+    if node.get("clock_hz") is None:
+        hint = "Add `clock_hz: …`: what the system timer counts in a second"
+        diagnostics.error("an image needs the key 'clock_hz'", node.span, hint)
+    _check_regions(node, diagnostics)
+
+
+def _check_regions(node: MappingNode, diagnostics: Diagnostics) -> None:
+    """Report memories that end beyond the address space, overlap, or hold what another one holds."""
+    parts = [(name, value) for name in ("flash", "ram") if (value := node.get(name)) is not None]
+    parts += [(f"memories.{e.key}", e.value) for e in entries(node.get("memories"))]
+    regions = sorted(((_region(value) or Region(0, 0), name, value) for name, value in parts), key=_origin_of)
+    for region, name, value in regions:
+        if region.origin + region.size > _ADDRESS_SPACE:
+            diagnostics.error(f"'{name}' ends beyond 32 bits of address", value.span, "Lower its size")
+        if region.offset >= region.size:
+            diagnostics.error(f"'{name}.offset' leaves nothing of it", value.span, "Lower the offset")
+    for (first, name, value), (second, other, after) in pairwise(regions):
+        if first.origin + first.size > second.origin:
+            names = " and ".join(f"'{n}'" for n in sorted((name, other)))
+            later = max(value, after, key=lambda part: (part.span.line, part.span.column))
+            diagnostics.error(f"{names} overlap", later.span, "Lower a size, or move an origin")
+    held: dict[str, str] = {}
+    for entry in entries(node.get("memories")):
+        for item in items(child(entry.value, "holds")):
+            what = text_of(item) or ""
+            if held.setdefault(what, entry.key) != entry.key:
+                message = f"'{what}' lies in 'memories.{held[what]}' already"
+                diagnostics.error(message, item.span, "Remove it here or there")
+
+
+def _origin_of(part: tuple[Region, str, YamlNode]) -> int:
+    return part[0].origin
+
+
+def _check_image_keys(node: MappingNode, diagnostics: Diagnostics) -> None:
+    """Report keys that only an image has."""
+    if node.get("flash") is not None and not bool_of(node.get("hosted")):
+        return
+    for owner, key in (("memories", None), ("stdio", None), ("hooks", "clocks")):
+        found = node.get(owner) if key is None else child(node.get(owner), key)
+        if found is not None:
+            name = owner if key is None else f"{owner}.{key}"
+            hint = "Add `flash` and `ram`, or remove it"
+            diagnostics.error(f"'{name}' has no effect without an image of this project", found.span, hint)
+
+
+def _check_stdio(node: MappingNode, port: str, diagnostics: Diagnostics) -> None:
+    stdio = node.get("stdio")
+    to = text_of(child(stdio, "to"))
+    for key in ("driver", "base", "baud"):
+        found = child(stdio, key)
+        if found is not None and to != "uart":
+            diagnostics.error(f"stdio: {to} has no `{key}`", found.span, f"Remove `{key}`, or take to: uart")
+        if found is None and to == "uart" and key != "baud":
+            diagnostics.error(f"'stdio' lacks the key '{key}'", (stdio or node).span, f"Add `{key}: …`")
+    floats = child(stdio, "floats")
+    if floats is not None and port != "port_cortex_m":
+        text = f"'stdio.floats' has no effect with {port}: its C library, picolibc, always formats %f"
+        diagnostics.error(text, floats.span, "Remove `floats`")
+    driver = child(stdio, "driver")
+    if driver is not None and to == "uart" and text_of(driver) not in PORTS.get(port, ()):
+        has = ", ".join(name for name in PORTS.get(port, ()) if name in _STDIO_DRIVERS) or "none"
+        hint = f"Its drivers for output are: {has}. With `to: application` the program has one"
+        diagnostics.error(f"{port} has no driver '{text_of(driver)}'", driver.span, hint)
+
+
+def _check_interrupts(node: MappingNode, diagnostics: Diagnostics) -> None:
+    uart = _uart(node.get("uart"))
+    taken = uart.interrupts if uart else ()
+    for entry in entries(node.get("interrupts")):
+        if int(entry.key) in taken:
+            hint = "Remove it here, or remove `uart:`"
+            diagnostics.error(f"interrupt {entry.key} is taken by 'uart'", entry.key_span, hint)
+
+
+def _text(node: MappingNode, key: str) -> str:
+    return text_of(node.get(key)) or ""
+
+
+def _texts(node: YamlNode | None) -> tuple[str, ...]:
+    return tuple(text_of(item) or "" for item in items(node))

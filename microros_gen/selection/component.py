@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Components and profiles, as their YAML files describe them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from microros_gen.application.model import ComponentChange
+from microros_gen.diagnostics import Span
+from microros_gen.documents.named import Named
+
+NOT_READY = "this version of microros-gen does not have yet"
+"""Ends the sentence that says why something planned is refused."""
+
+
+@dataclass(frozen=True)
+class SourceFile:
+    """A file below the component's src/. `when` holds attributes of the RuntimePlan that it stands for.
+
+    `(("on_full", "error"),)`: only in a plan whose `on_full` is `error`; empty: always.
+    """
+
+    path: str
+    when: tuple[tuple[str, str | int | bool], ...] = ()
+
+
+@dataclass(frozen=True)
+class Component:
+    """One component: what it needs, what it adds to the wire, which files it brings.
+
+    `layer` is `micro-ROS` for the eleven of D1.4 (4.10.3), `middleware` or `port` for what they stand on.
+    `ready` is false for a component that the resolver knows and the runtime does not have yet.
+    `headers` are public headers below include/; they become an `#error` when the component is not selected.
+    `sends`, `receives` name XRCE submessages; `objects` name XRCE object kinds that the client creates.
+    """
+
+    name: str
+    summary: str
+    layer: str
+    ready: bool
+    needs: tuple[str, ...] = ()
+    xrce: tuple[str, ...] = ()
+    sends: tuple[str, ...] = ()
+    receives: tuple[str, ...] = ()
+    objects: tuple[str, ...] = ()
+    headers: tuple[str, ...] = ()
+    sources: tuple[SourceFile, ...] = ()
+
+
+@dataclass(frozen=True)
+class Profile:
+    """A micro-ROS profile: components, and defaults for the axes (None: no opinion)."""
+
+    name: str
+    summary: str
+    extends: tuple[Named, ...] = ()
+    components: tuple[ComponentChange, ...] = ()
+    entities: Named | None = None
+    liveliness: Named | None = None
+    transport: Named | None = None
+    builtin: bool = False
+    span: Span | None = None
+    logging: Named | None = None
+    clock: Named | None = None
+
+
+@dataclass(frozen=True)
+class ProfileSet:
+    """Profiles as they were read: what was asked for, and everything that it extends.
+
+    Keys of `profiles`, and the names in `requested` and in each profile's `extends`, are the name of a
+    built-in profile or the path of a user's file.
+    """
+
+    requested: tuple[Named, ...]
+    profiles: Mapping[str, Profile]
+
+
+@dataclass(frozen=True)
+class ResolvedProfile:
+    """A profile with everything that it extends folded in; what stands nearer to it wins.
+
+    `requested` is where the user asks for it; None: on the command line.
+
+    `adds` and `drops` hold each component once, with the place that decided it. `axes` maps an axis
+    (`entities`, `transport`, `liveliness`, `logging`, `clock`) to the value chosen and its place.
+    """
+
+    name: str
+    summary: str
+    adds: tuple[Named, ...] = ()
+    drops: tuple[Named, ...] = ()
+    axes: Mapping[str, Named] = field(default_factory=dict)
+    builtin: bool = False
+    span: Span | None = None
+    requested: Span | None = None
+
+    def place(self, span: Span | None) -> Span | None:
+        """Return where the user can change what stands at `span`: there, or where this profile is asked for.
+
+        Built-in profiles are no files of the user's.
+        """
+        if self.builtin:
+            return self.requested
+        own = self.span is not None and span is not None and span.source.name == self.span.source.name
+        return span if own else self.span
+
+
+@dataclass(frozen=True)
+class XrceProfile:
+    """A profile of OMG DDS-XRCE 1.0, clause 2. `allows` names the submessages that a client may exchange."""
+
+    name: str
+    summary: str
+    allows: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True)
+class AxisValue:
+    """What one value of an axis brings (profiles/middleware.yaml).
+
+    `component` is selected with it; `xrce` are XRCE profiles of the client, `agent` of the agent's side
+    alone. `allows` names submessages that it adds to those of the XRCE profiles.
+    """
+
+    axis: str
+    value: str
+    component: str | None = None
+    xrce: tuple[str, ...] = ()
+    agent: tuple[str, ...] = ()
+    allows: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Middleware:
+    """The middleware table (profiles/middleware.yaml): D1.4, 4.10.3.2 and OMG DDS-XRCE 1.0, clause 2.
+
+    `components` maps a micro-ROS component to the XRCE profiles that it needs; `axes` maps an axis to its
+    values, `defaults` to the value that holds where nobody chose.
+    """
+
+    components: Mapping[str, tuple[str, ...]]
+    xrce_profiles: Mapping[str, XrceProfile]
+    axes: Mapping[str, Mapping[str, AxisValue]]
+    defaults: Mapping[str, str]
+
+
+Catalogue = Mapping[str, Component]
+"""All components by name, as `sources.components.load_catalogue` reads them; cannot be changed."""

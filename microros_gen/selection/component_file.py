@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`component.yaml` → Component. The format: docs/architecture.md, "What a component brings"."""
+
+from __future__ import annotations
+
+from microros_gen.diagnostics import Diagnostics, Source, reads
+from microros_gen.documents.tree_read import check_keys, expect_mapping, read_choice, read_names, read_text
+from microros_gen.documents.tree_values import items, text_of
+from microros_gen.documents.yaml_tree import MappingNode, ScalarNode, SequenceNode, YamlNode, parse_yaml
+from microros_gen.selection.component import Component, SourceFile
+from microros_gen.selection.xrce import OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
+
+LAYERS = ("micro-ROS", "middleware", "port")
+_REQUIRED = ("component", "summary", "layer", "status")
+_LISTS = ("needs", "xrce", "sends", "receives", "objects", "headers", "sources")
+_STATUS = ("ready", "planned")
+
+
+@reads
+def parse_component(source: Source, diagnostics: Diagnostics) -> Component | None:
+    """Return the component that `source` describes; None and errors in `diagnostics` where it is not one."""
+    before = diagnostics.has_errors()
+    node = expect_mapping(parse_yaml(source, diagnostics), "a component file", diagnostics)
+    if node is None:
+        if not diagnostics.has_errors():
+            diagnostics.error(f"the component file '{source.name}' is empty")
+        return None
+    check_keys(node, (*_REQUIRED, *_LISTS), _REQUIRED, diagnostics)
+    layer = read_choice(node, "layer", LAYERS, diagnostics)
+    status = read_choice(node, "status", _STATUS, diagnostics)
+    component = Component(
+        name=read_text(node, "component", diagnostics),
+        summary=read_text(node, "summary", diagnostics),
+        layer=layer.name if layer else "",
+        ready=status is not None and status.name == "ready",
+        needs=_names(node, "needs", diagnostics),
+        xrce=_names(node, "xrce", diagnostics, XRCE_PROFILES),
+        sends=_names(node, "sends", diagnostics, tuple(SUBMESSAGES)),
+        receives=_names(node, "receives", diagnostics, tuple(SUBMESSAGES)),
+        objects=_names(node, "objects", diagnostics, tuple(OBJECT_KINDS)),
+        headers=_names(node, "headers", diagnostics),
+        sources=_sources(node, diagnostics),
+    )
+    return component if before or not diagnostics.has_errors() else None
+
+
+def _sources(node: MappingNode, diagnostics: Diagnostics) -> tuple[SourceFile, ...]:
+    """Read a list of `x.c` and `{file: x.c, when: {on_full: error}}`."""
+    value = node.get("sources")
+    if value is not None and not isinstance(value, SequenceNode):
+        diagnostics.error("'sources' must be a list", value.span, "Write `sources: [a.c, b.c]`")
+    found = [(item, _source(item)) for item in items(value)]
+    for item, source in found:
+        if source is None:
+            hint = "Write `x.c` or `{file: x.c, when: {on_full: error}}`"
+            diagnostics.error("'sources' must list files", item.span, hint)
+    return tuple(source for _, source in found if source is not None)
+
+
+def _source(item: YamlNode) -> SourceFile | None:
+    if not isinstance(item, MappingNode):
+        text = text_of(item)
+        return SourceFile(text) if text else None
+    text, when = text_of(item.get("file")), item.get("when")
+    if not text or not isinstance(when, MappingNode) or set(item.entries) != {"file", "when"}:
+        return None
+    values = [(e.key, e.value.value) for e in when if isinstance(e.value, ScalarNode)]
+    conditions = tuple((k, v) for k, v in values if isinstance(v, (str, int)))
+    return SourceFile(text, conditions) if len(conditions) == len(when.entries) else None
+
+
+def _names(
+    node: MappingNode, key: str, diagnostics: Diagnostics, known: tuple[str, ...] | None = None
+) -> tuple[str, ...]:
+    return tuple(name.name for name in read_names(node, key, diagnostics, known))

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the declarations of an application ask for: components of the API, and streams."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from microros_gen.application.model import Application, EndpointDecl, NodeDecl
+from microros_gen.application.names import expand_topic_name
+from microros_gen.diagnostics import Span
+from microros_gen.selection.profiles import at
+
+STREAM_BEST_EFFORT = "stream_best_effort"
+STREAM_BEST_EFFORT_INPUT = "stream_best_effort_input"
+STREAM_RELIABLE = "stream_reliable"
+STREAM_RELIABLE_INPUT = "stream_reliable_input"
+
+COMPONENT_OF_KIND = {
+    "publisher": "publish",
+    "subscription": "subscribe",
+    "service": "services",
+    "client": "services",
+}
+
+
+@dataclass(frozen=True)
+class Demand:
+    """`component` is asked for by `text` (readable, with its place), which stands at `span`."""
+
+    component: str
+    text: str
+    span: Span | None = None
+
+
+def declared_components(application: Application) -> Iterator[Demand]:
+    """Yield the micro-ROS component that each declaration of a node needs in order to be created at all."""
+    for node in application.nodes:
+        for endpoint in node.endpoints:
+            yield Demand(COMPONENT_OF_KIND[endpoint.kind], _article(endpoint.kind), endpoint.span)
+        for timer in node.timers:
+            yield Demand("timers", "a timer", timer.span)
+        for parameter in node.parameters:
+            yield Demand("parameters", "a parameter", parameter.span)
+        for executor in node.executors:
+            yield Demand("executor", "an executor", executor.span)
+
+
+def stream_demands(application: Application, selected: frozenset[str], entities: str) -> Iterator[Demand]:
+    """Yield the streams that entities and their creation need, for the components that are `selected`.
+
+    A client without entities of its own making (`preconfigured`) creates nothing. Without `nodes:` any entity
+    may be created, reliable ones too: rclc_publisher_init_default and rclc_subscription_init_default are.
+    """
+    if entities != "preconfigured":
+        yield from _creation_demands(application, entities)
+    if application.nodes:
+        for node in application.nodes:
+            for endpoint in node.endpoints:
+                yield from _endpoint_demands(node, endpoint, selected)
+        return
+    span = application.spans.get("interfaces")
+    if "publish" in selected:
+        text = "publishers without `nodes:` ({} makes a {} one)"
+        yield Demand(STREAM_RELIABLE, text.format("rclc_publisher_init_default", "reliable"), span)
+        yield Demand(STREAM_BEST_EFFORT, text.format("rclc_publisher_init_best_effort", "best effort"), span)
+    if "subscribe" in selected:
+        text = "subscriptions without `nodes:` (rclc_subscription_init_default makes a reliable one)"
+        yield Demand(STREAM_RELIABLE_INPUT, text, span)
+        text = "subscriptions without `nodes:` (rclc_subscription_init_best_effort makes a best effort one)"
+        yield Demand(STREAM_BEST_EFFORT_INPUT, text, span)
+
+
+def _creation_demands(application: Application, entities: str) -> Iterator[Demand]:
+    creation = application.creation
+    if creation is None or creation.name != "reliable":
+        yield Demand(STREAM_BEST_EFFORT, f"entities: {entities} (CREATE goes on the best effort stream)")
+        return
+    create = "creation: reliable (CREATE goes on the reliable stream)"
+    status = "creation: reliable (STATUS comes on the agent's reliable stream)"
+    yield Demand(STREAM_RELIABLE, create, creation.span)
+    yield Demand(STREAM_RELIABLE_INPUT, status, creation.span)
+
+
+def _endpoint_demands(node: NodeDecl, endpoint: EndpointDecl, selected: frozenset[str]) -> Iterator[Demand]:
+    if COMPONENT_OF_KIND[endpoint.kind] not in selected:
+        return
+    reliable = endpoint.qos.reliability == "reliable"
+    where = f"{expand_topic_name(endpoint.topic, node.name, node.namespace)}{at(endpoint.span)}"
+    if endpoint.kind == "publisher":
+        stream = STREAM_RELIABLE if reliable else STREAM_BEST_EFFORT
+        yield Demand(stream, f"a {_reliability(reliable)} publisher on {where}", endpoint.span)
+    elif endpoint.kind == "subscription":
+        stream = STREAM_RELIABLE_INPUT if reliable else STREAM_BEST_EFFORT_INPUT
+        yield Demand(stream, f"a {_reliability(reliable)} subscription on {where}", endpoint.span)
+
+
+def _reliability(reliable: bool) -> str:
+    return "reliable" if reliable else "best effort"
+
+
+def _article(kind: str) -> str:
+    return f"a {kind}"

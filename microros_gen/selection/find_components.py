@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads the components that ship with the tool: one folder each, described by its `component.yaml`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
+
+from microros_gen.diagnostics import Diagnostics, Source, nearest
+from microros_gen.documents.files import read_text
+from microros_gen.selection.component import Catalogue, Component
+from microros_gen.selection.component_file import parse_component
+
+COMPONENT_FILE = "component.yaml"
+_FUNCTION = re.compile(
+    r"(?:\b|#define )((?:rclc?|rmw|rcutils|rosidl|micro_ros|uxr)_\w+)(?=\(| \w+$)", re.MULTILINE
+)
+
+_COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*|\{#.*?#\}", re.DOTALL)
+
+
+def components_folder() -> Path:
+    """Return the folder of the components that ship with the tool."""
+    return Path(__file__).resolve().parent.parent / "components"
+
+
+def load_catalogue(folder: Path | None = None) -> Catalogue:
+    """Return every component below `folder` (the tool's own unless given) by name, in the order of the names.
+
+    Raises UserError with all that is wrong: an unreadable or faulty file, a component that is not named as
+    its folder, and a `needs` that names no component.
+    """
+    root = components_folder() if folder is None else folder
+    diagnostics = Diagnostics()
+    found: dict[str, Component] = {}
+    for path in sorted(root.glob(f"*/{COMPONENT_FILE}")):
+        component = _read(path, root, diagnostics)
+        if component is not None:
+            found[component.name] = component
+    for component in found.values():
+        _check_needs(component, found, diagnostics)
+    diagnostics.check()
+    return MappingProxyType(found)
+
+
+def declared_functions(catalogue: Catalogue) -> Mapping[str, str]:
+    """Return which ready component declares each function of the C API, from the public headers below its include/."""
+    found: dict[str, str] = {}
+    for component in catalogue.values():
+        folder = components_folder() / component.name / "include"
+        for header in component.headers if component.ready else ():
+            path = folder / header
+            path = path if path.exists() else path.with_name(f"{path.name}.j2")
+            if path.exists():
+                for name in _FUNCTION.findall(_COMMENT.sub("", read_text(path))):
+                    found.setdefault(name, component.name)
+    return MappingProxyType(found)
+
+
+def _read(path: Path, root: Path, diagnostics: Diagnostics) -> Component | None:
+    shown = path.relative_to(root).as_posix()
+    try:
+        source = Source(shown, read_text(path))
+    except (OSError, UnicodeDecodeError) as fault:
+        diagnostics.error(f"cannot read the component file '{shown}': {fault}")
+        return None
+    component = parse_component(source, diagnostics)
+    if component is not None and component.name != path.parent.name:
+        diagnostics.error(f"'{shown}' describes '{component.name}'", None, "Name the folder as the component")
+        return None
+    return component
+
+
+def _check_needs(component: Component, found: dict[str, Component], diagnostics: Diagnostics) -> None:
+    for name in component.needs:
+        if name not in found:
+            message = f"the component '{component.name}' needs '{name}', which there is not"
+            diagnostics.error(message, None, nearest(name, found))

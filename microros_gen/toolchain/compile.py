@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Compiles an output folder: objects that are up to date stay, the rest is compiled side by side."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+
+from microros_gen.client.plan.project import Project
+from microros_gen.diagnostics import Diagnostic, UserError
+from microros_gen.toolchain.stamps import Stamps
+from microros_gen.toolchain.toolchain import WARNINGS, Toolchain, run
+
+OBJECTS = ".build"
+LIBRARY = "lib/libmicroros.a"
+MAP = f"{OBJECTS}/image.map"
+TOOLS = f"{OBJECTS}/tools.json"
+SCRIPT_STAMP = f"{OBJECTS}/linker_script.sha256"
+# What programs that write flash take, beside the ELF file: endings and objcopy's names.
+_FLASH_FORMATS = {".hex": "ihex", ".bin": "binary"}
+_OVERFLOW = re.compile(r"region `?(\w+)'? overflowed by (\d+) bytes")
+# What gcc (10 and newer) says of each function: its frame, and whom it calls. Written beside the object, as .ci.
+CALL_GRAPH = "-fcallgraph-info=su"
+
+
+@dataclass(frozen=True)
+class BuildReport:
+    """What was built (paths relative to the output folder), and how many objects were compiled or kept."""
+
+    library: str
+    image: str | None
+    compiled: int
+    kept: int
+
+
+@dataclass(frozen=True)
+class _Unit:
+    source: str
+    object: str
+    command: tuple[str, ...]
+
+
+def compile_project(out: Path, project: Project, tools: Toolchain) -> BuildReport:
+    """Compile the sources that `project` was written to `out` with, and link its example where it can be."""
+    sources = (out / "sources.txt").read_text(encoding="utf-8").split("\n")[:-1]
+    image = None if project.lacks_image else project.image
+    return compile_tree(out, sources, project.example, image, tools, project.linker_script)
+
+
+def compile_tree(
+    out: Path,
+    sources: Sequence[str],
+    example: str,
+    image: str | None,
+    tools: Toolchain,
+    script: str | None = None,
+) -> BuildReport:
+    """Compile `sources` (relative paths) to lib/libmicroros.a, and `example` with it to bin/`image`.
+
+    `image` None: the example is compiled and not linked. `script` is the linker script of an image for a board,
+    which also gets bin/`image` as .hex and .bin.
+
+    Raises UserError with status 1 and the compiler's own words when a step fails.
+    """
+    facts = _call_graph_flags(tools, out)
+    library_units = [_unit(source, tools, facts) for source in sources]
+    example_unit = _unit(example, tools, facts)
+    stamps = Stamps(out, out / OBJECTS / "stamps.json")
+    units = [*library_units, example_unit]
+    stale = [unit for unit in units if not stamps.is_fresh(unit.object, unit.command)]
+    try:
+        _compile(out, stale, stamps)
+    finally:
+        stamps.save(unit.object for unit in units)
+    if stale or not (out / LIBRARY).is_file():
+        _archive(out, [u.object for u in library_units], tools)
+    linked = _images(out, f"bin/{image}", example_unit.object, tools, script, bool(stale)) if image else ()
+    _record(out, tools, call_graph=bool(facts))
+    _remove_others(out, {u.object for u in units}, {LIBRARY, *linked})
+    return BuildReport(LIBRARY, linked[0] if linked else None, len(stale), len(units) - len(stale))
+
+
+def object_name(source: str) -> str:
+    """Return the object of a C file, below the output folder; members of the library have names of their own.
+
+    `src/std_msgs/int32__functions.c` → `.build/src/std_msgs/std_msgs__int32__functions.o`.
+    """
+    path = PurePosixPath(source)
+    name = f"{path.parent.name}__{path.stem}" if path.parts[0] == "src" else path.stem
+    return f"{OBJECTS}/{path.parent}/{name}.o"
+
+
+def _call_graph_flags(tools: Toolchain, out: Path) -> tuple[str, ...]:
+    probe = [tools.compiler, CALL_GRAPH, "-E", "-x", "c", os.devnull, "-o", os.devnull]
+    return (CALL_GRAPH,) if run(probe, out).returncode == 0 else ()
+
+
+def _unit(source: str, tools: Toolchain, facts: Sequence[str]) -> _Unit:
+    target = object_name(source)
+    depends = target.removesuffix(".o") + ".d"
+    flags = (*WARNINGS, *tools.c_flags, *facts, "-Iinclude", "-MMD", "-MF", depends)
+    return _Unit(source, target, (tools.compiler, *flags, "-c", source, "-o", target))
+
+
+def _record(out: Path, tools: Toolchain, call_graph: bool) -> None:
+    """Say what built this folder, for `size` and `explain`."""
+    data = {"compiler": tools.compiler, "archiver": tools.archiver, "call_graph": call_graph}
+    (out / TOOLS).write_text(json.dumps(data, sort_keys=True), encoding="utf-8")
+
+
+def _compile(out: Path, units: Sequence[_Unit], stamps: Stamps) -> None:
+    for unit in units:
+        (out / unit.object).parent.mkdir(parents=True, exist_ok=True)
+    with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+        results = list(pool.map(lambda unit: run(unit.command, out), units))
+    failed = []
+    for unit, result in zip(units, results, strict=True):
+        if result.returncode == 0:
+            stamps.record(unit.object, unit.command, _dependencies(out / unit.object))
+        else:
+            failed.append(Diagnostic(f"{unit.source} does not compile:\n{result.stdout.rstrip()}"))
+    if failed:
+        raise UserError(failed, status=1)
+
+
+def _dependencies(object_path: Path) -> list[str]:
+    text = object_path.with_suffix(".d").read_text(encoding="utf-8").replace("\\\n", " ")
+    names = text.split(":", 1)[1].replace("\\ ", "\0").split()
+    return [name.replace("\0", " ") for name in names]
+
+
+def _archive(out: Path, objects: Sequence[str], tools: Toolchain) -> None:
+    (out / LIBRARY).parent.mkdir(parents=True, exist_ok=True)
+    fresh = f"{OBJECTS}/libmicroros.a"
+    (out / fresh).unlink(missing_ok=True)
+    _must_succeed([tools.archiver, "rcsD", fresh, *objects], out, "the library cannot be archived")
+    (out / fresh).replace(out / LIBRARY)
+
+
+def _images(
+    out: Path, image: str, main_object: str, tools: Toolchain, script: str | None, stale: bool
+) -> tuple[str, ...]:
+    """Link what is not up to date; return the files below bin/, the one with symbols first."""
+    products = [image]
+    if script is not None and tools.objcopy is not None:
+        products += [str(PurePosixPath(image).with_suffix(suffix)) for suffix in _FLASH_FORMATS]
+    digest = _digest_of(out, script)
+    is_there = all((out / product).is_file() for product in (*products, MAP))
+    if stale or not is_there or _text(out / SCRIPT_STAMP) != digest:
+        _link(out, main_object, image, tools, script)
+        for product in products[1:]:
+            _convert(out, image, product, tools)
+        (out / SCRIPT_STAMP).write_text(digest, encoding="utf-8")
+    return tuple(products)
+
+
+def _link(out: Path, main_object: str, image: str, tools: Toolchain, script: str | None) -> None:
+    (out / image).parent.mkdir(parents=True, exist_ok=True)
+    fresh = f"{OBJECTS}/image"
+    objects = [main_object, LIBRARY, *tools.libraries]
+    flags = [*tools.c_flags, *tools.link_flags, f"-Wl,-Map={MAP}", *(("-T", script) if script else ())]
+    result = run([tools.compiler, *flags, *objects, "-o", fresh], out)
+    if result.returncode != 0:
+        hint = _too_large(result.stdout)
+        what = f"the example cannot be linked:\n{result.stdout.rstrip()}"
+        raise UserError([Diagnostic(what, hint=hint)], status=1)
+    (out / fresh).replace(out / image)
+
+
+def _too_large(said: str) -> str | None:
+    """Return what to do where the linker says that a memory region is too small."""
+    match = _OVERFLOW.search(said)
+    if match is None:
+        return None
+    region, size = match.groups()
+    lower = (
+        "memory.stack, pools or limits"
+        if region == "RAM"
+        else "what is selected, or `errors: text` to `errors: code`"
+    )
+    return f"It takes {size} bytes more than the target's {region.lower()}: lower {lower}"
+
+
+def _convert(out: Path, image: str, product: str, tools: Toolchain) -> None:
+    assert tools.objcopy is not None
+    fresh = f"{OBJECTS}/image{PurePosixPath(product).suffix}"
+    kind = _FLASH_FORMATS[PurePosixPath(product).suffix]
+    _must_succeed([tools.objcopy, "-O", kind, image, fresh], out, "the image cannot be converted")
+    (out / fresh).replace(out / product)
+
+
+def _digest_of(out: Path, script: str | None) -> str:
+    return hashlib.sha256((out / script).read_bytes()).hexdigest() if script else "none"
+
+
+def _text(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8")
+    except OSError:
+        return ""
+
+
+def _must_succeed(command: Sequence[str], out: Path, what: str) -> None:
+    result = run(command, out)
+    if result.returncode != 0:
+        raise UserError([Diagnostic(f"{what}:\n{result.stdout.rstrip()}")], status=1)
+
+
+def _remove_others(out: Path, objects: set[str], products: set[str]) -> None:
+    for path in (out / OBJECTS).rglob("*.o"):
+        if path.relative_to(out).as_posix() not in objects:
+            path.unlink()
+            for suffix in (".d", ".ci"):
+                path.with_suffix(suffix).unlink(missing_ok=True)
+    for folder in ("lib", "bin"):
+        for path in (out / folder).glob("*"):
+            if path.is_file() and path.relative_to(out).as_posix() not in products:
+                path.unlink()

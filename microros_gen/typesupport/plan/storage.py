@@ -1,0 +1,402 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Static storage of a message under its limits: one typed struct, and the steps that bind a message to it.
+
+A topic whose own limits are lower than those of its type has a struct and a bind function of its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Union
+
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.interfaces.types import (
+    ArrayType,
+    Field,
+    Message,
+    NamedType,
+    Primitive,
+    ScalarValue,
+    SequenceType,
+    StringType,
+    TypeName,
+    element_of,
+)
+from microros_gen.typesupport.plan.capacity import TopicLimits
+from microros_gen.typesupport.plan.layout import Extent, StructLayouts, struct_extent
+from microros_gen.typesupport.plan.names import c_name
+from microros_gen.typesupport.plan.own_limits import TopicNames
+from microros_gen.typesupport.plan.size import PLACEHOLDER, FieldLimits, TypeLimits
+
+
+@dataclass(frozen=True)
+class StorageMember:
+    """An array in the storage; `dimensions` is empty for one value.
+
+    Of numbers, characters of a string, strings, messages, or the storage of a nested type (`unit`: the name
+    of its struct); exactly one of these is set.
+    """
+
+    name: str
+    dimensions: tuple[int, ...]
+    primitive: Primitive | None = None
+    characters: StringType | None = None
+    strings: StringType | None = None
+    message: TypeName | None = None
+    unit: str | None = None
+
+
+@dataclass(frozen=True)
+class SetNumber:
+    """A member (an element of an array: `index`) that starts with a number other than zero."""
+
+    member: str
+    primitive: Primitive
+    value: ScalarValue
+    index: int | None = None
+
+
+@dataclass(frozen=True)
+class InitMessages:
+    """An array of messages of fixed size that start with other values than zero."""
+
+    member: str
+    type: TypeName
+    count: int
+
+
+@dataclass(frozen=True)
+class BindText:
+    """A string; `storage` is its array of characters."""
+
+    member: str
+    storage: str
+    wide: bool
+    default: str
+
+
+@dataclass(frozen=True)
+class BindTexts:
+    """An array or a sequence (`sequence`) of strings; `count` elements that exist, `defaults` of the first
+    ones."""
+
+    member: str
+    storage: str
+    characters: str
+    wide: bool
+    count: int
+    sequence: bool
+    defaults: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class BindNumbers:
+    """A sequence of numbers; `defaults` are its first elements."""
+
+    member: str
+    storage: str
+    primitive: Primitive
+    count: int
+    defaults: tuple[ScalarValue, ...]
+
+
+@dataclass(frozen=True)
+class BindMessages:
+    """An array or a sequence of messages; `bind` binds one element to `unit`, None for elements of fixed
+    size."""
+
+    member: str
+    storage: str
+    type: TypeName
+    unit: str
+    bind: str | None
+    init: bool
+    count: int
+    sequence: bool
+
+
+@dataclass(frozen=True)
+class BindPart:
+    """A nested message of variable length."""
+
+    member: str
+    storage: str
+    bind: str
+
+
+BindStep = Union[  # noqa: UP007
+    SetNumber, InitMessages, BindText, BindTexts, BindNumbers, BindMessages, BindPart
+]
+
+
+@dataclass(frozen=True)
+class StorageUnit:
+    """One struct and its bind function. `private`: only for the use at `path` of a root; `topic`: for the
+    messages of this topic (empty: of the type)."""
+
+    name: str
+    bind: str
+    type: TypeName
+    path: str
+    private: bool
+    members: tuple[StorageMember, ...]
+    steps: tuple[BindStep, ...]
+    uses: tuple[TypeName, ...]
+    topic: str = ""
+
+
+def plan_storage(
+    messages: Mapping[TypeName, Message],
+    roots: Mapping[TypeName, TypeLimits | None],
+    homes: Mapping[TypeName, TypeLimits | None],
+    diagnostics: Diagnostics,
+    topics: Sequence[TopicLimits],
+    names: TopicNames,
+) -> Mapping[TypeName, tuple[StorageUnit, ...]]:
+    """Return the units of each root's storage file, and of the types that they share.
+
+    In a file those of `topics` come first, inner units before those that contain them; the type's own is the
+    last.
+    """
+    planned: dict[TypeName, tuple[StorageUnit, ...]] = {}
+    pending = [name for name, limits in roots.items() if limits is not None]
+    while pending:
+        name = pending.pop()
+        limits = homes.get(name)
+        if name in planned or limits is None:
+            continue
+        units: list[StorageUnit] = []
+        lower = [(names[t.type, t.topic], t.topic, t.limits) for t in topics if t.type == name]
+        for base, topic, own in [*lower, (c_name(name), "", limits)]:
+            planner = _Planner(messages, homes, name, base, topic, diagnostics)
+            planner.unit(name, own, "")
+            units += planner.units
+            pending += planner.shared
+        planned[name] = tuple(units)
+    return planned
+
+
+def storage_extents(
+    planned: Mapping[TypeName, tuple[StorageUnit, ...]], layouts: StructLayouts
+) -> Mapping[str, Extent]:
+    """Return the extent of every storage struct, by its name."""
+    units = {unit.name: unit for file in planned.values() for unit in file}
+    known: dict[str, Extent] = {}
+
+    def extent(name: str) -> Extent:
+        if name not in known:
+            parts = {m.name: _member_extent(m, layouts, extent) for m in units[name].members}
+            known[name] = struct_extent(parts)[0]
+        return known[name]
+
+    for name in units:
+        extent(name)
+    return known
+
+
+def _member_extent(member: StorageMember, layouts: StructLayouts, unit: Callable[[str], Extent]) -> Extent:
+    if member.unit is not None:
+        one = unit(member.unit)
+    elif member.message is not None:
+        one = layouts.extent(member.message)
+    elif member.strings is not None:
+        one = layouts.of(member.strings)
+    elif member.primitive is not None:
+        one = layouts.of(member.primitive)
+    else:
+        wide = member.characters is not None and member.characters.wide
+        one = Extent(2, 2) if wide else Extent(1, 1)
+    size = one.size
+    for dimension in member.dimensions:
+        size *= dimension
+    return Extent(size, one.alignment)
+
+
+class _Planner:
+    """Plans the storage file of one type."""
+
+    def __init__(
+        self,
+        messages: Mapping[TypeName, Message],
+        homes: Mapping[TypeName, TypeLimits | None],
+        owner: TypeName,
+        base: str,
+        topic: str,
+        diagnostics: Diagnostics,
+    ) -> None:
+        self.units: list[StorageUnit] = []
+        self.shared: list[TypeName] = []
+        self._messages = messages
+        self._homes = homes
+        self._owner = owner
+        self._base = base
+        self._topic = topic
+        self._diagnostics = diagnostics
+
+    def place(self, path: str) -> str:
+        """Return what a user knows the member at `path` by."""
+        return f"{self._owner}.{path}" + (f" on {self._topic}" if self._topic else "")
+
+    def unit(self, name: TypeName, limits: TypeLimits, path: str) -> str:
+        """Plan the unit for the use of `name` at `path` ("" for the owner); return its name."""
+        if path and self._homes.get(name) == limits:
+            self.shared.append(name)
+            return f"{c_name(name)}__Storage"
+        base = self._base + (f"__{path.replace('.', '__')}" if path else "")
+        builder = _UnitBuilder(self, self._messages, self._diagnostics, path)
+        builder.fields(name, limits, "")
+        uses = tuple(dict.fromkeys(builder.uses))
+        if not builder.members:
+            builder.members.append(StorageMember(PLACEHOLDER.name, (), primitive=Primitive.UINT8))
+        self.units.append(
+            StorageUnit(
+                f"{base}__Storage",
+                f"{base}__bind",
+                name,
+                path,
+                bool(path),
+                tuple(builder.members),
+                tuple(builder.steps),
+                uses,
+                self._topic,
+            )
+        )
+        return f"{base}__Storage"
+
+
+class _UnitBuilder:
+    """Gathers members and steps of one unit."""
+
+    def __init__(
+        self, planner: _Planner, messages: Mapping[TypeName, Message], diagnostics: Diagnostics, path: str
+    ) -> None:
+        self.members: list[StorageMember] = []
+        self.steps: list[BindStep] = []
+        self.uses: list[TypeName] = []
+        self._planner = planner
+        self._messages = messages
+        self._diagnostics = diagnostics
+        self._path = path
+
+    def fields(self, name: TypeName, limits: TypeLimits | None, prefix: str) -> None:
+        """Add every field of `name`."""
+        fields = self._messages[name].fields
+        entries = limits.fields if limits else (None,) * len(fields)
+        for field, entry in zip(fields, entries, strict=True):
+            self._field(field, f"{prefix}{field.name}", entry)
+
+    def _field(self, field: Field, member: str, limits: FieldLimits | None) -> None:
+        element = element_of(field.type)
+        sequence = isinstance(field.type, SequenceType)
+        count = field.type.size if isinstance(field.type, ArrayType) else None
+        if sequence:
+            count = (limits.sequence or 0) if limits else 0
+        defaults = _defaults(field)
+        if sequence and count is not None and len(defaults) > count:
+            self._too_small(field, member, "sequence", len(defaults), count)
+            defaults = defaults[:count]
+        if isinstance(element, StringType):
+            self._strings(field, element, member, count, (limits.string or 0) if limits else 0, defaults)
+        elif isinstance(element, NamedType):
+            self._messages_of(element.name, field, member, count, limits.nested if limits else None)
+        elif sequence:
+            self._numbers(element, member, count or 0, defaults)
+        else:
+            self._number_defaults(element, member, count, defaults)
+
+    def _numbers(
+        self, primitive: Primitive, member: str, count: int, defaults: tuple[ScalarValue, ...]
+    ) -> None:
+        if count:
+            self.members.append(StorageMember(member, (count,), primitive=primitive))
+            self.steps.append(BindNumbers(member, member, primitive, count, defaults))
+
+    def _number_defaults(
+        self, primitive: Primitive, member: str, count: int | None, defaults: tuple[ScalarValue, ...]
+    ) -> None:
+        for index, value in enumerate(defaults):
+            if value:
+                self.steps.append(SetNumber(member, primitive, value, None if count is None else index))
+
+    def _strings(
+        self,
+        field: Field,
+        element: StringType,
+        member: str,
+        count: int | None,
+        length: int,
+        defaults: tuple[ScalarValue, ...],
+    ) -> None:
+        texts = tuple(str(value) for value in defaults)
+        for text in texts:
+            if text_length(text, element.wide) > length:
+                self._too_small(field, member, "string", text_length(text, element.wide), length)
+        if count is None:
+            self.members.append(StorageMember(member, (length + 1,), characters=element))
+            self.steps.append(BindText(member, member, element.wide, texts[0] if texts else ""))
+        elif count:
+            sequence = isinstance(field.type, SequenceType)
+            characters = f"{member}__text" if sequence else member
+            if sequence:
+                self.members.append(StorageMember(member, (count,), strings=element))
+            self.members.append(StorageMember(characters, (count, length + 1), characters=element))
+            self.steps.append(BindTexts(member, member, characters, element.wide, count, sequence, texts))
+
+    def _messages_of(
+        self, name: TypeName, field: Field, member: str, count: int | None, limits: TypeLimits | None
+    ) -> None:
+        sequence = isinstance(field.type, SequenceType)
+        if limits is None and count is None:
+            self.fields(name, None, f"{member}.")
+            return
+        if count == 0:
+            return
+        if limits is None and not sequence:
+            if self._has_defaults(name):
+                self.uses.append(name)
+                self.steps.append(InitMessages(member, name, count or 0))
+            return
+        path = f"{self._path}.{field.name}" if self._path else field.name
+        unit = self._planner.unit(name, limits, path) if limits else ""
+        bind = unit.removesuffix("__Storage") + "__bind" if unit else None
+        if sequence:
+            self.members.append(StorageMember(member, (count or 0,), message=name))
+        self.uses.append(name)
+        if count is None:
+            self.members.append(StorageMember(member, (), unit=unit))
+            self.steps.append(BindPart(member, member, bind or ""))
+            return
+        storage = f"{member}__storage" if sequence else member
+        if unit:
+            self.members.append(StorageMember(storage, (count,), unit=unit))
+        init = bind is None and self._has_defaults(name)
+        self.steps.append(BindMessages(member, member, name, storage, bind, init, count, sequence))
+
+    def _has_defaults(self, name: TypeName) -> bool:
+        for field in self._messages[name].fields:
+            element = element_of(field.type)
+            if any(_defaults(field)):
+                return True
+            if isinstance(element, NamedType) and self._has_defaults(element.name):
+                return True
+        return False
+
+    def _too_small(self, field: Field, member: str, kind: str, needed: int, limit: int) -> None:
+        place = self._planner.place(f"{self._path}.{member}" if self._path else member)
+        self._diagnostics.error(
+            f"the default value of '{field.name}' needs a {kind} limit of {needed}, and that of {place} is {limit}",
+            field.span,
+            f"Set its {kind} limit to {needed}",
+        )
+
+
+def text_length(text: str, wide: bool) -> int:
+    """Return the length of a text as a limit counts it: UTF-8 bytes, or UTF-16 units."""
+    return len(text.encode("utf-16-le")) // 2 if wide else len(text.encode("utf-8"))
+
+
+def _defaults(field: Field) -> tuple[ScalarValue, ...]:
+    if field.default is None:
+        return ()
+    return field.default if isinstance(field.default, tuple) else (field.default,)
