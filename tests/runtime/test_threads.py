@@ -62,3 +62,11 @@ def test_nothing_is_lost_and_nothing_races(tmp_path: Path) -> None:
         values = agent.values(task if task < PUBLISHERS else 0)
         mine = [value - task * TASK_VALUES for value in values if value // TASK_VALUES == task]
         assert mine == list(range(VALUES))
+
+
+def test_two_tasks_that_ask_for_agents_do_not_share_what_came(tmp_path: Path) -> None:
+    plan = replace(EXECUTOR, multithread=True, transport="custom", framing="on")
+    tree = render(tmp_path, plan, components(plan))
+    program = build(tree, ["unit_inquiry.c"], "unit", "gcc", THREAD_SANITIZER)
+    done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stderr) == (0, "")

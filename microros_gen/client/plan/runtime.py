@@ -267,6 +267,16 @@ class RuntimePlan(TimesPlan):
         return self.input_reader is not None
 
     @property
+    def input_is_free(self) -> bool:
+        """Whether the input buffer is free between two looks at the line, for what is asked over another one.
+
+        A session keeps the part of a message there that has come over a line of bytes. A board has one such line, and
+        nothing else is asked while it is a session's.
+        """
+        lines_of_bytes = self.transport == "tcp" or bool(self.serial_device)
+        return not lines_of_bytes and (self.transport != "custom" or self.framing == "off")
+
+    @property
     def input_buffer_size(self) -> int:
         """Bytes of the buffer that messages are received in."""
         slot = 0 if self.input_reader is None else self.queues[self.input_reader].slot_size

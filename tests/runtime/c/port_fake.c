@@ -9,7 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { QUEUE = 64, DATAGRAM = 2048, LINE = 2 * DATAGRAM + 64 };
+enum { QUEUE = 64, DATAGRAM = 2048, LINE = 2 * DATAGRAM + 64, INPUT_ON_STACK = 32 };
+
+/* Where the linker puts memory that is not on the stack. */
+extern char __data_start;
+extern char _end;
 
 typedef struct datagram_t {
   size_t size;
@@ -24,7 +28,7 @@ static datagram_t group_answer;
 static uint32_t fake_now_ms = 0xffffff00u;  /* soon begins again at 0: every test passes the wrap */
 static int64_t fake_steady_ms = 5000000123; /* a device that has been on for eight weeks */
 static unsigned lock_depth;
-static bool lock_used; /* there is a lock */
+static bool lock_used;        /* there is a lock */
 static int64_t fake_epoch_ms; /* stands still; 0: not set */
 static bool send_fails;
 static bool open_fails;
@@ -181,11 +185,23 @@ static void drop_first(void)
   read_already = 0;
 }
 
+/* What comes is not received on the stack, but for a few bytes of a line. */
+static void check_buffer(const uint8_t * buffer, size_t capacity)
+{
+  const uintptr_t at = (uintptr_t)buffer;
+
+  if ((at < (uintptr_t)&__data_start || at >= (uintptr_t)&_end) && capacity > INPUT_ON_STACK) {
+    fprintf(stderr, "%zu bytes on the stack are to receive something\n", capacity);
+    abort();
+  }
+}
+
 size_t fake_read(uint8_t * buffer, size_t capacity)
 {
   const datagram_t * datagram = &queue[queue_first];
   size_t size;
 
+  check_buffer(buffer, capacity);
   fake_check_lock();
   if (queue_count == 0u) {
     return 0;
@@ -203,6 +219,7 @@ size_t fake_group_read(uint8_t * buffer, size_t capacity)
 {
   const size_t size = group_answer.size < capacity ? group_answer.size : capacity;
 
+  check_buffer(buffer, capacity);
   memcpy(buffer, group_answer.bytes, size);
   group_answer.size = 0;
   return size;

@@ -46,8 +46,9 @@ typedef struct xrce_discovery_t {
 /* Carries the search of a session on; returns whether the session has a place to connect to. Never blocks. */
 bool xrce_discovery_step(xrce_client_t * client, uint32_t now);
 
-/* Asks when that is due and takes what was answered. Returns whether there is a place that was not tried. */
-bool xrce_discovery_search(xrce_discovery_t * discovery, uint32_t now);
+/* Asks when that is due and takes what was answered. Returns whether there is a place that was not tried. `client` lends its
+ * input for the call, where that is free; `discovery` need not be its. */
+bool xrce_discovery_search(xrce_client_t * client, xrce_discovery_t * discovery, uint32_t now);
 
 /* Takes the next place: writes its address to `host` as text, and returns its port. There must be one. */
 uint16_t xrce_discovery_take(xrce_discovery_t * discovery);
