@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# find_package(microros_gen): finds the tool and defines microros_add_library(); docs/cmake.md is the manual.
+# find_package(microros_gen): finds the tool and defines microros_add_library(); docs/howto/cmake.md is the manual.
 #
 # The tool is the one that these files came with: the program of the Python environment that the wheel was installed
 # into, or this repository, run by MICROROS_GEN_PYTHON. MICROROS_GEN_COMMAND (a list: program, arguments) names another.

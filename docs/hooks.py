@@ -38,7 +38,7 @@ _SCHEMAS = {
     "target": ("Target file", "A processor or a board of your own ([how](../howto/port.md))."),
     "agent": (
         "Configuration of the agent",
-        "What `microros-gen agent --config FILE` takes ([more](../agent.md)).",
+        "What `microros-gen agent --config FILE` takes ([more](../howto/agent.md)).",
     ),
 }
 

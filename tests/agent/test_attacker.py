@@ -416,7 +416,7 @@ def test_replacing_all_the_time(stage: Stage) -> None:
 
 
 def test_hijacking(stage: Stage) -> None:
-    """Without authentication a key is enough (docs/agent.md); but its owner can take it back, and both are named."""
+    """Without authentication a key is enough (howto/agent.md); but its owner can take it back, and both are named."""
     keyed = captured.CREATE_CLIENT_KEYED.replace("a1 b2 c3 d4", "00 00 00 88")
     stage.bench.say(keyed, "owner")
     key = b"\0\0\0\x88"

@@ -68,7 +68,7 @@ def bench_agent(work: Path, other: Target | None = None) -> None:
         f"  KEEP_ALL; median of {RUNS} runs, losses of the worst; us: user and system time of the agent a sample"
     )
     print(
-        "  recorded: the public agent 2.4.3 in another machine's minutes (docs/figures.md), not of this run"
+        "  recorded: the public agent 2.4.3 in another machine's minutes (verification/figures.md), not of this run"
     )
     with _target(other) as target:
         _calibrate(programs, target.domain)

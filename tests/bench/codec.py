@@ -47,7 +47,7 @@ limits:
 
 @dataclass(frozen=True)
 class Message:
-    """A message of codec_messages.c; instructions of Micro-CDR's encode and decode, recorded (docs/figures.md)."""
+    """A message of codec_messages.c; instructions of Micro-CDR's encode and decode, recorded (figures.md)."""
 
     name: str
     label: str
@@ -84,7 +84,7 @@ def bench_codec(work: Path) -> None:
     print(
         "  Fast CDR: as rmw_fastrtps_cpp calls it, a stream object for each message; in (): the object is there"
     )
-    print("  Micro-CDR: recorded figures, docs/figures.md, not of this run")
+    print("  Micro-CDR: recorded figures, docs/verification/figures.md, not of this run")
     for what in ("encode", "decode"):
         table(what, here, peer, sizes, work)
     print()

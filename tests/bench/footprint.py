@@ -26,7 +26,7 @@ from firmware.footprint import (
 CORTEX_M4 = "qemu-mps2-an386"
 HEAD = f"{'':46} {'text':>6} {'data':>5} {'bss':>6} {'stack':>6} {'bound':>6} {'ready':>6} {'first':>6} {'publish':>8}"
 EXISTING = (
-    # Recorded (docs/figures.md): Cortex-M4, -Os, tightest settings.
+    # Recorded (docs/verification/figures.md): Cortex-M4, -Os, tightest settings.
     ("existing stack: sender of Int32, heap 632 besides", 48164, 700, 9160, 1848, 40800, 3175),
     ("existing bare XRCE client, no ROS API", 18072, 0, 4968, 1544, 19800, 2930),
     ("goal, planned", 9000, 0, 1500, 700, 12000, 600),

@@ -62,7 +62,7 @@ def project(
 
 @pytest.fixture(scope="session")
 def board(tmp_path_factory: pytest.TempPathFactory) -> Project:
-    """The example for a Cortex-M4, by the commands of docs/cmake.md."""
+    """The example for a Cortex-M4, by the commands of docs/howto/cmake.md."""
     if shutil.which("arm-none-eabi-gcc") is None:
         pytest.skip("no arm-none-eabi-gcc")
     return follow_page(tmp_path_factory.mktemp("board"), "build/app_m4")

@@ -17,7 +17,7 @@ from cli.environments import ROOT, clean_environ
 
 EXAMPLE = ROOT / "examples" / "cmake_app"
 BOARD = "qemu-mps2-an386"
-PAGE = (ROOT / "docs" / "cmake.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs" / "howto" / "cmake.md").read_text(encoding="utf-8")
 (COMMANDS,) = re.findall(r"^```sh\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
 GENERATORS = {"ninja": "Ninja", "make": "Unix Makefiles"}
 IDLE = {"ninja": "ninja: no work to do.", "make": "Built target app"}
@@ -137,7 +137,7 @@ class Project:
 
 @dataclass
 class Followed(Project):
-    """The example as docs/cmake.md builds it, in the folder that the page names."""
+    """The example as docs/howto/cmake.md builds it, in the folder that the page names."""
 
     folder: str = ""
 
@@ -147,7 +147,7 @@ class Followed(Project):
 
 
 def follow_page(folder: Path, build: str) -> Followed:
-    """Run the commands of docs/cmake.md that are for the build folder `build`; return what they made."""
+    """Run the commands of docs/howto/cmake.md that are for the build folder `build`; return what they made."""
     (folder / "examples").symlink_to(EXAMPLE.parent)
     made = Followed(folder, folder=build)
     lines = [line.split() for line in COMMANDS.splitlines() if build in line.split()]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""examples/cmake_app, built as docs/cmake.md says: for a board, and for this machine, where it talks to an agent."""
+"""examples/cmake_app, built as docs/howto/cmake.md says: for a board, and for this machine with an agent."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""docs/agent.md is true: its commands run, its file holds, and its tables have all options, limits and events."""
+"""docs/howto/agent.md is true: its commands run, its file holds, and its tables have all options, limits and events."""
 
 from __future__ import annotations
 
@@ -18,7 +18,6 @@ from pathlib import Path
 
 import click
 import pytest
-from microros_gen.cli.agent.command.command import command
 
 from microros_gen.agent.configuration.entities_file import KINDS, parse_preconfigured
 from microros_gen.agent.configuration.parser import parse_agent_file
@@ -27,10 +26,11 @@ from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.processing import Processor
 from microros_gen.agent.ros import reports
 from microros_gen.agent.transport.tcp import TcpLimits
+from microros_gen.cli.agent.command import command
 from microros_gen.diagnostics import Diagnostics, Source
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE = (ROOT / "docs/agent.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs/howto/agent.md").read_text(encoding="utf-8")
 AGENT = ROOT / "microros_gen/agent"
 
 
@@ -87,7 +87,7 @@ def test_the_commands_run(line: str, tmp_path: Path) -> None:
 def test_the_file_of_the_page_holds() -> None:
     (text,) = blocks("yaml")
     diagnostics = Diagnostics()
-    said = parse_agent_file(Source("docs/agent.md", text), diagnostics)
+    said = parse_agent_file(Source("docs/howto/agent.md", text), diagnostics)
     diagnostics.check()
     assert len(said.transports) == 5
     assert said.discovery == 7400
@@ -140,7 +140,7 @@ def test_every_event_is_there_with_its_fields() -> None:
     for report, (_level, event) in reports._EVENTS.items():
         seen.add(event)
         assert {field.name for field in fields(report)} == set(re.findall(r"`(\w+)`", table[event][2])), event
-    cli = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "microros_gen/cli").glob("agent*.py"))
+    cli = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "microros_gen/cli/agent").glob("*.py"))
     log = (AGENT / "log.py").read_text(encoding="utf-8")
     seen |= set(re.findall(r'Level\.\w+, "(\w+)"', cli + log))
     assert seen | {"bad_input"} == set(table)
@@ -189,4 +189,4 @@ def test_the_entities_file_has_every_kind_of_object() -> None:
 
 def test_linked_files_exist() -> None:
     for link in re.findall(r"\]\(([^)]+)\)", PAGE):
-        assert (ROOT / "docs" / link).exists(), link
+        assert (ROOT / "docs/howto" / link).exists(), link

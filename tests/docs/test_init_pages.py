@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""docs/init.md, check.md and idl.md: their commands run, and what they say of files is so."""
+"""docs/howto/init.md, check.md and idl.md: their commands run, and what they say of files is so."""
 
 from __future__ import annotations
 
@@ -12,7 +12,9 @@ from docs.console import ROOT, blocks
 
 from microros_gen.cli import main as cli
 
-PAGES = {name: (ROOT / f"docs/{name}.md").read_text(encoding="utf-8") for name in ("init", "check", "idl")}
+PAGES = {
+    name: (ROOT / f"docs/howto/{name}.md").read_text(encoding="utf-8") for name in ("init", "check", "idl")
+}
 META = '{"names": {"rmw_microxrcedds": {"cmake-args": ["-DRMW_UXRCE_MAX_PUBLISHERS=2"]}}}'
 
 

@@ -14,17 +14,17 @@ from docs.console import ROOT, SHELL, Terminal, blocks, shows, steps
 
 PAGES = {str(path.relative_to(ROOT / "docs")): path for path in sorted((ROOT / "docs").rglob("*.md"))}
 ELSEWHERE = {
-    "agent.md": "tests/docs/test_agent_page.py",
-    "check.md": "tests/docs/test_init_pages.py",
-    "cmake.md": "tests/cmake_build/test_example.py",
-    "idl.md": "tests/docs/test_init_pages.py",
-    "proof.md": "tests/proof/test_proof.py",
-    "ros_build.md": "tests/ros_build/environments.py",
+    "howto/agent.md": "tests/docs/test_agent_page.py",
+    "howto/check.md": "tests/docs/test_init_pages.py",
+    "howto/cmake.md": "tests/cmake_build/test_example.py",
+    "howto/idl.md": "tests/docs/test_init_pages.py",
+    "verification/proof.md": "tests/proof/test_proof.py",
+    "howto/ros_build.md": "tests/ros_build/environments.py",
 }
 """Pages whose commands another test runs, which reads the page."""
 
 _META = '{"names": {"rmw_microxrcedds": {"cmake-args": ["-DRMW_UXRCE_MAX_NODES=1"]}}}'
-GIVEN = {"init.md": {"app-colcon.meta": _META}}
+GIVEN = {"howto/init.md": {"app-colcon.meta": _META}}
 """Files that the reader of a page has already."""
 
 OTHER_PROGRAMS = {
@@ -35,11 +35,11 @@ OTHER_PROGRAMS = {
 NEEDS = {
     "tutorial/qemu.md": ("arm-none-eabi-gcc", "qemu-system-arm"),
     "tutorial/nucleo_f446re.md": ("arm-none-eabi-gcc", "cmake"),
-    "init.md": ("cmake",),
+    "howto/init.md": ("cmake",),
 }
 
 
-LONG = ("init.md", "tutorial/nucleo_f446re.md")
+LONG = ("howto/init.md", "tutorial/nucleo_f446re.md")
 """Pages that compile the library by CMake; tests/cmake_build and test_boards.py have their slices."""
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the MISRA C:2012 addon of cppcheck says of the corpus, and the table of it for docs/quality.md.
+"""What the MISRA C:2012 addon of cppcheck says of the corpus, and the table of it for docs/verification/quality.md.
 
 The addon is called on the dump of each file. Called through `cppcheck --addon`, it says less: cppcheck keeps one
 finding a line, because without the texts of the rules all findings have one message.
@@ -21,7 +21,7 @@ import yaml
 from house.corpus import ROOT, Tree, Unit, analyse, run
 
 DEVIATIONS = Path(__file__).parent / "misra-deviations.yaml"
-PAGE = ROOT / "docs" / "quality.md"
+PAGE = ROOT / "docs" / "verification" / "quality.md"
 OPTIONS = ("--std=c99", "--platform=unix32", "-U__cplusplus", "-Iinclude")
 BEGIN, END = "<!-- misra: begin -->\n", "<!-- misra: end -->\n"
 SEPARATOR = "\n--\n"
@@ -188,7 +188,7 @@ def by_rule_and_file(places: Mapping[tuple[str, str], int]) -> str:
 
 
 def table(deviations: Sequence[Deviation]) -> str:
-    """Return the part of docs/quality.md between the two marks.
+    """Return the part of docs/verification/quality.md between the two marks.
 
     It holds where nothing is `undocumented` or `unused`. No numbers of places: they change with every line of C.
     """
@@ -214,13 +214,13 @@ def table(deviations: Sequence[Deviation]) -> str:
 
 
 def page_table() -> str:
-    """Return what docs/quality.md holds now."""
+    """Return what docs/verification/quality.md holds now."""
     text = PAGE.read_text(encoding="utf-8")
     return text[text.index(BEGIN) + len(BEGIN) : text.index(END)]
 
 
 def write_page(new: str) -> None:
-    """Put the table into docs/quality.md."""
+    """Put the table into docs/verification/quality.md."""
     text = PAGE.read_text(encoding="utf-8")
     before, after = text[: text.index(BEGIN) + len(BEGIN)], text[text.index(END) :]
     PAGE.write_text(before + new + after, encoding="utf-8")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""clang-tidy, cppcheck, MISRA's rules and every warning of gcc and clang over the corpus (docs/quality.md)."""
+"""clang-tidy, cppcheck, MISRA's rules, every warning of gcc and clang: the corpus (docs/verification/quality.md)."""
 
 from __future__ import annotations
 
@@ -192,9 +192,11 @@ def test_misra_deviations_are_used(trees: list[Tree]) -> None:
 
 @pytest.mark.skipif(misra.find_addon() is None, reason="no cppcheck with its addons")
 def test_misra_page_is_current() -> None:
-    """docs/quality.md is as `make misra` writes it, with the version of cppcheck that it names."""
+    """docs/verification/quality.md is as `make misra` writes it, with the version of cppcheck that it names."""
     if misra.tool_version() not in misra.page_table():
-        pytest.skip(f"docs/quality.md was written with another cppcheck than {misra.tool_version()}")
+        pytest.skip(
+            f"docs/verification/quality.md was written with another cppcheck than {misra.tool_version()}"
+        )
     assert misra.page_table() == misra.table(misra.load_deviations()), "run: make misra"
 
 

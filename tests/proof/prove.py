@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`make proof`: every run of proofs.yaml, and the report of it in docs/proof.md.
+"""`make proof`: every run of proofs.yaml, and the report of it in docs/verification/proof.md.
 
 `python tests/proof/prove.py [NAME …]` makes the runs of these proofs alone (`decode`, `decode-ppc_32`,
 `decode-ppc_32-0`: a proof, a machine, a variant) and prints what it finds without writing the report.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The report of the proof: which alarms are justified, what was not reached, and the tables of docs/proof.md."""
+"""The report of the proof: justified alarms, what was not reached, and the tables of docs/verification/proof.md."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from house.corpus import ROOT
 
 from proof.proofs import FOLDER, Alarm, Proof, Run, load, reached_by
 
-PAGE = ROOT / "docs" / "proof.md"
+PAGE = ROOT / "docs" / "verification" / "proof.md"
 BEGIN, END = "<!-- proof: begin -->\n", "<!-- proof: end -->\n"
 
 
@@ -80,7 +80,7 @@ def unexplained(each: Sequence[Run]) -> list[str]:
 
 
 def tables(each: Sequence[Run]) -> str:
-    """Return the part of docs/proof.md that the runs make."""
+    """Return the part of docs/verification/proof.md that the runs make."""
     version = subprocess.run(["frama-c", "-version"], capture_output=True, text=True, check=True).stdout
     alarms = sum(len(run.alarms) for run in each)
     seconds = sum(run.seconds for run in each)
@@ -114,7 +114,7 @@ def _bounds(proof: Proof) -> str:
 
 
 def write(each: Sequence[Run]) -> None:
-    """Put the tables into docs/proof.md."""
+    """Put the tables into docs/verification/proof.md."""
     text = PAGE.read_text(encoding="utf-8")
     before, after = text[: text.index(BEGIN) + len(BEGIN)], text[text.index(END) :]
     PAGE.write_text(before + tables(each) + after, encoding="utf-8")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Frama-C's Eva over a slice of the proof, and over wrong code, where it must raise an alarm (docs/proof.md)."""
+"""Eva of Frama-C over a slice of the proof, and over wrong code (docs/verification/proof.md)."""
 
 from __future__ import annotations
 
@@ -120,7 +120,7 @@ def test_every_alarm_that_stays_is_justified() -> None:
 
 
 def test_commands_of_the_page_are_there() -> None:
-    """docs/proof.md names targets, files and proofs that exist; test_everything and the fuzz tests run what they do."""
+    """docs/verification/proof.md names targets, files and proofs that exist; other tests run them."""
     page = report.PAGE.read_text(encoding="utf-8")
     names = {proof.name for proof in proofs.load()}
     makefile = (ROOT / "Makefile").read_text(encoding="utf-8")

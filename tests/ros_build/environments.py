@@ -16,7 +16,7 @@ from pathlib import Path
 from cli.environments import ENVIRONMENTS, ROOT, clean_environ, dependencies
 
 WORKSPACE = Path(__file__).resolve().parent / "workspace"
-PAGE = ROOT / "docs" / "ros_build.md"
+PAGE = ROOT / "docs" / "howto" / "ros_build.md"
 SETUP, *COMMANDS = re.findall(
     r"^```sh\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL
 )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`make misra`: counts per rule and file from cppcheck's MISRA addon, and the table of docs/quality.md anew."""
+"""`make misra`: counts per rule and file from cppcheck's MISRA addon, and the table of docs/verification/quality.md."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""docs/typesupport.md: every line of its tables on types holds, and what it names is there."""
+"""docs/explanation/typesupport.md: every line of its tables on types holds, and what it names is there."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from microros_gen.typesupport.plan.types import LARGEST_BODY
 from microros_gen.typesupport.views.struct import declaration
 
 ROOT = COMPONENTS.parents[1]
-PAGE = (ROOT / "docs" / "typesupport.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs" / "explanation" / "typesupport.md").read_text(encoding="utf-8")
 NAME = TypeName("pkg", "msg", "Type")
 
 

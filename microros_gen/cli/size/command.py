@@ -26,7 +26,7 @@ from microros_gen.image.report import check_budgets, measure_folder
     type=click.Choice(("table", "json", "html")),
     default="table",
     show_default=True,
-    help="Tables for people, JSON for programs (keys: docs/size.md), or one page to look at and print.",
+    help="Tables for people, JSON for programs (keys: docs/howto/size.md), or one page to look at and print.",
 )
 @click.option("--all", "every", is_flag=True, help="List every symbol too (table; JSON and HTML always do).")
 @click.option(

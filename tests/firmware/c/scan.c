@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Takes sensor_msgs/msg/LaserScan at depth 1 into buffers of its own (storage: none): its RAM is a figure of
- * docs/figures.md. SCAN_RANGES is the limit of both sequences, SCAN_INIT the function that opens the subscription.
+ * docs/verification/figures.md. SCAN_RANGES is the limit of both sequences, SCAN_INIT the function that opens the subscription.
  */
 #include <rcl/rcl.h>
 #include <rclc/executor.h>

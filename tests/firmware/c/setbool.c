@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A server of std_srvs/srv/SetBool under an executor: its size is a figure of docs/figures.md. */
+/* A server of std_srvs/srv/SetBool under an executor: its size is a figure of docs/verification/figures.md. */
 #include <rcl/rcl.h>
 #include <rclc/executor.h>
 #include <rclc/rclc.h>
