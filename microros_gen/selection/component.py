@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from microros_gen.application.model import ComponentChange
 from microros_gen.diagnostics import Span
@@ -14,15 +15,38 @@ NOT_READY = "this version of microros-gen does not have yet"
 """Ends the sentence that says why something planned is refused."""
 
 
+Conditions = tuple[tuple[str, str | int | bool], ...]
+"""Attributes of the plan and their values: `(("on_full", "error"),)`: where `on_full` is `error`; empty: always."""
+
+
 @dataclass(frozen=True)
 class SourceFile:
-    """A file below the component's src/. `when` holds attributes of the RuntimePlan that it stands for.
-
-    `(("on_full", "error"),)`: only in a plan whose `on_full` is `error`; empty: always.
-    """
+    """A file below the component's src/, in a plan for which `when` holds."""
 
     path: str
-    when: tuple[tuple[str, str | int | bool], ...] = ()
+    when: Conditions = ()
+
+
+@dataclass(frozen=True)
+class Ask:
+    """A capability (a group of C functions) of the platform that a component calls where `when` holds."""
+
+    capability: str
+    when: Conditions = ()
+
+
+@dataclass(frozen=True)
+class Provision:
+    """A capability that a part of a platform provides where `when` holds: the files that have it, what they ask for.
+
+    `always`: the application may call it as well, so it is there even where no component asks for it.
+    """
+
+    capability: str
+    sources: tuple[SourceFile, ...]
+    asks: tuple[Ask, ...] = ()
+    when: Conditions = ()
+    always: bool = False
 
 
 @dataclass(frozen=True)
@@ -33,6 +57,7 @@ class Component:
     `ready` is false for a component that the resolver knows and the runtime does not have yet.
     `headers` are public headers below include/; they become an `#error` when the component is not selected.
     `sends`, `receives` name XRCE submessages; `objects` name XRCE object kinds that the client creates.
+    `asks` are capabilities of the platform; a component of layer `port` `provides` some. `folder` has its files.
     """
 
     name: str
@@ -46,6 +71,9 @@ class Component:
     objects: tuple[str, ...] = ()
     headers: tuple[str, ...] = ()
     sources: tuple[SourceFile, ...] = ()
+    asks: tuple[Ask, ...] = ()
+    provides: tuple[Provision, ...] = ()
+    folder: Path = field(default_factory=Path, compare=False)
 
 
 @dataclass(frozen=True)

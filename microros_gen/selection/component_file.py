@@ -5,14 +5,15 @@ from __future__ import annotations
 
 from microros_gen.diagnostics import Diagnostics, Source, reads
 from microros_gen.documents.tree_read import check_keys, expect_mapping, read_choice, read_names, read_text
-from microros_gen.documents.tree_values import items, text_of
+from microros_gen.documents.tree_values import bool_of, entries, items, text_of
 from microros_gen.documents.yaml_tree import MappingNode, ScalarNode, SequenceNode, YamlNode, parse_yaml
-from microros_gen.selection.component import Component, SourceFile
+from microros_gen.selection.component import Ask, Component, Conditions, Provision, SourceFile
 from microros_gen.selection.xrce import OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
 
 LAYERS = ("micro-ROS", "middleware", "port")
 _REQUIRED = ("component", "summary", "layer", "status")
-_LISTS = ("needs", "xrce", "sends", "receives", "objects", "headers", "sources")
+_LISTS = ("needs", "asks", "xrce", "sends", "receives", "objects", "headers", "sources")
+_PROVISION = ("sources", "asks", "when", "always")
 _STATUS = ("ready", "planned")
 
 
@@ -25,7 +26,7 @@ def parse_component(source: Source, diagnostics: Diagnostics) -> Component | Non
         if not diagnostics.has_errors():
             diagnostics.error(f"the component file '{source.name}' is empty")
         return None
-    check_keys(node, (*_REQUIRED, *_LISTS), _REQUIRED, diagnostics)
+    check_keys(node, (*_REQUIRED, *_LISTS, "provides"), _REQUIRED, diagnostics)
     layer = read_choice(node, "layer", LAYERS, diagnostics)
     status = read_choice(node, "status", _STATUS, diagnostics)
     component = Component(
@@ -40,6 +41,8 @@ def parse_component(source: Source, diagnostics: Diagnostics) -> Component | Non
         objects=_names(node, "objects", diagnostics, tuple(OBJECT_KINDS)),
         headers=_names(node, "headers", diagnostics),
         sources=_sources(node, diagnostics),
+        asks=_asks(node, diagnostics),
+        provides=_provides(node, diagnostics),
     )
     return component if before or not diagnostics.has_errors() else None
 
@@ -58,15 +61,63 @@ def _sources(node: MappingNode, diagnostics: Diagnostics) -> tuple[SourceFile, .
 
 
 def _source(item: YamlNode) -> SourceFile | None:
+    found = _conditional(item, "file")
+    return SourceFile(*found) if found else None
+
+
+def _asks(node: MappingNode, diagnostics: Diagnostics) -> tuple[Ask, ...]:
+    """Read a list of `time` and `{capability: lock, when: {multithread: true}}`."""
+    value = node.get("asks")
+    if value is not None and not isinstance(value, SequenceNode):
+        diagnostics.error("'asks' must be a list", value.span, "Write `asks: [time, sleep]`")
+    found = [(item, _conditional(item, "capability")) for item in items(value)]
+    for item, ask in found:
+        if ask is None:
+            hint = "Write `time` or `{capability: lock, when: {multithread: true}}`"
+            diagnostics.error("'asks' must list capabilities", item.span, hint)
+    return tuple(Ask(*ask) for _, ask in found if ask is not None)
+
+
+def _provides(node: MappingNode, diagnostics: Diagnostics) -> tuple[Provision, ...]:
+    """Read `time: {sources: [a.c], asks: [idle], when: {…}, always: true}` for each capability."""
+    value = node.get("provides")
+    if value is not None and not isinstance(value, MappingNode):
+        diagnostics.error(
+            "'provides' must be a mapping", value.span, "Write `provides: {time: {sources: [a.c]}}`"
+        )
+    found = []
+    for entry in entries(value):
+        one = expect_mapping(entry.value, f"'provides.{entry.key}'", diagnostics)
+        if one is None:
+            continue
+        check_keys(one, _PROVISION, ("sources",), diagnostics)
+        when = _conditions(one.get("when"))
+        if when is None:
+            diagnostics.error("'when' must be a mapping of names and values", one.span)
+        always = bool_of(one.get("always")) or False
+        sources, asks = _sources(one, diagnostics), _asks(one, diagnostics)
+        found.append(Provision(entry.key, sources, asks, when or (), always))
+    return tuple(found)
+
+
+def _conditional(item: YamlNode, key: str) -> tuple[str, Conditions] | None:
+    """Return `x` or `{key: x, when: {…}}` as its text and conditions; None for anything else."""
     if not isinstance(item, MappingNode):
         text = text_of(item)
-        return SourceFile(text) if text else None
-    text, when = text_of(item.get("file")), item.get("when")
-    if not text or not isinstance(when, MappingNode) or set(item.entries) != {"file", "when"}:
+        return (text, ()) if text else None
+    text, when = text_of(item.get(key)), _conditions(item.get("when"))
+    return (text, when) if text and when and set(item.entries) == {key, "when"} else None
+
+
+def _conditions(when: YamlNode | None) -> Conditions | None:
+    """Return the conditions of `when`, none where it is missing; None where it is no mapping of plain values."""
+    if when is None:
+        return ()
+    if not isinstance(when, MappingNode):
         return None
     values = [(e.key, e.value.value) for e in when if isinstance(e.value, ScalarNode)]
-    conditions = tuple((k, v) for k, v in values if isinstance(v, (str, int)))
-    return SourceFile(text, conditions) if len(conditions) == len(when.entries) else None
+    found = tuple((k, v) for k, v in values if isinstance(v, (str, int)))
+    return found if len(found) == len(when.entries) else None
 
 
 def _names(

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
 
@@ -70,7 +71,7 @@ def _read(path: Path, root: Path, diagnostics: Diagnostics) -> Component | None:
     if component is not None and component.name != path.parent.name:
         diagnostics.error(f"'{shown}' describes '{component.name}'", None, "Name the folder as the component")
         return None
-    return component
+    return component and replace(component, folder=path.parent)
 
 
 def _check_needs(component: Component, found: dict[str, Component], diagnostics: Diagnostics) -> None:

@@ -12,7 +12,7 @@ from microros_gen.client.plan.board import BoardPlan
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.diagnostics import UserError
 from microros_gen.platform.target import Target
-from microros_gen.selection.component import Catalogue, Middleware, SourceFile
+from microros_gen.selection.component import Ask, Catalogue, Middleware, Provision, SourceFile
 from microros_gen.selection.find_components import components_folder, load_catalogue
 from microros_gen.selection.xrce import MICRO_ROS_COMPONENTS
 
@@ -28,6 +28,8 @@ receives: [DATA]
 objects: [datareader]
 headers: [rcl/x.h]
 sources: [rcl_x.c, {file: rcl_y.c, when: {on_full: error, mtu: 512}}]
+asks: [time, {capability: lock, when: {multithread: true}}]
+provides: {wait: {sources: [rcl_w.c], asks: [idle], when: {transport: udp}, always: true}}
 """
 
 
@@ -53,6 +55,9 @@ def test_a_component_is_read(tmp_path: Path) -> None:
         ("rcl/x.h",),
         (SourceFile("rcl_x.c"), SourceFile("rcl_y.c", (("on_full", "error"), ("mtu", 512)))),
     )
+    assert component.asks == (Ask("time"), Ask("lock", (("multithread", True),)))
+    wait = Provision("wait", (SourceFile("rcl_w.c"),), (Ask("idle"),), (("transport", "udp"),), True)
+    assert component.provides == (wait,)
 
 
 ERRORS = {
@@ -81,6 +86,20 @@ ERRORS = {
     ),
     "source key": ("when:", "if:", "x/component.yaml:11:20: error: 'sources' must list files"),
     "source value": ("mtu: 512", "mtu: 0.5", "x/component.yaml:11:20: error: 'sources' must list files"),
+    "asks": ("asks: [", "asks: x #", "x/component.yaml:12:7: error: 'asks' must be a list"),
+    "ask": ("capability: lock", "lock: 1", "x/component.yaml:12:14: error: 'asks' must list capabilities"),
+    "provides": (
+        "provides: {",
+        "provides: [] #",
+        "x/component.yaml:13:11: error: 'provides' must be a mapping",
+    ),
+    "provision": ("sources: [rcl_w.c], ", "", "x/component.yaml:13:18: error: the key 'sources' is missing"),
+    "provision key": ("always", "alway", "x/component.yaml:13:77: error: there is no key 'alway' here"),
+    "provision value": (
+        "{transport: udp}",
+        "[udp]",
+        "x/component.yaml:13:18: error: 'when' must be a mapping",
+    ),
     "xrce": (
         "[read, w",
         "[reed, w",
@@ -110,7 +129,7 @@ def test_a_faulty_component_is_refused(case: str, tmp_path: Path) -> None:
     before, after, told = ERRORS[case]
     assert before in GOOD
     text = GOOD.replace(before, after, 1)
-    write(tmp_path, "x", text.replace("}}]", "}}}") if case == "sources" else text)
+    write(tmp_path, "x", text.replace("}}]", "}}}", 1) if case == "sources" else text)
     with pytest.raises(UserError) as caught:
         load_catalogue(tmp_path)
     lines = [d.headline() for d in caught.value.diagnostics]

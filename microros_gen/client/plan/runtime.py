@@ -150,6 +150,11 @@ class RuntimePlan(TimesPlan):
         return self.transport in ("udp", "tcp")
 
     @property
+    def has_device_key(self) -> bool:
+        """Whether the port supplies the client key."""
+        return self.client_key is None
+
+    @property
     def send_may_wait(self) -> bool:
         """Whether sending is a function of the application, which may wait for its line."""
         return self.transport == "custom" or self.own_line

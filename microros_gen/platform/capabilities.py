@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The capabilities of a platform: groups of C functions that parts provide and components ask for."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from types import MappingProxyType
+
+from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.documents.files import read_text
+from microros_gen.documents.tree_values import bool_of, entries, items, text_of
+from microros_gen.documents.yaml_tree import parse_yaml
+
+CAPABILITIES_FILE = Path(__file__).with_name("capabilities.yaml")
+
+
+@dataclass(frozen=True)
+class Capability:
+    """A group of C functions that `header` declares. `in_example`: the generated example calls them."""
+
+    name: str
+    summary: str
+    header: str
+    functions: tuple[str, ...]
+    in_example: bool = True
+
+
+@cache
+def capabilities() -> Mapping[str, Capability]:
+    """Return all capabilities by name, in the order in which they are shown."""
+    diagnostics = Diagnostics()
+    tree = parse_yaml(Source(CAPABILITIES_FILE.name, read_text(CAPABILITIES_FILE)), diagnostics)
+    diagnostics.check()
+    found = {}
+    for entry in entries(tree):
+        said = {one.key: one.value for one in entries(entry.value)}
+        found[entry.key] = Capability(
+            entry.key,
+            text_of(said["summary"]) or "",
+            text_of(said["header"]) or "",
+            tuple(text_of(item) or "" for item in items(said["functions"])),
+            bool_of(said.get("example")) is not False,
+        )
+    return MappingProxyType(found)
+
+
+def prototypes(header: str, functions: tuple[str, ...]) -> tuple[str, ...]:
+    """Return how `header` (its text) declares each of the functions, on one line each."""
+    found = {}
+    for match in re.finditer(r"^[a-z][^;{}()#]*\b(\w+)\([^;{}]*?\);", header, re.MULTILINE):
+        found[match.group(1)] = " ".join(match.group(0).split()).replace("( ", "(")
+    return tuple(found[name] for name in functions)
