@@ -31,6 +31,7 @@ bench: $(VENV)/dev.stamp
 
 golden: $(VENV)/dev.stamp
 	@$(BIN)/python tests/tools/update_golden.py
+	@$(BIN)/python tests/tools/update_exchanges.py
 
 footprint: $(VENV)/dev.stamp
 	@$(BIN)/python tests/tools/update_footprint.py

@@ -26,6 +26,7 @@ NEEDED = {
     "riscv64-unknown-elf-gcc": "gcc-riscv64-unknown-elf",
     "/usr/lib/picolibc/riscv64-unknown-elf/picolibc.specs": "picolibc-riscv64-unknown-elf",
     "make": "make",
+    "tcc": "tcc",
     "nm": "binutils",
     "valgrind": "valgrind",
     "frama-c": "frama-c-base",

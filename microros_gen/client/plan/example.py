@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from microros_gen.interfaces.types import Field, Message, NamedType, Primitive, StringType, TypeName
 from microros_gen.typesupport.plan.names import snake_case
+from microros_gen.typesupport.plan.size import TypeLimits
 
 _TIME = TypeName("builtin_interfaces", "msg", "Time")
 # Enough to see every part of an Imu move, and still readable for a message of a hundred members.
@@ -53,20 +54,36 @@ def example_topics(roots: Sequence[TypeName]) -> tuple[tuple[TypeName, str], ...
     )
 
 
-def plan_filling(message: Message, messages: Mapping[TypeName, Message], text: str) -> Filling:
-    """Fill every plain member of `message` without a default of its own; arrays and sequences stay."""
+def plan_filling(
+    message: Message, messages: Mapping[TypeName, Message], text: str, limits: TypeLimits | None
+) -> Filling:
+    """Fill every plain member of `message` without a default of its own; arrays and sequences stay.
+
+    A string gets as much of `text` as its limit has room for.
+    """
     members = tuple(_plain_members(message, messages, ""))
     stamps = tuple(path for path, field in members if field.type == NamedType(_TIME))
     numbers = [(path, f.type) for path, f in members if isinstance(f.type, Primitive)]
     values = tuple(MemberValue(path, _expression(kind)) for path, kind in numbers[:_MOST_VALUES])
     texts = tuple(
-        MemberValue(path, text)
+        MemberValue(path, text[: _string_limit(message, messages, limits, path)])
         for path, f in members
-        if isinstance(f.type, StringType)
-        and not f.type.wide
-        and (f.type.bound is None or f.type.bound >= len(text))
+        if isinstance(f.type, StringType) and not f.type.wide
     )
     return Filling(stamps, values, texts)
+
+
+def _string_limit(
+    message: Message, messages: Mapping[TypeName, Message], limits: TypeLimits | None, path: str
+) -> int | None:
+    """Return how many characters the string at `path` holds; None: nothing limits it."""
+    name, _, rest = path.partition(".")
+    index, field = next((i, f) for i, f in enumerate(message.fields) if f.name == name)
+    own = limits.fields[index] if limits is not None else None
+    if isinstance(field.type, NamedType):
+        return _string_limit(messages[field.type.name], messages, own.nested if own else None, rest)
+    bound = field.type.bound if isinstance(field.type, StringType) else None
+    return bound if own is None or own.string is None else own.string
 
 
 def plan_shown(message: Message, messages: Mapping[TypeName, Message]) -> Shown | None:

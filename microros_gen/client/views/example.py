@@ -305,7 +305,8 @@ def _times(policy: str, milliseconds: int) -> list[str]:
 def _publisher(
     project: Project, plan: TypePlan, node: NodeView, index: int, topic: str, qos: Qos, storage: str
 ) -> _Publisher:
-    filling = plan_filling(plan.message, project.messages, node.name)
+    own = plan.limit_set("publisher", index)
+    filling = plan_filling(plan.message, project.messages, node.name, own.limits if own else plan.limits)
     name = f"{snake_case(plan.name.name)}_{index}"
     init, changes = _init(qos)
     view = PublisherView(

@@ -104,7 +104,10 @@ def _view(
         for part, plan in plans.items()
     }
     sent, received = ("Response", "Request") if is_server else ("Request", "Response")
-    filling = plan_filling(plans[sent].message, project.messages, "text")
+    limits = plans[sent].limit_set(kind, index)
+    filling = plan_filling(
+        plans[sent].message, project.messages, "text", limits.limits if limits else plans[sent].limits
+    )
     if not plans[sent].storage:
         filling = Filling(filling.stamps, filling.values, ())
     shown = plan_shown(plans[received].message, project.messages)

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What each application of the corpus says on the wire is what was recorded: the same bytes at the same times.
+
+`make golden` records again. A change of the runtime that does not concern the protocol leaves the files as they are.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from exchanges.recorded import GOLDEN, build_clock, exchange_of, recorded
+
+
+@pytest.fixture(scope="module")
+def still_time(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return build_clock(tmp_path_factory.mktemp("clock"))
+
+
+@pytest.mark.parametrize("name", recorded())
+def test_an_exchange_stays_as_it_was_recorded(name: str, tmp_path: Path, still_time: Path) -> None:
+    recorded_text = (GOLDEN / f"{name}.txt").read_text(encoding="utf-8")
+    assert exchange_of(name, tmp_path, still_time) == recorded_text
+
+
+def test_each_recording_belongs_to_an_application() -> None:
+    assert {path.stem for path in GOLDEN.glob("*.txt")} == set(recorded())
+
+
+def test_applications_say_something() -> None:
+    """Both sides speak in each recording, in a session (0x81): a recording of nothing would hold nothing."""
+    for path in GOLDEN.glob("*.txt"):
+        text = path.read_text(encoding="utf-8")
+        assert text.count(" > 81") >= 2, path.name
+        assert text.count(" < 81") >= 3, path.name

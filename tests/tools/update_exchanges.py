@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Part of `make golden`: records the exchange of each application of the corpus again."""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from exchanges.recorded import GOLDEN, exchanges, recorded
+
+
+def main() -> int:
+    """Rewrite the recordings; remove those of applications that are gone."""
+    GOLDEN.mkdir(exist_ok=True)
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in exchanges(Path(folder)):
+            (GOLDEN / f"{name}.txt").write_text(text, encoding="utf-8")
+    for path in GOLDEN.glob("*.txt"):
+        if path.stem not in recorded():
+            path.unlink()
+    print(f"{GOLDEN}: {len(recorded())} exchanges")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
