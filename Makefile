@@ -12,29 +12,29 @@ demo: $(VENV)/ros.stamp
 
 test: $(VENV)/dev.stamp
 	@$(PYTHON) tests/tools/system_packages.py
-	@$(BIN)/python tests/tools/run_suite.py
+	@$(BIN)/python -m tests.tools.run_suite
 
 lint: $(VENV)/dev.stamp
 	@$(PYTHON) tests/tools/system_packages.py
-	@$(BIN)/python tests/tools/run_suite.py -m "lint and not long"
+	@$(BIN)/python -m tests.tools.run_suite -m "lint and not long"
 
 misra: $(VENV)/dev.stamp
-	@$(BIN)/python tests/tools/misra.py
+	@$(BIN)/python -m tests.tools.misra
 
 proof: $(VENV)/dev.stamp
 	@$(PYTHON) tests/tools/system_packages.py
-	@$(BIN)/python tests/proof/prove.py
+	@$(BIN)/python -m tests.proof.prove
 
 bench: $(VENV)/dev.stamp
 	@$(PYTHON) tests/tools/system_packages.py
-	@$(BIN)/python tests/bench/bench.py
+	@$(BIN)/python -m tests.bench.bench
 
 golden: $(VENV)/dev.stamp
-	@$(BIN)/python tests/tools/update_golden.py
-	@$(BIN)/python tests/tools/update_exchanges.py
+	@$(BIN)/python -m tests.tools.update_golden
+	@$(BIN)/python -m tests.tools.update_exchanges
 
 footprint: $(VENV)/dev.stamp
-	@$(BIN)/python tests/tools/update_footprint.py
+	@$(BIN)/python -m tests.tools.update_footprint
 
 docs: $(VENV)/dev.stamp
 	@$(BIN)/python -m mkdocs build --strict

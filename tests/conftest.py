@@ -1,21 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shared by all tests: helpers below tests/ are imported by their folder (`cli.conftest`, `agent.client`)."""
+"""Shared by all tests. Helpers are in tests/support/; no test module imports another."""
 
 from __future__ import annotations
 
 import importlib.util
 import os
-import sys
-from pathlib import Path
 
 import pytest
 from hypothesis import settings
 
+pytest.register_assert_rewrite("tests.support")
+pytest_plugins = ["tests.support.command_line", "tests.support.trees"]
 settings.register_profile("repeatable", derandomize=True)
 settings.load_profile(
     os.environ.get("HYPOTHESIS_PROFILE", "repeatable")
 )  # `default` draws new examples each time
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 import pytest
 
-from agent.bridging import Bridged, opened
-from agent.observer import Observer, observing
-from agent.process import own_domain
+from tests.support.agent.bridging import Bridged, opened
+from tests.support.agent.observer import Observer, observing
+from tests.support.agent.process import own_domain
 
 
 @pytest.fixture(scope="module")

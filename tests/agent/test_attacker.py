@@ -16,12 +16,6 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from agent import captured
-from agent.client import dds_type, int32_body, participant_blob, reader_blob, topic_blob, writer_blob
-from agent.fakes import Bench, FakeSource
-from agent.test_core import entities, message
-from agent.test_core_reading import FOREVER, reader_entities, sample
-from agent.test_core_storm import services
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import BURST, BYTES_AT_ONCE, BYTES_PER_SECOND, EventLog, Level
 from microros_gen.agent.objects import LARGEST_REPRESENTATION
@@ -40,6 +34,19 @@ from microros_gen.agent.wire.entity_messages import (
 from microros_gen.agent.wire.message import MOST_REQUESTS, Header, header_size, join, split
 from microros_gen.agent.wire.session_messages import CreateClient, GetInfo, Info, Timestamp
 from microros_gen.agent.wire.submessages import Submessage, decode, encode
+from tests.support.agent import captured
+from tests.support.agent.client import (
+    dds_type,
+    int32_body,
+    participant_blob,
+    reader_blob,
+    topic_blob,
+    writer_blob,
+)
+from tests.support.agent.dialogue import entities, message
+from tests.support.agent.fakes import Bench, FakeSource
+from tests.support.agent.readers import FOREVER, reader_entities, sample
+from tests.support.agent.storm import services
 
 LIMITS = Limits(
     clients=8,

@@ -6,18 +6,13 @@ from __future__ import annotations
 import json
 import socket
 import subprocess
-import sys
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
-from agent.process import own_domain
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "bench"))
-
-from agent_rates import Case, client_to_dds, dds_to_client, loopback_trip, memory, round_trip
-from agent_sides import BEST_EFFORT, RELIABLE, Programs, Target, build_programs, own_agent
+from tests.bench.agent_rates import Case, client_to_dds, dds_to_client, loopback_trip, memory, round_trip
+from tests.bench.agent_sides import BEST_EFFORT, RELIABLE, Programs, Target, build_programs, own_agent
+from tests.support.agent.process import own_domain
 
 pytestmark = pytest.mark.ros
 COUNT = 2_000

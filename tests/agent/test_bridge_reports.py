@@ -10,8 +10,6 @@ from typing import Any
 
 import pytest
 
-from agent.bridging import GET_TYPES, Bridged, get_types
-from agent.observer import Observer
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.representation import Durability, Qos, Topic
 from microros_gen.agent.ros.bridge import (
@@ -28,6 +26,8 @@ from microros_gen.agent.ros.bridge import (
 )
 from microros_gen.agent.ros.reports import graph_reporter
 from microros_gen.interfaces.type_hashes import type_hashes
+from tests.support.agent.bridging import GET_TYPES, Bridged, get_types
+from tests.support.agent.observer import Observer
 
 pytestmark = pytest.mark.ros
 
@@ -111,7 +111,7 @@ def test_another_type_of_the_same_topic_is_told(bridged: Bridged, bridge_observe
 
 
 def test_a_type_without_definition_is_told_once() -> None:
-    from agent.bridging import opened
+    from tests.support.agent.bridging import opened
 
     with opened(5, hash_of=lambda _name: None) as blind:
         node = blind.bridge.create_node("blind", 5)

@@ -8,7 +8,12 @@ import time
 
 import pytest
 
-from agent.bridging import (
+from microros_gen.agent.log import EventLog
+from microros_gen.agent.ros import services
+from microros_gen.agent.ros.bridge import BridgeError, NoClient, NoServer, ServerFound
+from microros_gen.agent.ros.reports import graph_reporter
+from microros_gen.agent.ros.services import HELD_BYTES, HELD_CALLS
+from tests.support.agent.bridging import (
     GET_TYPES,
     Bridged,
     get_types,
@@ -17,12 +22,7 @@ from agent.bridging import (
     read_types,
     types_body,
 )
-from agent.observer import Observer
-from microros_gen.agent.log import EventLog
-from microros_gen.agent.ros import services
-from microros_gen.agent.ros.bridge import BridgeError, NoClient, NoServer, ServerFound
-from microros_gen.agent.ros.reports import graph_reporter
-from microros_gen.agent.ros.services import HELD_BYTES, HELD_CALLS
+from tests.support.agent.observer import Observer
 
 pytestmark = pytest.mark.ros
 

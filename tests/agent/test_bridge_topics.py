@@ -10,13 +10,13 @@ from pathlib import Path
 
 import pytest
 
-from agent.bridging import Bridged, opened
-from agent.observer import Observer, observing
 from microros_gen.agent.representation import Durability, Qos, Topic
 from microros_gen.agent.ros import raw_types
 from microros_gen.agent.ros.bridge import BridgeError, Reader
 from microros_gen.agent.wire.constants import Status
 from microros_gen.interfaces.type_hashes import type_hashes
+from tests.support.agent.bridging import Bridged, opened
+from tests.support.agent.observer import Observer, observing
 
 pytestmark = pytest.mark.ros
 

@@ -7,11 +7,6 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from agent import captured
-from agent.client import dds_type, reader_blob, service_blob, topic_blob, writer_blob
-from agent.fakes import Bench
-from agent.test_core import entities, message
-from agent.test_core_reading import FOREVER, reader_entities, sample
 from microros_gen.agent.budgets import CALL_BYTES, ROS_BYTES, Shares, cost_of
 from microros_gen.agent.history import CHANGE_BYTES
 from microros_gen.agent.limits import Limits
@@ -20,23 +15,13 @@ from microros_gen.agent.wire.data_messages import ReadData, WriteData
 from microros_gen.agent.wire.entity_messages import Acknack, Create, Delete
 from microros_gen.agent.wire.message import Header, join
 from microros_gen.agent.wire.submessages import encode
+from tests.support.agent.budgets import OK, RESOURCES, ask, connect, reading
+from tests.support.agent.client import dds_type, reader_blob, service_blob, topic_blob, writer_blob
+from tests.support.agent.dialogue import entities, message
+from tests.support.agent.fakes import Bench
+from tests.support.agent.readers import FOREVER, reader_entities, sample
 
-OK, RESOURCES = 0x00, 0x87
 RELIABLE, TRANSIENT_LOCAL, KEEP_ALL_RELIABLE = 3, 1 | 2 | 8, 1
-KEY = "a1 b2 c3 d4"
-
-
-def connect(bench: Bench, number: int = 1) -> str:
-    """Open the session of a client; return its address."""
-    address = f"client {number}"
-    bench.say(captured.CREATE_CLIENT.replace(KEY, f"00 00 00 {number:02x}"), address)
-    return address
-
-
-def ask(bench: Bench, create: Create | Delete, address: str = "client 1") -> int:
-    """Create or delete; return the status."""
-    (answer,) = bench.say(message(create, stream=0), address)
-    return int(answer.split()[-2], 16)
 
 
 def shares(bench: Bench, address: str = "client 1") -> Shares:
@@ -233,15 +218,6 @@ def test_parts_that_went_with_their_container_are_not_remembered_for_ever() -> N
 
 
 # Output and requests
-
-
-def reading(bench: Bench, number: int) -> str:
-    """Return the address of a client that reads reliably."""
-    address = connect(bench, number)
-    for create in reader_entities(topic=f"t{number}"):
-        assert ask(bench, create, address) == OK
-    bench.say(message(ReadData(7, 0x16, 0x80, delivery=FOREVER), stream=0), address)
-    return address
 
 
 def test_output_of_all_clients_is_bounded_and_nothing_of_it_lost() -> None:

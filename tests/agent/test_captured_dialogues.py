@@ -14,10 +14,10 @@ from pathlib import Path
 
 import pytest
 
-from agent.fakes import Bench
 from microros_gen.agent.framing import FrameDecoder, LengthDecoder, encode_frame, encode_length
 from microros_gen.agent.representation.reference_file import read_references
 from microros_gen.diagnostics import Source
+from tests.support.agent.fakes import Bench
 
 HERE = Path(__file__).parent / "dialogues"
 STATUS, INFO, DATA, ACKNACK, HEARTBEAT, FRAGMENT, TIME = 0x05, 0x06, 0x09, 0x0A, 0x0B, 0x0D, 0x0F

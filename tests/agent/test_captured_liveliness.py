@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from agent.fakes import Bench
+from tests.support.agent.fakes import Bench
 
 CREATE_CLIENT = (
     "80 00 00 00 00 01 10 00 58 52 43 45 01 00 01 0f 00 a1 c1 0f 81 01 00 00 01 00 00 00 07 00 00 00"

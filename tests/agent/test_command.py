@@ -5,31 +5,16 @@ from __future__ import annotations
 
 import json
 import signal
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from agent import captured
-from agent.client import XrceClient
-from agent.process import environment, own_domain, running_agent
 from microros_gen.agent.ros.libraries import INSTALL
-
-DOMAIN = own_domain()
-
-
-def run(*arguments: str, code: str = "", path: Path | None = None) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-c", code] if code else [sys.executable, "-m", "microros_gen", "agent"]
-    return subprocess.run(
-        [*command, *arguments],
-        env=environment(DOMAIN),
-        text=True,
-        capture_output=True,
-        timeout=20,
-        check=False,
-        cwd=path,
-    )
+from tests.support.agent import captured
+from tests.support.agent.client import XrceClient
+from tests.support.agent.command import DOMAIN, run
+from tests.support.agent.process import running_agent
 
 
 @pytest.mark.ros

@@ -21,8 +21,9 @@ from microros_gen.cli.agent.types import ManifestOf, TypeHashes, read_manifests
 from microros_gen.diagnostics import Diagnostics, Source, UserError
 from microros_gen.documents.schema import load_schema
 from microros_gen.interfaces.type_hashes import type_hashes
+from tests.support.paths import ROOT
 
-EXAMPLE = Path(__file__).resolve().parents[2] / "examples/agent/agent.yaml"
+EXAMPLE = ROOT / "examples/agent/agent.yaml"
 NOTHING = {
     "config": None,
     "domain": None,

@@ -14,17 +14,17 @@ from pathlib import Path
 
 import pytest
 
-from agent.client import XrceClient, int32_body
-from agent.observer import observing
-from agent.process import READY, own_domain, running_agent
-from agent.serial_link import SerialLink
-from agent.tcp_link import TcpLink
-from agent.test_command import run
 from microros_gen.agent.readiness import notify
 from microros_gen.agent.transport.discovery import GROUP
+from tests.support.agent.client import XrceClient, int32_body
+from tests.support.agent.command import run
+from tests.support.agent.observer import observing
+from tests.support.agent.process import READY, own_domain, running_agent
+from tests.support.agent.serial_link import SerialLink
+from tests.support.agent.tcp_link import TcpLink
+from tests.support.paths import ROOT
 
 DOMAIN = own_domain()
-ROOT = Path(__file__).resolve().parents[2]
 INT32 = "std_msgs/msg/Int32"
 ALL = ("udp4", "--port", "0", "udp6", "--port", "0", "tcp4", "--port", "0", "tcp6", "--port", "0", "pty")
 

@@ -7,11 +7,6 @@ from dataclasses import replace
 
 import pytest
 
-from agent import captured
-from agent.captured import CREATE_CLIENT, PING, STATUS_AGENT
-from agent.fakes import Bench
-from agent.test_core import GRAPH, WRITE, connected, entities, message, publishing
-from agent.test_core_reading import FOREVER, READER, Listener, put, reader_entities, subscribing
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.wire.constants import Format, Status
@@ -19,6 +14,11 @@ from microros_gen.agent.wire.data_messages import WriteData
 from microros_gen.agent.wire.entity_messages import Create, Fragment
 from microros_gen.agent.wire.session_messages import GetInfo, Info, ReaderActivity, WriterActivity
 from microros_gen.agent.wire.submessages import decode
+from tests.support.agent import captured
+from tests.support.agent.captured import CREATE_CLIENT, PING, STATUS_AGENT
+from tests.support.agent.dialogue import GRAPH, WRITE, connected, entities, message, publishing
+from tests.support.agent.fakes import Bench
+from tests.support.agent.readers import FOREVER, READER, Listener, put, reader_entities, subscribing
 
 WARNING = "warning: two clients use the key A1B2C3D4: one at {}, one at {};"
 OTHER_SESSION = CREATE_CLIENT.replace("d4 81", "d4 82")

@@ -5,34 +5,20 @@ from __future__ import annotations
 
 import pytest
 
-from agent.captured import CREATE_CLIENT, STATUS_AGENT
-from agent.client import int32_body
-from agent.fakes import Bench
-from agent.test_core import entities, message, publishing
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.processing import LONGEST_RETRY_S
 from microros_gen.agent.ros.bridge import BusyError
 from microros_gen.agent.wire.cdr import Writer
 from microros_gen.agent.wire.constants import DataFormat, SubmessageId
-from microros_gen.agent.wire.data_messages import WriteData
-from microros_gen.agent.wire.entity_messages import Delete, Fragment, Heartbeat, Reset
-from microros_gen.agent.wire.message import Header, join, split
+from microros_gen.agent.wire.entity_messages import Delete, Fragment, Reset
+from microros_gen.agent.wire.message import Header, join
 from microros_gen.agent.wire.samples import Sample, write_samples
 from microros_gen.agent.wire.submessages import encode
-
-RELIABLE = 0x80
-
-
-def samples(*values: int) -> list[WriteData]:
-    return [WriteData(1, 0x15, int32_body(value)) for value in values]
-
-
-def write(sequence: int, *values: int, stream: int = RELIABLE) -> bytes:
-    return message(*samples(*values), stream=stream, sequence=sequence)
-
-
-def heartbeat(first: int, last: int) -> bytes:
-    return message(Heartbeat(first, last, RELIABLE), stream=0)
+from tests.support.agent.captured import CREATE_CLIENT, STATUS_AGENT
+from tests.support.agent.client import int32_body
+from tests.support.agent.dialogue import entities, message, publishing
+from tests.support.agent.fakes import Bench
+from tests.support.agent.stream_messages import RELIABLE, acknacks, heartbeat, samples, values, write
 
 
 def full(limits: Limits | None = None) -> Bench:
@@ -41,24 +27,10 @@ def full(limits: Limits | None = None) -> Bench:
     return bench
 
 
-def acknacks(answers: list[str]) -> list[tuple[int, int]]:
-    """Return of each ACKNACK the first message that it does not acknowledge, and the bits of those that lack."""
-    found = []
-    for data in map(bytes.fromhex, answers):
-        for identifier, _, at, _ in split(data, 4):
-            if identifier == SubmessageId.ACKNACK:
-                found.append((data[at] | data[at + 1] << 8, data[at + 2] << 8 | data[at + 3]))
-    return found
-
-
 def drain(bench: Bench, room: int | None = None) -> list[tuple[int, int]]:
     """Let DDS take `room` samples more (None: any number) and time pass; return the acknowledgements."""
     bench.bridge.room = room
     return acknacks(bench.wait(LONGEST_RETRY_S, 0.001))
-
-
-def values(bench: Bench) -> list[int]:
-    return [int.from_bytes(data[4:8], "little") for _, data in bench.bridge.published]
 
 
 def test_a_reliable_sample_is_acknowledged_after_dds_has_it() -> None:

@@ -7,15 +7,15 @@ import random
 
 import pytest
 
-from agent.captured import CREATE_CLIENT
-from agent.client import participant_blob, service_blob
-from agent.fakes import Bench, FakeReplier, FakeRequester
-from agent.test_core import message
-from agent.test_core_reading import FOREVER, Listener
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.wire.constants import Format
 from microros_gen.agent.wire.data_messages import Data, ReadData, WriteData
 from microros_gen.agent.wire.entity_messages import Create, StatusReply
+from tests.support.agent.captured import CREATE_CLIENT
+from tests.support.agent.client import participant_blob, service_blob
+from tests.support.agent.dialogue import message
+from tests.support.agent.fakes import Bench, FakeReplier, FakeRequester
+from tests.support.agent.readers import FOREVER, Listener
 
 NODE, REQUESTER, REPLIER = 0x11, 0x17, 0x18
 SERVICE = "/set_bool [std_srvs/srv/SetBool]"

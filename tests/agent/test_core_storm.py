@@ -11,23 +11,19 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from agent import captured
-from agent.client import service_blob
-from agent.fakes import Bench
-from agent.strategies import BY_NAME
-from agent.test_core import entities, message
-from agent.test_core_reading import FOREVER, reader_entities, sample
 from microros_gen.agent.limits import Limits
-from microros_gen.agent.wire.constants import Format
 from microros_gen.agent.wire.data_messages import Data, DeliveryControl, ReadData, WriteData
-from microros_gen.agent.wire.entity_messages import Acknack, Create, Delete, Fragment, Heartbeat
+from microros_gen.agent.wire.entity_messages import Acknack, Delete, Fragment, Heartbeat
 from microros_gen.agent.wire.message import Header, join, split
 from microros_gen.agent.wire.session_messages import GetInfo
 from microros_gen.agent.wire.submessages import Submessage, decode, encode
+from tests.support.agent import captured
+from tests.support.agent.dialogue import entities, message
+from tests.support.agent.fakes import Bench
+from tests.support.agent.readers import FOREVER, reader_entities, sample
+from tests.support.agent.storm import bench_with_everything, check
+from tests.support.agent.strategies import BY_NAME
 
-LIMITS = Limits(
-    clients=4, objects=20, streams=3, backlog_bytes=2_000, message_bytes=5_000, requests=8, client_timeout_s=2
-)
 IDS = st.sampled_from((0x11, 0x12, 0x13, 0x14, 0x15, 0x16, 0x17, 0x18, 0x1B, 0x1C, 0x26, 0xFFFE))
 STREAMS = st.sampled_from((0, 1, 2, 0x80, 0x81, 0xFF))
 CONTROLS = st.builds(
@@ -57,21 +53,6 @@ SUBMESSAGES = st.one_of(
 )
 
 
-def services() -> list[Create]:
-    blob = service_blob("/set_bool", "std_srvs/srv/SetBool")
-    return [Create(20 + k, 0x10 | k, k, Format.BINARY, blob, 0x11, 0, True, True) for k in (7, 8)]
-
-
-def bench_with_everything() -> Bench:
-    bench = Bench(LIMITS, verbosity=2)
-    bench.say(captured.CREATE_CLIENT)
-    for create in (*entities(), *reader_entities(), *services()):
-        bench.say(message(create, stream=0))
-    for object_id in (0x16, 0x17, 0x18):
-        bench.say(message(ReadData(object_id, object_id, 0x80, delivery=FOREVER), stream=0))
-    return bench
-
-
 def say(submessage: Submessage, stream: int, sequence: int) -> Callable[[Bench], object]:
     return lambda bench: bench.say(message(submessage, stream=stream, sequence=sequence))
 
@@ -99,21 +80,6 @@ ACTIONS = st.one_of(
     st.just(lambda bench: bench.say(captured.CREATE_CLIENT)),
     st.just(lambda bench: bench.say("81 00 00 00 0c 01 00 00")),
 )
-
-
-def check(bench: Bench) -> None:
-    """No fault of the program; what the agent holds is what its clients have."""
-    internal = {k: n for k, n in bench.log.counters.items() if k.startswith("internal_")}
-    assert not internal, bench.text.getvalue()
-    agent = bench.agent
-    for client in agent.clients:
-        assert set(client.readings) <= {entity.id for entity in client.objects}
-        assert set(client.waiting) <= set(client.readings.values())
-        for entity in client.objects:
-            assert len(entity.outstanding) <= LIMITS.requests
-    readings = [r for client in agent.clients for r in client.readings.values()]
-    held = agent._deliveries._by_source
-    assert sorted(map(id, held.values())) == sorted(id(r) for r in readings if r.source is not None)
 
 
 @settings(max_examples=120, deadline=None, suppress_health_check=list(HealthCheck))

@@ -11,14 +11,14 @@ from collections.abc import Iterator
 
 import pytest
 
-from agent.fakes import Bench
-from agent.served import Served
 from microros_gen.agent.transport.addresses import OwnAddress, own_addresses, parse_address
 from microros_gen.agent.transport.discovery import ANSWERS_PER_SECOND, GROUP, Discovery
 from microros_gen.agent.transport.sockets import TCP4, UDP4, UDP6
 from microros_gen.agent.transport.tcp import Tcp
 from microros_gen.agent.transport.udp import Udp
 from microros_gen.diagnostics import UserError
+from tests.support.agent.fakes import Bench
+from tests.support.agent.served import Served
 
 QUESTION = bytes.fromhex("80000000020108000009fffd03000000")
 """GET_INFO as the public client sends it to the group."""

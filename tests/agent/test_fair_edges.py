@@ -12,8 +12,6 @@ from typing import Any
 
 import pytest
 
-from agent.captured import CREATE_CLIENT_KEYED
-from agent.fakes import Bench
 from microros_gen.agent.fairness import MEMORY_S, REFUSED, START_S, Account, Accounts, Fairness
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.ros.bridge import BusyError, GraphReport
@@ -27,6 +25,8 @@ from microros_gen.agent.wire.entity_messages import Heartbeat
 from microros_gen.agent.wire.message import Header, join
 from microros_gen.agent.wire.submessages import encode
 from microros_gen.diagnostics import UserError
+from tests.support.agent.captured import CREATE_CLIENT_KEYED
+from tests.support.agent.fakes import Bench
 
 # Order
 

@@ -12,12 +12,6 @@ from typing import Any
 
 import pytest
 
-from agent import captured
-from agent.client import dds_type, int32_body, writer_blob
-from agent.fakes import Bench
-from agent.test_core import entities, message
-from agent.test_core_full import acknacks
-from agent.test_core_reading import FOREVER, reader_entities, sample
 from microros_gen.agent.fairness import REFUSED, TURN_S, Account
 from microros_gen.agent.graph_work import BURST_S, MEMORY_S, GraphWork
 from microros_gen.agent.limits import Limits
@@ -30,6 +24,12 @@ from microros_gen.agent.wire.message import Header, join
 from microros_gen.agent.wire.samples import Sample, SampleInfo, write_samples
 from microros_gen.agent.wire.session_messages import CreateClient
 from microros_gen.agent.wire.submessages import Submessage, encode
+from tests.support.agent import captured
+from tests.support.agent.client import dds_type, int32_body, writer_blob
+from tests.support.agent.dialogue import entities, message
+from tests.support.agent.fakes import Bench
+from tests.support.agent.readers import FOREVER, reader_entities, sample
+from tests.support.agent.stream_messages import acknacks
 
 LIMITS = Limits(operations_per_second=1_000_000)
 TURN = LIMITS.turn_ms / 1000

@@ -13,15 +13,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agent.serial_link import crc_arc, frame
 from microros_gen.agent.framing import FrameDecoder, crc16, encode_frame
+from tests.support.agent.captured_frames import CREATE_CLIENT_FRAME, STATUS_AGENT_FRAME
+from tests.support.agent.serial_link import crc_arc, frame
 
 CREATE_CLIENT = "80 00 00 00 00 01 10 00 58 52 43 45 01 00 01 0f a1 7e c3 7d 81 00 fc 01"
-CREATE_CLIENT_FRAME = (
-    "7e 01 00 18 00 80 00 00 00 00 01 10 00 58 52 43 45 01 00 01 0f a1 7d 5e c3 7d 5d 81 00 fc 01 6a d6"
-)
 STATUS_AGENT = "81 00 00 00 04 01 0b 00 00 00 58 52 43 45 01 00 01 0f 00"
-STATUS_AGENT_FRAME = "7e 00 01 13 00 81 00 00 00 04 01 0b 00 00 00 58 52 43 45 01 00 01 0f 00 00 ec"
 
 
 class Listener:

@@ -11,16 +11,16 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from agent import captured
-from agent.client import int32_body
-from agent.fakes import Bench
-from agent.strategies import BY_NAME
-from agent.test_core import entities, message
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.wire.data_messages import WriteData
 from microros_gen.agent.wire.entity_messages import Fragment
 from microros_gen.agent.wire.message import Header, join
 from microros_gen.agent.wire.submessages import encode
+from tests.support.agent import captured
+from tests.support.agent.client import int32_body
+from tests.support.agent.dialogue import entities, message
+from tests.support.agent.fakes import Bench
+from tests.support.agent.strategies import BY_NAME
 
 LIMITS = Limits(
     clients=20, objects=30, streams=4, message_bytes=20_000, backlog_bytes=4_000, client_timeout_s=5

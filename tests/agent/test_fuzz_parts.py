@@ -14,13 +14,6 @@ from ipaddress import IPv4Address
 
 import pytest
 
-from agent import captured
-from agent.client import int32_body
-from agent.fakes import Bench
-from agent.serial_link import frame
-from agent.test_core import entities, message
-from agent.test_core_reading import FOREVER, reader_entities, sample
-from agent.test_core_storm import bench_with_everything, check, services
 from microros_gen.agent.framing import FrameDecoder, LengthDecoder, encode_length
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.transport import discovery
@@ -35,6 +28,13 @@ from microros_gen.agent.wire.entity_messages import Acknack, Delete, Fragment, H
 from microros_gen.agent.wire.message import Header, header_size, join, split
 from microros_gen.agent.wire.samples import Sample, SampleInfo, write_samples
 from microros_gen.agent.wire.submessages import Submessage, decode, encode
+from tests.support.agent import captured
+from tests.support.agent.client import int32_body
+from tests.support.agent.dialogue import entities, message
+from tests.support.agent.fakes import Bench
+from tests.support.agent.readers import FOREVER, reader_entities, sample
+from tests.support.agent.serial_link import frame
+from tests.support.agent.storm import bench_with_everything, check, services
 
 FORMS = tuple(DataFormat)
 COUNTS = (0, 1, 2, 0xFF, 0x7FFF, 0xFFFF, 0x10000, 0x7FFFFFFF, 0xFFFFFFFF)

@@ -7,17 +7,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from agent.captured import CREATE_CLIENT, PING, STATUS_AGENT
-from agent.client import int32_body
-from agent.fakes import Bench
-from agent.test_core import connected, entities, message, publishing
-from agent.test_core_full import acknacks, heartbeat, write
 from microros_gen.agent.input_pool import Holder, InputPool
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.rates import BURST_S, Rate, Rates
 from microros_gen.agent.wire.data_messages import WriteData
 from microros_gen.agent.wire.entity_messages import Delete, Fragment
 from microros_gen.agent.wire.submessages import encode
+from tests.support.agent.captured import CREATE_CLIENT, PING, STATUS_AGENT
+from tests.support.agent.client import int32_body
+from tests.support.agent.dialogue import connected, entities, message, publishing
+from tests.support.agent.fakes import Bench
+from tests.support.agent.stream_messages import acknacks, heartbeat, write
 
 
 @given(st.lists(st.tuples(st.integers(0, 3), st.integers(-40, 40)), max_size=60))

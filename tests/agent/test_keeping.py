@@ -11,12 +11,18 @@ from functools import partial
 
 import pytest
 
-from agent import captured
-from agent.client import participant_blob, reader_blob, topic_blob
-from agent.fakes import Bench
-from agent.soak_client import SoakClient
-from agent.test_core import message
-from agent.test_core_reading import (
+from microros_gen.agent.limits import Limits
+from microros_gen.agent.wire.constants import INFO_ACTIVITY, OBJECT_AGENT, DataFormat, Format
+from microros_gen.agent.wire.data_messages import Data, ReadData
+from microros_gen.agent.wire.entity_messages import Acknack, Create
+from microros_gen.agent.wire.message import Header, join
+from microros_gen.agent.wire.session_messages import GetInfo
+from microros_gen.agent.wire.submessages import encode
+from tests.support.agent import captured
+from tests.support.agent.client import participant_blob, reader_blob, topic_blob
+from tests.support.agent.dialogue import message
+from tests.support.agent.fakes import Bench
+from tests.support.agent.readers import (
     FOREVER,
     LABEL,
     Listener,
@@ -26,13 +32,7 @@ from agent.test_core_reading import (
     subscribing,
     values,
 )
-from microros_gen.agent.limits import Limits
-from microros_gen.agent.wire.constants import INFO_ACTIVITY, OBJECT_AGENT, DataFormat, Format
-from microros_gen.agent.wire.data_messages import Data, ReadData
-from microros_gen.agent.wire.entity_messages import Acknack, Create
-from microros_gen.agent.wire.message import Header, join
-from microros_gen.agent.wire.session_messages import GetInfo
-from microros_gen.agent.wire.submessages import encode
+from tests.support.agent.soak_client import SoakClient
 
 OTHER_SESSION = captured.CREATE_CLIENT.replace("d4 81", "d4 82")
 

@@ -7,13 +7,13 @@ import random
 
 import pytest
 
-from agent.fakes import Bench
-from agent.test_core import entities, message
-from agent.test_newcomers import hello
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.liveliness import stretch
 from microros_gen.agent.wire.constants import INFO_ACTIVITY, OBJECT_CLIENT
 from microros_gen.agent.wire.session_messages import GetInfo
+from tests.support.agent.dialogue import entities, message
+from tests.support.agent.fakes import Bench
+from tests.support.agent.newcomers import hello
 
 STEP_S = 0.05
 SIGN_OF_LIFE = message(GetInfo(1, OBJECT_CLIENT, INFO_ACTIVITY), stream=0)

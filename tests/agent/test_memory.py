@@ -12,11 +12,6 @@ from pathlib import Path
 
 import pytest
 
-from agent.client import BEST_EFFORT, XrceClient, dds_type, int32_body, topic_blob, writer_blob
-from agent.fakes import Bench
-from agent.process import AgentProcess, own_domain, running_agent
-from agent.test_budgets import OK, RESOURCES, ask, connect, reading
-from agent.test_core import entities
 from microros_gen.agent.budgets import most_bytes, most_descriptors
 from microros_gen.agent.core import Agent
 from microros_gen.agent.limits import Limits
@@ -24,6 +19,11 @@ from microros_gen.agent.memory import MemoryGuard, Pressure, resident_bytes
 from microros_gen.agent.wire.constants import Format
 from microros_gen.cli.agent.start import check_memory
 from microros_gen.diagnostics import UserError
+from tests.support.agent.budgets import OK, RESOURCES, ask, connect, reading
+from tests.support.agent.client import BEST_EFFORT, XrceClient, dds_type, int32_body, topic_blob, writer_blob
+from tests.support.agent.dialogue import entities
+from tests.support.agent.fakes import Bench
+from tests.support.agent.process import AgentProcess, own_domain, running_agent
 
 MIB = 1 << 20
 

@@ -7,15 +7,16 @@ import sys
 
 import pytest
 
-from agent.captured import PING
-from agent.fakes import Bench
-from agent.test_core import entities, message
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.wire.constants import INFO_CONFIG, Format
 from microros_gen.agent.wire.entity_messages import Create
 from microros_gen.agent.wire.message import Header, join
-from microros_gen.agent.wire.session_messages import CreateClient, GetInfo
+from microros_gen.agent.wire.session_messages import GetInfo
 from microros_gen.agent.wire.submessages import encode
+from tests.support.agent.captured import PING
+from tests.support.agent.dialogue import entities, message
+from tests.support.agent.fakes import Bench
+from tests.support.agent.newcomers import hello
 
 OK, RESOURCES = "00", "87"
 
@@ -24,13 +25,6 @@ def over_udp(limits: Limits | None = None) -> Bench:
     bench = Bench(limits)
     bench.transport.forgeable = True
     return bench
-
-
-def hello(key: int, session: int = 0x81, timeout_ms: int = 0, mtu: int = 512) -> bytes:
-    """Return the CREATE_CLIENT of a key, perhaps with a time-out of its own."""
-    properties = (("uxr_hl", str(timeout_ms)),) if timeout_ms else None
-    head = Header(session & 0x80, 0, 0, b"" if session >= 0x80 else key.to_bytes(4, "big"))
-    return join(head, [encode(CreateClient(key.to_bytes(4, "big"), session, mtu, properties=properties))])
 
 
 def connect(bench: Bench, key: int, address: str) -> str:

@@ -10,11 +10,6 @@ from collections.abc import Iterator
 
 import pytest
 
-from agent.client import int32_body
-from agent.fakes import Bench
-from agent.tcp_link import TcpLink
-from agent.test_serial import Cable
-from agent.test_tcp import _received, tcp
 from microros_gen.agent.framing import FrameDecoder
 from microros_gen.agent.transport.outbox import SHARE, Outbox, is_sample
 from microros_gen.agent.transport.serial import serial_line
@@ -22,6 +17,11 @@ from microros_gen.agent.wire.data_messages import Data
 from microros_gen.agent.wire.entity_messages import StatusReply
 from microros_gen.agent.wire.message import Header, join
 from microros_gen.agent.wire.submessages import encode
+from tests.support.agent.cable import Cable
+from tests.support.agent.client import int32_body
+from tests.support.agent.fakes import Bench
+from tests.support.agent.tcp_agent import _received, tcp
+from tests.support.agent.tcp_link import TcpLink
 
 LIMIT = 800
 KEY = bytes(4)

@@ -8,11 +8,6 @@ from typing import Any
 
 import pytest
 
-from agent.captured import CREATE_CLIENT, PING, STATUS_AGENT
-from agent.client import int32_body
-from agent.fakes import Bench, FakeReplier, FakeRequester, FakeSource
-from agent.test_core import message
-from agent.test_core_reading import FOREVER
 from microros_gen.agent.configuration.entities_file import parse_preconfigured
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.preconfigured import Preconfigured
@@ -21,39 +16,16 @@ from microros_gen.agent.wire.entity_messages import Delete, Heartbeat
 from microros_gen.agent.wire.message import Header, join
 from microros_gen.agent.wire.submessages import encode
 from microros_gen.diagnostics import Diagnostics, Source, UserError
+from tests.support.agent.captured import CREATE_CLIENT, PING, STATUS_AGENT
+from tests.support.agent.client import int32_body
+from tests.support.agent.dialogue import message
+from tests.support.agent.entities_file import content
+from tests.support.agent.fakes import Bench, FakeReplier, FakeRequester, FakeSource
+from tests.support.agent.readers import FOREVER
 
-KEY = "0xA1B2C3D4"
 SERVICE = "/arm [std_srvs/srv/SetBool]"
 IDENTITY = bytes.fromhex("010f78fdca7032130200030000000103 00000000 01000000")
 GRAPH = ["7:/imu", "/count [std_msgs/msg/Int32]"]
-
-
-def objects() -> list[dict[str, Any]]:
-    return [
-        {"id": "0x0001", "kind": "participant", "name": "imu", "domain": 7},
-        {
-            "id": "0x0002",
-            "kind": "topic",
-            "parent": "0x0001",
-            "name": "rt/count",
-            "type": "std_msgs::msg::dds_::Int32_",
-        },
-        {"id": "0x0003", "kind": "publisher", "parent": "0x0001"},
-        {
-            "id": "0x0005",
-            "kind": "data_writer",
-            "parent": "0x0003",
-            "topic": "0x0002",
-            "reliability": "best_effort",
-            "durability": "transient_local",
-            "history": "keep_last",
-            "depth": 3,
-        },
-    ]
-
-
-def content(key: str = KEY, **more: Any) -> dict[str, Any]:
-    return {"version": 1, "clients": [{"key": key, "objects": objects(), **more}]}
 
 
 def load(*contents: dict[str, Any], indent: int | str = 2) -> Preconfigured:

@@ -5,29 +5,18 @@ from __future__ import annotations
 
 import pytest
 
-from agent.captured import CREATE_CLIENT
-from agent.client import int32_body
-from agent.fakes import Bench
-from agent.test_core import message
 from microros_gen.agent.representation import Durability, Endpoint, Participant, Qos, References, Topic
 from microros_gen.agent.representation.reference_file import read_references
 from microros_gen.agent.wire.constants import Format, Status
 from microros_gen.agent.wire.data_messages import WriteData
 from microros_gen.agent.wire.entity_messages import Create
 from microros_gen.diagnostics import Source, UserError
+from tests.support.agent.captured import CREATE_CLIENT
+from tests.support.agent.client import int32_body
+from tests.support.agent.dialogue import message
+from tests.support.agent.fakes import Bench
+from tests.support.agent.references import INT32, PROFILES
 
-INT32 = "std_msgs::msg::dds_::Int32_"
-PROFILES = f"""<?xml version="1.0" encoding="UTF-8"?>
-<profiles>
-  <participant profile_name="participant_profile"><rtps><name>counter</name></rtps></participant>
-  <topic profile_name="count__t"><kind>NO_KEY</kind><name>rt/count</name><dataType>{INT32}</dataType></topic>
-  <data_writer profile_name="count__dw">
-    <topic><kind>NO_KEY</kind><name>rt/count</name><dataType>{INT32}</dataType>
-      <historyQos><kind>KEEP_LAST</kind><depth>10</depth></historyQos></topic>
-    <qos><durability><kind>VOLATILE</kind></durability><reliability><kind>RELIABLE</kind></reliability></qos>
-  </data_writer>
-</profiles>
-"""
 WRITER = Endpoint(Topic("rt/count", INT32), 0, Qos(True, Durability.VOLATILE, True, 10))
 
 

@@ -9,7 +9,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agent import captured
 from microros_gen.agent.representation import (
     Description,
     Durability,
@@ -27,6 +26,7 @@ from microros_gen.agent.representation.reference import UnknownReferenceError
 from microros_gen.agent.wire.constants import Format, ObjectKind
 from microros_gen.agent.wire.entity_messages import Create
 from microros_gen.agent.wire.errors import MalformedError
+from tests.support.agent import captured
 
 STRING = "std_msgs::msg::dds_::String_"
 CHATTER = Topic("rt/chatter", STRING)

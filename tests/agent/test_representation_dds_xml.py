@@ -9,13 +9,23 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agent.client import dds_type
-from agent.test_objects import NODE, PUBLISHER, READER, SUBSCRIBER, TOPIC, WRITER, complete, make, tree
 from microros_gen.agent.representation import Durability, Endpoint, Qos, QosProfile, TypeDefinition
 from microros_gen.agent.representation.description import UnknownNameError
 from microros_gen.agent.representation.xml import from_xml
 from microros_gen.agent.wire.constants import Format, ObjectKind, Status
 from microros_gen.agent.wire.errors import MalformedError
+from tests.support.agent.client import dds_type
+from tests.support.agent.objects import (
+    NODE,
+    PUBLISHER,
+    READER,
+    SUBSCRIBER,
+    TOPIC,
+    WRITER,
+    complete,
+    make,
+    tree,
+)
 
 INT32 = dds_type("std_msgs/msg/Int32")
 TYPES = """<types><module name="MyModule"><struct name="Inner" nested="true"/>

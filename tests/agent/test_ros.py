@@ -8,15 +8,14 @@ from contextlib import ExitStack
 
 import pytest
 
-from agent import captured
-from agent.client import BEST_EFFORT, RELIABLE, XrceClient, imu_body, int32_body
-from agent.observer import Observer, observing
-from agent.process import AgentProcess, own_domain, running_agent
 from microros_gen.agent.wire.constants import Format
+from tests.support.agent import captured
+from tests.support.agent.client import BEST_EFFORT, RELIABLE, XrceClient, imu_body, int32_body
+from tests.support.agent.observer import Observer, observing
+from tests.support.agent.process import AgentProcess, own_domain, running_agent
+from tests.support.agent.ros_client import INT32, gone, matched
 
 pytestmark = pytest.mark.ros
-
-INT32 = "std_msgs/msg/Int32"
 
 
 @pytest.fixture(scope="module")
@@ -42,14 +41,6 @@ def client(agent: AgentProcess) -> Iterator[XrceClient]:
         assert made.connect() == 0
         yield made
         made.leave()
-
-
-def matched(topic: str, node: str):  # type: ignore[no-untyped-def]
-    return lambda graph: any(p[0] == node for p in graph["publishers"].get(topic, []))
-
-
-def gone(node: str):  # type: ignore[no-untyped-def]
-    return lambda graph: node not in graph["nodes"]
 
 
 @pytest.mark.parametrize("stream", [RELIABLE, BEST_EFFORT], ids=["reliable", "best_effort"])

@@ -15,11 +15,6 @@ from pathlib import Path
 
 import pytest
 
-from agent.bridging import GET_TYPES, Bridged, opened
-from agent.captured import CREATE_CLIENT
-from agent.client import dds_type, participant_blob, reader_blob, service_blob, topic_blob, writer_blob
-from agent.fakes import FakeTransport
-from agent.process import own_domain
 from microros_gen.agent.core import Agent
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog
@@ -27,6 +22,18 @@ from microros_gen.agent.wire.constants import Format
 from microros_gen.agent.wire.entity_messages import Create, Delete
 from microros_gen.agent.wire.message import Header, join
 from microros_gen.agent.wire.submessages import Submessage, encode
+from tests.support.agent.bridging import GET_TYPES, Bridged, opened
+from tests.support.agent.captured import CREATE_CLIENT
+from tests.support.agent.client import (
+    dds_type,
+    participant_blob,
+    reader_blob,
+    service_blob,
+    topic_blob,
+    writer_blob,
+)
+from tests.support.agent.fakes import FakeTransport
+from tests.support.agent.process import own_domain
 
 pytestmark = pytest.mark.ros
 

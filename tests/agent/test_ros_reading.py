@@ -3,37 +3,31 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-from agent.bridging import GET_TYPES, names_body, read_names, read_types, types_body
-from agent.client import (
-    RELIABLE,
-    XrceClient,
-    dds_type,
-    int32_body,
-    participant_blob,
-    reader_blob,
-    service_blob,
-    topic_blob,
-)
-from agent.observer import Observer, observing
-from agent.process import AgentProcess, own_domain, running_agent
-from microros_gen.agent.wire.constants import Format
-from microros_gen.agent.wire.data_messages import Data, DeliveryControl, ReadData
-from microros_gen.agent.wire.submessages import encode
+from microros_gen.agent.wire.data_messages import Data
 from microros_gen.interfaces.type_hashes import type_hashes
+from tests.support.agent.bridging import GET_TYPES, names_body, read_names, read_types, types_body
+from tests.support.agent.client import (
+    XrceClient,
+    int32_body,
+)
+from tests.support.agent.observer import Observer, observing
+from tests.support.agent.process import AgentProcess, own_domain, running_agent
+from tests.support.agent.ros_reading import (
+    IDENTITY,
+    INT32,
+    LITTLE,
+    REQUEST_PREFIX,
+    service,
+    subscription,
+    until,
+)
 
 pytestmark = pytest.mark.ros
-
-INT32 = "std_msgs/msg/Int32"
-LITTLE = b"\0\1\0\0"
-READER_QOS_RELIABLE_KEEP_LAST = 3
-IDENTITY = 24
-REQUEST_PREFIX = 4
 
 
 @pytest.fixture(scope="module")
@@ -70,34 +64,6 @@ def client(agent: AgentProcess) -> Iterator[XrceClient]:
         made.leave()
 
 
-def subscription(client: XrceClient, node: str, topic: str, type_name: str, domain: int) -> int:
-    """Create node, topic, subscriber and reader, ask for all samples; return the reader's id."""
-    create(client, 0x11, participant_blob(node), 0, domain)
-    create(client, 0x12, topic_blob(f"rt/{topic}", dds_type(type_name)), 0x11)
-    create(client, 0x14, b"\0\0", 0x11)
-    create(client, 0x16, reader_blob(0x12, READER_QOS_RELIABLE_KEEP_LAST, 200), 0x14)
-    ask_for_all(client, 0x16)
-    return 0x16
-
-
-def service(client: XrceClient, object_id: int, node: str, name: str, domain: int) -> int:
-    """Create a node and a replier or a requester, ask for all that comes; return its id."""
-    create(client, 0x11, participant_blob(node), 0, domain)
-    create(client, object_id, service_blob(name, GET_TYPES), 0x11)
-    ask_for_all(client, object_id)
-    return object_id
-
-
-def create(client: XrceClient, object_id: int, body: bytes, parent: int, domain: int = 0) -> None:
-    status = client.create(object_id, Format.BINARY, body, parent, domain)
-    assert status in (0, 1), f"{object_id:#06x}: {status:#04x}"
-
-
-def ask_for_all(client: XrceClient, object_id: int) -> None:
-    question = ReadData(client._next_request(), object_id, RELIABLE, delivery=DeliveryControl(0xFFFF))
-    client.send(RELIABLE, encode(question))
-
-
 def samples(client: XrceClient, count: int) -> list[bytes]:
     found = []
     for _ in range(count):
@@ -105,13 +71,6 @@ def samples(client: XrceClient, count: int) -> list[bytes]:
         assert isinstance(data, Data)
         found.append(data.data)
     return found
-
-
-def until(done: Callable[[], object], timeout_s: float = 15.0) -> None:
-    end = time.monotonic() + timeout_s
-    while not done():
-        assert time.monotonic() < end
-        time.sleep(0.02)
 
 
 def test_samples_of_ros_arrive_in_order(client: XrceClient, observer: Observer, domain: int) -> None:

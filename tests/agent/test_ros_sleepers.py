@@ -8,11 +8,12 @@ from typing import Any
 
 import pytest
 
-from agent.bridging import GET_TYPES, names_body, read_names, read_types, types_body
-from agent.client import RELIABLE, NoAnswerError, XrceClient, int32_body, service_blob
-from agent.observer import Observer, observing
-from agent.process import own_domain, running_agent
-from agent.test_ros_reading import (
+from microros_gen.agent.wire.data_messages import Data
+from tests.support.agent.bridging import GET_TYPES, names_body, read_names, read_types, types_body
+from tests.support.agent.client import RELIABLE, NoAnswerError, XrceClient, int32_body, service_blob
+from tests.support.agent.observer import Observer, observing
+from tests.support.agent.process import own_domain, running_agent
+from tests.support.agent.ros_reading import (
     IDENTITY,
     INT32,
     LITTLE,
@@ -23,7 +24,6 @@ from agent.test_ros_reading import (
     subscription,
     until,
 )
-from microros_gen.agent.wire.data_messages import Data
 
 pytestmark = pytest.mark.ros
 

@@ -8,12 +8,6 @@ import time
 
 import pytest
 
-from agent.bridging import Bridged
-from agent.captured import CREATE_CLIENT
-from agent.client import dds_type, int32_body, participant_blob, topic_blob, writer_blob
-from agent.fakes import FakeTransport
-from agent.observer import Observer
-from agent.test_core_full import acknacks
 from microros_gen.agent.core import Agent
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog
@@ -22,6 +16,12 @@ from microros_gen.agent.wire.data_messages import WriteData
 from microros_gen.agent.wire.entity_messages import Create
 from microros_gen.agent.wire.message import Header, join
 from microros_gen.agent.wire.submessages import encode
+from tests.support.agent.bridging import Bridged
+from tests.support.agent.captured import CREATE_CLIENT
+from tests.support.agent.client import dds_type, int32_body, participant_blob, topic_blob, writer_blob
+from tests.support.agent.fakes import FakeTransport
+from tests.support.agent.observer import Observer
+from tests.support.agent.stream_messages import acknacks
 
 pytestmark = pytest.mark.ros
 

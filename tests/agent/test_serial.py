@@ -14,28 +14,17 @@ from pathlib import Path
 
 import pytest
 
-from agent.client import XrceClient, int32_body
-from agent.fakes import Bench
-from agent.serial_link import SerialLink, frame
-from agent.test_framing import CREATE_CLIENT_FRAME, STATUS_AGENT_FRAME
 from microros_gen.agent.server import Server
 from microros_gen.agent.transport.line import QUEUE_BYTES, Line
 from microros_gen.agent.transport.serial import Pty, open_device, serial_line, speeds
 from microros_gen.diagnostics import UserError
+from tests.support.agent.cable import Cable
+from tests.support.agent.captured_frames import CREATE_CLIENT_FRAME, STATUS_AGENT_FRAME
+from tests.support.agent.client import XrceClient, int32_body
+from tests.support.agent.fakes import Bench
+from tests.support.agent.serial_link import SerialLink, frame
 
 INT32 = "std_msgs/msg/Int32"
-
-
-class Cable:
-    """A pseudo-terminal: `device` for the agent, `end` for the client; pulling it closes both."""
-
-    def __init__(self) -> None:
-        self.end, self._slave = os.openpty()
-        self.device = os.ttyname(self._slave)
-
-    def pull(self) -> None:
-        os.close(self.end)
-        os.close(self._slave)
 
 
 class Served:

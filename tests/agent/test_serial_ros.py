@@ -13,15 +13,15 @@ from pathlib import Path
 
 import pytest
 
-from agent.client import BEST_EFFORT, XrceClient, int32_body
-from agent.observer import Observer, observing
-from agent.process import environment, own_domain, running_agent
-from agent.serial_link import SerialLink
-from agent.test_preconfigured import content
-from agent.test_references import PROFILES
-from agent.test_ros import INT32, gone, matched
-from agent.test_serial import Cable
 from microros_gen.agent.wire.constants import Format
+from tests.support.agent.cable import Cable
+from tests.support.agent.client import BEST_EFFORT, XrceClient, int32_body
+from tests.support.agent.entities_file import content
+from tests.support.agent.observer import Observer, observing
+from tests.support.agent.process import environment, own_domain, running_agent
+from tests.support.agent.references import PROFILES
+from tests.support.agent.ros_client import INT32, gone, matched
+from tests.support.agent.serial_link import SerialLink
 
 pytestmark = pytest.mark.ros
 

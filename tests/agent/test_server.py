@@ -9,10 +9,10 @@ import time
 from collections.abc import Hashable
 from pathlib import Path
 
-from agent.fakes import Bench
-from agent.served import wait_until
 from microros_gen.agent.server import TICK_S, Server
 from microros_gen.agent.transport.base import Receive
+from tests.support.agent.fakes import Bench
+from tests.support.agent.served import wait_until
 
 
 class Pipe:

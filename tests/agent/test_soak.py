@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from agent.process import own_domain
-from agent.soak import Place, World
-from agent.soak_processes import Peer, agent_process
+from tests.support.agent.process import own_domain
+from tests.support.agent.soak import Place, World
+from tests.support.agent.soak_processes import Peer, agent_process
 
 pytestmark = pytest.mark.ros
 

@@ -7,13 +7,13 @@ import random
 
 import pytest
 
-from agent.test_core import GRAPH, publishing
 from microros_gen.agent.streams_in import BestEffortIn, Reassembly, ReliableIn
 from microros_gen.agent.streams_out import HEARTBEAT_PERIOD_S, BestEffortOut, Link, ReliableOut
 from microros_gen.agent.wire.entity_messages import Fragment
 from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.message import header_size, split
 from microros_gen.agent.wire.submessages import decode
+from tests.support.agent.dialogue import GRAPH, publishing
 
 LINK = Link(0x81, b"\xa1\xb2\xc3\xd4", 64)
 KEYED = Link(0x01, b"\xa1\xb2\xc3\xd4", 64)

@@ -15,23 +15,20 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from agent import captured
-from agent.client import XrceClient
-from agent.fakes import Bench
-from agent.served import Served, wait_until
-from agent.tcp_link import TcpLink
 from microros_gen.agent.framing import LengthDecoder
 from microros_gen.agent.transport.sockets import PROTOCOLS, TCP4, TCP6, UDP4, Protocol
-from microros_gen.agent.transport.tcp import Connection, Tcp, TcpLimits, host_of
+from microros_gen.agent.transport.tcp import Tcp, host_of
 from microros_gen.agent.transport.udp import Udp
 from microros_gen.diagnostics import UserError
+from tests.support.agent import captured
+from tests.support.agent.client import XrceClient
+from tests.support.agent.fakes import Bench
+from tests.support.agent.served import Served, wait_until
+from tests.support.agent.tcp_agent import _received, tcp
+from tests.support.agent.tcp_link import TcpLink
 
 CREATE_CLIENT = bytes.fromhex(captured.CREATE_CLIENT)
 STATUS_AGENT = bytes.fromhex("81000000 04010b00 0000 58524345 0100 010f 00".replace(" ", ""))
-
-
-def tcp(bench: Bench, protocol: Protocol = TCP4, **limits: float) -> Tcp:
-    return Tcp(protocol, protocol.loopback, 0, bench.log, TcpLimits(**limits))  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("protocol", [TCP4, TCP6], ids=lambda p: p.name)
@@ -171,15 +168,6 @@ def test_output_is_bounded_and_whole() -> None:
     assert numbers == sorted(set(numbers))
     assert len(numbers) == 1000 - bench.log.counters["tcp_output_full"]
     transport.close()
-
-
-def _received(transport: Tcp) -> list[Connection]:
-    """Let `transport` take what has come; return the connections that messages came from."""
-    found: list[Connection] = []
-    end = time.monotonic() + 3
-    while not found and time.monotonic() < end:
-        transport.pump(lambda _data, address, _transport: found.append(address))  # type: ignore[arg-type]
-    return found
 
 
 def test_who_takes_nothing_is_closed() -> None:

@@ -9,12 +9,12 @@ import json
 from hypothesis import given
 from hypothesis import strategies as st
 
-from agent import captured
-from agent.fakes import FakeTransport
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.trace import TracedTransport, dump, record, summary
 from microros_gen.agent.wire.constants import SubmessageId
 from microros_gen.agent.wire.message import Header, join
+from tests.support.agent import captured
+from tests.support.agent.fakes import FakeTransport
 
 
 def test_captured_messages_by_name() -> None:

@@ -7,12 +7,12 @@ import socket
 
 import pytest
 
-from agent.client import XrceClient
-from agent.fakes import Bench
-from agent.served import Served
 from microros_gen.agent.transport.sockets import UDP4, UDP6, Protocol
 from microros_gen.agent.transport.udp import BATCH, Udp
 from microros_gen.diagnostics import UserError
+from tests.support.agent.client import XrceClient
+from tests.support.agent.fakes import Bench
+from tests.support.agent.served import Served
 
 BOTH = pytest.mark.parametrize("protocol", [UDP4, UDP6], ids=lambda p: p.name)
 

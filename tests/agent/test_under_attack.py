@@ -7,18 +7,13 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
-from agent.process import own_domain
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "bench"))
-
-from agent_attackers import ATTACKS
-from agent_attacks import ALL, HEAD, Line, echo, measure
+from tests.bench.agent_attackers import ATTACKS
+from tests.bench.agent_attacks import ALL, HEAD, Line, echo, measure
+from tests.support.agent.process import own_domain
 
 pytestmark = [pytest.mark.ros]
 SECONDS = float(os.environ.get("ATTACK_SECONDS", "6"))

@@ -10,8 +10,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agent import captured
-from agent.strategies import BY_NAME
 from microros_gen.agent.wire.cdr import Reader
 from microros_gen.agent.wire.constants import SubmessageId
 from microros_gen.agent.wire.entity_messages import Acknack, Create, Heartbeat, Representation
@@ -19,6 +17,8 @@ from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.message import Header, header_size, join, split
 from microros_gen.agent.wire.session_messages import AgentActivity, CreateClient, Info, Locator
 from microros_gen.agent.wire.submessages import Submessage, decode, encode
+from tests.support.agent import captured
+from tests.support.agent.strategies import BY_NAME
 
 
 def read(data: bytes) -> Submessage:

@@ -10,13 +10,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agent.test_core import GRAPH, message, publishing
-from agent.test_core_reading import FOREVER, LABEL, Listener, put, sample, subscribing
 from microros_gen.agent.wire.cdr import Reader, Writer
 from microros_gen.agent.wire.constants import DataFormat
 from microros_gen.agent.wire.data_messages import Data, DeliveryControl, WriteData
 from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.samples import Sample, SampleInfo, overhead, packs, read_samples, write_samples
+from tests.support.agent.dialogue import GRAPH, message, publishing
+from tests.support.agent.readers import FOREVER, LABEL, Listener, put, sample, subscribing
 
 u32 = st.integers(0, 0xFFFFFFFF)
 info = st.builds(SampleInfo, st.integers(0, 15), st.none() | u32, st.none() | u32)

@@ -3,13 +3,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
 from microros_gen.application.model import Application
 from microros_gen.application.parser import parse_application
 from microros_gen.diagnostics import Diagnostics, Source
+from tests.support.paths import ROOT
 
 NODE = "nodes:\n  - name: n\n"
 PUBLISHER = "{topic: %s, type: std_msgs/msg/Bool}"
@@ -347,7 +346,7 @@ def test_all_faults_come_in_one_run_and_in_the_order_of_the_text() -> None:
 
 
 def test_the_demo_application_parses() -> None:
-    path = Path(__file__).resolve().parents[2] / "examples" / "demo" / "microros.yaml"
+    path = ROOT / "examples" / "demo" / "microros.yaml"
     application, lines = parse(path.read_text(encoding="utf-8"))
     assert lines == []
     assert application is not None

@@ -9,7 +9,6 @@ from typing import Any
 
 import pytest
 from jsonschema import Draft202012Validator
-from key_cases import CASES, RESERVED
 
 from microros_gen.application.parser import SCHEMA as APPLICATION_SCHEMA
 from microros_gen.application.parser import parse_application
@@ -20,6 +19,7 @@ from microros_gen.documents.yaml_tree import parse_yaml, to_data
 from microros_gen.selection.component import Profile
 from microros_gen.selection.profile_file import AXES, parse_profile
 from microros_gen.selection.profile_file import SCHEMA as PROFILE_SCHEMA
+from tests.support.application.key_cases import CASES, RESERVED
 
 APPLICATION = load_schema(APPLICATION_SCHEMA)
 PROFILE = load_schema(PROFILE_SCHEMA)

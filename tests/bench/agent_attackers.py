@@ -16,21 +16,7 @@ import sys
 import time
 from collections.abc import Callable, Iterable
 from functools import partial
-from pathlib import Path
 from types import MappingProxyType
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
-from agent.client import (
-    dds_type,
-    int32_body,
-    participant_blob,
-    reader_blob,
-    topic_blob,
-    writer_blob,
-)
-from agent.soak_client import SoakClient
-from agent.soak_links import UdpLink
 
 from microros_gen.agent.wire.constants import DataFormat, Format
 from microros_gen.agent.wire.data_messages import WriteData
@@ -38,6 +24,16 @@ from microros_gen.agent.wire.entity_messages import Create
 from microros_gen.agent.wire.message import Header, join
 from microros_gen.agent.wire.session_messages import CreateClient, GetInfo
 from microros_gen.agent.wire.submessages import Submessage, encode
+from tests.support.agent.client import (
+    dds_type,
+    int32_body,
+    participant_blob,
+    reader_blob,
+    topic_blob,
+    writer_blob,
+)
+from tests.support.agent.soak_client import SoakClient
+from tests.support.agent.soak_links import UdpLink
 
 INT32 = dds_type("std_msgs/msg/Int32")
 KEEP_ALL, LAST, LATCHED = 1, 3, 11

@@ -23,19 +23,23 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
+from microros_gen.agent.wire.constants import Format
+from microros_gen.agent.wire.data_messages import Data, DeliveryControl, ReadData, WriteData
+from microros_gen.agent.wire.entity_messages import Create
+from tests.bench.agent_attackers import ATTACKS
+from tests.support.agent.client import (
+    dds_type,
+    int32_body,
+    participant_blob,
+    reader_blob,
+    topic_blob,
+    writer_blob,
+)
+from tests.support.agent.process import environment
+from tests.support.agent.soak_client import SoakClient
+from tests.support.agent.soak_links import UdpLink
+
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent)]
-
-from agent.client import dds_type, int32_body, participant_blob, reader_blob, topic_blob, writer_blob  # noqa: E402
-from agent.process import environment  # noqa: E402
-from agent.soak_client import SoakClient  # noqa: E402
-from agent.soak_links import UdpLink  # noqa: E402
-from agent_attackers import ATTACKS  # noqa: E402
-
-from microros_gen.agent.wire.constants import Format  # noqa: E402
-from microros_gen.agent.wire.data_messages import Data, DeliveryControl, ReadData, WriteData  # noqa: E402
-from microros_gen.agent.wire.entity_messages import Create  # noqa: E402
-
 INT32 = dds_type("std_msgs/msg/Int32")
 KEEP_ALL = 1
 EVERY_S = 0.02

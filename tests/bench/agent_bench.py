@@ -11,7 +11,7 @@ from functools import partial
 from itertools import count
 from pathlib import Path
 
-from agent_rates import (
+from tests.bench.agent_rates import (
     Case,
     Rate,
     client_to_dds,
@@ -22,7 +22,7 @@ from agent_rates import (
     memory,
     round_trip,
 )
-from agent_sides import BEST_EFFORT, RELIABLE, Programs, Target, build_programs, own_agent
+from tests.bench.agent_sides import BEST_EFFORT, RELIABLE, Programs, Target, build_programs, own_agent
 
 RUNS = 3
 SAMPLES = 60_000

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
-from agent_sides import (
+from tests.bench.agent_sides import (
     KEEP_ALL_BEST_EFFORT,
     KEEP_ALL_RELIABLE,
     READER,

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What stands on the sides of the agent in its bench: an XRCE client whose load is C, a ROS 2 peer in C, and the agent.
 
-The client opens its session and creates its entities in Python (tests/agent/client.py); then agent_load.c goes on with
-its socket and sequence numbers. The peer is rcl and rmw_fastrtps_cpp alone (agent_peer.c).
+The client opens its session and creates its entities in Python (tests/support/agent/client.py); then agent_load.c
+goes on with its socket and sequence numbers. The peer is rcl and rmw_fastrtps_cpp alone (agent_peer.c).
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, Any
 
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent))
-
-from agent.client import (  # noqa: E402
+from microros_gen.agent.wire.constants import Format
+from microros_gen.agent.wire.data_messages import DeliveryControl, ReadData
+from microros_gen.agent.wire.submessages import encode
+from tests.support.agent.client import (
     BEST_EFFORT,
     RELIABLE,
     XrceClient,
@@ -32,12 +32,9 @@ from agent.client import (  # noqa: E402
     topic_blob,
     writer_blob,
 )
-from agent.process import environment, running_agent  # noqa: E402
+from tests.support.agent.process import environment, running_agent
 
-from microros_gen.agent.wire.constants import Format  # noqa: E402
-from microros_gen.agent.wire.data_messages import DeliveryControl, ReadData  # noqa: E402
-from microros_gen.agent.wire.submessages import encode  # noqa: E402
-
+HERE = Path(__file__).resolve().parent
 TYPE = "std_msgs/msg/String"
 KEEP_ALL_RELIABLE, KEEP_ALL_BEST_EFFORT = 1, 0
 """EndpointQosFlags without the bit of KEEP_LAST."""

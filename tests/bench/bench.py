@@ -14,16 +14,16 @@ import sys
 import tempfile
 from pathlib import Path
 
-from agent_attacks import bench_attacks
-from agent_bench import bench_agent
-from agent_sides import Target
-from client import bench_client
-from codec import bench_codec
-from footprint import bench_footprint
-from generation import Seconds, bench_generate, median, row, timed, tool
-from images import bench_images
-from instructions import bench_instructions
-from type_flash import bench_type_flash
+from tests.bench.agent_attacks import bench_attacks
+from tests.bench.agent_bench import bench_agent
+from tests.bench.agent_sides import Target
+from tests.bench.client import bench_client
+from tests.bench.codec import bench_codec
+from tests.bench.footprint import bench_footprint
+from tests.bench.generation import Seconds, bench_generate, median, row, timed, tool
+from tests.bench.images import bench_images
+from tests.bench.instructions import bench_instructions
+from tests.bench.type_flash import bench_type_flash
 
 PARTS = (
     "generate",

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from instructions import HERE, IDL, run, version
+from tests.bench.instructions import HERE, IDL, run, version
 
 APPLICATION = """\
 version: 1

@@ -3,13 +3,10 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
-from firmware.board import BOARDS, Builds
-from firmware.footprint import (
+from tests.support.firmware.board import BOARDS, Builds
+from tests.support.firmware.footprint import (
     LIKE_FOR_LIKE,
     MODES,
     RELIABILITIES,

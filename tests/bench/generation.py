@@ -17,7 +17,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
-SHIPPED = Path(__file__).resolve().parents[2] / "microros_gen" / "idl"
+from tests.support.paths import ROOT
+
+SHIPPED = ROOT / "microros_gen" / "idl"
 COMMON_INTERFACES = (
     "actionlib_msgs",
     "builtin_interfaces",

@@ -10,14 +10,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
-from firmware.board import Builds, Built
-from firmware.footprint import SERVES, Sender, bounded_stack, image_sections
-from firmware.test_everything import APPLICATION as EVERYTHING
-from firmware.test_executor import APPLICATION as TICKS
-from firmware.test_executor import LISTENS
-from selections import bench_selections
+from tests.bench.selections import bench_selections
+from tests.support.firmware.board import Builds, Built
+from tests.support.firmware.everything import APPLICATION as EVERYTHING
+from tests.support.firmware.footprint import SERVES, Sender, bounded_stack, image_sections
+from tests.support.firmware.ticker import APPLICATION as TICKS
+from tests.support.firmware.ticker import LISTENS
 
 PROCESSORS = {"qemu-microbit": "Cortex-M0", "qemu-mps2-an386": "Cortex-M4", "qemu-mps2-an505": "Cortex-M33"}
 READER = """\

@@ -4,14 +4,10 @@
 from __future__ import annotations
 
 import subprocess
-import sys
 from dataclasses import dataclass
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
-from firmware.board import Builds, Built
-from firmware.footprint import Sections, bounded_stack, sections
+from tests.support.firmware.board import Builds, Built
+from tests.support.firmware.footprint import Sections, bounded_stack, sections
 
 PROFILES = ("pure_sender", "pure_reader", "static_configured_sender", "simulation_node")
 """The built-in ones with a serial line: ad_hoc_discoverable_sender needs UDP, whose port on a board is the user's."""

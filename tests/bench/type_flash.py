@@ -9,7 +9,9 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-IDL = Path(__file__).resolve().parents[2] / "microros_gen" / "idl"
+from tests.support.paths import ROOT
+
+IDL = ROOT / "microros_gen" / "idl"
 CORTEX_M4 = ["-std=c99", "-mcpu=cortex-m4", "-mthumb", "-Os", "-ffunction-sections", "-fdata-sections"]
 APPLICATION = """\
 version: 1

@@ -8,8 +8,9 @@ import shutil
 from pathlib import Path
 
 import pytest
-from cli.conftest import Outcome, Runner
-from tools.update_golden import GOLDEN, ROOT, SHIPPED, check_arguments
+
+from tests.support.command_line import Outcome, Runner
+from tests.tools.update_golden import GOLDEN, ROOT, SHIPPED, check_arguments
 
 A_SOURCE = "src/std_msgs/int32__functions.c"
 

@@ -9,12 +9,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from cli.conftest import Runner
 
 from microros_gen.cli.main import _COMMANDS
 from microros_gen.selection.xrce import BUILTIN_PROFILES
+from tests.support.command_line import Runner
+from tests.support.paths import ROOT
 
-IDL = str(Path(__file__).resolve().parents[2] / "microros_gen" / "idl")
+IDL = str(ROOT / "microros_gen" / "idl")
 ALL_COMMANDS = [*_COMMANDS, "agent udp4"]
 
 

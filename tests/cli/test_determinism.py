@@ -12,8 +12,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from cli.conftest import Runner
-from cli.environments import ROOT, clean_environ, interpreters, with_dependencies
+
+from tests.support.command_line import Runner
+from tests.support.environments import ROOT, clean_environ, interpreters, with_dependencies
 
 APPLICATION = """\
 version: 1

@@ -13,12 +13,12 @@ import time
 from pathlib import Path
 
 import pytest
-from cli.conftest import Outcome, Runner
 
 import microros_gen
 from microros_gen.compiler import request
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.output import runs
+from tests.support.command_line import Outcome, Runner
 
 APPLICATION = """\
 version: 1

@@ -8,9 +8,8 @@ import re
 import time
 from pathlib import Path
 
-from cli.conftest import Runner
-
 import microros_gen
+from tests.support.command_line import Runner
 
 OUT = Path("build/pure_sender")
 

@@ -11,7 +11,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from cli.conftest import Runner
 
 from microros_gen.agent.configuration.entities_file import parse_preconfigured
 from microros_gen.agent.configuration.parser import parse_agent_file
@@ -30,8 +29,9 @@ from microros_gen.migrate.colcon_meta import read_settings
 from microros_gen.platform.target_file import parse_target
 from microros_gen.selection.component_file import parse_component
 from microros_gen.selection.profile_file import parse_profile
+from tests.support.command_line import Runner
+from tests.support.paths import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 MUTATIONS = int(os.environ.get("MUTATIONS", "60"))  # of each seed; thousands by hand
 
 APPLICATION = """version: 1

@@ -7,7 +7,8 @@ import json
 from pathlib import Path
 
 import pytest
-from cli.conftest import Runner
+
+from tests.support.command_line import Runner
 
 ARGUMENTS = ("generate", "--profile", "pure_sender", "--output", "out", "--interface")
 

@@ -13,15 +13,15 @@ from typing import Any
 
 import jsonschema
 import pytest
-from cli.conftest import Runner
 
 import microros_gen
 from microros_gen.cli import main as cli
 from microros_gen.cli.size.html import HEIGHT, WIDTH, treemap
+from tests.support.command_line import Runner
 
 pytestmark = pytest.mark.skipif(not shutil.which("gcc"), reason="no gcc")
 SCHEMA = json.loads(
-    (Path(microros_gen.__file__).parent / "cli" / "size.schema.json").read_text(encoding="utf-8")
+    (Path(microros_gen.__file__).parent / "cli" / "size" / "size.schema.json").read_text(encoding="utf-8")
 )
 APPLICATION = """\
 version: 1

@@ -8,7 +8,8 @@ import shutil
 from pathlib import Path
 
 import pytest
-from cli.conftest import Runner
+
+from tests.support.command_line import Runner
 
 APPLICATION = """\
 version: 1

@@ -9,7 +9,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from docs.console import ROOT
+
+from tests.support.console import ROOT
 
 sys.path.insert(0, str(ROOT / "docs"))  # as mkdocs does for docs/hooks.py
 

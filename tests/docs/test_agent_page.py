@@ -28,8 +28,8 @@ from microros_gen.agent.ros import reports
 from microros_gen.agent.transport.tcp import TcpLimits
 from microros_gen.cli.agent.command import command
 from microros_gen.diagnostics import Diagnostics, Source
+from tests.support.paths import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs/howto/agent.md").read_text(encoding="utf-8")
 AGENT = ROOT / "microros_gen/agent"
 

@@ -18,12 +18,12 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from agent.observer import Observer, observing
-from agent.process import own_domain, running_agent
-from docs.console import ROOT
 
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.platform.find import read_target
+from tests.support.agent.observer import Observer, observing
+from tests.support.agent.process import own_domain, running_agent
+from tests.support.console import ROOT
 
 BOARDS = ROOT / "examples" / "boards"
 STAND_INS = Path(__file__).parent / "stand_ins"

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 import yaml
-from docs.console import ROOT, blocks
 
 from microros_gen.cli import main as cli
+from tests.support.console import ROOT, blocks
 
 PAGES = {
     name: (ROOT / f"docs/howto/{name}.md").read_text(encoding="utf-8") for name in ("init", "check", "idl")

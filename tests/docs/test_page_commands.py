@@ -10,16 +10,17 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from docs.console import ROOT, SHELL, Terminal, blocks, shows, steps
+
+from tests.support.console import ROOT, SHELL, Terminal, blocks, shows, steps
 
 PAGES = {str(path.relative_to(ROOT / "docs")): path for path in sorted((ROOT / "docs").rglob("*.md"))}
 ELSEWHERE = {
     "howto/agent.md": "tests/docs/test_agent_page.py",
     "howto/check.md": "tests/docs/test_init_pages.py",
-    "howto/cmake.md": "tests/cmake_build/test_example.py",
+    "howto/cmake.md": "tests/workspace/test_example.py",
     "howto/idl.md": "tests/docs/test_init_pages.py",
     "verification/proof.md": "tests/proof/test_proof.py",
-    "howto/ros_build.md": "tests/ros_build/environments.py",
+    "howto/ros_build.md": "tests/support/workspace/ros_environments.py",
 }
 """Pages whose commands another test runs, which reads the page."""
 
@@ -40,7 +41,7 @@ NEEDS = {
 
 
 LONG = ("howto/init.md", "tutorial/nucleo_f446re.md")
-"""Pages that compile the library by CMake; tests/cmake_build and test_boards.py have their slices."""
+"""Pages that compile the library by CMake; tests/workspace and test_boards.py have their slices."""
 
 
 def pages_that_run() -> list[Any]:

@@ -13,12 +13,12 @@ import sys
 from pathlib import Path
 
 import pytest
-from docs.console import blocks, masked
-from firmware.ceilings import ROW, load, readme_row
 
 from microros_gen.cli.main import _COMMANDS
+from tests.support.console import blocks, masked
+from tests.support.firmware.ceilings import ROW, load, readme_row
+from tests.support.paths import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 

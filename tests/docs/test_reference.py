@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The generated pages have everything: options as `--help` prints them, keys of the schemas, the API of tests/api."""
+"""The generated pages have everything: options as `--help` prints them, keys of the schemas, the C API."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ import click
 import pytest
 import yaml
 from click.testing import CliRunner
-from docs.console import ROOT
 from generators import c_api, command_line
 from generators.c_headers import read_header
 from hooks import SCHEMA_FILES, generated
 
 from microros_gen.cli.main import cli
 from microros_gen.documents.schema import load_schema
+from tests.support.console import ROOT
 
-SURFACE = yaml.safe_load((ROOT / "tests/api/surface.yaml").read_text(encoding="utf-8"))
+SURFACE = yaml.safe_load((ROOT / "tests/runtime/surface.yaml").read_text(encoding="utf-8"))
 SCHEMAS = ("application", "profile", "target", "agent")
 
 
@@ -69,7 +69,7 @@ def test_every_key_is_there_with_its_meaning(name: str) -> None:
 
 
 def test_what_the_suite_knows_of_the_api_is_there() -> None:
-    """tests/api/surface.yaml has the functions as facts of ROS 2 and micro-ROS, not of these headers."""
+    """tests/runtime/surface.yaml has the functions as facts of ROS 2 and micro-ROS, not of these headers."""
     there = {
         (header.name, name)
         for header in c_api.headers()

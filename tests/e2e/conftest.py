@@ -7,14 +7,14 @@ import os
 from collections.abc import Iterator
 
 import pytest
-from agent.observer import Observer, observing
-from agent.process import AgentProcess, own_domain, running_agent
 
-from e2e.images import DECLARED as DECLARED_YAML
-from e2e.images import POOLS as POOLS_YAML
-from e2e.images import QUICK, Image, Images
-from e2e.live import Live
-from e2e.relay import Relay
+from tests.support.agent.observer import Observer, observing
+from tests.support.agent.process import AgentProcess, own_domain, running_agent
+from tests.support.e2e.images import DECLARED as DECLARED_YAML
+from tests.support.e2e.images import POOLS as POOLS_YAML
+from tests.support.e2e.images import QUICK, Image, Images
+from tests.support.e2e.live import Live
+from tests.support.e2e.relay import Relay
 
 
 @pytest.fixture(scope="session")

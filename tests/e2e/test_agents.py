@@ -10,14 +10,14 @@ from collections.abc import Iterator
 from contextlib import ExitStack
 
 import pytest
-from agent.observer import Observer
-from agent.process import AgentProcess, running_agent
-from runtime.fake_agent import FakeAgent
 
-from e2e.images import Image, Images, run
-from e2e.live import Live, Sample
-from e2e.relay import Relay, rough
-from e2e.udp_agent import serving
+from tests.support.agent.observer import Observer
+from tests.support.agent.process import AgentProcess, running_agent
+from tests.support.e2e.images import Image, Images, run
+from tests.support.e2e.live import Live, Sample
+from tests.support.e2e.relay import Relay, rough
+from tests.support.e2e.udp_agent import serving
+from tests.support.runtime.fake_agent import FakeAgent
 
 # What a publish that waits for nothing takes, microseconds: nearly always, and when the machine is busy.
 AT_ONCE_US = 5_000

@@ -11,14 +11,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from agent.observer import Observer
-from agent.process import running_agent
-from runtime.fake_agent import FakeAgent
 
-from e2e.images import C_FILES, Image, Images, started
-from e2e.live import Live
-from e2e.relay import Relay
-from e2e.udp_agent import serving
+from tests.support.agent.observer import Observer
+from tests.support.agent.process import running_agent
+from tests.support.e2e.images import C_FILES, Image, Images, started
+from tests.support.e2e.live import Live
+from tests.support.e2e.relay import Relay
+from tests.support.e2e.udp_agent import serving
+from tests.support.runtime.fake_agent import FakeAgent
 
 STRICT_CPP = ("-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Werror")
 

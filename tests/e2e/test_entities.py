@@ -10,12 +10,12 @@ from contextlib import ExitStack
 from typing import Any
 
 import pytest
-from agent.observer import Observer
-from agent.process import running_agent
 
-from e2e.images import QUICK, Image, Images, ends_well, kill, started
-from e2e.relay import Relay
-from e2e.test_samples import run_to, until
+from tests.support.agent.observer import Observer
+from tests.support.agent.process import running_agent
+from tests.support.e2e.images import QUICK, Image, Images, ends_well, kill, started
+from tests.support.e2e.programs import run_to, until
+from tests.support.e2e.relay import Relay
 
 pytestmark = pytest.mark.ros
 

@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from agent.observer import Observer
-from agent.process import AgentProcess, running_agent
 
-from e2e.examples import NAMES, PAGE, Example, Examples, commands
-from e2e.relay import Relay
+from tests.support.agent.observer import Observer
+from tests.support.agent.process import AgentProcess, running_agent
+from tests.support.e2e.examples import NAMES, PAGE, Example, Examples, commands
+from tests.support.e2e.relay import Relay
 
 pytestmark = pytest.mark.ros
 

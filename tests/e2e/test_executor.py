@@ -10,11 +10,11 @@ import time
 from pathlib import Path
 
 import pytest
-from agent.process import AgentProcess
-from runtime.fake_agent import FakeAgent
 
-from e2e.images import C_FILES, Images, ends_well, started
-from e2e.udp_agent import serving
+from tests.support.agent.process import AgentProcess
+from tests.support.e2e.images import C_FILES, Images, ends_well, started
+from tests.support.e2e.udp_agent import serving
+from tests.support.runtime.fake_agent import FakeAgent
 
 TICKER = Path(__file__).parents[1] / "firmware" / "c" / "ticker.c"
 APPLICATION = """\

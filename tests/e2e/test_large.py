@@ -8,11 +8,11 @@ import subprocess
 import time
 
 import pytest
-from agent.observer import Observer
-from agent.process import AgentProcess
 
-from e2e.images import C_FILES, SANITIZE, Images
-from e2e.relay import Fault, Relay, no_fault
+from tests.support.agent.observer import Observer
+from tests.support.agent.process import AgentProcess
+from tests.support.e2e.images import C_FILES, SANITIZE, Images
+from tests.support.e2e.relay import Fault, Relay, no_fault
 
 pytestmark = pytest.mark.ros
 

@@ -6,10 +6,10 @@ from __future__ import annotations
 import time
 
 import pytest
-from agent.observer import Observer
-from agent.process import AgentProcess
 
-from e2e.images import QUICK, Images, started
+from tests.support.agent.observer import Observer
+from tests.support.agent.process import AgentProcess
+from tests.support.e2e.images import QUICK, Images, started
 
 pytestmark = pytest.mark.ros
 

@@ -16,12 +16,12 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from agent.process import environment
 
-from e2e.images import QUICK, Image, Images, run
-from e2e.relay import Relay
+from tests.support.agent.process import environment
+from tests.support.e2e.images import QUICK, Image, Images, run
+from tests.support.e2e.relay import Relay
+from tests.support.paths import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 RUN = [sys.executable, "-m", "microros_gen", "run"]
 DECLARED = """\
 version: 1

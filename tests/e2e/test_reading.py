@@ -7,11 +7,11 @@ import time
 from pathlib import Path
 
 import pytest
-from agent.observer import Observer
-from agent.process import AgentProcess
 
-from e2e.images import C_FILES, SANITIZE, Images, started
-from e2e.relay import Relay
+from tests.support.agent.observer import Observer
+from tests.support.agent.process import AgentProcess
+from tests.support.e2e.images import C_FILES, SANITIZE, Images, started
+from tests.support.e2e.relay import Relay
 
 pytestmark = pytest.mark.ros
 

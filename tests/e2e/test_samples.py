@@ -10,11 +10,12 @@ from itertools import pairwise
 from typing import Any
 
 import pytest
-from agent.observer import Observer
-from agent.process import AgentProcess
 
-from e2e.images import DECLARED, SANITIZE, Image, Images, ends_well, kill, started
-from e2e.relay import Relay
+from tests.support.agent.observer import Observer
+from tests.support.agent.process import AgentProcess
+from tests.support.e2e.images import DECLARED, SANITIZE, Image, Images, ends_well, kill, started
+from tests.support.e2e.programs import run_to, until
+from tests.support.e2e.relay import Relay
 
 pytestmark = pytest.mark.ros
 
@@ -24,27 +25,6 @@ FULL = (
     " or raise pools: {history: 5} in microros.yaml"
 )
 SHORT_RUN = (*SANITIZE, f"-DEXAMPLE_SAMPLES={SAMPLES}", "-DEXAMPLE_PERIOD_MS=20")
-
-
-def until(observer: Observer, topics: list[str], last: int, timeout_s: float = 20.0) -> dict[str, list[Any]]:
-    """Take samples until each of `topics` has the value `last`; return all samples by topic."""
-    found: dict[str, list[Any]] = {}
-    end = time.monotonic() + timeout_s
-    missing = set(topics)
-    while missing:
-        assert time.monotonic() < end, f"{last} does not come on {missing}: {found.keys()}"
-        for name, value in observer.ask(do="samples"):
-            found.setdefault(name, []).append(value)
-            if value.get("data") == last:
-                missing.discard(name)
-        time.sleep(0.02)
-    return found
-
-
-def run_to(last: int, values: list[int]) -> None:
-    """Check that `values` are consecutive up to `last`, and more than the end: discovery took the first."""
-    assert values == list(range(values[0], last + 1))
-    assert len(values) >= 5
 
 
 def declared(name: str) -> str:

@@ -10,11 +10,12 @@ import time
 from pathlib import Path
 
 import pytest
-from agent.observer import Observer
-from agent.process import AgentProcess, running_agent
 
-from e2e.images import C_FILES, QUICK, SANITIZE, Images, started
-from e2e.relay import Relay
+from tests.support.agent.observer import Observer
+from tests.support.agent.process import AgentProcess, running_agent
+from tests.support.e2e.images import C_FILES, QUICK, SANITIZE, Images, started
+from tests.support.e2e.relay import Relay
+from tests.support.e2e.serving import await_line, await_replies
 
 pytestmark = pytest.mark.ros
 
@@ -41,21 +42,6 @@ nodes:
 limits: {"*": {string: 8, sequence: 4}}
 """
 STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror")
-
-
-def await_line(process: subprocess.Popen[str], beginning: str) -> str:
-    assert process.stdout is not None
-    line = process.stdout.readline()
-    assert line.startswith(beginning), line
-    return line
-
-
-def await_replies(observer: Observer) -> list[list[int]]:
-    end = time.monotonic() + 15
-    while None in (replies := observer.ask(do="replies")):
-        assert time.monotonic() < end, replies
-        time.sleep(0.02)
-    return list(replies)
 
 
 def call(program: Path, observer: Observer) -> None:

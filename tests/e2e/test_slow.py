@@ -10,13 +10,13 @@ import time
 from pathlib import Path
 
 import pytest
-from agent.observer import Observer
-from agent.process import AgentProcess, running_agent
 
-from e2e.images import C_FILES, QUICK, Images, started
-from e2e.line_relay import LineRelay
-from e2e.relay import Relay
-from e2e.test_serving import await_line
+from tests.support.agent.observer import Observer
+from tests.support.agent.process import AgentProcess, running_agent
+from tests.support.e2e.images import C_FILES, QUICK, Images, started
+from tests.support.e2e.line_relay import LineRelay
+from tests.support.e2e.relay import Relay
+from tests.support.e2e.serving import await_line
 
 pytestmark = pytest.mark.ros
 

@@ -8,11 +8,11 @@ import socket
 from pathlib import Path
 
 import pytest
-from agent.observer import Observer
-from agent.process import running_agent
 
-from e2e.images import QUICK, Images, ends_well, started
-from e2e.test_samples import run_to, until
+from tests.support.agent.observer import Observer
+from tests.support.agent.process import running_agent
+from tests.support.e2e.images import QUICK, Images, ends_well, started
+from tests.support.e2e.programs import run_to, until
 
 pytestmark = pytest.mark.ros
 

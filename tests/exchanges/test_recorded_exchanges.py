@@ -9,7 +9,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from exchanges.recorded import GOLDEN, build_clock, exchange_of, recorded
+
+from tests.support.exchanges.recorded import GOLDEN, build_clock, exchange_of, recorded
 
 
 @pytest.fixture(scope="module")

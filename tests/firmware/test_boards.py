@@ -7,10 +7,10 @@ import os
 import time
 
 import pytest
-from runtime.fake_agent import FakeAgent
 
-from firmware.board import BOARDS, Builds, board, report
-from firmware.line import Relay, noisy, open_raw, scripted_agent
+from tests.support.firmware.board import BOARDS, Builds, board, report
+from tests.support.firmware.line import Relay, noisy, open_raw, scripted_agent
+from tests.support.runtime.fake_agent import FakeAgent
 
 FAULTS = {
     "qemu-microbit": ("0x90000000", 3),

@@ -7,33 +7,14 @@ import time
 from itertools import pairwise
 
 import pytest
-from agent.observer import Observer
-from e2e.test_serving import await_replies
 
-from firmware.board import Builds, board, need
-from firmware.test_run import BOARD, domain, observer, started
-
-__all__ = ["domain", "observer"]
+from tests.support.agent.observer import Observer
+from tests.support.e2e.serving import await_replies
+from tests.support.firmware.board import Builds, board, need
+from tests.support.firmware.everything import APPLICATION
+from tests.support.firmware.running import BOARD, started
 
 TYPE = "rcl_interfaces/srv/GetParameterTypes"
-APPLICATION = """\
-version: 1
-profiles: [pure_sender, pure_reader, simulation_node]
-components: [+timers, +services, +executor]
-on_full: block 1 s
-pools: {history: 16}
-session: {connect_timeout: 20 s, create_timeout: 20 s, liveliness_timeout: 20 s}  # a busy test machine
-nodes:
-  - name: board
-    publishers:
-      - {topic: ticks, type: std_msgs/msg/Int32}
-      - {topic: seen, type: std_msgs/msg/Int32}
-    subscriptions: [{topic: set, type: std_msgs/msg/Int32}]
-    services: [{name: lengths, type: rcl_interfaces/srv/GetParameterTypes}]
-    clients: [{name: /peer/lengths, type: rcl_interfaces/srv/GetParameterTypes}]
-    timers: [{name: tick, period: 50 ms}]
-limits: {"*": {string: 8, sequence: 3}}
-"""
 TOPICS = ("/ticks", "/seen")
 HEARD, ANSWERED = 1000, 2000
 """The board publishes on /seen: HEARD and what came on /set, ANSWERED and each element of a reply."""

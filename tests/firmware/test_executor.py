@@ -7,23 +7,13 @@ import time
 from pathlib import Path
 
 import pytest
-from runtime.fake_agent import FakeAgent
 
-from firmware.board import Builds, Built, board, need
-from firmware.footprint import SERVES, bounded_stack, image_sections, touched_stack
-from firmware.line import scripted_agent
+from tests.support.firmware.board import Builds, Built, board, need
+from tests.support.firmware.footprint import SERVES, bounded_stack, image_sections, touched_stack
+from tests.support.firmware.line import scripted_agent
+from tests.support.firmware.ticker import APPLICATION, LISTENS
+from tests.support.runtime.fake_agent import FakeAgent
 
-APPLICATION = """\
-version: 1
-profiles: [pure_sender]
-components: [+timers]
-errors: code
-nodes:
-  - name: ticker
-    publishers: [{topic: count, type: std_msgs/msg/Int32}]
-    timers: [{name: tick, period: 100 ms%s}]
-"""
-LISTENS = "    subscriptions: [{topic: numbers, type: std_msgs/msg/Int32}]\n"
 NAME = "qemu-mps2-an386"
 SAMPLES = 12
 

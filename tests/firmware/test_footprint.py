@@ -8,9 +8,16 @@ from collections.abc import Iterator
 import pytest
 from _pytest.mark import ParameterSet
 
-from firmware.board import Builds, need
-from firmware.ceilings import CORTEX_M4, OTHER_COMPILER, cases, compiler_of, load, measure
-from firmware.footprint import LIKE_FOR_LIKE, Sender, bounded_stack, buffers, painted_stack, sections
+from tests.support.firmware.board import Builds, need
+from tests.support.firmware.ceilings import CORTEX_M4, OTHER_COMPILER, cases, compiler_of, load, measure
+from tests.support.firmware.footprint import (
+    LIKE_FOR_LIKE,
+    Sender,
+    bounded_stack,
+    buffers,
+    painted_stack,
+    sections,
+)
 
 CEILINGS = load()
 

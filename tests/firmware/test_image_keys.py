@@ -9,13 +9,13 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from runtime.fake_agent import FakeAgent
 
-from firmware.board import C_FILES, Built, board, build, check, need
-from firmware.line import scripted_agent
-from firmware.test_images import NOT_NEEDED
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.platform.find import read_target
+from tests.support.firmware.board import C_FILES, Built, board, build, check, need
+from tests.support.firmware.line import scripted_agent
+from tests.support.firmware.unneeded import NOT_NEEDED
+from tests.support.runtime.fake_agent import FakeAgent
 
 DMA, FAST, OFFSET = 0x21800000, 0x21000000, 0x10000
 BOOTED = f"""\

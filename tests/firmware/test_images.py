@@ -9,16 +9,13 @@ from pathlib import Path
 
 import pytest
 
-from firmware.board import BOARDS, C_FILES, Builds, Built, build, check, need
+from tests.support.firmware.board import BOARDS, C_FILES, Builds, Built, build, check, need
+from tests.support.firmware.unneeded import NOT_NEEDED
 
 POOL = "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\n"
 # What a C library has for input and output, memory, its own start-up and its state between calls.
 _FIRST = ("qemu-mps2-an386", "qemu-microbit", "qemu-riscv32-virt")
 EACH_BOARD = [pytest.param(n, marks=[] if n in _FIRST else [pytest.mark.lint]) for n in BOARDS]
-NOT_NEEDED = re.compile(
-    r"_*(v?f?s?n?i?printf|puts|putchar|malloc|calloc|realloc|free|_?sbrk|impure_ptr|_?exit|abort|atexit|signal|raise"
-    r"|libc_init_array|libc_fini_array|init|fini|start|errno|assert_func|udivdi3|divdi3|aeabi_.?ldivmod)(_r)?"
-)
 CMSIS = re.compile(
     r"\w+_(Handler|IRQHandler)|SystemInit|SystemCoreClock|__isr_vector|_estack|_s?[ed]?(data|bss)"
 )

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from firmware.board import C_FILES, check
 from microros_gen.application.model import Application, Transport
 from microros_gen.client.plan.board import plan_board, ring_size
 from microros_gen.client.plan.runtime import RuntimePlan
@@ -17,6 +16,7 @@ from microros_gen.platform.find import read_target
 from microros_gen.platform.target import Uart
 from microros_gen.selection.find_components import components_folder
 from microros_gen.toolchain.toolchain import WARNINGS
+from tests.support.firmware.board import C_FILES, check
 
 COMPONENTS = components_folder()
 BOARD = (

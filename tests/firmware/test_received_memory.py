@@ -9,8 +9,8 @@ import sys
 
 import pytest
 
-from firmware.board import Builds, Built, need
-from firmware.footprint import image_sections
+from tests.support.firmware.board import Builds, Built, need
+from tests.support.firmware.footprint import image_sections
 
 CORTEX_M4 = "qemu-mps2-an386"
 GOAL = 2.5

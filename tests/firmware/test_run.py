@@ -6,46 +6,15 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
-import sys
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from agent.observer import Observer, observing
-from agent.process import AgentProcess, environment, own_domain
 
-from firmware.board import Builds, board, build, need, report
-from firmware.line import Relay, noisy
-
-BOARD = "qemu-mps2-an386"
-
-
-def program(*arguments: str) -> list[str]:
-    return [sys.executable, "-m", "microros_gen", *arguments]
-
-
-@contextmanager
-def started(*arguments: str, domain: int = 0) -> Iterator[AgentProcess]:
-    """Start a command of the tool; end it and all that it started afterwards."""
-    process = subprocess.Popen(
-        program(*arguments),
-        env=environment(domain),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    try:
-        yield AgentProcess(process)
-    finally:
-        if process.poll() is None:
-            process.terminate()
-        try:
-            process.wait(timeout=15)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
+from tests.support.agent.observer import Observer
+from tests.support.firmware.board import Builds, board, build, need, report
+from tests.support.firmware.line import Relay, noisy
+from tests.support.firmware.running import BOARD, program, started
 
 
 def children(process: subprocess.Popen[str]) -> dict[str, int]:
@@ -64,17 +33,6 @@ def is_alive(number: int) -> bool:
     except ProcessLookupError:
         return False
     return True
-
-
-@pytest.fixture(scope="module")
-def domain() -> int:
-    return own_domain()
-
-
-@pytest.fixture(scope="module")
-def observer(domain: int) -> Iterator[Observer]:
-    with observing(domain) as running:
-        yield running
 
 
 ROOMY = "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\npools: {history: 16}\n"

@@ -6,10 +6,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from runtime.fake_agent import FakeAgent
-
-from firmware.board import Board, Builds, Built, board
-from firmware.line import Relay, scripted_agent
+from tests.support.firmware.board import Board, Builds, Built, board
+from tests.support.firmware.line import Relay, scripted_agent
+from tests.support.runtime.fake_agent import FakeAgent
 
 NAME = "qemu-mps2-an386"
 LARGE, SMALL = 7000, 4000

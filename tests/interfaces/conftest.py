@@ -1,9 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the oracle of tests/parse importable."""
+"""An environment with the lark of ROS 2."""
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
+import subprocess
+import venv
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "parse"))
+import pytest
+
+
+@pytest.fixture(scope="session")
+def old_lark_python(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """Return a Python with lark-parser 0.12, which ROS 2 installs into the same folder as lark."""
+    folder = tmp_path_factory.mktemp("old_lark") / "venv"
+    venv.create(folder, with_pip=True)
+    python = str(folder / "bin" / "python")
+    install = [python, "-m", "pip", "install", "-q", "lark-parser==0.12.0"]
+    if subprocess.run(install, capture_output=True, check=False).returncode:
+        pytest.skip("lark-parser cannot be installed here")
+    return python

@@ -12,11 +12,11 @@ from pathlib import Path
 import click
 import pytest
 from click.testing import CliRunner, Result
-from idl_compiler import IdlCompiler, idl_compiler
-from rosidl_idl_pipeline import RosIdl, ros_idl
 
 from microros_gen.cli.interfaces import command
 from microros_gen.diagnostics import UserError
+from tests.support.interfaces.idl_compiler import IdlCompiler, idl_compiler
+from tests.support.interfaces.rosidl_idl_pipeline import RosIdl, ros_idl
 
 SHARE = Path(sys.prefix) / "share"
 KINDS = ("msg", "srv", "action")

@@ -6,11 +6,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from test_resolve import names, package, resolve
 
 from microros_gen.interfaces.closure import split_type_name
 from microros_gen.interfaces.find import InterfaceFinder, shipped_folder
 from microros_gen.interfaces.types import TypeName
+from tests.support.interfaces.resolving import names, package, resolve
 
 SHIPPED = InterfaceFinder(shipped=shipped_folder())
 SET_BOOL = TypeName("std_srvs", "srv", "SetBool")

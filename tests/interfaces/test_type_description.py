@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from rosidl_pipeline import ros_message
 
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.documents.named import Named
@@ -27,6 +26,7 @@ from microros_gen.interfaces.types import (
     StringType,
     TypeName,
 )
+from tests.support.interfaces.rosidl_pipeline import ros_message
 
 SHARE = Path(sys.prefix) / "share"
 

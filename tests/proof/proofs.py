@@ -16,14 +16,14 @@ from functools import cache
 from pathlib import Path
 
 import yaml
-from house import corpus
-from house.corpus import INTERFACES, ROOT, tree_key
 
 from microros_gen.cli.generate import plan, write
 from microros_gen.compiler.options import SelectionOptions
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.typesupport.plan.types import TypePlan
-from proof.message_header import header, stems
+from tests.proof.message_header import header, stems
+from tests.support.quality import corpus
+from tests.support.quality.corpus import INTERFACES, ROOT, tree_key
 
 FOLDER = Path(__file__).resolve().parent
 DRIVERS = FOLDER / "drivers"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """`make proof`: every run of proofs.yaml, and the report of it in docs/verification/proof.md.
 
-`python tests/proof/prove.py [NAME …]` makes the runs of these proofs alone (`decode`, `decode-ppc_32`,
+`python -m tests.proof.prove [NAME …]` makes the runs of these proofs alone (`decode`, `decode-ppc_32`,
 `decode-ppc_32-0`: a proof, a machine, a variant) and prints what it finds without writing the report.
 """
 
@@ -13,10 +13,8 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
-from proof import proofs, report
-from proof.proofs import Proof, Run
+from tests.proof import proofs, report
+from tests.proof.proofs import Proof, Run
 
 WORKERS = 2
 

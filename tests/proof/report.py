@@ -10,9 +10,9 @@ from fnmatch import fnmatchcase
 from functools import cache
 
 import yaml
-from house.corpus import ROOT
 
-from proof.proofs import FOLDER, Alarm, Proof, Run, load, reached_by
+from tests.proof.proofs import FOLDER, Alarm, Proof, Run, load, reached_by
+from tests.support.quality.corpus import ROOT
 
 PAGE = ROOT / "docs" / "verification" / "proof.md"
 BEGIN, END = "<!-- proof: begin -->\n", "<!-- proof: end -->\n"

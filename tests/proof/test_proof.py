@@ -8,10 +8,10 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from house.corpus import ROOT
 
-from proof import proofs, report
-from proof.proofs import Proof, Tree
+from tests.proof import proofs, report
+from tests.proof.proofs import Proof, Tree
+from tests.support.quality.corpus import ROOT
 
 needs_frama_c = pytest.mark.skipif(not proofs.is_installed(), reason="no frama-c (Debian: frama-c-base)")
 SLICE = [(proof, number) for proof in proofs.load() for number in proof.slice]

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
-from runtime.driver import Client
-from runtime.fake_agent import FakeAgent
-from runtime.harness import POOL, build, components, render
+from tests.support.runtime.driver import Client
+from tests.support.runtime.fake_agent import FakeAgent
+from tests.support.runtime.harness import POOL, build, components, render
 
 ProgramFactory = Callable[[RuntimePlan, str], Path]
 

@@ -18,10 +18,10 @@ import pytest
 from microros_gen.client.plan.runtime import DISCOVERY_GROUP, RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan
 from microros_gen.selection.find_components import components_folder
-from runtime.conftest import Bench
-from runtime.driver import Client
-from runtime.harness import POOL, READER, SERVER, components
-from runtime.serving_agent import ServingAgent, identity
+from tests.runtime.conftest import Bench
+from tests.support.runtime.driver import Client
+from tests.support.runtime.harness import POOL, READER, SERVER, components
+from tests.support.runtime.serving_agent import ServingAgent, identity
 
 FIRST = POOL.publishers_max
 """The first subscription's index among the endpoints."""

@@ -9,10 +9,10 @@ from dataclasses import replace
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
-from runtime.conftest import Bench
-from runtime.driver import Client
-from runtime.fake_agent import FakeAgent
-from runtime.harness import POOL
+from tests.runtime.conftest import Bench
+from tests.support.runtime.driver import Client
+from tests.support.runtime.fake_agent import FakeAgent
+from tests.support.runtime.harness import POOL
 
 RELIABLE = replace(
     POOL, creation="reliable", creation_size=128, reliable_input_slots=1, reliable_input_slot_size=64

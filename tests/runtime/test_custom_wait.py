@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from runtime.harness import EXECUTOR, build, components, render
-from runtime.reading_agent import ReadingAgent
+from tests.support.runtime.harness import EXECUTOR, build, components, render
+from tests.support.runtime.reading_agent import ReadingAgent
 
 PLAN = replace(
     EXECUTOR,

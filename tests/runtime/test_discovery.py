@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import random
 import socket
-import struct
 import subprocess
 import threading
 from collections.abc import Callable, Iterator
@@ -16,9 +15,10 @@ from pathlib import Path
 import pytest
 
 from microros_gen.client.plan.runtime import DISCOVERY_GROUP
-from runtime.harness import POOL, build, components, render
-from runtime.test_tcp import TcpAgent, serving
-from runtime.test_udp import UdpAgent
+from tests.support.runtime.discovery import info, locator
+from tests.support.runtime.harness import POOL, build, components, render
+from tests.support.runtime.tcp import TcpAgent, serving
+from tests.support.runtime.udp import UdpAgent
 
 PLAN = replace(
     POOL,
@@ -30,17 +30,6 @@ PLAN = replace(
 )
 QUESTION = bytes.fromhex("80000000 02010800 0009fffd 03000000")
 Answers = Callable[[], list[bytes]]
-
-
-def locator(host: str, port: int) -> bytes:
-    return b"\x01" + socket.inet_aton(host) + b"\0" + struct.pack("<H", port)
-
-
-def info(*locators: bytes) -> bytes:
-    """Return the INFO that the public agent was seen to send; each locator has eight bytes, so all are aligned."""
-    payload = bytes.fromhex("0009fffd 0000 010d 58524345 0100010f 00 010d 00 0100 0000")
-    payload += struct.pack("<I", len(locators)) + b"".join(locators)
-    return b"\x80\0\0\0\x06\x01" + struct.pack("<H", len(payload)) + payload
 
 
 class Group(threading.Thread):

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import pytest
 
-from runtime.conftest import Bench
-from runtime.harness import DECLARED, POOL
+from tests.runtime.conftest import Bench
+from tests.support.runtime.harness import DECLARED, POOL
 
 TOPIC_INVALID = 103
 NODE_NAME_INVALID = 201

@@ -11,7 +11,16 @@ import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan, TimerPlan
-from runtime.harness import EXECUTOR, ROS_TIME, SANITIZE, Tree, build, compilers, components, render
+from tests.support.runtime.harness import (
+    EXECUTOR,
+    ROS_TIME,
+    SANITIZE,
+    Tree,
+    build,
+    compilers,
+    components,
+    render,
+)
 
 MS = 1_000_000
 TICKS = replace(

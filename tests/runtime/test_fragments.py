@@ -11,10 +11,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from runtime.conftest import Bench, ProgramFactory
-from runtime.driver import Client
-from runtime.fake_agent import FakeAgent
-from runtime.harness import POOL
+from tests.runtime.conftest import Bench, ProgramFactory
+from tests.support.runtime.driver import Client
+from tests.support.runtime.fake_agent import FakeAgent
+from tests.support.runtime.harness import POOL
 
 MTU = 32
 PIECE = MTU - 8

@@ -14,8 +14,17 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from microros_gen.selection.find_components import components_folder
-from runtime.frames import CLIENT, Event, crc16, events, frame, stuffed
-from runtime.harness import FIXTURES, POOL, SANITIZE, Tree, compile_objects, components, link, render
+from tests.support.runtime.frames import CLIENT, Event, crc16, events, frame, stuffed
+from tests.support.runtime.harness import (
+    FIXTURES,
+    POOL,
+    SANITIZE,
+    Tree,
+    compile_objects,
+    components,
+    link,
+    render,
+)
 
 SERIAL = replace(POOL, transport="serial")
 SEND, KEPT = "xrce_framing_send.c", "xrce_framing_kept.c"

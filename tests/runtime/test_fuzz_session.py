@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from runtime.fuzzing import CORPUS, SECONDS, TARGETS, Target, fuzz, fuzzer
+from tests.support.runtime.fuzzing import CORPUS, SECONDS, TARGETS, Target, fuzz, fuzzer
 
 pytestmark = [
     pytest.mark.skipif(not shutil.which("clang"), reason="libFuzzer comes with clang"),

@@ -6,11 +6,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from agent.fakes import Bench as AgentBench
 
-from runtime.conftest import Bench
-from runtime.driver import Client
-from runtime.harness import POOL
+from tests.runtime.conftest import Bench
+from tests.support.agent.fakes import Bench as AgentBench
+from tests.support.runtime.driver import Client
+from tests.support.runtime.harness import POOL
 
 PLAN = replace(POOL, hard_liveliness_ms=2000)
 CAPTURED = bytes.fromhex(

@@ -16,10 +16,10 @@ from pathlib import Path
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
-from runtime.fake_agent import FakeAgent
-from runtime.frames import AGENT, CLIENT, events, frame
-from runtime.harness import POOL, Tree, build, components, render
-from runtime.test_udp import UdpAgent
+from tests.support.runtime.fake_agent import FakeAgent
+from tests.support.runtime.frames import AGENT, CLIENT, events, frame
+from tests.support.runtime.harness import POOL, Tree, build, components, render
+from tests.support.runtime.udp import UdpAgent
 
 PLAN = replace(POOL, connect_timeout_ms=3000, create_timeout_ms=3000, liveliness_period_ms=50)
 SERIAL = replace(PLAN, transport="serial", serial_device="/dev/null")

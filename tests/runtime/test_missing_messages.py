@@ -9,10 +9,10 @@ from dataclasses import replace
 import pytest
 
 from microros_gen.client.plan.runtime_entities import QueuePlan
-from runtime.conftest import Bench
-from runtime.driver import Client
-from runtime.harness import POOL, READER
-from runtime.reading_agent import ReadingAgent
+from tests.runtime.conftest import Bench
+from tests.support.runtime.driver import Client
+from tests.support.runtime.harness import POOL, READER
+from tests.support.runtime.reading_agent import ReadingAgent
 
 FIRST = POOL.publishers_max
 PIECES = 9

@@ -12,9 +12,9 @@ import pytest
 from microros_gen.cli.generate import plan, write
 from microros_gen.compiler.options import SelectionOptions
 from microros_gen.interfaces.find import shipped_folder
-from runtime.driver import Client
-from runtime.fake_agent import FakeAgent
-from runtime.harness import Tree, build
+from tests.support.runtime.driver import Client
+from tests.support.runtime.fake_agent import FakeAgent
+from tests.support.runtime.harness import Tree, build
 
 APPLICATION = """\
 version: 1

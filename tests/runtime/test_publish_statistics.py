@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
-from runtime.driver import Client
-from runtime.fake_agent import FakeAgent
-from runtime.harness import POOL, build, components, render
+from tests.support.runtime.driver import Client
+from tests.support.runtime.fake_agent import FakeAgent
+from tests.support.runtime.harness import POOL, build, components, render
 
 DROP_OLDEST = replace(POOL, on_full="drop_oldest")
 FRAGMENTS = replace(DROP_OLDEST, mtu=64, fragments=True, reliable_slot_size=300)

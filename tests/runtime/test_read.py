@@ -12,10 +12,10 @@ import pytest
 from microros_gen.application.names import expand_topic_name
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan, SubscriptionPlan
-from runtime.conftest import Bench
-from runtime.driver import Client
-from runtime.harness import DECLARED, INT32, POOL, READER, STRING
-from runtime.reading_agent import READ_DATA, UNLIMITED, ReadingAgent
+from tests.runtime.conftest import Bench
+from tests.support.runtime.driver import Client
+from tests.support.runtime.harness import DECLARED, INT32, POOL, READER, STRING
+from tests.support.runtime.reading_agent import READ_DATA, UNLIMITED, ReadingAgent
 
 TAKE_FAILED = 401
 FIRST = POOL.publishers_max

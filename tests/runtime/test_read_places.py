@@ -11,10 +11,10 @@ import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan
-from runtime.conftest import Bench
-from runtime.driver import Client
-from runtime.harness import POOL, READER
-from runtime.reading_agent import DATA, ReadingAgent
+from tests.runtime.conftest import Bench
+from tests.support.runtime.driver import Client
+from tests.support.runtime.harness import POOL, READER
+from tests.support.runtime.reading_agent import DATA, ReadingAgent
 
 TAKE_FAILED = 401
 FIRST = POOL.publishers_max

@@ -10,10 +10,10 @@ from dataclasses import replace
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
-from runtime.conftest import Bench
-from runtime.driver import Client
-from runtime.harness import SERVER
-from runtime.serving_agent import GUID, ServingAgent, identity
+from tests.runtime.conftest import Bench
+from tests.support.runtime.driver import Client
+from tests.support.runtime.harness import SERVER
+from tests.support.runtime.serving_agent import GUID, ServingAgent, identity
 
 REPLIER = bytes.fromhex("0018")
 REQUESTER = bytes.fromhex("0027")

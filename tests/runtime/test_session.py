@@ -9,9 +9,9 @@ from dataclasses import replace
 
 import pytest
 
-from runtime.conftest import Bench
-from runtime.fake_agent import FakeAgent
-from runtime.harness import DECLARED, POOL
+from tests.runtime.conftest import Bench
+from tests.support.runtime.fake_agent import FakeAgent
+from tests.support.runtime.harness import DECLARED, POOL
 
 PERIOD = POOL.liveliness_period_ms
 LOGIN = bytes.fromhex("80000000 0001")

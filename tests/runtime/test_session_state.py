@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from runtime.conftest import Bench
-from runtime.driver import Client
-from runtime.harness import POOL, READER
-from runtime.reading_agent import ReadingAgent
+from tests.runtime.conftest import Bench
+from tests.support.runtime.driver import Client
+from tests.support.runtime.harness import POOL, READER
+from tests.support.runtime.reading_agent import ReadingAgent
 
 CLOSED, CONNECTING, CONNECTED, LOST, RECONNECTING = range(5)
 NONE, SILENT, FORGOTTEN, UNACKNOWLEDGED, BROKEN, REFUSED = range(6)

@@ -11,11 +11,11 @@ import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan, SubscriptionPlan
-from runtime.conftest import Bench
-from runtime.driver import Client
-from runtime.harness import DECLARED, INT32, READER, SERVER
-from runtime.reading_agent import ReadingAgent
-from runtime.serving_agent import ServingAgent, identity
+from tests.runtime.conftest import Bench
+from tests.support.runtime.driver import Client
+from tests.support.runtime.harness import DECLARED, INT32, READER, SERVER
+from tests.support.runtime.reading_agent import ReadingAgent
+from tests.support.runtime.serving_agent import ServingAgent, identity
 
 PLAN = replace(READER, has_session_state=True, has_sleep=True)
 DECLARED_PLAN = replace(

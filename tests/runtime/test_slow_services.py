@@ -12,11 +12,11 @@ from dataclasses import dataclass
 import pytest
 
 from microros_gen.application.model import SessionTimes
-from runtime.conftest import Bench
-from runtime.driver import Client
-from runtime.harness import SERVER
-from runtime.serving_agent import ServingAgent, identity
-from runtime.test_times import with_times
+from tests.runtime.conftest import Bench
+from tests.support.runtime.driver import Client
+from tests.support.runtime.harness import SERVER
+from tests.support.runtime.serving_agent import ServingAgent, identity
+from tests.support.runtime.times import with_times
 
 REPLIER = bytes.fromhex("0018")
 TAKE_FAILED, REPLY_FAILED = 601, 501

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from runtime.harness import EXECUTOR, components, render
+from tests.support.runtime.harness import EXECUTOR, components, render
 
 FILES = (
     "rmw_ping.c",

@@ -16,11 +16,11 @@ from pathlib import Path
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
-from runtime.driver import Client
-from runtime.harness import POOL, build, components, render
-from runtime.test_discovery import info, locator
-from runtime.test_time_sync import EPOCH_NS, TimedAgent, answer, moment
-from runtime.wires import Datagrams, Frames, Lengths, Wire
+from tests.support.runtime.discovery import info, locator
+from tests.support.runtime.driver import Client
+from tests.support.runtime.harness import POOL, build, components, render
+from tests.support.runtime.time_sync import EPOCH_NS, TimedAgent, answer, moment
+from tests.support.runtime.wires import Datagrams, Frames, Lengths, Wire
 
 BASE = replace(POOL, has_time_sync=True)
 PLANS = {

@@ -9,8 +9,8 @@ from dataclasses import replace
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
-from runtime.conftest import Bench
-from runtime.harness import POOL
+from tests.runtime.conftest import Bench
+from tests.support.runtime.harness import POOL
 
 DROP_OLDEST = replace(POOL, on_full="drop_oldest")
 BLOCK = replace(POOL, on_full="block", on_full_block_ms=30)

@@ -13,7 +13,7 @@ import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan, SubscriptionPlan
-from runtime.harness import (
+from tests.support.runtime.harness import (
     DECLARED,
     FIXTURES,
     INT32,

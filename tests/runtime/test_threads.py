@@ -10,8 +10,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from microros_gen.client.plan.runtime_entities import QueuePlan
-from runtime.harness import EXECUTOR, build, components, render
-from runtime.reading_agent import ReadingAgent
+from tests.support.runtime.harness import EXECUTOR, build, components, render
+from tests.support.runtime.reading_agent import ReadingAgent
 
 TASKS, PUBLISHERS, VALUES, TASK_VALUES, RECEIVED = 4, 3, 150, 100_000, 300
 PLAN = replace(

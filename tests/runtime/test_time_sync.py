@@ -5,47 +5,20 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from itertools import count
 
 import pytest
 
-from runtime.conftest import Bench
-from runtime.driver import Client
-from runtime.fake_agent import FakeAgent
-from runtime.harness import POOL
+from tests.runtime.conftest import Bench
+from tests.support.runtime.driver import Client
+from tests.support.runtime.harness import POOL
+from tests.support.runtime.time_sync import EPOCH_NS, TimedAgent, answer, moment
 
 PLAN = replace(POOL, has_time_sync=True)
-TIMESTAMP = bytes.fromhex("81000000 0e010800")
 START_MS = 5_000_000_124
 """The steady time of the fake port when it has a session: connecting took a millisecond."""
-EPOCH_NS = 1_790_000_000_123_456_789
 MOST_S = 2**31 - 1
-
-
-@dataclass
-class TimedAgent(FakeAgent):
-    """Answers TIMESTAMP with what `reply` makes of the originate time."""
-
-    reply: Callable[[bytes], list[bytes]] = lambda originate: []
-    asked: list[int] = field(default_factory=list)
-
-    def receive(self, datagram: bytes) -> list[bytes]:
-        if datagram[:8] != TIMESTAMP:
-            return super().receive(datagram)
-        assert len(datagram) == 16
-        seconds, nanoseconds = struct.unpack_from("<iI", datagram, 8)
-        self.asked.append(seconds * 10**9 + nanoseconds)
-        return self.reply(datagram[8:])
-
-
-def moment(nanoseconds: int, order: str = "<") -> bytes:
-    return struct.pack(f"{order}II", nanoseconds // 10**9, nanoseconds % 10**9)
-
-
-def answer(transmit: bytes, receive: bytes, originate: bytes, flags: int = 1) -> bytes:
-    payload = transmit + receive + originate
-    return bytes([0x81, 0, 0, 0, 0x0F, flags, len(payload), 0]) + payload
 
 
 def start(bench: Bench, reply: Callable[[bytes], list[bytes]]) -> tuple[Client, TimedAgent]:

@@ -14,19 +14,16 @@ import pytest
 from microros_gen.application.model import SessionTimes
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.session_times import plan_times
-from runtime.conftest import Bench
-from runtime.driver import Client
-from runtime.fake_agent import FakeAgent
-from runtime.harness import EXECUTOR, POOL, READER, build, components, render
-from runtime.reading_agent import ReadingAgent
-from runtime.test_time_sync import EPOCH_NS, answer, moment
+from tests.runtime.conftest import Bench
+from tests.support.runtime.driver import Client
+from tests.support.runtime.fake_agent import FakeAgent
+from tests.support.runtime.harness import EXECUTOR, POOL, READER, build, components, render
+from tests.support.runtime.reading_agent import ReadingAgent
+from tests.support.runtime.time_sync import EPOCH_NS, answer, moment
+from tests.support.runtime.times import with_times
 
 ROUND_TRIP_MS = 3000
 CREATE_CLIENT, CREATE, GET_INFO, READ_DATA, HEARTBEAT = 0x00, 0x01, 0x02, 0x08, 0x0B
-
-
-def with_times(plan: RuntimePlan, times: SessionTimes, baud: int | None = None) -> RuntimePlan:
-    return replace(plan, **vars(plan_times(times, baud, plan.mtu, plan.input_size)))
 
 
 SLOW = with_times(

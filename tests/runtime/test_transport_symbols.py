@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
-from runtime.harness import DECLARED, FIXTURES, POOL, compile_objects, components, link, render
+from tests.support.runtime.harness import DECLARED, FIXTURES, POOL, compile_objects, components, link, render
 
 PLANS = {
     "udp": POOL,

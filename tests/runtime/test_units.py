@@ -12,7 +12,7 @@ import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.selection.find_components import components_folder
-from runtime.harness import POOL, SANITIZE, Tree, build, compilers, components, render
+from tests.support.runtime.harness import POOL, SANITIZE, Tree, build, compilers, components, render
 
 ARENA = replace(POOL, arena_size=1024)
 

@@ -10,8 +10,8 @@ from dataclasses import replace
 
 import pytest
 
-from runtime.conftest import Bench
-from runtime.harness import DECLARED, POOL
+from tests.runtime.conftest import Bench
+from tests.support.runtime.harness import DECLARED, POOL
 
 PARTICIPANT = "01071e00 000b0001 01030000 10000000 00 010000 08000000 6d795f6e6f646500 4d00"
 TOPIC = (

@@ -7,10 +7,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
-from house import misra
-from house.corpus import make_trees, units
+from tests.support.quality import misra
+from tests.support.quality.corpus import make_trees, units
 
 
 def main() -> int:

@@ -4,7 +4,7 @@
 Nothing else of the read files is kept, comments least of all; the short notes below are this project's own.
 Run it when a new distribution is taken up:
 
-    python tests/tools/restate_idl.py SHARE… [--output microros_gen/idl] [--package NAME…]
+    python -m tests.tools.restate_idl SHARE… [--output microros_gen/idl] [--package NAME…]
 
 SHARE is a folder of packages, for example `share` of an installed ROS 2.
 """

@@ -7,9 +7,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
-from exchanges.recorded import GOLDEN, exchanges, recorded
+from tests.support.exchanges.recorded import GOLDEN, exchanges, recorded
 
 
 def main() -> int:

@@ -7,10 +7,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
-from firmware.board import Builds
-from firmware.ceilings import FILE, update
+from tests.support.firmware.board import Builds
+from tests.support.firmware.ceilings import FILE, update
 
 
 def main() -> int:

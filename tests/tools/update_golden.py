@@ -16,7 +16,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+from tests.support.paths import ROOT
+
 GOLDEN = ROOT / "tests" / "golden"
 SHIPPED = ROOT / "microros_gen" / "idl"
 

@@ -9,11 +9,15 @@ from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent))
-
-from ts_build import TEST_RULES, Generated, compile_shared, differing_rules, generate, interfaces
-
 from microros_gen.interfaces.find import InterfaceFinder
+from tests.support.typesupport.build import (
+    TEST_RULES,
+    Generated,
+    compile_shared,
+    differing_rules,
+    generate,
+    interfaces,
+)
 
 
 @pytest.fixture(scope="session")

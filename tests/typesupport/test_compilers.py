@@ -9,8 +9,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from ts_build import DECODING, WARNINGS, Generated, run, unity
-from ts_selfcheck import write_selfcheck
+
+from tests.support.typesupport.build import DECODING, WARNINGS, Generated, run, unity
+from tests.support.typesupport.selfcheck import write_selfcheck
 
 pytestmark = pytest.mark.ros
 

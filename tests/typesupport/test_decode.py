@@ -12,14 +12,14 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-import ts_cdr
-from test_bytes import names_member, with_python
-from ts_build import Generated
-from ts_decoder import BOUND, CAPACITY, END, VALUE, Decoder, Refused
-from ts_values import Randomizer, from_ros, ros_class, to_ros
 
 from microros_gen.interfaces.types import NamedType, TypeName, element_of
 from microros_gen.typesupport.plan.types import TypePlan
+from tests.support.typesupport import cdr
+from tests.support.typesupport.build import Generated
+from tests.support.typesupport.decoder import BOUND, CAPACITY, END, VALUE, Decoder, Refused
+from tests.support.typesupport.encoder import names_member, with_python
+from tests.support.typesupport.values import Randomizer, from_ros, ros_class, to_ros
 
 pytestmark = pytest.mark.ros
 
@@ -43,7 +43,7 @@ def check_samples(generated: Generated, library: ctypes.CDLL, samples: tuple[str
             message = to_ros(generated.messages, plan.name, tree)
             little = rclpy_serialization.serialize_message(message)[4:]
             assert decoder.decode(little) == tree, (plan.name, mode)
-            big = ts_cdr.encode(generated.messages, plan.name, tree, True)
+            big = cdr.encode(generated.messages, plan.name, tree, True)
             assert decoder.decode(big, swap=True) == tree, (plan.name, mode)
             compared += 1
     return compared
@@ -63,7 +63,7 @@ def test_the_big_endian_oracle_is_read_by_ros(limits_case: Generated) -> None:
     for seed, plan in enumerate(with_python(limits_case)):
         tree = Randomizer(limits_case.messages, seed).tree(plan.name, plan.limits, "random")
         for big in (False, True):
-            body = ts_cdr.encode(limits_case.messages, plan.name, tree, big)
+            body = cdr.encode(limits_case.messages, plan.name, tree, big)
             header = b"\0\0\0\0" if big else LITTLE
             message = rclpy_serialization.deserialize_message(header + body, ros_class(plan.name))
             assert from_ros(limits_case.messages, plan.name, message) == tree, (plan.name, big)
@@ -83,8 +83,8 @@ def ros_reads(generated: Generated, name: TypeName, body: bytes) -> dict[str, An
 def strictly(generated: Generated, name: TypeName, body: bytes, big: bool) -> dict[str, Any] | str:
     """Return the contents that the tests' own decoder reads, or `refused`."""
     try:
-        return ts_cdr.decode(generated.messages, name, body, big)
-    except ts_cdr.RefusedError:
+        return cdr.decode(generated.messages, name, body, big)
+    except cdr.RefusedError:
         return "refused"
 
 
@@ -106,12 +106,12 @@ def compare(generated: Generated, decoder: Decoder, body: bytes) -> str:
             outcome = "above a capacity" if full else "refused"
         else:
             assert not isinstance(expected, str), (name, body.hex(), ours)
-            same = ts_cdr.encode(generated.messages, name, ours, False)
-            assert same == ts_cdr.encode(generated.messages, name, expected, False), (name, body.hex())
+            same = cdr.encode(generated.messages, name, ours, False)
+            assert same == cdr.encode(generated.messages, name, expected, False), (name, body.hex())
             theirs = ros_reads(generated, name, body) if not big else "no text"
             assert theirs != "refused", (name, body.hex(), ours)
             if not isinstance(theirs, str):
-                assert same == ts_cdr.encode(generated.messages, name, theirs, False), (name, body.hex())
+                assert same == cdr.encode(generated.messages, name, theirs, False), (name, body.hex())
             outcome = "read"
     if outcome == "refused" and not isinstance(ros_reads(generated, name, body), str):
         assert any(isinstance(element_of(f.type), NamedType) for f in generated.messages[name].fields), name
@@ -123,7 +123,7 @@ def bodies(generated: Generated, seed: int) -> Iterator[tuple[TypePlan, bytes]]:
     """Yield a valid body of each type."""
     for index, plan in enumerate(with_python(generated)):
         tree = Randomizer(generated.messages, seed + index).tree(plan.name, plan.limits, "random")
-        yield plan, ts_cdr.encode(generated.messages, plan.name, tree, False)
+        yield plan, cdr.encode(generated.messages, plan.name, tree, False)
 
 
 def check_prefixes(generated: Generated, library: ctypes.CDLL, most: int) -> None:
@@ -182,7 +182,7 @@ def test_what_does_not_fit_is_refused_with_its_field(limits_case: Generated, lib
     checked = 0
     for seed, plan in enumerate(limits_case.plans):
         tree = Randomizer(limits_case.messages, seed).tree(plan.name, plan.limits, "full")
-        body = ts_cdr.encode(limits_case.messages, plan.name, tree, False)
+        body = cdr.encode(limits_case.messages, plan.name, tree, False)
         decoder = Decoder(library, limits_case, plan)
         assert decoder.decode(body) == tree, plan.name
         seen = set()
@@ -321,7 +321,7 @@ def test_the_callers_buffer_may_lie_anywhere(everything: Generated, functions_li
     """Alignment counts from the first byte of the body, not from its address."""
     plan = everything.plan("sensor_msgs/msg/Imu")
     tree = Randomizer(everything.messages, 1).tree(plan.name, plan.limits, "random")
-    body = ts_cdr.encode(everything.messages, plan.name, tree, False)
+    body = cdr.encode(everything.messages, plan.name, tree, False)
     decoder = Decoder(functions_library, everything, plan)
     for shift in range(8):
         room = ctypes.create_string_buffer(bytes(shift) + body)

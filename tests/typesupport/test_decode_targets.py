@@ -9,8 +9,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from ts_build import DECODING, WARNINGS, Generated, run, unity
-from ts_replay import FUZZ, REPLAY, write_bodies, write_program, write_seeds
+
+from tests.support.typesupport.build import DECODING, WARNINGS, Generated, run, unity
+from tests.support.typesupport.replay import FUZZ, REPLAY, write_bodies, write_program, write_seeds
 
 pytestmark = pytest.mark.ros
 

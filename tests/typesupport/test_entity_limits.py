@@ -11,10 +11,10 @@ import shutil
 from pathlib import Path
 
 import pytest
-from ts_build import WARNINGS, run
 
 from microros_gen.cli import main as cli
 from microros_gen.interfaces.find import shipped_folder
+from tests.support.typesupport.build import WARNINGS, run
 
 pytestmark = pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
 

@@ -10,19 +10,27 @@ import ctypes
 from pathlib import Path
 
 import pytest
-import ts_cdr
-from test_bytes import Encoder
-from test_functions import Memory
-from test_layout import facts, facts_program
-from ts_build import COMPONENTS, TEST_RULES, WARNINGS, Generated, compile_shared, generate, run
-from ts_decoder import Decoder
-from ts_rosidl import RosPackage, make_ros_package
-from ts_values import Randomizer
 
 from microros_gen.documents.templates import shared_environment
 from microros_gen.typesupport.plan.members import TABLES_HEADER
 from microros_gen.typesupport.plan.types import TypePlan
 from microros_gen.typesupport.views.members import render_members
+from tests.support.typesupport import cdr
+from tests.support.typesupport.build import (
+    COMPONENTS,
+    TEST_RULES,
+    WARNINGS,
+    Generated,
+    compile_shared,
+    generate,
+    run,
+)
+from tests.support.typesupport.decoder import Decoder
+from tests.support.typesupport.encoder import Encoder
+from tests.support.typesupport.layout import facts, facts_program
+from tests.support.typesupport.memory import Memory
+from tests.support.typesupport.rosidl import RosPackage, make_ros_package
+from tests.support.typesupport.values import Randomizer
 
 pytestmark = pytest.mark.ros
 pytest.importorskip("rosidl_typesupport_fastrtps_c")
@@ -108,8 +116,8 @@ def test_bytes_are_those_of_fast_cdr(letters: Generated, compiled: ctypes.CDLL, 
             tree = values.tree(plan.name, plan.limits, mode)
             filled = decoder.structs.fill(plan.name, tree)
             body = encoder.encode(filled)
-            big = ts_cdr.encode(letters.messages, plan.name, tree, True)
-            assert body == ts_cdr.encode(letters.messages, plan.name, tree, False)
+            big = cdr.encode(letters.messages, plan.name, tree, True)
+            assert body == cdr.encode(letters.messages, plan.name, tree, False)
             assert decoder.decode(body) == decoder.decode(big, swap=True) == tree
             for order, text in ((False, body), (True, big)):
                 theirs = decoder.structs.structure(plan.name)()

@@ -11,12 +11,12 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from ts_build import COMPONENTS, WARNINGS, Generated, generate, run
 
 from microros_gen.application.model import LimitRule
 from microros_gen.cli.generate import plan, write
 from microros_gen.compiler.options import SelectionOptions
 from microros_gen.interfaces.find import shipped_folder
+from tests.support.typesupport.build import COMPONENTS, WARNINGS, Generated, generate, run
 
 TYPES = (
     "std_msgs/msg/Int32",

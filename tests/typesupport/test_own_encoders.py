@@ -10,11 +10,11 @@ import shutil
 from pathlib import Path
 
 import pytest
-from ts_build import WARNINGS, run
 
 from microros_gen.cli.generate import plan, write
 from microros_gen.compiler.options import SelectionOptions
 from microros_gen.interfaces.find import shipped_folder
+from tests.support.typesupport.build import WARNINGS, run
 
 APPLICATION = """\
 version: 1

@@ -7,7 +7,6 @@ import re
 from pathlib import Path
 
 import pytest
-from ts_build import COMPONENTS, generate
 
 from microros_gen.application.model import LimitRule
 from microros_gen.diagnostics import Diagnostics, Source, UserError
@@ -17,6 +16,7 @@ from microros_gen.interfaces.types import Message, Primitive, StringType, TypeNa
 from microros_gen.typesupport.plan.size import WireSizes
 from microros_gen.typesupport.plan.types import LARGEST_BODY
 from microros_gen.typesupport.views.struct import declaration
+from tests.support.typesupport.build import COMPONENTS, generate
 
 ROOT = COMPONENTS.parents[1]
 PAGE = (ROOT / "docs" / "explanation" / "typesupport.md").read_text(encoding="utf-8")

@@ -9,15 +9,15 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import ts_cdr
-from test_bytes import with_python
-from ts_build import Generated, generate, run
-from ts_decoder import Decoder
-from ts_padding import padding
-from ts_values import CStructs, Randomizer, to_ros
 
 from microros_gen.application.model import LimitRule
 from microros_gen.cli import main as cli
+from tests.support.typesupport import cdr
+from tests.support.typesupport.build import Generated, generate, run
+from tests.support.typesupport.decoder import Decoder
+from tests.support.typesupport.encoder import with_python
+from tests.support.typesupport.padding import padding
+from tests.support.typesupport.values import CStructs, Randomizer, to_ros
 
 pytestmark = pytest.mark.ros
 
@@ -134,7 +134,7 @@ def check_samples(product: Product, samples: tuple[str, ...]) -> int:
             for gap in gaps:
                 expected[len(LITTLE) + gap] = 0
             assert written == expected, (plan.name, mode)
-            big = BIG + ts_cdr.encode(generated.messages, plan.name, tree, True)
+            big = BIG + cdr.encode(generated.messages, plan.name, tree, True)
             for data in (theirs, big):
                 message = decoder.bind()
                 assert functions.deserialize(data, message), (plan.name, mode)

@@ -9,13 +9,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
-from test_bytes import Encoder
-from ts_build import Generated
-from ts_decoder import Decoder
-from ts_values import CStructs, Randomizer
+
+from tests.support.typesupport.build import Generated
+from tests.support.typesupport.decoder import Decoder
+from tests.support.typesupport.encoder import Encoder
+from tests.support.typesupport.values import CStructs, Randomizer
 
 if TYPE_CHECKING:
-    from ts_rosbags import Oracle
+    from tests.support.typesupport.rosbags import Oracle
 
 pytestmark = pytest.mark.ros
 
@@ -27,7 +28,7 @@ LONG_SAMPLES = ("empty", "full", *("random",) * 200)
 @pytest.fixture(scope="session")
 def oracle(everything: Generated) -> Oracle:
     pytest.importorskip("rosbags.typesys")
-    from ts_rosbags import Oracle
+    from tests.support.typesupport.rosbags import Oracle
 
     return Oracle(Path(sys.prefix) / "share")
 

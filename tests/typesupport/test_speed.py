@@ -4,14 +4,11 @@
 from __future__ import annotations
 
 import shutil
-import sys
 from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "bench"))
-
-import codec
+from tests.bench import codec
 
 pytestmark = pytest.mark.ros
 

@@ -6,12 +6,12 @@ from __future__ import annotations
 import ctypes
 
 import pytest
-from ts_build import Generated
-from ts_values import CStructs, from_ros, ros_class
 
 from microros_gen.interfaces.types import ArrayType, NamedType, SequenceType, StringType, TypeName, element_of
 from microros_gen.typesupport.plan.layout import LP64
 from microros_gen.typesupport.plan.size import TypeLimits
+from tests.support.typesupport.build import Generated
+from tests.support.typesupport.values import CStructs, from_ros, ros_class
 
 pytestmark = pytest.mark.ros
 pytest.importorskip("rclpy")

@@ -8,7 +8,6 @@ import time
 from pathlib import Path
 
 import pytest
-from ts_build import TEST_RULES, WARNINGS, Generated, generate, run
 
 from microros_gen.application.model import LimitRule
 from microros_gen.diagnostics import UserError
@@ -18,6 +17,7 @@ from microros_gen.typesupport.plan.names import snake_case
 from microros_gen.typesupport.views.decode import render_decoders
 from microros_gen.typesupport.views.text import comment_lines, number, string
 from microros_gen.typesupport.views.types import render_types
+from tests.support.typesupport.build import TEST_RULES, WARNINGS, Generated, generate, run
 
 NASTY = """# Speed [m/s] */ int injected; /* and more
 # trigraph ??/

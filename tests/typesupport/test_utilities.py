@@ -15,11 +15,11 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from ts_build import WARNINGS, run
-from ts_utilities import APPLICATION, CASES, PACKAGE, PROGRAM, SMALL
 
 from microros_gen.cli import main as cli
 from microros_gen.interfaces.find import shipped_folder
+from tests.support.typesupport.build import WARNINGS, run
+from tests.support.typesupport.utilities import APPLICATION, CASES, PACKAGE, PROGRAM, SMALL
 
 pytestmark = pytest.mark.skipif(
     shutil.which("gcc") is None or shutil.which("nm") is None, reason="no gcc or no nm"

@@ -1,0 +1,225 @@
+# SPDX-License-Identifier: Apache-2.0
+"""clang-tidy, cppcheck, MISRA's rules, every warning of gcc and clang: the corpus (docs/verification/quality.md)."""
+
+from __future__ import annotations
+
+import shutil
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from microros_gen.selection.find_components import components_folder
+from tests.support.quality import misra
+from tests.support.quality.corpus import (
+    ROOT,
+    Tree,
+    Unit,
+    analyse,
+    covered,
+    ready_components,
+    run,
+    tree_key,
+    units,
+    width_flags,
+)
+
+SUPPRESSIONS = ROOT / "tests" / "quality" / "cppcheck-suppressions.txt"
+TIDY = ROOT / ".clang-tidy"
+COMMON = ("-std=c99", "-Iinclude", "-fsyntax-only")
+GCC = (
+    *(
+        "-Wall",
+        "-Wextra",
+        "-Wpedantic",
+        "-Wconversion",
+        "-Wsign-conversion",
+        "-Wshadow",
+        "-Wundef",
+        "-Wcast-qual",
+    ),
+    *(
+        "-Wstrict-prototypes",
+        "-Wmissing-prototypes",
+        "-Wold-style-definition",
+        "-Wredundant-decls",
+        "-Wwrite-strings",
+    ),
+    *(
+        "-Wduplicated-cond",
+        "-Wlogical-op",
+        "-Wformat=2",
+        "-Wvla",
+    ),
+    *("-Walloca", "-Wdouble-promotion", "-Wbad-function-cast", "-Wswitch-enum", "-Wfloat-conversion"),
+)
+CLANG = (
+    "-Weverything",
+    "-Wno-unknown-warning-option",  # newer versions know more of these
+    "-Wno-covered-switch-default",  # a default stands in each switch, as MISRA 16.4 wants
+    "-Wno-missing-noreturn",  # C99 has no word for it
+    "-Wno-unreachable-code",  # CDR_IS_RUN: a constant of the target picks one copy or single fields
+    "-Wno-padded",  # structs are ROS 2's, or ordered for reading; sizes are asserted
+    "-Wno-declaration-after-statement",  # C99: a variable is declared where its value is known
+    "-Wno-unsafe-buffer-usage",  # newer versions: wants C++'s containers
+    "-Wno-switch-default",  # newer versions: contradicts -Wcovered-switch-default
+    "-Wno-format-nonliteral",  # rcutils_vsnprintf hands its format on; the attribute that says so is an extension
+    "-Wno-float-equal",  # are_equal of messages compares as ROS 2's does
+    "-Wno-reserved-identifier",  # ROS 2's names have a double underscore between package and type
+    "-Wno-reserved-macro-identifier",  # _POSIX_C_SOURCE, for POSIX to read
+    "-Wno-unused-macros",  # macros of one file that only some plans use
+    "-Wno-disabled-macro-expansion",  # macros of the C library that expand to their own name
+    "-Wno-documentation",  # comments of interface files are carried over as they are
+    "-Wno-documentation-unknown-command",
+)
+
+
+def test_corpus_holds_every_source(trees: list[Tree]) -> None:
+    """Every C file and every C template of a component that is ready is in some tree."""
+    wanted = set()
+    for name in ready_components():
+        folder = components_folder() / name / "src"
+        wanted |= {f"{name}/{path.name.removesuffix('.j2')}" for path in folder.glob("*.c*")}
+    assert sorted(wanted - covered(trees)) == []
+
+
+def test_corpus_holds_every_template_of_types(trees: list[Tree]) -> None:
+    sources = covered(trees)
+    for ending in ("functions", "type_support", "storage", "members"):
+        assert f"quality_msgs/tree__{ending}.c" in sources
+
+
+def test_corpus_holds_one_unit_a_difference(all_units: list[Unit]) -> None:
+    assert len({unit.key for unit in all_units}) < len(all_units)
+
+
+def complaints(answers: dict[str, str]) -> str:
+    return "\n".join(text for text in answers.values() if text)
+
+
+@pytest.mark.lint
+@pytest.mark.skipif(not shutil.which("clang-tidy"), reason="no clang-tidy")
+def test_clang_tidy(all_units: list[Unit]) -> None:
+    """What is off, and why, stands in .clang-tidy."""
+    version = run(["clang-tidy", "--version"], ROOT).stdout
+
+    def check(unit: Unit) -> str:
+        # One function encodes all fields of a message: it is as long as the message, one step after the other.
+        is_generated = unit.source.endswith("__type_support.c")
+        lengths = ["--checks=-readability-function-cognitive-complexity,-readability-function-size"]
+        options = ["--quiet", f"--config-file={TIDY}", *(lengths if is_generated else [])]
+        flags = ["-std=c99", "-Iinclude", *width_flags(unit)]
+        done = run(["clang-tidy", *options, unit.source, "--", *flags], unit.tree.out)
+        return done.stdout + done.stderr if done.returncode else ""
+
+    name = f"clang-tidy, ports 32 bit, long type support {version} {TIDY.read_text(encoding='utf-8')}"
+    assert complaints(analyse(name, all_units, check)) == ""
+
+
+@pytest.mark.lint
+@pytest.mark.skipif(not shutil.which("cppcheck"), reason="no cppcheck")
+def test_cppcheck(trees: list[Tree]) -> None:
+    """What is suppressed, and why, stands in cppcheck-suppressions.txt. A tree is checked as a whole."""
+    checks = ("--enable=warning,style,performance,portability", "--inline-suppr", "--error-exitcode=1")
+    options = ("-q", "--std=c99", *checks, f"--suppressions-list={SUPPRESSIONS}", "-Iinclude")
+
+    def check(unit: Unit) -> str:
+        done = run(["cppcheck", *options, "src", "examples"], unit.tree.out)
+        return f"{unit.tree.name}: {done.stdout}{done.stderr}" if done.returncode else ""
+
+    version = run(["cppcheck", "--version"], ROOT).stdout
+    name = f"cppcheck of trees {version} {options} {SUPPRESSIONS.read_text(encoding='utf-8')}"
+    assert complaints(analyse(name, [Unit(tree, "", tree_key(tree)) for tree in trees], check)) == ""
+
+
+def compile_quietly(compiler: str, flags: Sequence[str], each: list[Unit]) -> str:
+    """Return what `compiler` says of each different file."""
+
+    def check(unit: Unit) -> str:
+        done = run([compiler, *flags, *width_flags(unit), unit.source], unit.tree.out)
+        return f"{unit.tree.name}: {done.stderr}" if done.stderr or done.returncode else ""
+
+    version = run([compiler, "--version"], ROOT).stdout.splitlines()[0]
+    return complaints(analyse(f"{version} {flags}, ports 32 bit", each, check))
+
+
+@pytest.mark.skipif(not shutil.which("gcc"), reason="no gcc")
+def test_gcc_warnings(all_units: list[Unit]) -> None:
+    assert compile_quietly("gcc", (*COMMON, *GCC), all_units) == ""
+
+
+@pytest.mark.lint
+@pytest.mark.skipif(not shutil.which("gcc"), reason="no gcc")
+@pytest.mark.parametrize("level", ["-O0", "-Os", pytest.param("-O3", marks=pytest.mark.long)])
+def test_gcc_optimizing(all_units: list[Unit], level: str) -> None:
+    """Warnings that need the flow of data, at several levels; the analyzer once."""
+    flags = ("-std=c99", "-Iinclude", *GCC, level, "-c", "-o", "/dev/null")
+    assert compile_quietly("gcc", (*flags, "-fanalyzer") if level == "-Os" else flags, all_units) == ""
+
+
+@pytest.mark.lint
+@pytest.mark.skipif(not shutil.which("clang"), reason="no clang")
+def test_clang_everything(all_units: list[Unit]) -> None:
+    assert compile_quietly("clang", (*COMMON, *CLANG), all_units) == ""
+
+
+@pytest.fixture(scope="module")
+def places(trees: list[Tree], is_header_a_difference: bool) -> misra.Places:
+    if misra.find_addon() is None:
+        pytest.skip("no cppcheck with its addons")
+    if is_header_a_difference:
+        return misra.check(trees, units(trees))
+    alike = [tree for tree in trees if has_texts(tree)]
+    return misra.check(alike, units(alike, is_header_a_difference))
+
+
+def has_texts(tree: Tree) -> bool:
+    """Whether errors are texts: in a tree with codes the same names stand for something else."""
+    return "src/support/error_text.c" in tree.sources
+
+
+@pytest.mark.lint
+def test_misra_finds_nothing_undocumented(places: misra.Places) -> None:
+    assert misra.undocumented(places, misra.load_deviations()) == []
+
+
+@pytest.mark.long
+def test_misra_deviations_are_used(trees: list[Tree]) -> None:
+    places = misra.check(trees, units(trees))
+    assert misra.unused(places, misra.load_deviations()) == []
+
+
+@pytest.mark.skipif(misra.find_addon() is None, reason="no cppcheck with its addons")
+def test_misra_page_is_current() -> None:
+    """docs/verification/quality.md is as `make misra` writes it, with the version of cppcheck that it names."""
+    if misra.tool_version() not in misra.page_table():
+        pytest.skip(
+            f"docs/verification/quality.md was written with another cppcheck than {misra.tool_version()}"
+        )
+    assert misra.page_table() == misra.table(misra.load_deviations()), "run: make misra"
+
+
+def test_misra_deviations_name_no_mandatory_rule() -> None:
+    rules = [d.rule for d in misra.load_deviations()]
+    assert not misra.MANDATORY.intersection(rules)
+    assert [rule for rule, count in Counter(rules).items() if count > 1] == []
+    assert all(d.why and d.risk and d.where for d in misra.load_deviations())
+
+
+def test_misra_sees_a_finding_without_deviation() -> None:
+    """The comparison itself: a new rule, a known rule elsewhere, and a deviation without a finding."""
+    deviation = misra.Deviation("17.7", ("src/a/*",), "why", "risk")
+    assert misra.undocumented({("17.7", "src/a/x.c"): 1}, [deviation]) == []
+    assert misra.undocumented({("17.7", "src/b/x.c"): 2}, [deviation]) == ["17.7 src/b/x.c: 2"]
+    assert misra.undocumented({("17.2", "src/a/x.c"): 1}, [deviation]) == ["17.2 src/a/x.c: 1"]
+    assert misra.unused({("17.2", "src/a/x.c"): 1}, [deviation]) == ["17.7 src/a/*"]
+
+
+@pytest.mark.skipif(misra.find_addon() is None, reason="no cppcheck with its addons")
+def test_misra_addon_runs(tmp_path: Path) -> None:
+    """A file that breaks a rule is told: the tool chain of the report works."""
+    (tmp_path / "bad.c").write_text("int f(int a) { if (a) { goto end; } end: return 0; }\n")
+    trees = [Tree("bad", tmp_path, ("bad.c",))]
+    answer = misra.check(trees, units(trees))
+    assert ("15.1", "bad.c") in answer

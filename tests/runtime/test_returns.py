@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Return codes against ROS 2's librcl: of calls with wrong arguments, and of calls in every state of an entity."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import sysconfig
+from collections.abc import Iterable
+from pathlib import Path
+
+import pytest
+
+from tests.support.runtime.harness import FIXTURES, Tree, compile_objects, link
+from tests.support.runtime.returns import FLAGS, FOLDER, returned, said
+from tests.support.runtime.surface import generate, write_application
+
+pytestmark = pytest.mark.ros
+STATES = """\
+version: 1
+profiles: [pure_sender, pure_reader]
+components: [+timers, +executor, +clock, +services, +name_substitutions]
+interfaces: [std_msgs/msg/Int32, std_srvs/srv/SetBool]
+limits: {'*': {string: 16, sequence: 4}}
+entities: binary
+pools: {nodes: 2, publishers: 2, subscriptions: 2, services: 2, clients: 2, timers: 2, guard_conditions: 3}
+"""
+
+DIFFERENT: dict[str, tuple[int, int]] = {}
+"""Call: what librcl returns, and what is returned here, for a reason."""
+
+
+SHUT_DOWN = {
+    "rcl_subscription_is_valid(&subscription)": (1, 0),
+    "rcl_take(&subscription, &message, NULL, NULL)": (401, 400),
+}
+"""A context that is shut down takes its session along, and with it what was in it."""
+DIFFERENT_STATES = {
+    # Fast DDS takes its own default for writers, transient local; here it is volatile, as for readers.
+    "qos->durability": (1, 2),
+    # rcl takes it, and then has a timer that rcl_timer_init2 would have refused.
+    "rcl_timer_exchange_period(&timer, -5, &value)": (0, 11),
+    **SHUT_DOWN,
+}
+
+
+DIFFERENT_RCLC = {
+    # As for every other NULL and every other node that is none.
+    'rclc_publisher_init_default(&publisher, NULL, type, "a")': (11, 200),
+    'rclc_subscription_init_default(&subscription, NULL, type, "b")': (11, 200),
+    # rclc spins one that is finalized, and not one that was never initialized.
+    "rclc_executor_spin_some(executor, 1)": (0, 1),
+    "rclc_executor_spin_one_period(executor, 1)": (0, 1),
+}
+
+
+def of_librcl(source: Path, folder: Path, *packages: str) -> list[tuple[str, int]]:
+    """Return what the program says over librcl; `packages`: the interfaces that it uses."""
+    prefix = Path(sys.prefix)
+    theirs = folder / "theirs.so"
+    folders = [f"-I{p}" for p in sorted((prefix / "include").iterdir()) if p.is_dir()]
+    libraries = [f"-L{prefix / 'lib'}", "-lrcl", "-lrmw", "-lrcutils", "-Wl,--allow-shlib-undefined"]
+    libraries += [f"-l{package}__rosidl_typesupport_c" for package in packages]
+    command = ["gcc", "-w", "-shared", "-fPIC", *folders, str(source), *libraries, "-o", str(theirs)]
+    subprocess.run(command, check=True)
+    bundled = sorted(Path(sysconfig.get_path("purelib")).glob("*.libs"))
+    paths = os.pathsep.join(map(str, (prefix / "lib", *bundled)))
+    # Some of librcl's libraries are for Python alone, so an interpreter has to load them.
+    load = f"import ctypes; ctypes.CDLL({str(theirs)!r}).main()"
+    return said(folder, sys.executable, "-c", load, LD_LIBRARY_PATH=paths, ROS_DOMAIN_ID="")
+
+
+def of_ours(source: Path, tree: Tree, folder: Path, more: Iterable[Path] = ()) -> list[tuple[str, int]]:
+    """Return what the program says over a generated library."""
+    objects = compile_objects(tree, [source, *more, *tree.sources], "gcc", FLAGS)
+    return said(folder, link(objects, "gcc", (), folder / "mine"))
+
+
+def differing(mine: list[tuple[str, int]], known: list[tuple[str, int]]) -> dict[str, tuple[int, int]]:
+    """Return what is not the same: librcl's, then ours."""
+    assert [name for name, _ in mine] == [name for name, _ in known]
+    return {
+        f"{index} {name}": (other, own)
+        for index, ((name, own), (_, other)) in enumerate(zip(mine, known, strict=True))
+        if own != other
+    }
+
+
+def test_every_call_returns_what_librcl_returns(tmp_path: Path) -> None:
+    source = FOLDER / "returns.c"
+    mine = of_ours(source, generate(tmp_path / "ours", "custom"), tmp_path)
+    found = differing(mine, of_librcl(source, tmp_path))
+    assert {key.split(" ", 1)[1]: pair for key, pair in found.items()} == DIFFERENT
+    assert len(mine) > 150
+
+
+@pytest.fixture(scope="module")
+def tree(tmp_path_factory: pytest.TempPathFactory) -> Tree:
+    """Return a library without a port: the tests bring one, with an agent behind it."""
+    whole = write_application(tmp_path_factory.mktemp("states") / "ours", STATES)
+    return Tree(whole.folder, tuple(s for s in whole.sources if s.parent.name != "port_posix"))
+
+
+def test_every_state_returns_what_librcl_returns(tree: Tree, tmp_path: Path) -> None:
+    source = FOLDER / "states.c"
+    mine = of_ours(source, tree, tmp_path, [FIXTURES / "port_agent.c"])
+    found = differing(mine, of_librcl(source, tmp_path, "std_msgs", "std_srvs"))
+    assert {key.split(" ", 1)[1]: pair for key, pair in found.items()} == DIFFERENT_STATES
+    assert len(found) == 2 + 1 + 2 * len(SHUT_DOWN)
+    assert len(mine) > 500
+
+
+def test_every_state_returns_what_rclc_returns(tree: Tree, tmp_path: Path) -> None:
+    """The wheels have no rclc: states_rclc.txt says what its commit f401871 returned over their librcl."""
+    mine = of_ours(FOLDER / "states_rclc.c", tree, tmp_path, [FIXTURES / "port_agent.c"])
+    lines = (FOLDER / "states_rclc.txt").read_text(encoding="utf-8").splitlines()
+    found = differing(mine, returned(lines))
+    assert {key.split(" ", 1)[1]: pair for key, pair in found.items()} == DIFFERENT_RCLC
+    assert len(found) == 2 + len(DIFFERENT_RCLC)

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Short ways to resolve profiles and applications."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from microros_gen.application.model import Application
+from microros_gen.application.parser import parse_application
+from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.documents.named import Named
+from microros_gen.selection.component import Catalogue, Middleware
+from microros_gen.selection.find_components import load_catalogue
+from microros_gen.selection.find_profiles import load_middleware, load_profiles
+from microros_gen.selection.profiles import resolve_profiles
+from microros_gen.selection.resolve import resolve_selection
+from tests.support.selection.small_catalogue import Outcome, small_catalogue
+
+
+@pytest.fixture(scope="session")
+def catalogue() -> Catalogue:
+    return small_catalogue()
+
+
+@pytest.fixture(scope="session")
+def middleware() -> Middleware:
+    return load_middleware()
+
+
+@pytest.fixture
+def resolve(catalogue: Catalogue, middleware: Middleware) -> Callable[..., Outcome]:
+    """Resolve profiles by name, or the text of an application file, in a folder."""
+
+    def run(*profiles: str, text: str = "", folder: Path = Path(), port: str | None = None) -> Outcome:
+        said = Diagnostics()
+        application: Application | None = Application()
+        if text:
+            application = parse_application(Source("microros.yaml", text), said)
+            assert application is not None, [d.headline() for d in said]
+        names = [Named(name) for name in profiles] or list(application.profiles)
+        resolved = resolve_profiles(load_profiles(names, folder, said), said)
+        selection = resolve_selection(application, resolved, catalogue, middleware, said, port)
+        return Outcome(selection, tuple(d.headline() for d in said))
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def real_catalogue() -> Catalogue:
+    return load_catalogue()
+
+
+@pytest.fixture
+def resolve_with(middleware: Middleware) -> Callable[..., Outcome]:
+    """Resolve built-in profiles with a catalogue and the text of an application file."""
+
+    def run(parts: Catalogue, *profiles: str, text: str) -> Outcome:
+        said = Diagnostics()
+        application = parse_application(Source("microros.yaml", text), said)
+        assert application is not None
+        resolved = resolve_profiles(load_profiles([Named(n) for n in profiles], Path(), said), said)
+        selection = resolve_selection(application, resolved, parts, middleware, said)
+        return Outcome(selection, tuple(d.headline() for d in said))
+
+    return run

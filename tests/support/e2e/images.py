@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Builds images and applications with the tool, as a user does, each once for all tests."""
+
+from __future__ import annotations
+
+import fcntl
+import hashlib
+import os
+import shutil
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from tests.support.paths import TESTS
+
+C_FILES = TESTS / "e2e" / "c"
+SANITIZE = ("-O1", "-g0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+QUICK = ("-O0",)
+BUILD_S = 300.0
+"""Time-out of a build, which takes some seconds where nobody else needs the machine."""
+
+PATIENT = "session: {connect_timeout: 20 s, create_timeout: 20 s}\n"
+"""For declared applications without times of their own: an agent on a busy test machine may stand still for seconds."""
+
+# What an application without `nodes:` declares for live.c.
+POOLS = """\
+version: 1
+profiles: [pure_sender]
+interfaces: [std_msgs/msg/Int32, std_msgs/msg/String]
+pools: {nodes: 2, publishers: 3, name_size: 32}
+limits: {"*": {string: 16}}
+"""
+
+# Both streams, a namespace, a private name, three kinds of QoS.
+DECLARED = """\
+version: 1
+profiles: [pure_sender]
+nodes:
+  - name: imu_node
+    namespace: /arm
+    publishers:
+      - {topic: imu/data, type: sensor_msgs/msg/Imu, qos: {reliability: best_effort, depth: 1}}
+      - {topic: count, type: std_msgs/msg/Int32}
+      - {topic: ~/state, type: std_msgs/msg/String, qos: {durability: transient_local, depth: 1}}
+limits:
+  sensor_msgs/msg/Imu: {header: {frame_id: 16}}
+  std_msgs/msg/String: {data: 16}
+"""
+
+
+@dataclass(frozen=True)
+class Image:
+    """An output folder with its library and the example of its profile, and how it was compiled."""
+
+    out: Path
+    compiler: str
+    flags: tuple[str, ...]
+
+    @property
+    def program(self) -> Path:
+        """The example of the profile."""
+        return self.out / "bin" / "pure_sender"
+
+    def application(
+        self, source: Path, program: Path, *flags: str, compiler: str = "", against: Image | None = None
+    ) -> Path:
+        """Compile a C or C++ file with this image's headers and link it with its library to `program`.
+
+        AssertionError with the compiler's words. `against`: link the library of another image.
+        """
+        library = (against or self).out / "lib" / "libmicroros.a"
+        command = [compiler or self.compiler, *self.flags, *flags, f"-I{self.out / 'include'}", str(source)]
+        done = run([*command, str(library), "-o", str(program)])
+        assert done.returncode == 0, done.stdout + done.stderr
+        return program
+
+
+class Images:
+    """Image factory below one folder, which several test processes may share: what one built, none builds again."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        folder.mkdir(exist_ok=True)
+
+    def build(
+        self, port: int, application: str = "", compiler: str = "gcc", flags: tuple[str, ...] = SANITIZE
+    ) -> Image:
+        """Run `microros-gen build` for an agent at `port` (0: as the application says).
+
+        `application` empty: `--profile pure_sender` alone.
+        """
+        name = hashlib.sha256(repr((port, application, compiler, flags)).encode()).hexdigest()[:16]
+        image = Image(self._folder / name / "out", compiler, flags)
+        with self._once(name) as first:
+            if first:
+                self._build(image, port, application)
+        return image
+
+    def live(self, image: Image) -> Path:
+        """Return the program of live.c for an image."""
+        program = image.out.parent / "live"
+        ping = "-DLIVE_PING" if (image.out / "src" / "ping").is_dir() else "-DLIVE_NO_PING"
+        with self._once(f"{image.out.parent.name}-live") as first:
+            if first:
+                source = C_FILES / "live.c"
+                image.application(source, program, "-std=c99", "-Wall", "-Wextra", "-Werror", ping)
+        return program
+
+    @contextmanager
+    def _once(self, name: str) -> Iterator[bool]:
+        """Give true to the first of all processes, and let the others wait until it has succeeded."""
+        done = self._folder / f"{name}.done"
+        with (self._folder / f"{name}.lock").open("w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            yield not done.exists()
+            done.touch()
+
+    def _build(self, image: Image, port: int, application: str) -> None:
+        home = image.out.parent
+        shutil.rmtree(home, ignore_errors=True)
+        home.mkdir()
+        arguments = [*(["--agent", f"127.0.0.1:{port}"] if port else []), "-o", "out"]
+        if application:
+            patient = PATIENT if "\nnodes:" in application and "session:" not in application else ""
+            (home / "microros.yaml").write_text(application + patient)
+        else:
+            arguments += ["--profile", "pure_sender"]
+        environment = {k: v for k, v in os.environ.items() if k not in ("AR", "AMENT_PREFIX_PATH")}
+        environment |= {"CC": image.compiler, "CFLAGS": " ".join(image.flags)}
+        environment["XDG_CACHE_HOME"] = str(self._folder / "cache")
+        done = run([sys.executable, "-m", "microros_gen", "build", *arguments], home, environment, BUILD_S)
+        assert done.returncode == 0, done.stdout + done.stderr
+
+
+def run(
+    command: Sequence[str],
+    cwd: Path | None = None,
+    env: dict[str, str] | None = None,
+    timeout_s: float = 60.0,
+) -> subprocess.CompletedProcess[str]:
+    """Run a command to its end, at most a minute unless told otherwise."""
+    return subprocess.run(
+        list(command), cwd=cwd, env=env, text=True, capture_output=True, timeout=timeout_s, check=False
+    )
+
+
+@contextmanager
+def started(program: Path, *arguments: str) -> Iterator[subprocess.Popen[str]]:
+    """Start a program; kill it afterwards where it still runs."""
+    process = subprocess.Popen(
+        [program, *arguments], text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
+    try:
+        yield process
+    finally:
+        if process.poll() is None:
+            process.kill()
+        process.communicate(timeout=10)
+
+
+def ends_well(process: subprocess.Popen[str], timeout_s: float = 15.0) -> None:
+    """Wait for the end of a program that has nothing to report: neither itself nor its sanitizers."""
+    out, errors = process.communicate(timeout=timeout_s)
+    assert (process.returncode, errors) == (0, ""), out + errors
+
+
+def kill(process: subprocess.Popen[str]) -> None:
+    """End a process at once, as a power cut does."""
+    process.send_signal(signal.SIGKILL)
+    process.wait(timeout=10)

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs a program until a text is seen."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+from tests.support.agent.observer import Observer
+
+
+def until(observer: Observer, topics: list[str], last: int, timeout_s: float = 20.0) -> dict[str, list[Any]]:
+    """Take samples until each of `topics` has the value `last`; return all samples by topic."""
+    found: dict[str, list[Any]] = {}
+    end = time.monotonic() + timeout_s
+    missing = set(topics)
+    while missing:
+        assert time.monotonic() < end, f"{last} does not come on {missing}: {found.keys()}"
+        for name, value in observer.ask(do="samples"):
+            found.setdefault(name, []).append(value)
+            if value.get("data") == last:
+                missing.discard(name)
+        time.sleep(0.02)
+    return found
+
+
+def run_to(last: int, values: list[int]) -> None:
+    """Check that `values` are consecutive up to `last`, and more than the end: discovery took the first."""
+    assert values == list(range(values[0], last + 1))
+    assert len(values) >= 5

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which applications of the corpus are recorded, and how one is built and run."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+
+from tests.support.exchanges.exchange import WIRES, record
+from tests.support.paths import TESTS
+from tests.support.quality.corpus import APPLICATIONS, make_tree
+from tests.support.runtime.serving_agent import ServingAgent
+
+HERE = TESTS / "exchanges"
+GOLDEN = HERE / "golden"
+DURATION_MS = 2000
+_LEFT_OUT = ("timers_ticked",)
+"""The application itself drives its hardware timer."""
+_ELSEWHERE = ("target:", "{type: custom}")
+"""Images of boards, and those whose transport is functions of the application."""
+
+
+def recorded() -> tuple[str, ...]:
+    """Return the names of the applications that are recorded: images of this host with a transport of the library."""
+    return tuple(
+        name
+        for name, text in APPLICATIONS.items()
+        if name not in _LEFT_OUT and not any(word in text for word in _ELSEWHERE)
+    )
+
+
+def build_clock(folder: Path) -> Path:
+    """Compile what is loaded before the C library."""
+    made = folder / "still_time.so"
+    source = HERE / "still_time.c"
+    flags = ["-std=gnu99", "-O1", "-Wall", "-Wextra", "-Werror", "-fPIC", "-shared"]
+    subprocess.run(["gcc", *flags, "-o", made, source, "-ldl"], check=True)
+    return made
+
+
+def exchange_of(name: str, folder: Path, still_time: Path) -> str:
+    """Generate, compile and run the application `name`; return its exchange, a line for each message."""
+    tree = make_tree(name, folder)
+    manifest = json.loads((tree.out / "manifest.json").read_text(encoding="utf-8"))
+    image = folder / name / "image"
+    includes = ["include", *sorted({str(Path(s).parent) for s in tree.sources if s.startswith("src/")})]
+    # tcc compiles all of it in a third of a second, and what is said does not depend on the compiler.
+    flags = [*(f"-I{include}" for include in includes), "-o", str(image)]
+    subprocess.run(["tcc", *flags, *tree.sources, "-lpthread"], cwd=tree.out, check=True)
+    agent = ServingAgent(preconfigured="preconfigured" in name)
+    lines = record(image, still_time, _transport(manifest), DURATION_MS, agent)
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _transport(manifest: dict[str, dict[str, str]]) -> str:
+    transport = manifest["transport"]["type"]
+    assert transport in WIRES
+    return transport
+
+
+def exchanges(folder: Path) -> Iterator[tuple[str, str]]:
+    """Yield the name and the exchange of each recorded application."""
+    still_time = build_clock(folder)
+    for name in recorded():
+        yield name, exchange_of(name, folder, still_time)

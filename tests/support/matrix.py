@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Applications that select different files of the runtime, generated for the tests of this folder."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+
+from microros_gen.cli.generate import plan, write
+from microros_gen.compiler.options import SelectionOptions
+from microros_gen.interfaces.find import shipped_folder
+from microros_gen.toolchain.toolchain import WARNINGS
+from tests.support.paths import ROOT
+
+DEMO = ROOT / "examples" / "demo" / "microros.yaml"
+
+_POOL = """\
+version: 1
+profiles: [pure_sender]
+interfaces: [std_msgs/msg/Int32]
+"""
+_POOL_LARGE = """\
+version: 1
+profiles: [pure_sender]
+interfaces: [diagnostic_msgs/msg/DiagnosticArray, std_msgs/msg/Empty]
+pools: {nodes: 2, publishers: 3}
+limits: {"*": {string: 12, sequence: 2}}
+"""
+_NODES = """\
+version: 1
+profiles: [pure_sender]
+nodes:
+  - name: arm
+    namespace: /robot
+    publishers:
+      - {topic: joints, type: sensor_msgs/msg/JointState}
+      - {topic: ~/count, type: std_msgs/msg/UInt8}
+  - name: base
+    publishers:
+      - {topic: /velocity, type: geometry_msgs/msg/TwistStamped}
+limits: {"*": {string: 16, sequence: 6}}
+"""
+_BEST_EFFORT = """\
+version: 1
+profiles: [pure_sender]
+nodes:
+  - name: probe
+    publishers:
+      - {topic: temperature, type: sensor_msgs/msg/Temperature, qos: {reliability: best_effort}}
+limits: {"*": {string: 16}}
+"""
+
+_READER = """\
+version: 1
+profiles: [pure_reader]
+limits: {"*": {string: 24, sequence: 6}}
+nodes:
+  - name: ear
+    subscriptions:
+      - {topic: said, type: std_msgs/msg/String, limits: {string: 3000}, queue: 2}
+      - {topic: joints, type: sensor_msgs/msg/JointState}
+"""
+_LENT = """\
+version: 1
+profiles: [pure_reader]
+nodes:
+  - name: ear
+    subscriptions:
+      - {topic: said, type: std_msgs/msg/String, qos: {reliability: best_effort}, queue: 1}
+limits: {"*": {string: 400}}
+"""
+_BUSY = """\
+version: 1
+limits: {"*": {string: 24, sequence: 3}}
+nodes:
+  - name: busy
+"""
+_SERVES = "    services: [{name: sum, type: example_interfaces/srv/AddTwoInts}]\n"
+_ASKS = "    clients: [{name: /far/sum, type: example_interfaces/srv/AddTwoInts}]\n"
+VARIANTS: Mapping[str, str] = MappingProxyType(
+    {
+        "pool": _POOL,
+        "demo": DEMO.read_text(encoding="utf-8"),
+        "pool-none-drop-code-arena-device": _POOL_LARGE
+        + "liveliness: none\non_full: drop_oldest\nerrors: code\nmemory: {arena: 1024}\n"
+        + "session: {key: device}\ncomponents: [+publish_statistics, +name_substitutions]\n",
+        "pool-acknack-block-xml-reliable": _POOL
+        + "liveliness: acknack\non_full: block 20 ms\nentities: xml\ncreation: reliable\n",
+        "declared-acknack-drop-arena-reference-pieces": _NODES.replace("sequence: 6", "sequence: 80")
+        + "liveliness: acknack\non_full: drop_oldest\nmemory: {arena: 1024}\nentities: reference\n",
+        "declared-ping-block-code-device-preconfigured": _NODES
+        + "on_full: block 20 ms\nerrors: code\nsession: {key: device}\nentities: preconfigured\n",
+        "best-effort-none-code": _BEST_EFFORT + "liveliness: none\nerrors: code\nentities: preconfigured\n",
+        "best-effort-ping-drop": _BEST_EFFORT + "on_full: drop_oldest\nsession: {key: 7}\n",
+        "best-effort-reference-reliable-held": _BEST_EFFORT
+        + "entities: reference\ncreation: reliable\npools: {input_history: 2}\n",
+        "reader": _READER
+        + "      - {topic: fast, type: std_msgs/msg/Int32, qos: {reliability: best_effort}}\n",
+        "reader-code-none-preconfigured": _READER
+        + "entities: preconfigured\nliveliness: none\nerrors: code\n",
+        "simulation-pool": "version: 1\nprofiles: [simulation_node, pure_sender]\nlimits: {'*': {string: 8}}\n"
+        + "interfaces: [std_msgs/msg/Header]\n",
+        "reader-pool-xml": "version: 1\nprofiles: [pure_reader]\ninterfaces: [std_msgs/msg/String]\n"
+        + "entities: xml\nlimits: {'*': {string: 2000}}\ntransport: {mtu: 2400}\n",
+        "server-binary-timers-sleep": _BUSY
+        + _SERVES
+        + "    timers: [{name: tick, period: 50 ms}]\nprofiles: [pure_reader]\ncomponents: [-subscribe, +services, "
+        + "+executor, +timers, +sleep_cycles, +session_state, +micro_ros_utilities, +time_sync]\n",
+        "client-xml-code-rtos-timers-threads": _BUSY
+        + _ASKS
+        + "    timers: [{name: tick, period: 50 ms, kind: rtos}]\nprofiles: [pure_sender]\n"
+        + "components: [-publish, +services, +executor, +timers, +multithread, +liveliness_hard, +discovery]\n"
+        + "entities: xml\nerrors: code\n",
+        "both-reference-tcp": _BUSY
+        + _SERVES
+        + _ASKS
+        + "profiles: [pure_sender]\ncomponents: [-publish, +services, +executor]\nentities: reference\n"
+        + "transport: {type: tcp}\n",
+        "lent-serial": _LENT + "transport: {type: serial}\n",
+        "lent-tcp": _LENT + "transport: {type: tcp}\n",
+        "serial-sleep": _POOL + "components: [+sleep_cycles]\ntransport: {type: serial}\n",
+        "custom-framed-sleep": _POOL
+        + "components: [+sleep_cycles]\ntransport: {type: custom, framing: true}\n",
+    }
+)
+"""Application files by name."""
+FIRST = ("pool", "reader", "server-binary-timers-sleep", "client-xml-code-rtos-timers-threads")
+"""Those whose symbols the default suite looks at; `make lint` looks at the others."""
+ALSO = (
+    "pool-acknack-block-xml-reliable",
+    "best-effort-none-code",
+    "best-effort-ping-drop",
+    "reader-code-none-preconfigured",
+    "reader-pool-xml",
+)
+"""Those of the long run: the others together select every file of the components that are ready."""
+
+
+@dataclass(frozen=True)
+class Compiled:
+    """Objects of a tree by the source that each was made from, `src/…` or `examples/…`."""
+
+    objects: Mapping[str, Path]
+
+
+@dataclass(frozen=True)
+class Tree:
+    """One generated output folder."""
+
+    name: str
+    out: Path
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """The library's sources as sources.txt lists them."""
+        return tuple((self.out / "sources.txt").read_text(encoding="utf-8").splitlines())
+
+    @property
+    def example(self) -> str:
+        """The example's only source."""
+        (path,) = (self.out / "examples").glob("*/main.c")
+        return path.relative_to(self.out).as_posix()
+
+    @property
+    def headers(self) -> tuple[str, ...]:
+        """The headers of what is selected: those that are not one `#error`."""
+        return tuple(h for h in self.all_headers if not self.is_refusal(h))
+
+    @property
+    def all_headers(self) -> tuple[str, ...]:
+        """Every header below include/, as an application includes it."""
+        folder = self.out / "include"
+        return tuple(sorted(p.relative_to(folder).as_posix() for p in folder.rglob("*.h")))
+
+    def is_refusal(self, header: str) -> bool:
+        """Whether `header` belongs to a component that is not selected."""
+        return '#error "The component' in (self.out / "include" / header).read_text(encoding="utf-8")
+
+
+def make_tree(name: str, text: str, folder: Path) -> Tree:
+    """Generate the application `text` below `folder`."""
+    folder.mkdir(parents=True)
+    config = folder / "microros.yaml"
+    config.write_text(text, encoding="utf-8")
+    options = SelectionOptions(config, (), (), (shipped_folder(),), None, None)
+    planned, out = plan(options, folder / "out")
+    write(planned, out)
+    return Tree(name, out)
+
+
+def check(command: Sequence[str], folder: Path) -> str:
+    """Run `command` in `folder`; return what it printed, and fail with it when its status is not 0."""
+    result = subprocess.run(
+        list(command), cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False
+    )
+    assert result.returncode == 0, f"{' '.join(command)}\n{result.stdout}"
+    return result.stdout
+
+
+def compile_tree(
+    tree: Tree, compiler: str, flags: Iterable[str], sources: Iterable[str], folder: Path
+) -> Compiled:
+    """Compile each of `sources` with the project's warnings to an object below `folder`."""
+    groups: dict[Path, list[str]] = {}
+    for source in sources:
+        groups.setdefault(folder / Path(source).parent, []).append(source)
+    common = [compiler, *WARNINGS, *flags, f"-I{tree.out / 'include'}", "-c"]
+    for target, group in groups.items():  # a compiler that gets many sources writes into the current folder
+        target.mkdir(parents=True, exist_ok=True)
+        check([*common, *(str(tree.out / source) for source in group)], target)
+    objects = {source: (folder / source).with_suffix(".o") for group in groups.values() for source in group}
+    return Compiled(MappingProxyType(objects))
+
+
+def has(program: str) -> bool:
+    """Whether `program` is on the PATH."""
+    return shutil.which(program) is not None

@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The profiles that are ready."""
+
+from __future__ import annotations
+
+READY = (
+    "pure_sender",
+    "pure_reader",
+    "ad_hoc_discoverable_sender",
+    "static_configured_sender",
+    "simulation_node",
+)

@@ -1,0 +1,319 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the checks of this folder read: generated trees that together hold every C file and every template.
+
+A tree is the output folder of one application. A file that is the same in several trees, with all that it includes,
+is analysed once.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import shutil
+import subprocess
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+
+from microros_gen.cli.generate import plan, write
+from microros_gen.compiler.options import SelectionOptions
+from microros_gen.interfaces.find import shipped_folder
+from microros_gen.selection.find_components import components_folder, load_catalogue
+from tests.support.paths import ROOT, TESTS
+
+EXAMPLES = ROOT / "examples"
+INTERFACES = TESTS / "quality" / "interfaces"
+CACHE = ROOT / "build" / "quality"
+WORKERS = 2
+
+_POOL = "version: 1\nprofiles: [pure_sender]\n"
+_INT32 = _POOL + "interfaces: [std_msgs/msg/Int32]\n"
+_NODES = _POOL + "nodes:\n  - name: probe\n    publishers:\n"
+_BEST = "      - {topic: fast, type: std_msgs/msg/Int32, qos: {reliability: best_effort}}\n"
+_SURE = "      - {topic: sure, type: std_msgs/msg/UInt8}\n"
+_LARGE = "      - {topic: large, type: std_msgs/msg/String}\nlimits: {'*': {string: 2000}}\n"
+_BOTH = _NODES + _BEST + _SURE
+_READER = "version: 1\nprofiles: [pure_reader]\nnodes:\n  - name: probe\n    subscriptions:\n"
+_HEARD = "      - {topic: heard, type: std_msgs/msg/Int32, qos: {reliability: best_effort}}\n"
+_ALONE = (
+    "      - {topic: heard, type: std_msgs/msg/String, qos: {reliability: best_effort}, queue: 1}\n"
+    "limits: {'*': {string: 400}}\n"
+)
+_SAID = (
+    "      - {topic: said, type: std_msgs/msg/String, limits: {string: 3000}, queue: 2}\n"
+    "      - {topic: word, type: std_msgs/msg/String, limits: {string: 8}}\n"
+)
+_SERVED = (
+    "version: 1\nprofiles: [pure_reader]\ncomponents: [-subscribe, +services, +executor]\nnodes:\n  - name: probe\n"
+    "    services: [{name: set, type: std_srvs/srv/SetBool, limits: {message: 20}}]\n"
+)
+_ASKED = "    clients: [{name: ask, type: std_srvs/srv/SetBool, queue: 2, limits: {message: 9}}]\n"
+_SERIAL = "transport: {type: serial, device: /dev/ttyACM0, baud: 115200}\n"
+
+APPLICATIONS: Mapping[str, str] = MappingProxyType(
+    {
+        "types": _POOL + "interfaces: [quality_msgs]\nlimits: {'*': {string: 12, sequence: 3}}\n",
+        "types_nodes": _NODES
+        + "      - {topic: tree, type: quality_msgs/msg/Tree}\n"
+        + "      - {topic: shrub, type: quality_msgs/msg/Tree, limits: {leaf: {string: 2}, durations: 1}}\n"
+        + "limits:\n  '*': {string: 12, sequence: 3}\n  quality_msgs/msg/Tree: {leaf: {string: 5}, runs: 2}\n",
+        "types_decode": _POOL
+        + "components: [+cdr_decode]\ninterfaces: [quality_msgs]\nlimits: {'*': {string: 12, sequence: 3}}\n",
+        "decode_codes": _INT32 + "components: [+cdr_decode]\nerrors: code\n",
+        "utilities": _POOL
+        + "components: [+micro_ros_utilities]\ninterfaces: [quality_msgs]\nlimits: {'*': {string: 12, sequence: 3}}\n",
+        "pool": _INT32,
+        "pool_block": _INT32 + "on_full: block 20 ms\n",
+        "substitutions": _POOL + "components: [+name_substitutions, +subscribe, +services]\n"
+        "interfaces: [std_msgs/msg/Int32, std_srvs/srv/Empty]\n",
+        "declared": _BOTH
+        + "liveliness: acknack\non_full: drop_oldest\nerrors: code\nmemory: {arena: 1024}\nsession: {key: device}\n",
+        "best_effort": _NODES + _BEST + "liveliness: none\n",
+        "session_states": _INT32 + "components: [+session_state, +sleep_cycles, +publish_statistics]\n",
+        "threads": _BOTH
+        + "    subscriptions:\n"
+        + _HEARD
+        + "components: [+subscribe, +multithread, +time_sync]\nmemory: {arena: 512}\n",
+        "threads_custom": _INT32
+        + "components: [+executor, +multithread]\nerrors: code\ntransport: {type: custom}\n",
+        "hard_liveliness": _READER
+        + _HEARD
+        + "session: {hard_liveliness: 10 s}\ncomponents: [+executor, +sleep_cycles]\n",
+        "sleep_reader": _READER + _HEARD + _SERIAL + "components: [+sleep_cycles]\n",
+        "sleep_custom": _INT32
+        + "components: [+sleep_cycles, +time_sync]\nliveliness: acknack\ntransport: {type: custom}\n",
+        "reliable_creation": _BOTH + "creation: reliable\npools: {input_history: 2}\n",
+        "ordered_input": _BOTH + "creation: reliable\n",
+        "large": _NODES + _LARGE,
+        "reader": _READER + _HEARD + _SAID + "pools: {input_history: 2}\n",
+        "reader_pool": "version: 1\nprofiles: [pure_reader]\ninterfaces: [std_msgs/msg/Int32]\n",
+        "reader_xml": _READER + _SAID + "entities: xml\nerrors: code\nlimits: {'*': {string: 12}}\n",
+        "reader_reference": _READER + _HEARD + "entities: reference\n",
+        "reader_preconfigured": _READER + _HEARD + "entities: preconfigured\nliveliness: none\n",
+        "reader_and_sender": _BOTH + "    subscriptions:\n" + _HEARD + "components: [+subscribe]\n",
+        "remapped": _BOTH.replace("best_effort}", "best_effort, lifespan: 1 s}").replace(
+            "name: probe", "name: probe\n    remap: {fast: quick, __ns: /left}"
+        )
+        + "    subscriptions:\n"
+        + _HEARD
+        + "components: [+subscribe]\n",
+        "services": _SERVED + _ASKED,
+        "services_xml": _SERVED + "entities: xml\n",
+        "services_reference": _SERVED.replace("services: [{", "clients: [{") + "entities: reference\n",
+        "services_pool": "version: 1\nprofiles: [pure_reader]\ncomponents: [+services, +executor]\n"
+        + "interfaces: [std_srvs/srv/SetBool, std_msgs/msg/String]\nlimits: {'*': {string: 9, sequence: 2}}\n",
+        "timers": _BOTH + "    timers: [{name: tick, period: 1 s}]\ncomponents: [+timers]\n",
+        "timers_ticked": _BOTH
+        + "    timers: [{name: a, period: 1 s, kind: rtos}, {name: b, period: 2 s, kind: hardware}]\n"
+        + "components: [+timers, +subscribe]\nerrors: code\npools: {guard_conditions: 1}\n",
+        "simulation": "version: 1\nprofiles: [simulation_node]\n",
+        "simulation_timers": _READER
+        + _HEARD
+        + "    timers: [{name: a, period: 1 s}]\ncomponents: [+timers]\nclock: ros\n",
+        "executor_custom": _INT32 + "components: [+executor]\ntransport: {type: custom}\n",
+        "executor_board": _BOTH
+        + "    timers: [{name: a, period: 1 s, kind: rtos}]\n"
+        + "target: {name: qemu-mps2-an386}\ncomponents: [+timers]\n",
+        "executor_other_line": _BOTH + "target: {name: cortex-m4}\ncomponents: [+timers]\n",
+        "xml": _BOTH + "entities: xml\nliveliness: none\n",
+        "xml_pool": _INT32 + "entities: xml\n",
+        "reference": _BOTH + "entities: reference\n",
+        "preconfigured": _BOTH + "entities: preconfigured\nliveliness: ping\n",
+        "serial": _INT32 + _SERIAL,
+        "tcp": _INT32
+        + "transport: {type: tcp, agent: '[::1]:8888'}\ncomponents: [+time_sync, +clock, +session_state]\n",
+        "discovery": "version: 1\nprofiles: [ad_hoc_discoverable_sender]\ninterfaces: [std_msgs/msg/Int32]\n",
+        "custom": _INT32 + "transport: {type: custom}\n",
+        "cortex_m": _BOTH + "target: {name: qemu-microbit}\nsession: {key: device}\n",
+        "cortex_m_cmsdk": _BOTH + "target: {name: qemu-mps2-an385}\n",
+        "riscv": _BOTH + "target: {name: qemu-riscv32-virt}\n",
+        "prints_uart": _BOTH + "target: {name: own.yaml}\n",
+        "prints_uart_riscv": _BOTH + "target: {name: own.yaml}\n",
+        "prints_semihosting": _BOTH + "target: {name: own.yaml}\n",
+        "prints_nowhere": _BOTH + "target: {name: own.yaml}\n",
+        "kept_output": _NODES
+        + "      - {topic: large, type: std_msgs/msg/String}\nlimits: {'*': {string: 300}}\n"
+        + "target: {name: qemu-mps2-an386}\n",
+        "lent_serial": _READER + _ALONE + _SERIAL,
+        "lent_tcp": _READER + _ALONE + "transport: {type: tcp, agent: '127.0.0.1:8888'}\n",
+    }
+)
+"""Application files by name."""
+
+_PRINTS = "target: own\nsummary: Prints\nextends: {}\nstdio: {}\n"
+TARGETS: Mapping[str, str] = MappingProxyType(
+    {
+        "prints_uart": _PRINTS.format("qemu-mps2-an385", "{to: uart, driver: cmsdk, base: 0x40005000}"),
+        "prints_uart_riscv": _PRINTS.format(
+            "qemu-riscv32-virt", "{to: uart, driver: ns16550, base: 0x10001000}"
+        ),
+        "prints_semihosting": _PRINTS.format("qemu-mps2-an385", "{to: semihosting}"),
+        "prints_nowhere": _PRINTS.format("qemu-mps2-an385", "{to: none}"),
+    }
+)
+"""Target files of applications that name `own.yaml`."""
+
+AWAITED: Mapping[str, frozenset[str]] = MappingProxyType(
+    {
+        "reliable_creation": frozenset({"stream_reliable_input", "entities"}),
+        "ordered_input": frozenset({"stream_reliable_input", "entities"}),
+        "large": frozenset({"stream_reliable"}),
+        "reader": frozenset({"subscribe"}),
+        "reader_pool": frozenset({"subscribe"}),
+        "reader_xml": frozenset({"subscribe", "entities_xml"}),
+        "reader_reference": frozenset({"subscribe", "entities_reference"}),
+        "reader_preconfigured": frozenset({"subscribe", "entities_preconfigured"}),
+        "reader_and_sender": frozenset({"subscribe"}),
+        "xml": frozenset({"entities_xml"}),
+        "xml_pool": frozenset({"entities_xml"}),
+        "reference": frozenset({"entities_reference"}),
+        "preconfigured": frozenset({"entities_preconfigured"}),
+        "serial": frozenset({"transport_serial", "framing"}),
+        "custom": frozenset({"transport_custom", "framing"}),
+        "cortex_m": frozenset({"port_cortex_m", "transport_serial"}),
+        "cortex_m_cmsdk": frozenset({"port_cortex_m", "transport_serial"}),
+        "riscv": frozenset({"port_riscv", "transport_serial"}),
+    }
+)
+"""Components that an application needs; while one of them is planned, the application is left out."""
+
+
+def ready_components() -> frozenset[str]:
+    """Return the names of components that can be built."""
+    return frozenset(name for name, component in load_catalogue().items() if component.ready)
+
+
+@dataclass(frozen=True)
+class Tree:
+    """The output folder of one application, and the C files in it, relative to it."""
+
+    name: str
+    out: Path
+    sources: tuple[str, ...]
+
+
+def make_tree(name: str, folder: Path) -> Tree:
+    """Generate the application `name` below `folder`; raises UserError."""
+    place = folder / name
+    place.mkdir(parents=True)
+    (place / "microros.yaml").write_text(APPLICATIONS[name], encoding="utf-8")
+    if name in TARGETS:
+        (place / "own.yaml").write_text(TARGETS[name], encoding="utf-8")
+    options = SelectionOptions(
+        place / "microros.yaml", (), (), (INTERFACES / "quality_msgs", shipped_folder()), None, None
+    )
+    planned, out = plan(options, place / "out")
+    write(planned, out)
+    return Tree(name, out, tuple(sorted(p.relative_to(out).as_posix() for p in out.rglob("*.c"))))
+
+
+def make_trees(folder: Path) -> list[Tree]:
+    """Generate every application whose components are ready."""
+    ready = ready_components()
+    return [make_tree(name, folder) for name in APPLICATIONS if AWAITED.get(name, frozenset()) <= ready]
+
+
+def make_examples(folder: Path) -> list[Tree]:
+    """Generate what each application of examples/ is compiled against; the application is all that a tree lists."""
+    return [_make_example(path, folder / path.parent.name) for path in sorted(EXAMPLES.glob("*/main.c"))]
+
+
+def _make_example(source: Path, out: Path) -> Tree:
+    options = SelectionOptions(source.with_name("microros.yaml"), (), (), (shipped_folder(),), None, None)
+    planned, _ = plan(options, out)
+    write(planned, out)
+    copy = out / "applications" / source.relative_to(EXAMPLES)
+    copy.parent.mkdir(parents=True)
+    shutil.copy(source, copy)
+    shutil.copy(EXAMPLES / "example.h", copy.parents[1])
+    return Tree(f"example_{source.parent.name}", out, (copy.relative_to(out).as_posix(),))
+
+
+def covered(trees: Sequence[Tree]) -> set[str]:
+    """Return the sources of components in `trees` as `component/file.c`."""
+    return {s.removeprefix("src/") for tree in trees for s in tree.sources if s.startswith("src/")}
+
+
+def run(command: Sequence[str], folder: Path) -> subprocess.CompletedProcess[str]:
+    """Run `command` in `folder`, whatever it returns."""
+    return subprocess.run(list(command), cwd=folder, text=True, capture_output=True, check=False)
+
+
+@dataclass(frozen=True)
+class Unit:
+    """One C file of a tree; `key` stands for what it is, with everything that it includes."""
+
+    tree: Tree
+    source: str
+    key: str
+
+
+def tree_key(tree: Tree) -> str:
+    """Return what stands for every C file and header of `tree`."""
+    digest = hashlib.sha256()
+    for path in sorted(p for p in tree.out.rglob("*.[ch]") if p.is_file()):
+        digest.update(f"{path.relative_to(tree.out).as_posix()}\0".encode() + path.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+def width_flags(unit: Unit) -> tuple[str, ...]:
+    """Return how a file of a microcontroller's port is compiled on a host: its registers have addresses of 32 bits."""
+    bare = ("src/port_bare/", "src/port_cortex_m/", "src/port_riscv/")
+    return ("-m32",) if unit.source.startswith(bare) else ()
+
+
+def units(trees: Sequence[Tree], is_header_a_difference: bool = True) -> list[Unit]:
+    """Return every file of every tree; a file with the text of one in an earlier tree has the key of that one.
+
+    What is rendered from a template counts as another file where the headers that it includes differ, and so does
+    every file where errors are codes; with `is_header_a_difference` false, where its own text differs.
+    """
+    rendered = {path.name.removesuffix(".j2") for path in components_folder().rglob("*.c.j2")}
+
+    def preprocess(tree: Tree, source: str) -> str:
+        # -dD keeps the definitions of macros: a finding may be in one.
+        done = run(["gcc", "-std=c99", "-E", "-P", "-dD", "-Iinclude", source], tree.out)
+        assert done.returncode == 0, f"{tree.name}: {done.stderr}"
+        return hashlib.sha256((source + done.stdout).encode()).hexdigest()
+
+    first: dict[tuple[str, ...], tuple[Tree, str]] = {}
+    found: list[tuple[Tree, str, tuple[str, ...]]] = []
+    for tree in trees:
+        # Errors are texts or codes: the names of this header are objects in one tree and constants in another.
+        errors = tree.out / "include" / "microros" / "error.h"
+        names = errors.read_text(encoding="utf-8") if errors.is_file() else ""
+        for source in tree.sources:
+            same = (source, names, (tree.out / source).read_text(encoding="utf-8"))
+            identity = (*same, tree.name) if Path(source).name in rendered else same
+            if not is_header_a_difference:
+                identity = (source, same[-1])
+            first.setdefault(identity, (tree, source))
+            found.append((tree, source, identity))
+    with ThreadPoolExecutor(WORKERS) as pool:
+        keys = dict(zip(first, pool.map(lambda job: preprocess(*job), first.values()), strict=True))
+    return [Unit(tree, source, keys[identity]) for tree, source, identity in found]
+
+
+def analyse(tool: str, each: Sequence[Unit], check: Callable[[Unit], str]) -> dict[str, str]:
+    """Return what `check` says of each different unit, by key; answers are kept in build/quality.
+
+    `tool` names the check, its version and its rules: another name, another answer.
+    """
+    folder = CACHE / hashlib.sha256(tool.encode()).hexdigest()[:16]
+    folder.mkdir(parents=True, exist_ok=True)
+
+    def answer(unit: Unit) -> str:
+        kept = folder / unit.key
+        if kept.is_file():
+            return kept.read_text(encoding="utf-8")
+        text = check(unit)
+        fresh = kept.with_suffix(f".{unit.tree.name}")
+        fresh.write_text(text, encoding="utf-8")
+        fresh.replace(kept)
+        return text
+
+    different = {unit.key: unit for unit in reversed(each)}
+    with ThreadPoolExecutor(WORKERS) as pool:
+        texts = pool.map(answer, different.values())
+        return dict(zip(different, texts, strict=True))

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A fake agent behind a UDP port."""
+
+from __future__ import annotations
+
+import socket
+import threading
+from collections.abc import Callable
+
+from tests.support.runtime.fake_agent import FakeAgent
+
+AGENT_TIME = 20.0
+
+
+class UdpAgent(threading.Thread):
+    """Answers on a socket of its own until it is stopped."""
+
+    def __init__(self, host: str = "127.0.0.1") -> None:
+        super().__init__(daemon=True)
+        self.agent = FakeAgent()
+        self.socket = socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.bind((host, 0))
+        self.socket.settimeout(AGENT_TIME)
+        self.port: int = self.socket.getsockname()[1]
+        self.before: Callable[[int], None] = lambda count: None
+
+    def run(self) -> None:
+        count = 0
+        while True:
+            try:
+                datagram, peer = self.socket.recvfrom(2048)
+            except OSError:
+                return
+            count += 1
+            self.before(count)
+            for answer in self.agent.receive(datagram):
+                self.socket.sendto(answer, peer)
