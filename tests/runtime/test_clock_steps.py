@@ -18,7 +18,7 @@ import pytest
 from microros_gen.client.plan.runtime import DISCOVERY_GROUP, RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan
 from microros_gen.selection.find_components import components_folder
-from tests.runtime.conftest import Bench
+from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
 from tests.support.runtime.harness import POOL, READER, SERVER, components
 from tests.support.runtime.serving_agent import ServingAgent, identity

@@ -12,7 +12,7 @@ import pytest
 from microros_gen.client.plan.creation import CreateNames, create_size, participant_reference
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import NodePlan, PublisherPlan
-from tests.runtime.conftest import Bench
+from tests.support.runtime.bench import Bench
 from tests.support.runtime.creating_agent import CREATE, DELETE, CreatingAgent
 from tests.support.runtime.driver import Client
 from tests.support.runtime.harness import DECLARED, INT32, POOL

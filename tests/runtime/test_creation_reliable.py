@@ -9,7 +9,7 @@ from dataclasses import replace
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
-from tests.runtime.conftest import Bench
+from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
 from tests.support.runtime.fake_agent import FakeAgent
 from tests.support.runtime.harness import POOL

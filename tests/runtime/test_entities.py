@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from tests.runtime.conftest import Bench
+from tests.support.runtime.bench import Bench
 from tests.support.runtime.harness import DECLARED, POOL
 
 TOPIC_INVALID = 103

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from tests.runtime.conftest import Bench, ProgramFactory
+from tests.support.runtime.bench import Bench, ProgramFactory
 from tests.support.runtime.driver import Client
 from tests.support.runtime.fake_agent import FakeAgent
 from tests.support.runtime.harness import POOL

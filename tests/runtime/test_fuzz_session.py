@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""libFuzzer over the whole client, and over the frames of serial lines, from the corpora kept in tests/fuzz.
+"""libFuzzer over the whole client, and over the frames of serial lines, from the corpora kept in corpus/.
 
 By default the corpus is replayed and a little more is tried; `-m long` goes on for MICROROS_FUZZ_SECONDS (600).
 """

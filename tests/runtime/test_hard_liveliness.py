@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import pytest
 
-from tests.runtime.conftest import Bench
 from tests.support.agent.fakes import Bench as AgentBench
+from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
 from tests.support.runtime.harness import POOL
 

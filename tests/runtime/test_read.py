@@ -12,7 +12,7 @@ import pytest
 from microros_gen.application.names import expand_topic_name
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan, SubscriptionPlan
-from tests.runtime.conftest import Bench
+from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
 from tests.support.runtime.harness import DECLARED, INT32, POOL, READER, STRING
 from tests.support.runtime.reading_agent import READ_DATA, UNLIMITED, ReadingAgent

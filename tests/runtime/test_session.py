@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import pytest
 
-from tests.runtime.conftest import Bench
+from tests.support.runtime.bench import Bench
 from tests.support.runtime.fake_agent import FakeAgent
 from tests.support.runtime.harness import DECLARED, POOL
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from tests.runtime.conftest import Bench
+from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
 from tests.support.runtime.harness import POOL, READER
 from tests.support.runtime.reading_agent import ReadingAgent

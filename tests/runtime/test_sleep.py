@@ -11,7 +11,7 @@ import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan, SubscriptionPlan
-from tests.runtime.conftest import Bench
+from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
 from tests.support.runtime.harness import DECLARED, INT32, READER, SERVER
 from tests.support.runtime.reading_agent import ReadingAgent

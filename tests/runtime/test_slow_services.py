@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import pytest
 
 from microros_gen.application.model import SessionTimes
-from tests.runtime.conftest import Bench
+from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
 from tests.support.runtime.harness import SERVER
 from tests.support.runtime.serving_agent import ServingAgent, identity

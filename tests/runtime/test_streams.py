@@ -9,7 +9,7 @@ from dataclasses import replace
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
-from tests.runtime.conftest import Bench
+from tests.support.runtime.bench import Bench
 from tests.support.runtime.harness import POOL
 
 DROP_OLDEST = replace(POOL, on_full="drop_oldest")

@@ -10,7 +10,7 @@ from itertools import count
 
 import pytest
 
-from tests.runtime.conftest import Bench
+from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
 from tests.support.runtime.harness import POOL
 from tests.support.runtime.time_sync import EPOCH_NS, TimedAgent, answer, moment

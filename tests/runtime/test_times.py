@@ -14,7 +14,7 @@ import pytest
 from microros_gen.application.model import SessionTimes
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.session_times import plan_times
-from tests.runtime.conftest import Bench
+from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
 from tests.support.runtime.fake_agent import FakeAgent
 from tests.support.runtime.harness import EXECUTOR, POOL, READER, build, components, render

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import pytest
 
-from tests.runtime.conftest import Bench
+from tests.support.runtime.bench import Bench
 from tests.support.runtime.harness import DECLARED, POOL
 
 PARTICIPANT = "01071e00 000b0001 01030000 10000000 00 010000 08000000 6d795f6e6f646500 4d00"
