@@ -6,11 +6,10 @@ The bytes are upper estimates: what Python and Fast DDS 2.14.5 take for a thing,
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from microros_gen.agent.input_pool import Holder, InputPool
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.wire.constants import ObjectKind
+from microros_gen.records import dataclass
 
 OBJECT_BYTES = 2_048
 """What an object takes beside its representation and its side in ROS 2."""

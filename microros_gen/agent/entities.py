@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from microros_gen.agent.budgets import Shares
 from microros_gen.agent.history import ReaderHistory, WriterHistory
@@ -21,6 +21,7 @@ from microros_gen.agent.ros.bridge import (
 )
 from microros_gen.agent.wire.constants import ObjectKind, Status
 from microros_gen.agent.wire.entity_messages import Representation
+from microros_gen.records import dataclass
 
 Readable = Reader | Replier | Requester
 

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
-from dataclasses import dataclass
 from functools import partial
 
 from microros_gen.agent.budgets import Budgets
@@ -45,6 +44,7 @@ from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.message import Header, split
 from microros_gen.agent.wire.session_messages import CreateClient, GetInfo, StatusAgent
 from microros_gen.agent.wire.submessages import Submessage, decode, encode
+from microros_gen.records import dataclass
 
 OUT_OF_SESSION = (SESSION_NONE_WITH_KEY, SESSION_NONE_WITHOUT_KEY)
 SILENT_PART = 0.75

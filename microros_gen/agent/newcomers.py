@@ -9,7 +9,6 @@ client in session needs. The first message of the session that comes from the sa
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable
-from dataclasses import dataclass
 
 from microros_gen.agent.clients import Client
 from microros_gen.agent.streams_out import Link
@@ -23,6 +22,7 @@ from microros_gen.agent.wire.constants import (
 )
 from microros_gen.agent.wire.message import Header
 from microros_gen.agent.wire.session_messages import CreateClient
+from microros_gen.records import dataclass
 
 HARD_LIVELINESS = "uxr_hl"
 """Property by which a client asks for a time-out of its own, in ms."""

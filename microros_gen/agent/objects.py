@@ -10,7 +10,6 @@ order a client cleans up. A writer outlives the DELETE of its topic: micro-ROS d
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
 from microros_gen.agent.budgets import cost_of
 from microros_gen.agent.checks import RefusedError, check_application, check_object, part_ids
@@ -32,6 +31,7 @@ from microros_gen.agent.steps import Steps, finish
 from microros_gen.agent.wire.constants import ObjectKind, Status
 from microros_gen.agent.wire.entity_messages import Create
 from microros_gen.agent.wire.errors import MalformedError
+from microros_gen.records import dataclass
 
 Publish = Callable[[bytes], None]
 _SERVED = frozenset(

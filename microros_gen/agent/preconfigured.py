@@ -29,7 +29,6 @@ An adopted client that pings or creates something shows that it is another one: 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 from microros_gen.agent.configuration.entities import PreconfiguredClient, PreconfiguredObject
 from microros_gen.agent.representation import (
@@ -46,6 +45,7 @@ from microros_gen.agent.ros.bridge import BridgeError
 from microros_gen.agent.ros.names import ros_node, ros_service, ros_topic, ros_type
 from microros_gen.agent.wire.constants import ObjectKind
 from microros_gen.diagnostics import Diagnostics
+from microros_gen.records import dataclass
 
 WRITTEN = (ObjectKind.DATAWRITER, ObjectKind.REQUESTER, ObjectKind.REPLIER)
 """Kinds of objects that a client writes to."""

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import dataclass
 
 from microros_gen.agent.input_pool import Holder
 from microros_gen.agent.streams_in import HALF
 from microros_gen.agent.wire.constants import FLAG_LAST_FRAGMENT, FLAG_LITTLE, RELIABLE_WINDOW, SubmessageId
 from microros_gen.agent.wire.entity_messages import Heartbeat
 from microros_gen.agent.wire.message import SUBMESSAGE_HEADER, header_bytes, submessage_bytes
+from microros_gen.records import dataclass
 
 HEARTBEAT_PERIOD_S = 0.2
 """Seconds that a message waits for its acknowledgement before a HEARTBEAT asks for it, at least."""

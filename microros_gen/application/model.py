@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from microros_gen.diagnostics import Span
 from microros_gen.documents.named import Named
+from microros_gen.records import dataclass
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ source says, and is taken once. Source: the ROS 2 design page "Remapping Names";
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from microros_gen.application.model import CLOCK_TOPIC, EndpointDecl, NodeDecl
 from microros_gen.application.names import (
@@ -22,6 +22,7 @@ from microros_gen.diagnostics import Diagnostics, Span, nearest
 from microros_gen.documents.named import NameFault
 from microros_gen.documents.tree_values import child, entries, report_name, text_of
 from microros_gen.documents.yaml_tree import YamlNode
+from microros_gen.records import dataclass
 
 NODE, NAMESPACE = "__node", "__ns"
 

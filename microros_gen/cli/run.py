@@ -10,7 +10,6 @@ import signal
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -23,6 +22,7 @@ from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.documents.files import read_json
 from microros_gen.image.records import Located, locate
 from microros_gen.output.tree import MANIFEST
+from microros_gen.records import dataclass
 from microros_gen.toolchain.emulator import Emulator, Machine
 
 AGENT_READY = "agent ready"

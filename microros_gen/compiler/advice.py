@@ -7,7 +7,7 @@ import os
 import shutil
 import tempfile
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 
@@ -20,6 +20,7 @@ from microros_gen.image.budget import Advice
 from microros_gen.image.folder import Folder, read_folder
 from microros_gen.image.report import static_memory
 from microros_gen.output.tree import write_tree
+from microros_gen.records import dataclass
 from microros_gen.toolchain.compile import OBJECTS, compile_project
 from microros_gen.toolchain.toolchain import Toolchain, find_toolchain
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 from microros_gen.application.find import APPLICATION_FILE
@@ -31,6 +31,7 @@ from microros_gen.interfaces.closure import InterfaceSet, resolve_interfaces, sp
 from microros_gen.interfaces.derived import declaring_name, derived_name
 from microros_gen.interfaces.find import InterfaceFinder
 from microros_gen.interfaces.types import TypeName
+from microros_gen.records import dataclass
 from microros_gen.selection.clock import CLOCK_ROS, with_clock
 from microros_gen.selection.component import Catalogue, Profile
 from microros_gen.selection.component_sources import ComponentFile, read_headers, read_sources

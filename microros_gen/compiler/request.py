@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 from microros_gen.application.find import read_application
@@ -15,6 +15,7 @@ from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.documents.named import Named
 from microros_gen.platform.find import FoundTarget, builtin_targets, read_target
 from microros_gen.platform.target import Target
+from microros_gen.records import dataclass
 
 
 @dataclass(frozen=True)

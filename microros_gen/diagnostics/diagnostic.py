@@ -6,10 +6,10 @@ from __future__ import annotations
 import difflib
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from enum import Enum
 
 from microros_gen.diagnostics.source import Span
+from microros_gen.records import dataclass
 
 LONGEST_LINE = 160
 """Characters that are shown of a source line."""

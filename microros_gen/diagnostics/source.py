@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
+
+from microros_gen.records import dataclass
 
 
 @dataclass(frozen=True)

@@ -3,9 +3,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from microros_gen.diagnostics import Span
+from microros_gen.records import dataclass
 
 
 @dataclass(frozen=True)

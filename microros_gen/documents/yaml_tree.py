@@ -18,13 +18,13 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, Union
 
 import yaml
 
 from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.documents.yaml_faults import yaml_fault
+from microros_gen.records import dataclass
 
 Data = Union[bool, int, float, str, "list[Data]", "dict[str, Data]", None]
 

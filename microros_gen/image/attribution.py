@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.image.elf import Elf, Section, Symbol
 from microros_gen.image.folder import Folder
 from microros_gen.image.linker_map import Placed, is_of_tool_chain, member_of
 from microros_gen.image.placement import UNMAPPED, layout_of
+from microros_gen.records import dataclass
 from microros_gen.toolchain.compile import LIBRARY
 
 GROUPS = (

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from typing import Any
 
 from microros_gen.documents.files import read_json
@@ -16,6 +16,7 @@ from microros_gen.image.attribution import Piece
 from microros_gen.image.entities import MESSAGE_STORAGE, RamPart
 from microros_gen.image.folder import Folder
 from microros_gen.image.stack import Bound, StackReport
+from microros_gen.records import dataclass
 from microros_gen.toolchain.compile import OBJECTS
 
 ADVICE = f"{OBJECTS}/advice.json"

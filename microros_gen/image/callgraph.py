@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Container, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal
 
 from microros_gen.image.attribution import Piece
@@ -18,6 +18,7 @@ from microros_gen.image.disassembly import Code, parse_disassembly
 from microros_gen.image.elf import THUMB, Elf
 from microros_gen.image.folder import Folder
 from microros_gen.image.pointers import Pointers, read_pointers
+from microros_gen.records import dataclass
 from microros_gen.toolchain.compile import CALL_GRAPH
 from microros_gen.toolchain.toolchain import run, sibling
 

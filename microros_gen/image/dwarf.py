@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import PurePosixPath
 from typing import Any, Literal
 
 from elftools.common.exceptions import DWARFError, ELFError
 
 from microros_gen.image.elf import THUMB, Elf
+from microros_gen.records import dataclass
 
 _QUALIFIERS = ("DW_TAG_typedef", "DW_TAG_const_type", "DW_TAG_volatile_type")
 _OP_ADDR = 0x03

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 from io import BytesIO
 from pathlib import Path
@@ -17,6 +16,7 @@ from elftools.elf.sections import SymbolTableSection
 
 from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.documents.files import LARGEST_IMAGE, read_bytes
+from microros_gen.records import dataclass
 
 THUMB = 1
 """The bit that Arm sets in the address of a Thumb function."""

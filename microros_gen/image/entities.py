@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 from microros_gen.image.attribution import Piece
 from microros_gen.image.dwarf import Facts
 from microros_gen.image.folder import Folder
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.own_limits import without_topic
 
 MESSAGE_STORAGE = "storage of messages sent"

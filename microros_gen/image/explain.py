@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from microros_gen.diagnostics import Diagnostic, UserError, nearest
 from microros_gen.image.attribution import Piece, attribute_library
@@ -14,6 +14,7 @@ from microros_gen.image.folder import Folder
 from microros_gen.image.references import References, read_references
 from microros_gen.image.report import SizeReport
 from microros_gen.image.stack import shown_name
+from microros_gen.records import dataclass
 from microros_gen.selection.component import Catalogue
 
 _NEEDED_BY = "needed by "

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -17,6 +16,7 @@ from microros_gen.image.members import Sources
 from microros_gen.image.records import ImageRecord, LibraryRecord, Located, locate
 from microros_gen.interfaces.closure import split_type_name
 from microros_gen.output.tree import MANIFEST
+from microros_gen.records import dataclass
 from microros_gen.toolchain.archive import Member, read_archive
 from microros_gen.toolchain.compile import LIBRARY, MAP, TOOLS, object_name
 from microros_gen.typesupport.plan.names import c_name, type_files

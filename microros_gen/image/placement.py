@@ -5,13 +5,13 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from pathlib import PurePosixPath
 
 from microros_gen.image.dwarf import read_units
 from microros_gen.image.elf import Elf, Symbol
 from microros_gen.image.folder import Folder
 from microros_gen.image.linker_map import Placed, member_of
+from microros_gen.records import dataclass
 
 UNMAPPED = "<no map>"
 """The object of what nobody has a name for."""

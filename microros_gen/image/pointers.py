@@ -7,7 +7,6 @@ Which addresses are taken is in the relocations of the objects; types are in the
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 from elftools.elf.constants import SH_FLAGS
@@ -17,6 +16,7 @@ from microros_gen.image.attribution import Piece
 from microros_gen.image.dwarf import function_address, origin_of, plain_type, type_name, type_of
 from microros_gen.image.elf import Elf
 from microros_gen.image.folder import Folder
+from microros_gen.records import dataclass
 
 Signature = tuple[str, ...]
 """What a function gives and takes, spelled without typedefs and qualifiers."""

@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.documents.files import read_json
 from microros_gen.output.tree import MANIFEST
+from microros_gen.records import dataclass
 
 RECORDS = ".microros"
 VERSION = 1

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 
 from elftools.elf.relocation import RelocationSection
 
 from microros_gen.image.attribution import Piece
 from microros_gen.image.elf import Elf
 from microros_gen.image.folder import Folder
+from microros_gen.records import dataclass
 
 ROOTS = ("main",)
 Key = tuple[str, str]

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
 from elftools.common.exceptions import DWARFError, ELFError
@@ -19,6 +18,7 @@ from microros_gen.image.elf import Elf
 from microros_gen.image.entities import Entity, RamPart, entities, ram_parts
 from microros_gen.image.folder import Folder, read_folder
 from microros_gen.image.stack import StackReport, shown_name, stack_report
+from microros_gen.records import dataclass
 
 _CALL = re.compile(r"\b([a-z]\w*)\(")
 _PRIVATE = "microros"

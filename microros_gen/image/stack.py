@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 
 from microros_gen.image.callgraph import CallGraph, Node
 from microros_gen.image.elf import THUMB, Elf
+from microros_gen.records import dataclass
 from microros_gen.toolchain.compile import CALL_GRAPH
 
 _API = re.compile(r"^(rclc?|rmw|rcutils|micro_ros_utilities)_")

@@ -12,7 +12,6 @@ import os
 import re
 import sys
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 from types import MappingProxyType
@@ -21,6 +20,7 @@ from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.documents.files import is_file, is_folder, read_bytes, read_text
 from microros_gen.interfaces.msg.names import is_package_name
 from microros_gen.interfaces.types import TypeName
+from microros_gen.records import dataclass
 
 SUFFIXES_OF_KIND: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {"msg": (".msg", ".idl"), "srv": (".srv", ".idl"), "action": (".action", ".idl")}

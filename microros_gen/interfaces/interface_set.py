@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any
@@ -14,6 +13,7 @@ from microros_gen.interfaces.derived import messages_of, structures_of
 from microros_gen.interfaces.find import PackagePlace
 from microros_gen.interfaces.type_description import referenced_types, type_description, type_hash
 from microros_gen.interfaces.types import Action, Declaration, Message, Service, TypeName
+from microros_gen.records import dataclass
 
 
 @dataclass(frozen=True)

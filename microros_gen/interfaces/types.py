@@ -7,10 +7,10 @@ Source of names and numbers: REP-2011 and type_description_interfaces/msg/FieldT
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from enum import Enum
 
 from microros_gen.diagnostics import Span
+from microros_gen.records import dataclass
 
 
 @dataclass(frozen=True)

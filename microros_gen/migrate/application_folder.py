@@ -7,7 +7,7 @@ import os
 import shlex
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import click
@@ -25,6 +25,7 @@ from microros_gen.migrate.draft_text import UNDECIDED, draft_text
 from microros_gen.migrate.limits import LOWER_LIMITS
 from microros_gen.migrate.proposal import Wish
 from microros_gen.output.tree import write_files
+from microros_gen.records import dataclass
 
 WORKFLOW = ".github/workflows/microros.yml"
 _TEMPLATES = {

@@ -5,10 +5,11 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from microros_gen.diagnostics import Span
 from microros_gen.migrate.c_tokens import CText, Macro, Token
+from microros_gen.records import dataclass
 
 Tokens = tuple[Token, ...]
 _OPEN, _CLOSE = {"(": ")", "[": "]", "{": "}"}, (")", "]", "}")

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from microros_gen.diagnostics import Source, Span, reads
 from microros_gen.documents.python_literal import python_literal
+from microros_gen.records import dataclass
 
 _TOKEN = re.compile(
     r"""

@@ -7,11 +7,11 @@ import ast
 import operator
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
 from itertools import pairwise
 
 from microros_gen.migrate.c_program import Assignment, Call, CFile, Tokens, matching, split_arguments
 from microros_gen.migrate.c_tokens import Token
+from microros_gen.records import dataclass
 
 _TYPE_SUPPORT = re.compile(r"ROSIDL_GET_(MSG|SRV|ACTION)_TYPE_SUPPORT")
 _SCALES = {"RCL_S_TO_NS": 1_000_000_000, "RCL_MS_TO_NS": 1_000_000, "RCL_US_TO_NS": 1_000}

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 from microros_gen.diagnostics import Span
 from microros_gen.interfaces.types import TypeName
@@ -20,6 +19,7 @@ from microros_gen.migrate.c_program import (
 )
 from microros_gen.migrate.c_tokens import Token
 from microros_gen.migrate.c_values import TypeSupport, Unknown, Values, handle_of
+from microros_gen.records import dataclass
 
 _TYPE = re.compile(r"([a-z]\w*?)__(msg|srv|action)__([A-Z]\w*?)")
 _MEMORY_CALLS = (

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from microros_gen.diagnostics import Diagnostics, Source, Span, reads
 from microros_gen.documents.tree_read import expect_mapping
@@ -17,6 +16,7 @@ from microros_gen.documents.yaml_tree import (
     YamlNode,
     parse_yaml,
 )
+from microros_gen.records import dataclass
 
 _DEFINITION = re.compile(r"-D\s*(?P<name>[A-Za-z_][A-Za-z0-9_]*)(?::[A-Z]+)?=(?P<value>.*)", re.DOTALL)
 _TWICE = "stands twice"

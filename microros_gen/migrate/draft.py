@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from types import MappingProxyType
 
 from microros_gen.diagnostics import Span
+from microros_gen.records import dataclass
 
 Setting = str | int | bool
 """A value of the application file. A text is quoted where YAML needs it, unless it is a `Flow`."""

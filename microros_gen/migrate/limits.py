@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 
 from microros_gen.application.limit_tree import PROPOSED_LIMITS, LimitTree, limit_text, put_limit
 from microros_gen.interfaces.types import (
@@ -18,6 +17,7 @@ from microros_gen.interfaces.types import (
 )
 from microros_gen.migrate.capacities import Capacity, Fact, MemoryRules
 from microros_gen.migrate.draft import DraftValue, Flow, place
+from microros_gen.records import dataclass
 
 DEFAULT_LIMITS = DraftValue(Flow("{string: 64, sequence: 16}"), "what nothing else says")
 """The rule for "*" that is proposed."""

@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import click
@@ -28,6 +28,7 @@ from microros_gen.migrate.first import AGENT, first_draft
 from microros_gen.migrate.limits import DEFAULT_LIMITS, limits_of
 from microros_gen.migrate.meta_draft import meta_draft
 from microros_gen.migrate.rclc_draft import Adopted, rclc_draft
+from microros_gen.records import dataclass
 from microros_gen.selection.find_components import declared_functions, load_catalogue
 from microros_gen.selection.resolve import check_ready
 

@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from microros_gen.migrate.c_program import Call, Tokens
 from microros_gen.migrate.c_values import TypeSupport, Unknown, Values, handle_of, shown
 from microros_gen.migrate.draft import DraftEndpoint, DraftNode, DraftQos, DraftTimer, Remark, Setting
+from microros_gen.records import dataclass
 
 _SENSOR_DATA: Mapping[str, Setting] = {"reliability": "best_effort", "depth": 5}
 # Profile of rmw/qos_profiles.h → what differs from the default.

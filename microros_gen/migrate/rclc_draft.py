@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.migrate.c_program import Call, CFile, read_program
@@ -24,6 +24,7 @@ from microros_gen.migrate.rclc_calls import (
     find_timers,
 )
 from microros_gen.migrate.rclc_settings import find_settings
+from microros_gen.records import dataclass
 from microros_gen.selection.component import Catalogue
 
 _STARTS = ("main", "appMain", "app_main", "setup")

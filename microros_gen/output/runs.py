@@ -15,11 +15,11 @@ import os
 import sys
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 
 import microros_gen
 from microros_gen.documents.files import read_json
+from microros_gen.records import dataclass
 
 # What decides besides files: where interfaces are searched, and which Python's packages.
 _ENVIRONMENT = ("AMENT_PREFIX_PATH", "COLCON_PREFIX_PATH")

@@ -18,11 +18,11 @@ import os
 import stat
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.documents.files import read_bytes, read_json
+from microros_gen.records import dataclass
 
 MANIFEST = "manifest.json"
 JOURNAL = ".microros-gen-journal.json"

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
@@ -14,6 +13,7 @@ from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.documents.files import read_text
 from microros_gen.documents.tree_values import bool_of, entries, items, text_of
 from microros_gen.documents.yaml_tree import parse_yaml
+from microros_gen.records import dataclass
 
 CAPABILITIES_FILE = Path(__file__).with_name("capabilities.yaml")
 

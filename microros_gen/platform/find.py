@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
@@ -12,6 +11,7 @@ from microros_gen.documents.tree_values import text_of
 from microros_gen.documents.yaml_tree import MappingNode
 from microros_gen.platform.target import Target
 from microros_gen.platform.target_file import merge_target, parse_target, target_of
+from microros_gen.records import dataclass
 
 TARGETS = Path(__file__).resolve().parent.parent / "targets"
 

@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
+
+from microros_gen.records import dataclass
 
 PORTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {"port_posix": (), "port_cortex_m": ("cmsdk", "nrf51"), "port_riscv": ("ns16550",)}

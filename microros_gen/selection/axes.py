@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from microros_gen.application.model import Application, Transport
 from microros_gen.diagnostics import Diagnostics, Span, nearest
 from microros_gen.documents.named import Named
+from microros_gen.records import dataclass
 from microros_gen.selection.component import Middleware, ResolvedProfile
 from microros_gen.selection.profiles import at
 

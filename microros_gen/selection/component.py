@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 
 from microros_gen.application.model import ComponentChange
 from microros_gen.diagnostics import Span
 from microros_gen.documents.named import Named
+from microros_gen.records import dataclass
 
 NOT_READY = "this version of microros-gen does not have yet"
 """Ends the sentence that says why something planned is refused."""

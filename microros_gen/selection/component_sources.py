@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import microros_gen
+from microros_gen.records import dataclass
 from microros_gen.selection.find_components import components_folder
 
 PACKAGE = Path(microros_gen.__file__).resolve().parent

@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from microros_gen.application.model import Application, EndpointDecl, NodeDecl
 from microros_gen.application.names import expand_topic_name
 from microros_gen.diagnostics import Span
+from microros_gen.records import dataclass
 from microros_gen.selection.profiles import at
 
 STREAM_BEST_EFFORT = "stream_best_effort"

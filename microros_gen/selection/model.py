@@ -3,9 +3,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from microros_gen.documents.named import Named
+from microros_gen.records import dataclass
 from microros_gen.selection.component import Component
 
 

@@ -8,11 +8,11 @@ not change the result.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 
 from microros_gen.application.model import Application
 from microros_gen.diagnostics import Diagnostics, Span, nearest
 from microros_gen.documents.named import Named
+from microros_gen.records import dataclass
 from microros_gen.selection.axes import AxisChoice, choose_axes
 from microros_gen.selection.clock import CLOCK_ROS
 from microros_gen.selection.component import NOT_READY, AxisValue, Catalogue, Middleware, ResolvedProfile

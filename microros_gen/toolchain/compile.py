@@ -9,11 +9,11 @@ import os
 import re
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from microros_gen.client.plan.project import Project
 from microros_gen.diagnostics import Diagnostic, UserError
+from microros_gen.records import dataclass
 from microros_gen.toolchain.stamps import Stamps
 from microros_gen.toolchain.toolchain import WARNINGS, Toolchain, run
 

@@ -11,11 +11,11 @@ import json
 import shutil
 import subprocess
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from microros_gen.diagnostics import Diagnostic, UserError
+from microros_gen.records import dataclass
 
 _LINE = "line"
 

@@ -6,9 +6,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
+from microros_gen.records import dataclass
 from microros_gen.toolchain.compile import LIBRARY
 from microros_gen.toolchain.toolchain import Toolchain, run, sibling
 

@@ -6,11 +6,11 @@ from __future__ import annotations
 import shutil
 import subprocess
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.platform.target import Target
+from microros_gen.records import dataclass
 
 # design, "The C side": clean under these with gcc and clang, 32 and 64 bit.
 WARNINGS = (

@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from microros_gen.diagnostics import Span
+from microros_gen.records import dataclass
 
 
 @dataclass(frozen=True)

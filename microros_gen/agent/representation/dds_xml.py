@@ -9,7 +9,7 @@ readers best effort, volatile, the last sample.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import TypeVar
 from xml.etree import ElementTree
 
@@ -28,6 +28,7 @@ from microros_gen.agent.representation.description import (
 )
 from microros_gen.agent.wire.constants import ObjectKind
 from microros_gen.agent.wire.errors import MalformedError
+from microros_gen.records import dataclass
 
 Element = ElementTree.Element
 _T = TypeVar("_T")

@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
+
+from microros_gen.records import dataclass
 
 
 class Durability(Enum):

@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 from microros_gen.agent.representation.description import Description, Participant
 from microros_gen.agent.wire.constants import ObjectKind
 from microros_gen.diagnostics import nearest
+from microros_gen.records import dataclass
 
 _LONGEST_COMPARED = 255
 """Characters of a name for which a similar one is looked for; the time for that grows with its square."""

@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Protocol
 
 from microros_gen.agent.representation.description import Qos, Service, Topic
 from microros_gen.agent.wire.constants import Status
+from microros_gen.records import dataclass
 
 
 class BridgeError(Exception):

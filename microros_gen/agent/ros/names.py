@@ -10,11 +10,11 @@ mapping to DDS" and rmw_fastrtps.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 
 from microros_gen.agent.representation.description import Service
 from microros_gen.agent.ros.bridge import BridgeError
 from microros_gen.agent.wire.constants import Status
+from microros_gen.records import dataclass
 
 MAXIMUM_NAME = 255
 """Characters that ROS 2 allows in the name of a node."""

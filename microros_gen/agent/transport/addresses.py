@@ -7,8 +7,9 @@ import fcntl
 import ipaddress
 import socket
 import struct
-from dataclasses import dataclass
 from pathlib import Path
+
+from microros_gen.records import dataclass
 
 Address = ipaddress.IPv4Address | ipaddress.IPv6Address
 

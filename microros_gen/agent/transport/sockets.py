@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import errno
 import socket
-from dataclasses import dataclass
 
 from microros_gen.diagnostics import Diagnostic, UserError
+from microros_gen.records import dataclass
 
 BUFFER_BYTES = 4 << 20
 """Asked of the system for datagrams that wait; it may give less."""

@@ -14,7 +14,6 @@ import select
 import socket
 import time
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass
 from functools import partial
 
 from microros_gen.agent.fairness import TURN_S, Account, Fairness
@@ -24,6 +23,7 @@ from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.transport.base import Receive
 from microros_gen.agent.transport.outbox import Outbox, is_sample
 from microros_gen.agent.transport.sockets import Protocol, open_socket, place_name
+from microros_gen.records import dataclass
 
 READ_BYTES = 4_096
 """Bytes that are read from a connection before it is another one's turn."""

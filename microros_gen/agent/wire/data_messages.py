@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar
 
 from microros_gen.agent.wire.cdr import Reader, Writer
 from microros_gen.agent.wire.constants import DATA_FORMAT_MASK, SubmessageId
+from microros_gen.records import dataclass
 
 DATA_PREFIX = 4
 """Bytes of WRITE_DATA and DATA before the data: request id and object id."""

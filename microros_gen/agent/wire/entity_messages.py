@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar
 
 from microros_gen.agent.wire.cdr import Reader, Writer
@@ -16,6 +15,7 @@ from microros_gen.agent.wire.constants import (
     SubmessageId,
 )
 from microros_gen.agent.wire.errors import MalformedError
+from microros_gen.records import dataclass
 
 _WITH_PARENT = frozenset(
     (

@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from microros_gen.agent.wire.constants import FLAG_LITTLE, SubmessageId
 from microros_gen.agent.wire.errors import MalformedError
+from microros_gen.records import dataclass
 
 CREATE_CLIENT = int(SubmessageId.CREATE_CLIENT)
 MOST_REQUESTS = 256

@@ -12,12 +12,12 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from types import MappingProxyType
 
 from microros_gen.agent.wire.cdr import MOST_ELEMENTS, Reader, Writer
 from microros_gen.agent.wire.constants import DataFormat
 from microros_gen.agent.wire.errors import MalformedError
+from microros_gen.records import dataclass
 
 UNREGISTERED, DISPOSED, VIEW_NEW, READ = 1, 2, 4, 8
 """Bits of SampleInfoFlags."""

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 from typing import ClassVar
 
@@ -11,6 +10,7 @@ from microros_gen.agent.wire.cdr import Reader, Writer
 from microros_gen.agent.wire.constants import COOKIE, VENDOR, VERSION, ObjectKind, SubmessageId
 from microros_gen.agent.wire.entity_messages import Representation
 from microros_gen.agent.wire.errors import MalformedError
+from microros_gen.records import dataclass
 
 Properties = tuple[tuple[str, str], ...]
 

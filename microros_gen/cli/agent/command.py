@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import click
@@ -15,6 +14,7 @@ from microros_gen.agent.transport.tcp import TcpLimits
 from microros_gen.cli.agent.options import AgentOptions, common_options
 from microros_gen.cli.agent.start import serve
 from microros_gen.diagnostics import nearest
+from microros_gen.records import dataclass
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import field, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +23,7 @@ from microros_gen.agent.limits import Limits
 from microros_gen.cli.agent.types import ManifestOf
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, Span, UserError, nearest
 from microros_gen.documents.files import read_text
+from microros_gen.records import dataclass
 
 DEFAULTS = Limits()
 MAXIMUM_DOMAIN = 232

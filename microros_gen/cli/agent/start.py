@@ -8,7 +8,7 @@ import resource
 import sys
 import time
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -38,6 +38,7 @@ from microros_gen.cli.agent.options import AgentOptions, read_sources
 from microros_gen.cli.agent.types import ClientTypes, HashOf, TypeHashes, read_manifests
 from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
 from microros_gen.interfaces.type_hashes import type_hashes
+from microros_gen.records import dataclass
 
 
 def serve(options: AgentOptions) -> None:

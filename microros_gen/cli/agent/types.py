@@ -5,12 +5,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any
 
 from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.documents.files import read_json
+from microros_gen.records import dataclass
 
 _KEYED = re.compile(r"(0[xX][0-9a-fA-F]{1,8})=(.+)")
 _HASH = re.compile(r"RIHS01_[0-9a-f]{64}")

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 import squarify
 
@@ -12,6 +11,7 @@ from microros_gen.cli.size.format import UNMAPPED_NOTE, owner_sizes, ram_uses, s
 from microros_gen.documents.templates import make_environment
 from microros_gen.image.attribution import GROUPS
 from microros_gen.image.report import SizeReport
+from microros_gen.records import dataclass
 
 WIDTH, HEIGHT = 1000.0, 520.0
 _LABEL_HEIGHT = 15.0

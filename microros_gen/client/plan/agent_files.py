@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from microros_gen.application.model import Application, EndpointDecl, Qos
 from microros_gen.client.plan.creation import (
@@ -21,6 +21,7 @@ from microros_gen.client.plan.project import Project
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.dds_names import dds_topic, dds_type, reply_topic, request_topic
+from microros_gen.records import dataclass
 from microros_gen.selection.model import Selection
 
 REFERENCES = "agent/references.xml"

@@ -3,13 +3,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from microros_gen.application.model import Application
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.streams import usual_frame
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.platform.target import OWN_DRIVER, Target, Uart
+from microros_gen.records import dataclass
 
 DEFAULT_STACK = 2048
 _STACK_ALIGNMENT = 16  # RISC-V; the Arm procedure call standard asks for 8

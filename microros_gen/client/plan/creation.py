@@ -7,7 +7,7 @@ references), so that reference files made for it serve here too.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from microros_gen.records import dataclass
 
 MESSAGE_HEADER = 4
 SUBMESSAGE_HEADER = 4

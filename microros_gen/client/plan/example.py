@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 from microros_gen.interfaces.types import Field, Message, NamedType, Primitive, StringType, TypeName
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.names import snake_case
 from microros_gen.typesupport.plan.size import TypeLimits
 

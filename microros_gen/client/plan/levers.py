@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from microros_gen.application.model import Application, EndpointDecl, LimitRule
 from microros_gen.client.plan.project import Project
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.capacity import Capacities, Capacity
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 from microros_gen.application.model import DISCOVERY_PORT, Application, EndpointDecl, NodeDecl, Transport
@@ -25,6 +25,7 @@ from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.dds_names import dds_topic, dds_type, participant_name
 from microros_gen.interfaces.types import Message, TypeName
 from microros_gen.platform.target import Target
+from microros_gen.records import dataclass
 from microros_gen.selection.clock import CLOCK_ROS
 from microros_gen.selection.model import Selection
 from microros_gen.typesupport.plan.own_limits import LimitSet

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from microros_gen.application.model import Application, EndpointDecl, Qos
 from microros_gen.client.plan.declared import full_name, named_at, pool, subscription_declarations, type_name
@@ -21,6 +21,7 @@ from microros_gen.interfaces.types import (
     TypeName,
     element_of,
 )
+from microros_gen.records import dataclass
 from microros_gen.selection.clock import CLOCK_ROS
 from microros_gen.selection.model import Selection
 from microros_gen.typesupport.plan.names import include_path

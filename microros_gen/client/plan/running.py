@@ -3,12 +3,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from microros_gen.application.model import Application, ExecutorDecl, NodeDecl
 from microros_gen.client.plan.declared import pool
 from microros_gen.client.plan.runtime_entities import TimerPlan
 from microros_gen.diagnostics import Diagnostics
+from microros_gen.records import dataclass
 from microros_gen.selection.clock import CLOCK_ROS
 from microros_gen.selection.model import Selection
 

@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from microros_gen.application.model import DISCOVERY_PORT, MOST_HISTORY
 from microros_gen.client.plan.runtime_entities import (
     NodePlan,
@@ -16,6 +14,7 @@ from microros_gen.client.plan.runtime_entities import (
 from microros_gen.client.plan.runtime_rows import EndpointRow, QueueRow
 from microros_gen.client.plan.services import ServicePlan
 from microros_gen.client.plan.session_times import TimesPlan
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.message_pools import MessagePool, PoolPointer, pool_pointers
 from microros_gen.typesupport.plan.names import include_path, type_files
 

@@ -3,10 +3,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from microros_gen.interfaces.dds_names import dds_type
 from microros_gen.interfaces.types import TypeName
+from microros_gen.records import dataclass
 
 
 @dataclass(frozen=True)

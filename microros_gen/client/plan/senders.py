@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from microros_gen.application.model import Application
 from microros_gen.client.plan.declared import declarations, full_name, service_parts, type_name
 from microros_gen.interfaces.derived import derived_name
 from microros_gen.interfaces.types import TypeName
+from microros_gen.records import dataclass
 from microros_gen.selection.model import Selection
 from microros_gen.typesupport.plan.layout import StructLayouts
 from microros_gen.typesupport.plan.message_pools import (

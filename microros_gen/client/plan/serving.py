@@ -8,7 +8,6 @@ id of its request, as the public agent sends it.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from microros_gen.application.model import Application, EndpointDecl
 from microros_gen.client.plan.declared import (
@@ -26,6 +25,7 @@ from microros_gen.client.plan.streams import Received, Written, slot_of
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.derived import derived_name
 from microros_gen.interfaces.types import TypeName
+from microros_gen.records import dataclass
 from microros_gen.selection.model import Selection
 from microros_gen.typesupport.plan.names import include_path
 from microros_gen.typesupport.plan.types import TypePlan

@@ -3,9 +3,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from microros_gen.application.model import SessionTimes
+from microros_gen.records import dataclass
 
 ROUND_TRIP_MS = 100
 RETRY_MAX_MS, RETRY_MAX_ROUND_TRIPS = 4000, 2

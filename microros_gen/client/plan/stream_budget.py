@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import islice
 
 from microros_gen.application.model import Application
 from microros_gen.client.plan.levers import Lever, history_lever, limit_levers, queue_levers
 from microros_gen.client.plan.project import Project
 from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.capacity import Capacities
 from microros_gen.typesupport.plan.unset import type_line
 

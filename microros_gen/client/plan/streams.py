@@ -8,11 +8,11 @@ four bytes, each submessage aligned to four).
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from microros_gen.application.model import LARGEST_UDP_PAYLOAD, Application
 from microros_gen.client.plan.creation import MESSAGE_HEADER, SUBMESSAGE_HEADER
 from microros_gen.diagnostics import Diagnostics, Span
+from microros_gen.records import dataclass
 
 OBJECT_PREFIX = 4  # request id and object id
 WRITE_DATA_OVERHEAD = MESSAGE_HEADER + SUBMESSAGE_HEADER + OBJECT_PREFIX

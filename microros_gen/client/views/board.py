@@ -3,12 +3,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from jinja2 import Environment
 
 from microros_gen.client.plan.project import Project
 from microros_gen.platform.target import Target
+from microros_gen.records import dataclass
 
 
 @dataclass(frozen=True)

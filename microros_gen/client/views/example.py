@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from microros_gen.application.model import EndpointDecl, Qos
 from microros_gen.client.plan.declared import publisher_declarations, subscription_declarations
@@ -19,6 +19,7 @@ from microros_gen.client.plan.project import Project
 from microros_gen.client.views.example_running import Received, RunningView, Sender, running_view
 from microros_gen.client.views.example_services import ServiceView, service_views
 from microros_gen.interfaces.types import TypeName
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.names import include_path, snake_case
 from microros_gen.typesupport.plan.types import TypePlan
 

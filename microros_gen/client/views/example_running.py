@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 from microros_gen.client.plan.project import Project
 from microros_gen.client.views.example_services import ServiceView
+from microros_gen.records import dataclass
 
 _NS_PER_US = 1000
 _NS_PER_MS = 1_000_000

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from microros_gen.client.plan.declared import declarations
 from microros_gen.client.plan.example import Filling, example_topics, plan_filling, plan_shown
 from microros_gen.client.plan.project import Project
 from microros_gen.interfaces.derived import derived_name
 from microros_gen.interfaces.types import TypeName
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.names import include_path, snake_case
 from microros_gen.typesupport.plan.types import TypePlan
 

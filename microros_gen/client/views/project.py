@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 
 from jinja2 import Environment
 
@@ -15,6 +14,7 @@ from microros_gen.client.plan.runtime_entities import PublisherPlan
 from microros_gen.client.views.agent_files import render_agent_files
 from microros_gen.client.views.board import BoardView, board_view, render_toolchain
 from microros_gen.client.views.example import example_view
+from microros_gen.records import dataclass
 from microros_gen.selection.component import Component
 from microros_gen.selection.component_sources import ComponentFile
 from microros_gen.typesupport.views.decode import render_decoders

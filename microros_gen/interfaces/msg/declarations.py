@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import Any, Protocol
 
 from lark import Token, Tree
@@ -34,6 +33,7 @@ from microros_gen.interfaces.types import (
     TypeName,
     Value,
 )
+from microros_gen.records import dataclass
 
 LARGEST_BOUND = 2**32 - 1
 """The most elements or characters that CDR can count: lengths have 32 bits (DDS-XTypes 1.3, 7.4.3)."""

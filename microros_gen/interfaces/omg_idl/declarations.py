@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from lark import Token
 
@@ -40,6 +40,7 @@ from microros_gen.interfaces.types import (
     Value,
     element_of,
 )
+from microros_gen.records import dataclass
 
 CONSTANTS_SUFFIX = "_Constants"
 """A module `Name_Constants` holds the constants of the struct `Name` (rosidl)."""

@@ -9,7 +9,6 @@ service, three (`Name_Goal`, `Name_Result`, `Name_Feedback`) an action. Constant
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from microros_gen.diagnostics import Diagnostics, Source, Span, reads
 from microros_gen.interfaces.derived import ACTION_PARTS, SERVICE_PARTS, make_declaration
@@ -27,6 +26,7 @@ from microros_gen.interfaces.omg_idl.syntax import parse_syntax
 from microros_gen.interfaces.omg_idl.types import KINDS, Scope
 from microros_gen.interfaces.omg_idl.values import span_of, tokens_of
 from microros_gen.interfaces.types import Declaration, Message, TypeName
+from microros_gen.records import dataclass
 
 _BYTE_ORDER_MARK = "\ufeff"
 _PARTS: Mapping[str, tuple[str, ...]] = {"msg": ("",), "srv": SERVICE_PARTS, "action": ACTION_PARTS}

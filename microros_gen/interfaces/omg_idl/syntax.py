@@ -8,7 +8,6 @@ declarations are found in the same run and all places stay what they are.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from functools import lru_cache
 
 from lark import Lark, Token
@@ -16,6 +15,7 @@ from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedTok
 
 from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.interfaces.msg.declarations import SyntaxNode
+from microros_gen.records import dataclass
 
 _MOST_ERRORS = 20
 _ANY_TYPE = "a type"

@@ -7,7 +7,7 @@ rosidl_parser knows typedefs by their bare name, wherever they stand in the file
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from lark import Token
 
@@ -25,6 +25,7 @@ from microros_gen.interfaces.types import (
     StringType,
     TypeName,
 )
+from microros_gen.records import dataclass
 
 KINDS = ("msg", "srv", "action")
 """The kinds of interfaces, which are names of modules too."""

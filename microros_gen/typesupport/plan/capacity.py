@@ -21,7 +21,6 @@ both; each entity keeps its own.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from enum import Enum
 
 from microros_gen.application.model import LimitRule
@@ -35,6 +34,7 @@ from microros_gen.interfaces.types import (
     TypeName,
     element_of,
 )
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.capacity_rules import RuleChecker, absolute_path, is_count
 from microros_gen.typesupport.plan.size import FieldLimits, TypeLimits, WireSizes
 from microros_gen.typesupport.plan.unset import Unset, UnsetRoot, report_unset

@@ -9,7 +9,6 @@ constants here.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import Union
 
 from microros_gen.interfaces.types import (
@@ -23,6 +22,7 @@ from microros_gen.interfaces.types import (
     TypeName,
     element_of,
 )
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.facts import TypeFacts
 from microros_gen.typesupport.plan.names import TypeFiles
 from microros_gen.typesupport.plan.size import members

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from microros_gen.interfaces.types import (
     ArrayType,
@@ -16,6 +15,7 @@ from microros_gen.interfaces.types import (
     StringType,
     TypeName,
 )
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.size import align, members
 
 

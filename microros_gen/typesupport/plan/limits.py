@@ -9,9 +9,9 @@ its own. An entity that has lower limits than its type is a further use of it.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 
 from microros_gen.interfaces.types import Message, NamedType, SequenceType, StringType, TypeName, element_of
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.size import FieldLimits, TypeLimits
 
 

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from microros_gen.interfaces.types import (
     ArrayType,
@@ -17,6 +16,7 @@ from microros_gen.interfaces.types import (
     TypeName,
     element_of,
 )
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.names import TypeFiles, c_name
 from microros_gen.typesupport.plan.size import members
 

@@ -15,7 +15,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 
 from microros_gen.interfaces.types import (
     ArrayType,
@@ -28,6 +27,7 @@ from microros_gen.interfaces.types import (
     TypeName,
     element_of,
 )
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.layout import StructLayouts
 from microros_gen.typesupport.plan.names import c_name, element_c_type, primitive_sequence_name, struct_header
 from microros_gen.typesupport.plan.size import TypeLimits

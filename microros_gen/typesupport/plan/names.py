@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from functools import cache
 
 from microros_gen.interfaces.derived import declaring_name
@@ -16,6 +15,7 @@ from microros_gen.interfaces.types import (
     StringType,
     TypeName,
 )
+from microros_gen.records import dataclass
 
 _SEQUENCES = {
     Primitive.BOOL: "boolean",

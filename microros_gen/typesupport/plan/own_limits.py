@@ -8,9 +8,9 @@ ROS 2 has one handle for each type, and it identifies no more than the type. Wha
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 
 from microros_gen.interfaces.types import TypeName
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.capacity import Capacities, Entity, EntityLimits
 from microros_gen.typesupport.plan.names import c_name
 from microros_gen.typesupport.plan.size import TypeLimits, WireSizes

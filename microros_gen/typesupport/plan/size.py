@@ -8,7 +8,6 @@ align for its element type; a wstring has no terminator and writes each of its U
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 from microros_gen.interfaces.types import (
     ArrayType,
@@ -22,6 +21,7 @@ from microros_gen.interfaces.types import (
     TypeName,
     element_of,
 )
+from microros_gen.records import dataclass
 
 LENGTH_SIZE = 4
 WIDE_CHARACTER_SIZE = 4

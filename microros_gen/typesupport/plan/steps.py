@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Union
 
 from microros_gen.interfaces.types import Primitive, TypeName
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.size import TypeLimits
 
 

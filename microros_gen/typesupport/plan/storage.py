@@ -7,7 +7,6 @@ A topic whose own limits are lower than those of its type has a struct and a bin
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Union
 
 from microros_gen.diagnostics import Diagnostics
@@ -23,6 +22,7 @@ from microros_gen.interfaces.types import (
     TypeName,
     element_of,
 )
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.capacity import TopicLimits
 from microros_gen.typesupport.plan.layout import Extent, StructLayouts, struct_extent
 from microros_gen.typesupport.plan.names import c_name

@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping
-from dataclasses import dataclass
 
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.dds_names import dds_type
 from microros_gen.interfaces.derived import declaring_name
 from microros_gen.interfaces.types import Message, TypeName
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.capacity import Capacities
 from microros_gen.typesupport.plan.decode import DecodePlan, decode_files, plan_decoders
 from microros_gen.typesupport.plan.layout import I386, ILP32, LP64, DataModel, StructLayouts

@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 
 from microros_gen.application.limit_tree import PROPOSED_LIMITS, LimitTree, limit_text, put_limit
 from microros_gen.application.model import LimitRule
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Span
 from microros_gen.interfaces.types import TypeName
+from microros_gen.records import dataclass
 
 _NAMED = 4
 

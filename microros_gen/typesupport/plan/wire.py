@@ -9,7 +9,6 @@ larger nested types, have a function of their own (`called`), which starts at an
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
 
 from microros_gen.interfaces.types import (
     ArrayType,
@@ -22,6 +21,7 @@ from microros_gen.interfaces.types import (
     TypeName,
     element_of,
 )
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.facts import TypeFacts
 from microros_gen.typesupport.plan.limits import Homes, LimitMember, limit_members, plan_homes
 from microros_gen.typesupport.plan.size import LENGTH_SIZE, TypeLimits, members

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from jinja2 import Environment
 
 from microros_gen.interfaces.derived import declaring_name
 from microros_gen.interfaces.types import Primitive
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.decode import (
     Bools,
     Messages,

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from microros_gen.interfaces.types import TypeName
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.decode import decode_files
 from microros_gen.typesupport.plan.limits import LimitMember, limit_value
 from microros_gen.typesupport.plan.names import c_name, guard, include_path, type_files

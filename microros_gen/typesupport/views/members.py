@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
 
 from jinja2 import Environment
 
 from microros_gen.interfaces.derived import declaring_name
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.members import (
     TABLES_HEADER,
     TABLES_SOURCE,

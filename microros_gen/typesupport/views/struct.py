@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
 
 from microros_gen.interfaces.types import (
     ArrayType,
@@ -19,6 +18,7 @@ from microros_gen.interfaces.types import (
     TypeName,
     element_of,
 )
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.message_pools import message_pool
 from microros_gen.typesupport.plan.names import (
     element_c_type,

@@ -7,7 +7,7 @@ A file holds one message, or every message of a service or an action, as rosidl_
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from pathlib import PurePosixPath
 from typing import Any
 
@@ -15,6 +15,7 @@ from jinja2 import Environment
 
 from microros_gen.interfaces.dds_names import dds_type
 from microros_gen.interfaces.derived import SERVICE_PARTS, declaring_name, derived_name
+from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.names import c_name, guard, include_path
 from microros_gen.typesupport.plan.types import TypePlan
 from microros_gen.typesupport.views.encode import EncoderViews
