@@ -18,7 +18,7 @@ function(_microros_tool_of_repository root command message)
     set(path "${root}:$ENV{PYTHONPATH}")
   endif()
   set(start "${CMAKE_COMMAND}" -E env "PYTHONPATH=${path}" "${MICROROS_GEN_PYTHON}")
-  execute_process(COMMAND ${start} -c "import microros_gen, click, elftools, jinja2, jsonschema, lark, squarify, yaml"
+  execute_process(COMMAND ${start} -c "import microros_gen, click, elftools, jinja2, lark, squarify, yaml"
     RESULT_VARIABLE status ERROR_VARIABLE said OUTPUT_QUIET)
   if(status EQUAL 0)
     set(${command} ${start} -m microros_gen PARENT_SCOPE)

@@ -11,13 +11,12 @@ from __future__ import annotations
 import json
 import re
 from pathlib import Path
-from typing import Any, cast
+from typing import cast
 
 from microros_gen.diagnostics import Diagnostics, Source, Span
+from microros_gen.documents.schema_check import Difference, Schema, differences
 from microros_gen.documents.schema_words import describe_mismatch, describe_unknown_key, key_without_space
 from microros_gen.documents.yaml_tree import MappingNode, SequenceNode, YamlNode, to_data
-
-Schema = dict[str, Any]
 
 
 def load_schema(path: Path) -> Schema:
@@ -30,36 +29,33 @@ def validate(tree: YamlNode | None, source: Source, schema: Schema, diagnostics:
     if tree is None:
         diagnostics.error("the file says nothing", Span(source, 1, 1), "Write `key: value` lines")
         return
-    from jsonschema import Draft202012Validator  # slow to import, and most runs of the tool validate nothing
-
     found = Diagnostics()
-    for error in Draft202012Validator(schema).iter_errors(cast(Any, to_data(tree))):
-        _report(tree, error, found)
+    for difference in differences(to_data(tree), schema):
+        _report(tree, difference, found)
     diagnostics.extend(sorted(found, key=lambda d: (d.span.line, d.span.column) if d.span else (0, 0)))
 
 
-def _report(tree: YamlNode, error: Any, diagnostics: Diagnostics) -> None:
-    path = list(error.absolute_path)
+def _report(tree: YamlNode, difference: Difference, diagnostics: Diagnostics) -> None:
+    path, schema, keyword = list(difference.path), difference.schema, difference.keyword
     node = _node_at(tree, path)
-    schema = cast(Schema, error.schema)
     label = path_label(path)
-    if error.validator == "additionalProperties" and isinstance(node, MappingNode):
+    if keyword == "additionalProperties" and isinstance(node, MappingNode):
         for entry in node:
             if _is_unknown(entry.key, schema):
                 message, hint = describe_unknown_key(entry.key, label, schema)
                 diagnostics.error(message, entry.key_span, hint)
-    elif error.validator == "required" and isinstance(node, MappingNode):
-        for key in cast("list[str]", error.validator_value):
+    elif keyword == "required" and isinstance(node, MappingNode):
+        for key in cast("list[str]", schema["required"]):
             meant = any(key_without_space(entry.key, schema) == key for entry in node)
             if key not in node.entries and not meant:
                 owner = f"'{label}' lacks" if label else "the file lacks"
                 diagnostics.error(f"{owner} the key '{key}'", node.span, f"Add `{key}: …`")
-    elif error.validator == "not" and "x-reserved" in schema:
+    elif keyword == "not" and "x-reserved" in schema:
         message = (
             f"the key '{path[-1]}' is reserved for {schema['x-reserved']}, which this version does not have"
         )
         diagnostics.error(message, _key_span(tree, path), "Remove it")
-    elif error.validator == "uniqueItems" and isinstance(node, SequenceNode):
+    elif keyword == "uniqueItems" and isinstance(node, SequenceNode):
         _report_twins(node, label, diagnostics)
     else:
         message, hint = describe_mismatch(node, label, schema)
