@@ -37,7 +37,7 @@ footprint: $(VENV)/dev.stamp
 	@$(BIN)/python -m tests.tools.update_footprint
 
 docs: $(VENV)/dev.stamp
-	@$(BIN)/python -m mkdocs build --strict
+	@NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict
 	@echo "build/site/index.html"
 
 $(VENV)/bin/python:

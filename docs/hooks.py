@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What mkdocs does for this site beside Markdown: generated pages, files of the repository that pages link to.
+"""What mkdocs does for this site besides Markdown: generated pages and pictures, files that pages link to.
 
 A page says `../examples/…`, as it has to where the repository is browsed; the site gets a copy of such a file below
 `files/`, or, for a page of OUTSIDE, a page of its own.
@@ -13,11 +13,10 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from generators import c_api, command_line, schemas
+from generators import c_api, command_line, error_texts, pictures, schemas
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
-from pygments.formatters import HtmlFormatter
 
 from microros_gen.agent.configuration import parser as agent_parser
 from microros_gen.application import parser as application_parser
@@ -53,7 +52,10 @@ SCHEMA_FILES = {
 @cache
 def generated() -> dict[str, str]:
     """Return the pages that are made from the code: path below docs/ → Markdown."""
-    pages = {"reference/command_line.md": command_line.page()}
+    pages = {
+        "reference/command_line.md": command_line.page(),
+        "reference/error_texts.md": error_texts.page(),
+    }
     for name, (title, introduction) in _SCHEMAS.items():
         pages[f"reference/{name}_file.md"] = schemas.page(title, introduction, SCHEMA_FILES[name])
     return pages | {f"reference/c/{name}.md": text for name, text in c_api.pages().items()}
@@ -70,8 +72,6 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
             target = _target(link, _origin(file.src_uri))
             if target and target.startswith("files/") and files.get_file_from_path(target) is None:
                 files.append(File.generated(config, target, abs_src_path=str(ROOT / target[len("files/") :])))
-    style = HtmlFormatter(style="default").get_style_defs(".highlight")
-    files.append(File.generated(config, "css/highlight.css", content=style))
     return files
 
 
@@ -87,6 +87,11 @@ def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Fil
         return posixpath.relpath(target, posixpath.dirname(here) or ".") + (found[2] or "")
 
     return _LINK.sub(moved, markdown)
+
+
+def on_page_content(html: str, page: Page, config: MkDocsConfig, files: Files) -> str:
+    """Put in the pictures."""
+    return pictures.insert(html)
 
 
 def on_page_context(context: dict[str, Any], page: Page, config: MkDocsConfig, nav: Any) -> None:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
@@ -13,6 +14,7 @@ import pytest
 _TAGS = """
 html head meta title link script body nav div section article main header footer form label input button a p span ul ol
 li h1 h2 h3 h4 h5 table thead tbody tr th td pre code em strong br hr img blockquote noscript dl dt dd i
+svg g path rect polygon text aside
 """
 _LOADS = {"script": "src", "img": "src", "iframe": "src", "source": "src", "object": "data", "link": "href"}
 
@@ -85,7 +87,38 @@ def test_the_site_has_no_time_of_its_build(site: Path) -> None:
     assert not re.search(r"Build Date UTC : \d", (site / "index.html").read_text(encoding="utf-8"))
 
 
-def test_the_site_has_the_four_kinds_of_pages(site: Path) -> None:
+ORDER = (
+    "Home", "Install", "Quick start", "Concepts", "Tutorial", "How-to", "Reference", "Explanation",
+    "Verification", "Troubleshooting", "Contributing", "Changelog", "Security",
+)  # fmt: skip
+"""What a newcomer reads, from top to bottom."""
+
+
+def test_the_site_has_the_order_of_a_newcomer(site: Path) -> None:
     text = (site / "index.html").read_text(encoding="utf-8")
-    for kind in ("Tutorial", "How-to", "Reference", "Explanation"):
-        assert re.search(rf'<p class="caption"><span[^>]*>{kind}</span>', text), kind
+    (navigation,) = re.findall(r'(?s)<nav class="md-nav md-nav--primary".*?</nav>\s*</div>', text)
+    items = re.findall(
+        r'(?s)<li class="md-nav__item.*?<span class="md-ellipsis">\s*(.*?)\s*</span>', navigation
+    )
+    assert [item for item in items if item in ORDER] == list(ORDER)
+
+
+def test_code_can_be_copied_and_pages_searched(site: Path) -> None:
+    text = (site / "index.html").read_text(encoding="utf-8")
+    assert "content.code.copy" in text
+    assert 'data-md-component="search-query"' in text
+    assert "slate" in text, "dark mode"
+    assert (site / "search/search_index.json").stat().st_size > 100_000
+
+
+def test_pictures_are_drawn_from_the_tools_own_output(site: Path) -> None:
+    text = (site / "concepts.html").read_text(encoding="utf-8")
+    pictures = re.findall(r'(?s)<div class="picture">(.*?)</svg>', text)
+    assert "<!-- picture" not in text
+    flow, components, *treemap = pictures
+    assert all(
+        f">{step}</text>" in flow for step in ("read", "resolve", "plan", "render", "write", "compile")
+    )
+    assert {"publish", "session", "transport_udp"} <= set(re.findall(r">(\w+)</text>", components))
+    if shutil.which("arm-none-eabi-gcc"):
+        assert len(re.findall(r"<title>\w+: \d+ bytes", treemap[0])) > 100

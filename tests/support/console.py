@@ -4,7 +4,8 @@
 In a block marked `console` a line `$ command` is run by a shell; the lines below it are what it prints: `...` alone
 stands for any lines, `…` for any part of a line, and sizes that a compiler gives are not compared. Without such lines
 only the status counts. A command with `&` at its end runs on until the page ends; its lines are waited for. A block
-marked `sh` has commands alone, one a line. A block with `title="path"` is a file that the page has the reader write.
+marked `sh` has commands alone, one a line. Where the lines shown have an `error: `, the command must fail, and the
+lines are what it prints to stderr. A block with `title="path"` is a file that the page has the reader write.
 What stands in an admonition `not-run` is left out.
 """
 
@@ -146,8 +147,10 @@ class Terminal:
             check=False,
             timeout=300,
         )
-        assert done.returncode == 0, f"$ {command}\n{done.stdout}{done.stderr}{self._others()}"
-        assert not shown or shows(self._unmoved(done.stdout), shown), f"$ {command}\n{done.stdout}"
+        fails = any("error: " in line for line in shown)
+        assert (done.returncode != 0) is fails, f"$ {command}\n{done.stdout}{done.stderr}{self._others()}"
+        printed = done.stderr if fails else done.stdout
+        assert not shown or shows(self._unmoved(printed), shown), f"$ {command}\n{printed}"
 
     def _unmoved(self, text: str) -> str:
         return re.sub(rf"\b{self._port}\b", "8888", text)

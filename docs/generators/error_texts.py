@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The page of the error texts of the C library, from a library with every component that can be built."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from generators.markdown import table
+from microros_gen.selection.find_components import load_catalogue
+
+_APPLICATION = """\
+version: 1
+profiles: [pure_sender, pure_reader]
+components: [{components}]
+errors: {mode}
+pools: {{publishers: 1, subscriptions: 1, services: 1, clients: 1}}
+"""
+_TEXT = re.compile(
+    r'^const char microros_error_(\w+)\[\] =\s*((?:"[^"\n]*"(?: XRCE_\w+)?\s*)+);', re.MULTILINE
+)
+_CODE = re.compile(r"^  microros_error_(\w+) = (\d+)", re.MULTILINE)
+_INTRODUCTION = """\
+# Error texts
+
+After a failed call, `rcl_get_error_string()` has the text of the error (`errors: text`, the default) or `E` and
+its number (`errors: code`, which saves flash). `E01` is an error that the application set. In the texts, `%s` is a
+name, `%d` a detail, `%n` what was found and `%m` what fits; the library replaces them.
+"""
+
+
+def page() -> str:
+    """Return the page: the number of each error, and its text."""
+    texts = dict(_TEXT.findall(_sources("text", "error_text*.c")))
+    numbers = _CODE.findall(_sources("code", "error.h"))
+    rows = [(f"E{int(number):02}", f"`{_words(texts[name])}`") for name, number in numbers]
+    return _INTRODUCTION + "\n" + table(("number", "text"), rows) + "\n"
+
+
+def _words(literals: str) -> str:
+    """Return what the string literals say; a macro between them is where the agent is."""
+    text = re.sub(r'"\s*XRCE_PLACE_\w+\s*"|"\s*XRCE_PLACE_\w+\s*$', "AGENT", literals.strip())
+    return re.sub(r'"\s*"|^"|"$', "", text.replace('AGENT"', "AGENT")).replace("|", "\\|")
+
+
+def _sources(mode: str, files: str) -> str:
+    """Return the named files of a library with every component of the micro-ROS layer."""
+    ready = [c.name for c in load_catalogue().values() if c.ready and c.layer == "micro-ROS"]
+    text = _APPLICATION.format(components=", ".join(f"+{name}" for name in ready), mode=mode)
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder, "microros.yaml").write_text(text, encoding="utf-8")
+        command = [sys.executable, "-m", "microros_gen", "generate", "-c", f"{folder}/microros.yaml"]
+        done = subprocess.run([*command, "-o", f"{folder}/out"], capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        return "".join(p.read_text(encoding="utf-8") for p in sorted(Path(folder, "out").rglob(files)))
