@@ -98,7 +98,7 @@ def test_each_anchor_is_there_once() -> None:
         anchors = [first or other for first, other in re.findall(r'\{: #(\S+) \}|<a id="(\w+)">', text)]
         assert len(anchors) == len(set(anchors)), name
         assert "{{" not in text
-        assert "{%" not in text
+        assert "{% " not in text
 
 
 def test_a_header_is_read_as_the_house_writes_it() -> None:
