@@ -44,9 +44,17 @@ MULTILIB = "gcc-multilib"
 def missing_packages() -> list[str]:
     """Return the Debian packages to install, sorted."""
     missing = {package for program, package in NEEDED.items() if not _is_there(program)}
+    if shutil.which("chromium") is None and _is_debian():
+        missing.add("chromium")
     if shutil.which("gcc") is None or not _links_32_bit():
         missing |= {MULTILIB, "g++-multilib"}
     return sorted(missing | _missing_libgcc() | _missing_sanitizers())
+
+
+def _is_debian() -> bool:
+    """Return whether this is Debian itself: Ubuntu's package of Chromium installs a snap."""
+    release = Path("/etc/os-release")
+    return release.exists() and "ID=debian\n" in release.read_text(encoding="utf-8")
 
 
 def _is_there(name: str) -> bool:
