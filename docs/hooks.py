@@ -13,7 +13,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from generators import c_api, command_line, error_texts, pictures, schemas
+from generators import c_api, command_line, error_texts, pictures, python_api, schemas
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
@@ -55,6 +55,7 @@ def generated() -> dict[str, str]:
     pages = {
         "reference/command_line.md": command_line.page(),
         "reference/error_texts.md": error_texts.page(),
+        "reference/python_api.md": python_api.page(),
     }
     for name, (title, introduction) in _SCHEMAS.items():
         pages[f"reference/{name}_file.md"] = schemas.page(title, introduction, SCHEMA_FILES[name])

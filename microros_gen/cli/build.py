@@ -3,23 +3,18 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import Any
 
 import click
 
+from microros_gen import compiler
 from microros_gen.cli.budgets import check_planned
-from microros_gen.cli.generate import files_line, plan, write
+from microros_gen.cli.generate import files_line, warnings_text
 from microros_gen.cli.options import output_option, selection_options
 from microros_gen.cli.summary import built_summary, plan_summary
-from microros_gen.compiler.options import SelectionOptions
-from microros_gen.compiler.pipeline import Planned
 from microros_gen.image.folder import read_folder
 from microros_gen.output.tree import check_build_folders
-from microros_gen.toolchain.compile import compile_project
-from microros_gen.toolchain.measure import measure_library
-from microros_gen.toolchain.toolchain import Toolchain, find_toolchain
 
 
 @click.command()
@@ -36,17 +31,14 @@ def command(output: Path | None, **options: Any) -> None:
     microros-gen build --profile pure_sender
     microros-gen build -c microros.yaml -o build/robot
     """
-    selection = SelectionOptions(**options)
-    planned, out = plan(selection, output)
-    tools = find_toolchain(planned.project.target, os.environ)
+    resolved = compiler.resolve(compiler.read(compiler.Options(**options)))
+    out = compiler.output_folder(resolved, output)
+    planned = compiler.plan(resolved)
+    click.echo(warnings_text(planned.warnings), nl=False, err=True)
+    tools = compiler.toolchain(planned)
     check_build_folders(out)
-    report = write(planned, out)
+    report = compiler.write(compiler.render(planned), out)
     click.echo(plan_summary(planned) + files_line(out, report), nl=False)
-    _compile(planned, out, tools)
-    check_planned(planned, lambda: read_folder(out), selection)
-
-
-def _compile(planned: Planned, out: Path, tools: Toolchain) -> None:
-    built = compile_project(out, planned.project, tools)
-    usage = measure_library(out, tools)
-    click.echo(built_summary(out, built, usage, planned.project.lacks_image), nl=False)
+    built = compiler.compile(planned, out, tools)
+    click.echo(built_summary(out, built.report, built.usage, planned.project.lacks_image), nl=False)
+    check_planned(planned, lambda: read_folder(out))

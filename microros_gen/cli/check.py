@@ -8,13 +8,9 @@ from typing import Any
 
 import click
 
+from microros_gen import compiler
+from microros_gen.cli.generate import warnings_text
 from microros_gen.cli.options import selection_options
-from microros_gen.compiler.options import SelectionOptions
-from microros_gen.compiler.pipeline import plan_request, render_request, resolve_request, warnings_text
-from microros_gen.compiler.request import read_request
-from microros_gen.diagnostics import Diagnostics
-from microros_gen.output.golden import golden_differences
-from microros_gen.output.tree import write_tree
 
 
 @click.command()
@@ -35,15 +31,13 @@ def command(golden: Path, update: bool, **options: Any) -> int:
     \b
     microros-gen check --profile pure_sender --golden golden/pure_sender
     """
-    diagnostics = Diagnostics()
-    selection = SelectionOptions(**options)
-    resolved = resolve_request(read_request(selection, diagnostics), diagnostics)
-    files = render_request(plan_request(resolved, selection, diagnostics))
-    click.echo(warnings_text(diagnostics), nl=False, err=True)
+    planned = compiler.plan(compiler.resolve(compiler.read(compiler.Options(**options))))
+    files = compiler.render(planned)
+    click.echo(warnings_text(planned.warnings), nl=False, err=True)
     if update:
-        report = write_tree(golden, files)
+        report = compiler.write(files, golden)
         click.echo(f"{golden}: {len(report.written)} written, {len(report.removed)} removed")
-    differences = golden_differences(golden, files)
+    differences = compiler.differences(files, golden)
     for difference in differences:
         click.echo(difference, nl=False)
     if differences and update:

@@ -5,17 +5,18 @@ from __future__ import annotations
 
 import os
 import time
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from microros_gen import compiler
 from microros_gen.cli.options import output_option, selection_options
-from microros_gen.compiler.options import SelectionOptions
 from microros_gen.output.runs import Run, find_run, record_run
 
 if TYPE_CHECKING:
-    from microros_gen.compiler.pipeline import Planned
+    from microros_gen.diagnostics import Diagnostic
     from microros_gen.output.tree import WriteReport
 
 
@@ -54,11 +55,15 @@ def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
     from microros_gen.output.tree import JOURNAL, MANIFEST
 
     begun = time.time_ns()
-    planned, out = plan(SelectionOptions(**options), output)
-    report = write(planned, out)
+    resolved = compiler.resolve(compiler.read(compiler.Options(**options)))
+    out = compiler.output_folder(resolved, output)
+    planned = compiler.plan(resolved)
+    told = warnings_text(planned.warnings)
+    click.echo(told, nl=False, err=True)
+    report = compiler.write(compiler.render(planned), out)
     summary = plan_summary(planned)
     files = report.written + report.unchanged
-    run = Run(out, summary, len(files), planned.warnings)
+    run = Run(out, summary, len(files), told)
     inputs = tuple(read_paths(planned))
     outputs = [out / name for name in files]
     if depfile is not None:
@@ -68,29 +73,9 @@ def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
     click.echo(summary + files_line(out, report), nl=False)
 
 
-def plan(options: SelectionOptions, output: Path | None) -> tuple[Planned, Path]:
-    """Decide everything; return the plan and the folder that it is for. Nothing is written yet."""
-    from microros_gen.compiler.pipeline import plan_request
-    from microros_gen.compiler.pipeline import resolve_request as resolve
-    from microros_gen.compiler.request import read_request
-    from microros_gen.diagnostics import Diagnostics
-    from microros_gen.output.tree import check_owned
-
-    diagnostics = Diagnostics()
-    resolved = resolve(read_request(options, diagnostics), diagnostics)
-    out = output or Path("build") / resolved.selection.name
-    check_owned(out)
-    planned = plan_request(resolved, options, diagnostics)
-    click.echo(planned.warnings, nl=False, err=True)
-    return planned, out
-
-
-def write(planned: Planned, out: Path) -> WriteReport:
-    """Render the plan and write it; return what was done to the folder."""
-    from microros_gen.compiler.pipeline import render_request
-    from microros_gen.output.tree import write_tree
-
-    return write_tree(out, render_request(planned))
+def warnings_text(warnings: Iterable[Diagnostic]) -> str:
+    """Return what was found and is no error, as it goes to stderr."""
+    return "".join(f"{warning.render()}\n" for warning in warnings)
 
 
 def files_line(out: Path, report: WriteReport) -> str:

@@ -7,7 +7,13 @@ from pathlib import Path
 
 import click
 
+from microros_gen.application.find import APPLICATION_FILE
+from microros_gen.cli.generate import warnings_text
 from microros_gen.cli.options import interface_path_option
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.migrate.application_folder import NewFolder, write_folder
+from microros_gen.migrate.draft_text import UNDECIDED
+from microros_gen.migrate.proposal import Wish, draft_of
 
 
 @click.command()
@@ -61,8 +67,25 @@ def command(
     microros-gen init my_robot --profile pure_reader --target qemu-mps2-an386
     microros-gen init my_robot --from old/src --from-colcon-meta old/app-colcon.meta
     """
-    from microros_gen.migrate.application_folder import write_folder
-    from microros_gen.migrate.proposal import Wish, draft_of
-
     wish = Wish(folder, profiles, target, sources, metas, interface_paths, checked)
-    return write_folder(wish, draft_of(wish))
+    warnings = Diagnostics()
+    draft = draft_of(wish, warnings)
+    click.echo(warnings_text(warnings), nl=False, err=True)
+    made = write_folder(wish, draft)
+    click.echo(warnings_text(made.found), nl=False, err=True)
+    _tell(made)
+    return 0 if made.builds else 2
+
+
+def _tell(made: NewFolder) -> None:
+    own = [name for name in made.files if not name.startswith("golden/")]
+    click.echo(f"{made.folder}: {', '.join(own)}")
+    if len(own) < len(made.files):
+        click.echo(f"golden copy of {len(made.files) - len(own)} files in {made.folder / 'golden'}")
+    if made.undecided:
+        place = made.folder / APPLICATION_FILE
+        click.echo(f"{made.undecided} to be decided by you: look for {UNDECIDED} in {place}")
+    if not made.builds:
+        click.echo("it does not build before the errors are gone")
+        return
+    click.echo(f"cmake -S {made.folder} -B {made.folder / 'build'} && cmake --build {made.folder / 'build'}")

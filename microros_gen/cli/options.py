@@ -23,7 +23,7 @@ interface_path_option = click.option(
 
 
 def selection_options(function: F) -> F:
-    """Add the options; the command gets them as keyword arguments of `SelectionOptions`."""
+    """Add the options; the command gets them as keyword arguments of `Options`."""
     for option in reversed(
         [
             click.option(

@@ -9,13 +9,12 @@ from typing import Any
 
 import click
 
+from microros_gen import compiler
+from microros_gen.cli.generate import warnings_text
 from microros_gen.cli.options import selection_options
 from microros_gen.cli.tables import format_selection, format_table, selection_data
 from microros_gen.client.plan.streams import StreamPlan
-from microros_gen.compiler.options import SelectionOptions
-from microros_gen.compiler.pipeline import Planned, plan_request, resolve_request, warnings_text
-from microros_gen.compiler.request import read_request
-from microros_gen.diagnostics import Diagnostics
+from microros_gen.compiler import Planned
 from microros_gen.typesupport.plan.layout import ILP32
 from microros_gen.typesupport.plan.types import DATA_MODELS, TypePlan
 
@@ -39,13 +38,11 @@ def command(kind: str, **options: Any) -> None:
     microros-gen resolve --profile pure_sender --interface sensor_msgs/msg/Imu
     microros-gen resolve -c microros.yaml --format dot | dot -Tsvg -o selection.svg
     """
-    diagnostics = Diagnostics()
-    selection = SelectionOptions(**options)
-    resolved = resolve_request(read_request(selection, diagnostics), diagnostics)
+    resolved = compiler.resolve(compiler.read(compiler.Options(**options)))
     chosen = resolved.selection
     ready = all(c.component.ready for c in chosen.components)
-    planned = plan_request(resolved, selection, diagnostics) if ready else None
-    click.echo(warnings_text(diagnostics), nl=False, err=True)
+    planned = compiler.plan(resolved) if ready else None
+    click.echo(warnings_text((planned or resolved).warnings), nl=False, err=True)
     if kind == "json":
         data = selection_data(chosen) | (_plan_data(planned) if planned else {})
         click.echo(json.dumps(data, indent=2, sort_keys=True, ensure_ascii=False))

@@ -13,8 +13,7 @@ import tempfile
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from microros_gen.cli.generate import plan, write
-from microros_gen.compiler.options import SelectionOptions
+from microros_gen import compiler
 from microros_gen.diagnostics import UserError
 from microros_gen.typesupport.plan.capacity import Defaults
 
@@ -61,14 +60,17 @@ class Generator:
             names = ", ".join(sorted({f"{package_name}/{p.parent.name}/{p.stem}" for p in origins}))
             config.write_text(_APPLICATION.format(interfaces=names, **self._limits), encoding="utf-8")
             paths = (package, *(Path(path) for path in include_paths))
-            options = SelectionOptions(config, (), (), paths, None, None)
             try:
-                planned, out = plan(options, Path(output_path))
-                report = write(planned, out)
+                generated = compiler.generate(
+                    compiler.Options(config=config, interface_paths=paths), Path(output_path)
+                )
             except UserError as error:
                 _tell(error, package, origins)
                 raise SystemExit(error.status) from None
-        return [out / name for name in sorted((*report.written, *report.unchanged))]
+        for warning in generated.planned.warnings:
+            print(warning.render(), file=sys.stderr)
+        report = generated.report
+        return [generated.out / name for name in sorted((*report.written, *report.unchanged))]
 
 
 def _staged(file: str, package: Path) -> tuple[Path, Path]:

@@ -1,2 +1,72 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read, resolve, plan, render, write and compile an application."""
+"""The compiler as a Python API: read → resolve → plan → render → write → compile.
+
+The command line, the CMake hook, the plugin of `rosidl generate`, `init` and the tests go through it. Each step takes
+the result of the one before it and returns data; nothing is printed. A mistake of the user raises `UserError`, which
+holds every `Diagnostic` of the step; what is no error is in `warnings` of the result. Attributes are imported when they
+are first used, so importing this package costs nothing.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from microros_gen.compiler.api import (
+        Built,
+        Generated,
+        compile,
+        differences,
+        generate,
+        output_folder,
+        plan,
+        read,
+        read_source,
+        render,
+        resolve,
+        toolchain,
+        write,
+    )
+    from microros_gen.compiler.options import Options
+    from microros_gen.compiler.pipeline import Planned, Resolved
+    from microros_gen.compiler.request import Request
+    from microros_gen.diagnostics import Diagnostic, UserError
+
+__all__ = [
+    "Built",
+    "Diagnostic",
+    "Generated",
+    "Options",
+    "Planned",
+    "Request",
+    "Resolved",
+    "UserError",
+    "compile",
+    "differences",
+    "generate",
+    "output_folder",
+    "plan",
+    "read",
+    "read_source",
+    "render",
+    "resolve",
+    "toolchain",
+    "write",
+]
+
+_ELSEWHERE = {
+    "Diagnostic": "microros_gen.diagnostics",
+    "Options": "microros_gen.compiler.options",
+    "Planned": "microros_gen.compiler.pipeline",
+    "Request": "microros_gen.compiler.request",
+    "Resolved": "microros_gen.compiler.pipeline",
+    "UserError": "microros_gen.diagnostics",
+}
+
+
+def __getattr__(name: str) -> object:
+    """Import what is asked for (PEP 562)."""
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(_ELSEWHERE.get(name, "microros_gen.compiler.api")), name)

@@ -13,7 +13,6 @@ from pathlib import Path
 
 from microros_gen.application.model import Application
 from microros_gen.client.plan.levers import history_lever, limit_levers, queue_levers
-from microros_gen.compiler.options import SelectionOptions
 from microros_gen.compiler.pipeline import Planned, plan_request, render_request
 from microros_gen.diagnostics import Diagnostics, UserError
 from microros_gen.image.budget import Advice
@@ -45,7 +44,7 @@ class _Trial:
         return static_memory(read_folder(self.folder))
 
 
-def plan_advice(planned: Planned, folder: Folder, options: SelectionOptions) -> tuple[Advice, ...]:
+def plan_advice(planned: Planned, folder: Folder) -> tuple[Advice, ...]:
     """Return the changes of queues, pools and limits that save most, the largest saving first.
 
     Each is built as the example of the application and measured; `folder` lends its objects. Nothing where there
@@ -58,17 +57,17 @@ def plan_advice(planned: Planned, folder: Folder, options: SelectionOptions) -> 
             if (folder.path / OBJECTS / "stamps.json").is_file():
                 shutil.copytree(folder.path, trial.folder, symlinks=True)
             now = trial.ram(planned)
-            found = list(_tried(planned, options, trial, now))
+            found = list(_tried(planned, trial, now))
     except (UserError, OSError):
         return ()
     return tuple(sorted(found, key=lambda a: (-a.saves, a.change))[:_SHOWN])
 
 
-def _tried(planned: Planned, options: SelectionOptions, trial: _Trial, now: int) -> Iterator[Advice]:
+def _tried(planned: Planned, trial: _Trial, now: int) -> Iterator[Advice]:
     for change, application in _changes(planned):
         request = replace(planned.resolved.request, application=application)
         try:
-            other = plan_request(replace(planned.resolved, request=request), options, Diagnostics())
+            other = plan_request(replace(planned.resolved, request=request), Diagnostics())
         except UserError:
             continue  # a smaller number is not always possible
         saves = now - trial.ram(other)

@@ -9,14 +9,20 @@ from microros_gen.records import dataclass
 
 
 @dataclass(frozen=True)
-class SelectionOptions:
-    """What the command line selects; empty means: the application file or the default decides."""
+class Options:
+    """What a caller selects; what is left out, the application file or a default decides.
 
-    config: Path | None
-    profiles: tuple[str, ...]
-    interfaces: tuple[str, ...]
-    interface_paths: tuple[Path, ...]
-    target: str | None
-    agent: str | None
+    `config`: the application file (None: `microros.yaml` of the current folder where there is one). `profiles` and
+    `target` replace those of the file, `components` (`timers`, `-ping`) and `interfaces` (`pkg`, `pkg/msg/Type`) add to
+    them. `interface_paths` are searched before the ament index, pip and the shipped set. `agent` is `HOST:PORT` or a
+    device. `default_target` is taken where neither file nor `target` names one and a built-in target has this name.
+    """
+
+    config: Path | None = None
+    profiles: tuple[str, ...] = ()
+    interfaces: tuple[str, ...] = ()
+    interface_paths: tuple[Path, ...] = ()
+    target: str | None = None
+    agent: str | None = None
     components: tuple[str, ...] = ()
     default_target: str | None = None

@@ -23,9 +23,8 @@ from microros_gen.client.plan.project import Project, plan_project
 from microros_gen.client.plan.service_limits import service_roots
 from microros_gen.client.plan.stream_budget import check_stream_budget
 from microros_gen.client.plan.streams import DEFAULT_MTU, WRITE_DATA_OVERHEAD
-from microros_gen.compiler.options import SelectionOptions
 from microros_gen.compiler.request import Request
-from microros_gen.diagnostics import Diagnostics
+from microros_gen.diagnostics import Diagnostic, Diagnostics
 from microros_gen.documents.named import Named
 from microros_gen.interfaces.closure import InterfaceSet, resolve_interfaces, split_type_name
 from microros_gen.interfaces.derived import declaring_name, derived_name
@@ -54,13 +53,15 @@ class Resolved:
     own_profiles: tuple[Profile, ...]
     catalogue: Catalogue
     selection: Selection
+    warnings: tuple[Diagnostic, ...] = ()
 
 
 @dataclass(frozen=True)
 class Planned:
     """A resolved request with its plan and with what `capacities` had to assume.
 
-    `searched` are the paths that decide where each interface is found; `warnings` the text for stderr.
+    `searched` are the paths that decide where each interface is found; `warnings` are all since the
+    application file was read.
     """
 
     resolved: Resolved
@@ -68,7 +69,7 @@ class Planned:
     searched: tuple[Path, ...]
     capacities: Capacities
     project: Project
-    warnings: str = ""
+    warnings: tuple[Diagnostic, ...] = ()
 
 
 def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
@@ -114,27 +115,27 @@ def _check_interfaces_have_a_use(
         )
 
 
-def plan_request(resolved: Resolved, options: SelectionOptions, diagnostics: Diagnostics) -> Planned:
+def plan_request(resolved: Resolved, diagnostics: Diagnostics) -> Planned:
     """Find the interfaces and plan sizes, names and entities. Raises UserError with all that is wrong."""
-    planned = _planned(resolved, options, diagnostics)
+    planned = _planned(resolved, diagnostics)
 
     def other(application: Application) -> Project:
         request = replace(resolved.request, application=application)
-        return _planned(replace(resolved, request=request), options, Diagnostics()).project
+        return _planned(replace(resolved, request=request), Diagnostics()).project
 
     check_stream_budget(planned.project, planned.capacities, other, diagnostics)
     diagnostics.check()
-    return replace(planned, warnings=warnings_text(diagnostics))
+    return replace(planned, warnings=tuple(diagnostics))
 
 
-def _planned(resolved: Resolved, options: SelectionOptions, diagnostics: Diagnostics) -> Planned:
+def _planned(resolved: Resolved, diagnostics: Diagnostics) -> Planned:
     """Plan as plan_request does; the budget of RAM is not looked at."""
     request, application, selection = resolved.request, resolved.request.application, resolved.selection
     check_ready(selection, diagnostics)
     check_entities(application, selection, diagnostics)
     check_types(application, diagnostics)
     own = [request.near / path.name for path in application.interface_paths]
-    finder = InterfaceFinder.from_environment((*options.interface_paths, *own))
+    finder = InterfaceFinder.from_environment((*request.interface_paths, *own))
     spans = {request.near / path.name: path.span for path in application.interface_paths}
     finder.check_paths(diagnostics, spans)
     interfaces = _interfaces(resolved, finder, diagnostics)
@@ -195,11 +196,6 @@ def read_paths(planned: Planned) -> Iterator[Path]:
     yield from planned.searched
     for entry in planned.interfaces:
         yield from (entry.place.folder / entry.name.kind, Path(entry.source.name))
-
-
-def warnings_text(diagnostics: Diagnostics) -> str:
-    """Return what was found and is no error, as it goes to stderr."""
-    return "".join(f"{diagnostic.render()}\n" for diagnostic in diagnostics)
 
 
 def _requested(application: Application) -> tuple[Named, ...]:

@@ -10,8 +10,8 @@ from pathlib import Path
 from microros_gen.application.find import read_application
 from microros_gen.application.model import Application, TargetRef, Transport, component_change
 from microros_gen.application.parser import parse_agent_address, parse_application, parse_discover
-from microros_gen.compiler.options import SelectionOptions
-from microros_gen.diagnostics import Diagnostics, Source, Span
+from microros_gen.compiler.options import Options
+from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, Span
 from microros_gen.documents.named import Named
 from microros_gen.platform.find import FoundTarget, builtin_targets, read_target
 from microros_gen.platform.target import Target
@@ -23,7 +23,7 @@ class Request:
     """What the user asked for, read but not yet resolved.
 
     Names of files in the application file are relative to `near`, its folder; names of profiles on the command
-    line to the current folder, `profiles_near`.
+    line to the current folder, `profiles_near`. `interface_paths` are those of the options.
     """
 
     application: Application
@@ -33,6 +33,8 @@ class Request:
     profiles_near: Path
     found_target: FoundTarget
     inputs: Mapping[str, bytes]
+    interface_paths: tuple[Path, ...] = ()
+    warnings: tuple[Diagnostic, ...] = ()
 
     @property
     def target(self) -> Target:
@@ -40,7 +42,7 @@ class Request:
         return self.found_target.target
 
 
-def read_request(options: SelectionOptions, diagnostics: Diagnostics) -> Request:
+def read_request(options: Options, diagnostics: Diagnostics) -> Request:
     """Read the application file where there is one and let the options win over it."""
     source = read_application(options.config, Path.cwd(), diagnostics)
     diagnostics.check()
@@ -48,9 +50,7 @@ def read_request(options: SelectionOptions, diagnostics: Diagnostics) -> Request
     return request_of(source, near, options, diagnostics)
 
 
-def request_of(
-    source: Source | None, near: Path, options: SelectionOptions, diagnostics: Diagnostics
-) -> Request:
+def request_of(source: Source | None, near: Path, options: Options, diagnostics: Diagnostics) -> Request:
     """Return the request of an application file in the folder `near`, or of the options alone."""
     application = parse_application(source, diagnostics) if source else Application()
     diagnostics.check()
@@ -62,7 +62,16 @@ def request_of(
     diagnostics.check()
     assert target is not None
     inputs = {"microros.yaml": source.text.encode()} if source else {}
-    return Request(application, source is not None, options.config, near, profiles_near, target, inputs)
+    return Request(
+        application,
+        source is not None,
+        options.config,
+        near,
+        profiles_near,
+        target,
+        inputs,
+        options.interface_paths,
+    )
 
 
 def _refuse_rtos(target: TargetRef, diagnostics: Diagnostics) -> None:
@@ -75,9 +84,7 @@ def _refuse_rtos(target: TargetRef, diagnostics: Diagnostics) -> None:
         )
 
 
-def _with_options(
-    application: Application, options: SelectionOptions, diagnostics: Diagnostics
-) -> Application:
+def _with_options(application: Application, options: Options, diagnostics: Diagnostics) -> Application:
     if options.profiles:
         application = replace(application, profiles=_named(options.profiles, "--profile"))
     if options.interfaces:

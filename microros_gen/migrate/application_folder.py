@@ -10,18 +10,15 @@ from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 
-import click
-
-from microros_gen import __version__
+from microros_gen import __version__, compiler
 from microros_gen.application.find import APPLICATION_FILE
 from microros_gen.client.views.example import example_view
-from microros_gen.compiler.pipeline import Planned, plan_request, render_request, resolve_request
-from microros_gen.compiler.request import request_of
+from microros_gen.compiler import Planned
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, UserError
 from microros_gen.documents.templates import shared_environment
 from microros_gen.migrate.code import c_sources
 from microros_gen.migrate.draft import Draft
-from microros_gen.migrate.draft_text import UNDECIDED, draft_text
+from microros_gen.migrate.draft_text import draft_text
 from microros_gen.migrate.limits import LOWER_LIMITS
 from microros_gen.migrate.proposal import Wish
 from microros_gen.output.tree import write_files
@@ -59,8 +56,22 @@ class _View:
     checked: bool
 
 
-def write_folder(wish: Wish, draft: Draft) -> int:
-    """Write the folder of `draft` and tell what it holds; return the exit status, 2 where it does not build.
+@dataclass(frozen=True)
+class NewFolder:
+    """What `write_folder` wrote, by paths below the folder; `undecided` places are left to the user.
+
+    `builds`: the application plans as it is. `found` are warnings, and the errors for which it does not.
+    """
+
+    folder: Path
+    files: tuple[str, ...]
+    undecided: int
+    builds: bool
+    found: tuple[Diagnostic, ...]
+
+
+def write_folder(wish: Wish, draft: Draft) -> NewFolder:
+    """Write the folder of `draft`, which need not build when it was proposed from what there was.
 
     Raises UserError, and writes nothing, where a file is in the way or where a profile alone does not plan.
     """
@@ -75,11 +86,8 @@ def write_folder(wish: Wish, draft: Draft) -> int:
     for remark in undecided:
         tell = found.error if remark.refused else found.warning
         tell(remark.text, remark.span, remark.refused or None)
-    for diagnostic in found:
-        click.echo(diagnostic.render(), err=True)
     builds = planned is not None and not any(remark.refused for remark in undecided)
-    _tell(wish, files, len(undecided), builds)
-    return 0 if builds else 2
+    return NewFolder(wish.folder, tuple(sorted(files)), len(undecided), builds, tuple(found))
 
 
 @contextmanager
@@ -129,11 +137,12 @@ def _plan(wish: Wish, text: str, diagnostics: Diagnostics) -> Planned | None:
     """Return the plan of the proposal, or None with what is against it in `diagnostics`."""
     source = Source(str(wish.folder / APPLICATION_FILE), text)
     try:
-        resolved = resolve_request(request_of(source, wish.folder, wish.options(), diagnostics), diagnostics)
-        return plan_request(resolved, wish.options(), diagnostics)
+        planned = compiler.plan(compiler.resolve(compiler.read_source(source, wish.folder, wish.options())))
     except UserError as error:
         diagnostics.extend(error.diagnostics)
         return None
+    diagnostics.extend(planned.warnings)
+    return planned
 
 
 def _files(wish: Wish, text: str, planned: Planned | None, undecided: int) -> dict[str, bytes]:
@@ -142,7 +151,7 @@ def _files(wish: Wish, text: str, planned: Planned | None, undecided: int) -> di
     environment = shared_environment()
     toolchain = None
     if planned is not None:
-        rendered = render_request(planned)
+        rendered = compiler.render(planned)
         if wish.checked:
             files |= {f"golden/{name}": content for name, content in rendered.items()}
         toolchain = rendered.get("toolchain.cmake")
@@ -199,18 +208,3 @@ def _refuse_to_overwrite(folder: Path, files: Mapping[str, bytes]) -> None:
         raise UserError(
             [Diagnostic(message, hint="Name a new folder, or move them away; nothing was changed")]
         )
-
-
-def _tell(wish: Wish, files: Mapping[str, bytes], undecided: int, builds: bool) -> None:
-    own = sorted(name for name in files if not name.startswith("golden/"))
-    click.echo(f"{wish.folder}: {', '.join(own)}")
-    if len(own) < len(files):
-        click.echo(f"golden copy of {len(files) - len(own)} files in {wish.folder / 'golden'}")
-    if undecided:
-        click.echo(
-            f"{undecided} to be decided by you: look for {UNDECIDED} in {wish.folder / APPLICATION_FILE}"
-        )
-    if not builds:
-        click.echo("it does not build before the errors are gone")
-        return
-    click.echo(f"cmake -S {wish.folder} -B {wish.folder / 'build'} && cmake --build {wish.folder / 'build'}")

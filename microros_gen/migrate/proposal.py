@@ -9,11 +9,8 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
-import click
-
-from microros_gen.compiler.options import SelectionOptions
-from microros_gen.compiler.pipeline import DEFAULT_INTERFACE, resolve_request
-from microros_gen.compiler.request import request_of
+from microros_gen import compiler
+from microros_gen.compiler.pipeline import DEFAULT_INTERFACE
 from microros_gen.diagnostics import Diagnostics, Source, UserError
 from microros_gen.documents.files import read_text
 from microros_gen.documents.named import Named
@@ -65,21 +62,20 @@ class Wish:
         """Whether there is something to be read."""
         return self.sources is not None or bool(self.metas)
 
-    def options(self) -> SelectionOptions:
+    def options(self) -> compiler.Options:
         """Return the options of the other commands for this."""
-        return SelectionOptions(None, (), (), self.interface_paths, None, None)
+        return compiler.Options(interface_paths=self.interface_paths)
 
 
-def draft_of(wish: Wish) -> Draft:
-    """Return the proposal. Raises UserError where something cannot be read."""
+def draft_of(wish: Wish, warnings: Diagnostics) -> Draft:
+    """Return the proposal; what is no error is added to `warnings`. Raises UserError where a file cannot be read."""
     if not wish.adopts:
         return _of_profiles(wish)
     diagnostics = Diagnostics()
     settings = [setting for path in wish.metas for setting in _settings_of(path, diagnostics)]
     adopted = _of_code(wish.sources, diagnostics) if wish.sources is not None else None
     diagnostics.check()
-    for diagnostic in diagnostics:
-        click.echo(diagnostic.render(), err=True)
+    warnings.extend(diagnostics)
     draft = meta_draft(settings, declared=adopted is not None)
     return _with_defaults(wish, draft if adopted is None else _joined(wish, draft, adopted))
 
@@ -177,8 +173,8 @@ def _with_defaults(wish: Wish, draft: Draft) -> Draft:
 def _of_profiles(wish: Wish) -> Draft:
     diagnostics = Diagnostics()
     profiles = wish.profiles or (DEFAULT_PROFILE,)
-    options = SelectionOptions(None, profiles, (), wish.interface_paths, wish.target, None)
-    resolved = resolve_request(request_of(None, Path(), options, diagnostics), diagnostics)
+    options = compiler.Options(profiles=profiles, interface_paths=wish.interface_paths, target=wish.target)
+    resolved = compiler.resolve(compiler.read_source(None, Path(), options))
     check_ready(resolved.selection, diagnostics)
     diagnostics.check()
     named = tuple(wish.seen_from_folder(profile) for profile in profiles)

@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 import microros_gen
-from microros_gen.compiler import request
+from microros_gen.compiler import api
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.output import runs
 from tests.support.command_line import Outcome, Runner
@@ -68,13 +68,13 @@ def generate(run: Runner) -> Runner:
 def settled(application: Path, generate: Runner, monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The application was generated, and a second run came from the record. Returns a log of full runs."""
     log: list[str] = []
-    original = request.read_request
+    original = api.read_request
 
     def logged(*arguments: object) -> object:
         log.append("full run")
         return original(*arguments)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(request, "read_request", logged)
+    monkeypatch.setattr(api, "read_request", logged)
     generate()
     generate()
     assert log == ["full run"]
@@ -326,6 +326,7 @@ def test_it_imports_nothing_that_a_full_run_needs(folder: Path) -> None:
         "yaml",
         "lark",
         "jsonschema",
+        "microros_gen.compiler.api",
         "microros_gen.compiler.pipeline",
         "microros_gen.compiler.request",
     }

@@ -9,10 +9,8 @@ from xml.etree import ElementTree
 
 import pytest
 
-from microros_gen.cli.generate import plan
+from microros_gen import compiler
 from microros_gen.client.plan.creation import CreateNames, create_size
-from microros_gen.compiler.options import SelectionOptions
-from microros_gen.compiler.pipeline import render_request
 from microros_gen.diagnostics import UserError
 from microros_gen.interfaces.find import shipped_folder
 
@@ -42,8 +40,10 @@ def rendered(folder: Path, text: str) -> dict[str, bytes]:
     """Return the files of an application by their paths; UserError where it is refused."""
     config = folder / "microros.yaml"
     config.write_text(text, encoding="utf-8")
-    planned, _ = plan(SelectionOptions(config, (), (), (shipped_folder(),), None, None), folder / "out")
-    return render_request(planned)
+    planned = compiler.plan(
+        compiler.resolve(compiler.read(compiler.Options(config=config, interface_paths=(shipped_folder(),))))
+    )
+    return compiler.render(planned)
 
 
 def refused(folder: Path, text: str) -> str:

@@ -8,9 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.cli.generate import plan
-from microros_gen.compiler.options import SelectionOptions
-from microros_gen.compiler.pipeline import Planned, render_request
+from microros_gen import compiler
 from microros_gen.interfaces.find import shipped_folder
 
 NODES = """\
@@ -20,11 +18,16 @@ nodes: [{name: imu, publishers: [{topic: data, type: std_msgs/msg/Int32}]}]
 """
 
 
-def planned(folder: Path, text: str) -> Planned:
+def warnings(plan: compiler.Planned) -> str:
+    return "\n".join(warning.render() for warning in plan.warnings)
+
+
+def planned(folder: Path, text: str) -> compiler.Planned:
     config = folder / "microros.yaml"
     config.write_text(NODES + text, encoding="utf-8")
-    result, _ = plan(SelectionOptions(config, (), (), (shipped_folder(),), None, None), folder / "out")
-    return result
+    return compiler.plan(
+        compiler.resolve(compiler.read(compiler.Options(config=config, interface_paths=(shipped_folder(),))))
+    )
 
 
 @pytest.mark.parametrize(
@@ -40,7 +43,7 @@ def planned(folder: Path, text: str) -> Planned:
     ids=["host", "unique id", "device", "named", "preconfigured", "no unique id"],
 )
 def test_who_supplies_the_key(tmp_path: Path, text: str, device: bool) -> None:
-    config = render_request(planned(tmp_path, text))["include/microros_config.h"].decode()
+    config = compiler.render(planned(tmp_path, text))["include/microros_config.h"].decode()
     (key,) = re.findall(r"#define MICROROS_CLIENT_KEY (.*)", config)
     assert (key == "port_unique_id()") == device
     assert device or re.fullmatch("0x[0-9a-f]{8}u", key)
@@ -48,9 +51,9 @@ def test_who_supplies_the_key(tmp_path: Path, text: str, device: bool) -> None:
 
 def test_a_target_without_a_unique_id_is_told_with_the_key_to_write(tmp_path: Path) -> None:
     board = "target: {name: cortex-m4}\ntransport: {type: serial}\n"
-    said = planned(tmp_path, board).warnings
+    said = warnings(planned(tmp_path, board))
     assert "the target cortex-m4 names no unique id" in said
     (key,) = re.findall(r"`(session: \{key: 0x[0-9A-F]{8}\})`", said)
-    assert "unique id" not in planned(tmp_path, f"{board}{key}\n").warnings
-    assert "unique id" not in planned(tmp_path, board + "entities: preconfigured\n").warnings
-    assert "unique id" not in planned(tmp_path, "").warnings
+    assert "unique id" not in warnings(planned(tmp_path, f"{board}{key}\n"))
+    assert "unique id" not in warnings(planned(tmp_path, board + "entities: preconfigured\n"))
+    assert "unique id" not in warnings(planned(tmp_path, ""))

@@ -7,13 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from microros_gen import compiler
 from microros_gen.client.plan.project import Project
 from microros_gen.client.views.example import ExampleView, example_view
 from microros_gen.client.views.example_running import RunningView
-from microros_gen.compiler.options import SelectionOptions
-from microros_gen.compiler.pipeline import plan_request, resolve_request
-from microros_gen.compiler.request import request_of
-from microros_gen.diagnostics import Diagnostics, Source, UserError
+from microros_gen.diagnostics import Source, UserError
 
 HEAD = "version: 1\nprofiles: [pure_sender, pure_reader]\nlimits: {'*': {string: 16}}\n"
 NODE = """\
@@ -26,12 +24,8 @@ TIMERS = "    timers: [{name: fast, period: 20 ms}, {name: slow, period: 1500 us
 
 
 def project_of(text: str, folder: Path) -> Project:
-    diagnostics = Diagnostics()
-    options = SelectionOptions(None, (), (), (), None, None)
-    request = request_of(Source(str(folder / "microros.yaml"), text), folder, options, diagnostics)
-    planned = plan_request(resolve_request(request, diagnostics), options, diagnostics)
-    diagnostics.check()
-    return planned.project
+    request = compiler.read_source(Source(str(folder / "microros.yaml"), text), folder)
+    return compiler.plan(compiler.resolve(request)).project
 
 
 def viewed(text: str, folder: Path) -> ExampleView:

@@ -10,10 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from microros_gen import compiler
 from microros_gen.application.model import LimitRule
-from microros_gen.cli.generate import plan
-from microros_gen.compiler.options import SelectionOptions
-from microros_gen.compiler.pipeline import Planned
 from microros_gen.diagnostics import Diagnostics, UserError
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.interfaces.types import Field, Message, NamedType, SequenceType, StringType, TypeName
@@ -123,10 +121,12 @@ nodes:
 """
 
 
-def application(folder: Path, small: int, large: int, mtu: int = 256) -> Planned:
+def application(folder: Path, small: int, large: int, mtu: int = 256) -> compiler.Planned:
     path = folder / "microros.yaml"
     path.write_text(APPLICATION.format(small=small, large=large, mtu=mtu))
-    return plan(SelectionOptions(path, (), (), (shipped_folder(),), None, None), folder / "out")[0]
+    return compiler.plan(
+        compiler.resolve(compiler.read(compiler.Options(config=path, interface_paths=(shipped_folder(),))))
+    )
 
 
 @pytest.mark.parametrize(

@@ -8,10 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.cli.generate import plan
+from microros_gen import compiler
 from microros_gen.client.plan.runtime_entities import QueuePlan
-from microros_gen.compiler.options import SelectionOptions
-from microros_gen.compiler.pipeline import Planned, render_request
 from microros_gen.diagnostics import UserError
 from microros_gen.interfaces.find import shipped_folder
 
@@ -29,10 +27,12 @@ nodes:
 CLOCK = "/clock (rosgraph_msgs/msg/Clock, best effort)"
 
 
-def planned(folder: Path, text: str) -> Planned:
+def planned(folder: Path, text: str) -> compiler.Planned:
     config = folder / "microros.yaml"
     config.write_text(text, encoding="utf-8")
-    return plan(SelectionOptions(config, (), (), (shipped_folder(),), None, None), folder / "out")[0]
+    return compiler.plan(
+        compiler.resolve(compiler.read(compiler.Options(config=config, interface_paths=(shipped_folder(),))))
+    )
 
 
 def test_with_nodes_it_is_the_first_subscription_of_the_first_node(tmp_path: Path) -> None:
@@ -79,7 +79,7 @@ def test_a_node_of_a_simulation_alone_has_no_other_subscription(tmp_path: Path) 
 
 
 def test_a_sender_of_a_simulation_decodes_the_clock_alone(tmp_path: Path) -> None:
-    files = render_request(planned(tmp_path, "version: 1\nprofiles: [simulation_node, pure_sender]\n"))
+    files = compiler.render(planned(tmp_path, "version: 1\nprofiles: [simulation_node, pure_sender]\n"))
     assert "src/rosgraph_msgs/clock__decode.c" in files
     assert "src/std_msgs/int32__decode.c" not in files
     assert b"of std_msgs/msg/Int32" in files["README.md"]
@@ -88,7 +88,7 @@ def test_a_sender_of_a_simulation_decodes_the_clock_alone(tmp_path: Path) -> Non
 
 @pytest.mark.parametrize("entities", ["reference", "preconfigured"])
 def test_the_agent_holds_it(tmp_path: Path, entities: str) -> None:
-    files = render_request(planned(tmp_path, f"{NODES}entities: {entities}\n"))
+    files = compiler.render(planned(tmp_path, f"{NODES}entities: {entities}\n"))
     if entities == "reference":
         assert b"rt/clock" in files["agent/references.xml"]
     else:

@@ -8,16 +8,18 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import click
 import pytest
 import yaml
 from click.testing import CliRunner
-from generators import c_api, command_line
+from generators import c_api, command_line, python_api
 from generators.c_headers import read_header
 from hooks import SCHEMA_FILES, generated
 
+from microros_gen import compiler
 from microros_gen.cli.main import cli
 from microros_gen.documents.schema import load_schema
 from tests.support.console import ROOT
@@ -159,3 +161,15 @@ def test_two_runs_write_the_same() -> None:
         [sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True
     )
     assert json.loads(done.stdout) == generated()
+
+
+def test_the_example_of_the_python_api_runs(tmp_path: Path) -> None:
+    program = [sys.executable, "-c", python_api.EXAMPLE]
+    done = subprocess.run(program, cwd=tmp_path, text=True, capture_output=True, check=True)
+    assert (tmp_path / done.stdout.strip()).is_file()
+    assert python_api.EXAMPLE in generated()["reference/python_api.md"]
+
+
+def test_everything_that_the_python_api_exports_is_told() -> None:
+    page = generated()["reference/python_api.md"]
+    assert [name for name in compiler.__all__ if f"### {name}\n" not in page] == []

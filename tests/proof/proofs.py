@@ -17,8 +17,7 @@ from pathlib import Path
 
 import yaml
 
-from microros_gen.cli.generate import plan, write
-from microros_gen.compiler.options import SelectionOptions
+from microros_gen import compiler
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.typesupport.plan.types import TypePlan
 from tests.proof.message_header import header, stems
@@ -120,9 +119,9 @@ class Tree:
 def tree(name: str, out: Path) -> Tree:
     """Generate applications/NAME.yaml below `out`, once."""
     paths = (INTERFACES / "quality_msgs", shipped_folder())
-    options = SelectionOptions(FOLDER / "applications" / f"{name}.yaml", (), (), paths, None, None)
-    planned, folder = plan(options, out / name)
-    write(planned, folder)
+    options = compiler.Options(config=FOLDER / "applications" / f"{name}.yaml", interface_paths=paths)
+    generated = compiler.generate(options, out / name)
+    planned, folder = generated.planned, generated.out
     return Tree(folder, tuple(planned.project.types))
 
 

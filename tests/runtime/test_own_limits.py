@@ -9,8 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.cli.generate import plan, write
-from microros_gen.compiler.options import SelectionOptions
+from microros_gen import compiler
 from microros_gen.interfaces.find import shipped_folder
 from tests.support.runtime.driver import Client
 from tests.support.runtime.fake_agent import FakeAgent
@@ -42,9 +41,8 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The client of the other tests, over generated type support instead of the one by hand."""
     place = tmp_path_factory.mktemp("own_limits")
     (place / "microros.yaml").write_text(APPLICATION)
-    options = SelectionOptions(place / "microros.yaml", (), (), (shipped_folder(),), None, None)
-    planned, out = plan(options, place / "out")
-    write(planned, out)
+    options = compiler.Options(config=place / "microros.yaml", interface_paths=(shipped_folder(),))
+    out = compiler.generate(options, place / "out").out
     sources = sorted(p for p in (out / "src").rglob("*.c") if p.parent.name != "port_posix")
     return build(
         Tree(out, tuple(sources)),

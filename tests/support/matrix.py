@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 
-from microros_gen.cli.generate import plan, write
-from microros_gen.compiler.options import SelectionOptions
+from microros_gen import compiler
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.toolchain.toolchain import WARNINGS
 from tests.support.paths import ROOT
@@ -186,9 +185,8 @@ def make_tree(name: str, text: str, folder: Path) -> Tree:
     folder.mkdir(parents=True)
     config = folder / "microros.yaml"
     config.write_text(text, encoding="utf-8")
-    options = SelectionOptions(config, (), (), (shipped_folder(),), None, None)
-    planned, out = plan(options, folder / "out")
-    write(planned, out)
+    options = compiler.Options(config=config, interface_paths=(shipped_folder(),))
+    out = compiler.generate(options, folder / "out").out
     return Tree(name, out)
 
 

@@ -12,9 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from microros_gen import compiler
 from microros_gen.application.model import LimitRule
-from microros_gen.cli.generate import plan, write
-from microros_gen.compiler.options import SelectionOptions
 from microros_gen.interfaces.find import shipped_folder
 from tests.support.typesupport.build import COMPONENTS, WARNINGS, Generated, generate, run
 
@@ -99,9 +98,8 @@ def test_wrong_limit_in_the_assertion_does_not_compile(chosen: Generated, tmp_pa
 def test_wrong_size_of_a_publisher_does_not_compile(tmp_path: Path) -> None:
     """A type whose limits are a table in C, under those of one publisher."""
     (tmp_path / "microros.yaml").write_text(TWO_PUBLISHERS)
-    options = SelectionOptions(tmp_path / "microros.yaml", (), (), (shipped_folder(),), None, None)
-    planned, out = plan(options, tmp_path / "out")
-    write(planned, out)
+    options = compiler.Options(config=tmp_path / "microros.yaml", interface_paths=(shipped_folder(),))
+    out = compiler.generate(options, tmp_path / "out").out
     includes = [f"-I{out / 'include'}"]
     source = out / "src" / "visualization_msgs" / "marker_array__type_support.c"
     header = out / "include" / "visualization_msgs" / "msg" / "detail" / "marker_array__type_support.h"

@@ -11,8 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.cli.generate import plan, write
-from microros_gen.compiler.options import SelectionOptions
+from microros_gen import compiler
 from microros_gen.interfaces.find import shipped_folder
 from tests.support.typesupport.build import WARNINGS, run
 
@@ -197,9 +196,8 @@ COMPILERS = (
 def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
     place = tmp_path_factory.mktemp("encoders")
     (place / "microros.yaml").write_text(APPLICATION)
-    options = SelectionOptions(place / "microros.yaml", (), (), (shipped_folder(),), None, None)
-    planned, folder = plan(options, place / "out")
-    write(planned, folder)
+    options = compiler.Options(config=place / "microros.yaml", interface_paths=(shipped_folder(),))
+    folder = compiler.generate(options, place / "out").out
     (place / "program.c").write_text(PROGRAM)
     return folder
 

@@ -16,8 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 
-from microros_gen.cli.generate import plan, write
-from microros_gen.compiler.options import SelectionOptions
+from microros_gen import compiler
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.selection.find_components import components_folder, load_catalogue
 from tests.support.paths import ROOT, TESTS
@@ -200,11 +199,10 @@ def make_tree(name: str, folder: Path) -> Tree:
     (place / "microros.yaml").write_text(APPLICATIONS[name], encoding="utf-8")
     if name in TARGETS:
         (place / "own.yaml").write_text(TARGETS[name], encoding="utf-8")
-    options = SelectionOptions(
-        place / "microros.yaml", (), (), (INTERFACES / "quality_msgs", shipped_folder()), None, None
+    options = compiler.Options(
+        config=place / "microros.yaml", interface_paths=(INTERFACES / "quality_msgs", shipped_folder())
     )
-    planned, out = plan(options, place / "out")
-    write(planned, out)
+    out = compiler.generate(options, place / "out").out
     return Tree(name, out, tuple(sorted(p.relative_to(out).as_posix() for p in out.rglob("*.c"))))
 
 
@@ -220,9 +218,8 @@ def make_examples(folder: Path) -> list[Tree]:
 
 
 def _make_example(source: Path, out: Path) -> Tree:
-    options = SelectionOptions(source.with_name("microros.yaml"), (), (), (shipped_folder(),), None, None)
-    planned, _ = plan(options, out)
-    write(planned, out)
+    options = compiler.Options(config=source.with_name("microros.yaml"), interface_paths=(shipped_folder(),))
+    compiler.generate(options, out)
     copy = out / "applications" / source.relative_to(EXAMPLES)
     copy.parent.mkdir(parents=True)
     shutil.copy(source, copy)

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from microros_gen.cli.generate import plan, write
-from microros_gen.compiler.options import SelectionOptions
+from microros_gen import compiler
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.selection.find_components import load_catalogue
 from tests.support.runtime.harness import Tree
@@ -38,7 +37,6 @@ def write_application(folder: Path, text: str) -> Tree:
     """Write what an application file selects."""
     folder.mkdir()
     (folder / "microros.yaml").write_text(text, encoding="utf-8")
-    options = SelectionOptions(folder / "microros.yaml", (), (), (shipped_folder(),), None, None)
-    planned, out = plan(options, folder / "out")
-    write(planned, out)
+    options = compiler.Options(config=folder / "microros.yaml", interface_paths=(shipped_folder(),))
+    out = compiler.generate(options, folder / "out").out
     return Tree(out, tuple(sorted((out / "src").rglob("*.c"))))

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Budgets of an application file against what was built, by `build` and by builds of a user's own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from microros_gen.compiler.advice import plan_advice
+from microros_gen.compiler.pipeline import Planned
+from microros_gen.diagnostics import Diagnostics, UserError
+from microros_gen.image.budget import store_advice
+from microros_gen.image.folder import Folder
+from microros_gen.image.report import check_budgets, measure_folder
+
+
+def check_plan(planned: Planned, read: Callable[[], Folder], warnings: Diagnostics) -> None:
+    """Check the budgets of a plan against the folder that `read` returns, which is read only if there are any.
+
+    Raises UserError with status 1 when one is exceeded; what cannot be checked is added to `warnings` before.
+    """
+    memory = planned.project.application.memory
+    places = {"ram_budget": memory.ram_span, "flash_budget": memory.flash_span, "stack": memory.stack_span}
+    if memory.ram_budget is None and memory.flash_budget is None and memory.stack is None:
+        return
+    try:
+        folder = read()
+        report = measure_folder(folder)
+    except UserError as error:
+        warnings.warning(f"budgets are not checked: {error.diagnostics[0].message}")
+        return
+    if memory.stack is not None and not report.stack.known:
+        warnings.warning(f"memory.stack is not checked: {report.stack.why}", memory.stack_span)
+    if any(line.exceeded and line.key == "ram_budget" for line in report.budgets):
+        store_advice(folder, plan_advice(planned, folder))
+        report = measure_folder(folder)
+    check_budgets(report.budgets, places)
+
+
+def check_manifest(folder: Folder, warnings: Diagnostics) -> None:
+    """Check the budgets that the manifest of a folder names; raises and warns as `check_plan`."""
+    report = measure_folder(folder)
+    if "stack" in folder.manifest["memory"] and not report.stack.known:
+        warnings.warning(f"memory.stack is not checked: {report.stack.why}")
+    check_budgets(report.budgets, {})
