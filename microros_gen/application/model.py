@@ -106,9 +106,10 @@ class EndpointDecl:
     """A publisher, subscription, service or client of a node.
 
     `topic` holds the service's name for the latter two. {node} and {ns} in it are replaced. `queue`: how many samples
-    wait on the device at most until they are taken; None: follows from the depth. Publishers have none. `stored`: the
-    library has storage for what is received (`storage: none`: the program has). `given`: the
-    fully qualified name that the source has, where `remap:` makes it `topic`; empty: the same.
+    wait on the device at most until they are taken; None: follows from the depth. Publishers have none. `queue_bytes`:
+    what these take together; None: as much as that many of the largest. `stored`: the library has storage for what is
+    received (`storage: none`: the program has). `given`: the fully qualified name that the source has, where `remap:`
+    makes it `topic`; empty: the same.
     `of_the_library`: nobody declared it, and the library itself opens it.
     """
 
@@ -121,6 +122,8 @@ class EndpointDecl:
     type_span: Span | None = None
     topic_span: Span | None = None
     queue: int | None = None
+    queue_bytes: int | None = None
+    queue_bytes_span: Span | None = None
     stored: bool = True
     given: str = ""
     of_the_library: bool = False

@@ -103,6 +103,8 @@ def _endpoints(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> Iter
                 type_span=span_of(type_node),
                 topic_span=span_of(name),
                 queue=int_of(child(endpoint, "queue")),
+                queue_bytes=int_of(child(endpoint, "queue_bytes")),
+                queue_bytes_span=span_of(child(endpoint, "queue_bytes")),
                 stored=text_of(child(endpoint, "storage")) != "none",
             )
 

@@ -110,7 +110,8 @@ def _receiving_rows(planned: Planned) -> list[tuple[str, str, str]]:
             )
     if runtime.queues:
         slots = f"{runtime.queue_slots} slots, {runtime.queues_size} bytes"
-        rows.append(("queues", slots, "queue: or depth, times the largest sample"))
+        shared = "queue_bytes:, else " if runtime.queue_mode == "bytes" else ""
+        rows.append(("queues", slots, f"{shared}queue: or depth, times the largest sample"))
     return rows
 
 

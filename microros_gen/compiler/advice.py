@@ -12,7 +12,7 @@ from itertools import islice
 from pathlib import Path
 
 from microros_gen.application.model import Application
-from microros_gen.client.plan.levers import history_lever, limit_levers, queue_levers
+from microros_gen.client.plan.levers import history_lever, limit_levers, queue_levers, shared_queue_levers
 from microros_gen.compiler.pipeline import Planned, plan_request, render_request
 from microros_gen.diagnostics import Diagnostics, UserError
 from microros_gen.image.budget import Advice
@@ -27,7 +27,7 @@ _LOWERED = 4
 """A limit is tried at a quarter of what it is."""
 _LIMITS = 4
 _QUEUES = 3
-_SHOWN = 4
+_SHOWN = 5
 
 
 @dataclass(frozen=True)
@@ -76,10 +76,11 @@ def _tried(planned: Planned, trial: _Trial, now: int) -> Iterator[Advice]:
 
 
 def _changes(planned: Planned) -> Iterator[tuple[str, Application]]:
-    """Yield what is tried: queues of one sample, a history shorter by one, limits at a quarter."""
+    """Yield what is tried: queues of one sample, or of the bytes of one; a shorter history; limits at a quarter."""
     application = planned.resolved.request.application
     history = history_lever(planned.project)
     tried = [(lever, 1) for lever in islice(queue_levers(planned.project), _QUEUES)]
+    tried += islice(shared_queue_levers(planned.project), 1)
     tried += [(history, history.now - 1)] if history is not None else []
     tried += [
         (lever, lever.now // _LOWERED)

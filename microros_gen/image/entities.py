@@ -227,7 +227,7 @@ def _receivers(
         kinds = messages_of(known["type"], manifest) if known else set(manifest["types"])
         parts = with_parts(kinds, manifest)
         lent = known is not None and known.get("slot") == INPUT_BUFFER
-        queue = known["queue"] * known["slot_size"] if known else by_use.get("queues", 0) // places
+        queue = _queue_size(known) if known else by_use.get("queues", 0) // places
         yield Entity(
             kind,
             shown_endpoint(known) if known else f"{kind} {index} of the pool",
@@ -238,6 +238,11 @@ def _receivers(
             sum(by_use.get(f"message of {name}", 0) for name in kinds),
             (Share(INPUT_BUFFER, by_use.get(INPUT_BUFFER, 0), places),) if lent else (),
         )
+
+
+def _queue_size(known: Mapping[str, Any]) -> int:
+    """Return the bytes of a declared endpoint's queue."""
+    return int(known.get("queue_bytes", known["queue"] * known["slot_size"]))
 
 
 def messages_of(type_: str, manifest: Mapping[str, Any]) -> set[str]:

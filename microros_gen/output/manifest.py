@@ -13,7 +13,7 @@ from typing import Any
 from microros_gen import __version__
 from microros_gen.application.model import Memory
 from microros_gen.client.plan.project import Project
-from microros_gen.client.plan.runtime_entities import PublisherPlan
+from microros_gen.client.plan.runtime_entities import PublisherPlan, QueuePlan
 from microros_gen.client.views.project import without_folder
 from microros_gen.interfaces.type_description import individual_type_description
 from microros_gen.interfaces.types import Message, NamedType, TypeName, element_of
@@ -115,6 +115,7 @@ def _subscriptions(project: Project) -> dict[str, Any]:
                 "reliable": s.reliable,
                 "queue": queues[s.index].slots,
                 "slot_size": queues[s.index].slot_size,
+                **_queue_bytes(queues[s.index]),
                 **({"slot": "input buffer"} if s.index == runtime.input_reader else {}),
                 **({"storage": "none"} if s.storage and not s.stored else {}),
             }
@@ -138,6 +139,7 @@ def _services(project: Project) -> dict[str, Any]:
                 "type": str(s.type),
                 "queue": queues[before + s.index].slots,
                 "slot_size": queues[before + s.index].slot_size,
+                **_queue_bytes(queues[before + s.index]),
             }
             for s in declared
         ]
@@ -146,6 +148,11 @@ def _services(project: Project) -> dict[str, Any]:
             ("clients", runtime.clients, runtime.services_max),
         )
     }
+
+
+def _queue_bytes(queue: QueuePlan) -> dict[str, int]:
+    """Return the bytes of a queue whose samples share them."""
+    return {} if queue.asked is None else {"queue_bytes": queue.asked}
 
 
 def _publisher(project: Project, publisher: PublisherPlan) -> dict[str, Any]:

@@ -236,6 +236,12 @@ def test_advice_about_memory_is_exact_and_the_largest_saving_comes_first(run: Ru
     )
     changed = text.replace("type: tf2_msgs/msg/TFMessage", "type: tf2_msgs/msg/TFMessage, queue: 1")
     assert before - ram(changed) == promised[queue]
+    shared = next(change for change in promised if change.startswith("queue_bytes: "))
+    lower = text.replace(
+        "type: tf2_msgs/msg/TFMessage", "type: tf2_msgs/msg/TFMessage, " + shared.split(" of ")[0]
+    )
+    assert "of the subscription tf (now " in shared
+    assert before - ram(lower) == promised[shared]
     limit = "limits: sensor_msgs/msg/JointState name string 32 → 8"
     lower = f"{text}  sensor_msgs/msg/JointState: {{name: {{string: 8}}}}\n"
     assert before - ram(lower) == promised[limit]

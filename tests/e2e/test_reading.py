@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import random
 import time
 from pathlib import Path
 
@@ -72,3 +73,36 @@ def test_rclpy_publishes_and_the_client_takes(
         refused.endswith("16 bytes have come and 16 fit: raise limits in microros.yaml")
         or "11, capacity for 8: raise limits in microros.yaml" in refused
     )
+
+
+SHARED = """\
+version: 1
+profiles: [pure_reader]
+nodes:
+  - name: ear
+    subscriptions:
+      - {topic: words, type: std_msgs/msg/String, queue: 20, queue_bytes: 1100, qos: {depth: 1000}}
+limits: {"*": {string: 1000}}
+"""
+
+
+def test_samples_of_any_size_share_the_bytes_of_a_queue(
+    images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, tmp_path: Path
+) -> None:
+    """rclpy writes faster than the program takes; the large ones come in fragments. Each arrives once, in order."""
+    image = images.build(image_port.port, SHARED, "gcc", ("-m32", *SANITIZE))
+    program = image.application(C_FILES / "words.c", tmp_path / "words", "-std=c99", "-Wall", "-Werror")
+    chance = random.Random(1)
+    sizes = [chance.choice((1, 20, 400, 1000, chance.randrange(1, 1001))) for _ in range(120)]
+    letters = [chr(ord("a") + number % 26) for number in range(len(sizes))]
+    publish(observer, "/words", "std_msgs/msg/String")
+    with started(program, "3") as process:
+        await_match(observer, "/words")
+        for first in range(0, len(sizes), 40):
+            block = zip(letters[first : first + 40], sizes[first : first + 40], strict=True)
+            publish(observer, "/words", "std_msgs/msg/String", *(letter * size for letter, size in block))
+        publish(observer, "/words", "std_msgs/msg/String", "end")
+        out, errors = process.communicate(timeout=60)
+    assert (process.returncode, errors) == (0, "")
+    expected = [f"{letter} {size} whole" for letter, size in zip(letters, sizes, strict=True)]
+    assert out.splitlines() == [*expected, "e 3 -", "dropped 0 refused 0"]

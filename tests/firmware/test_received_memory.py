@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from typing import Any
 
 import pytest
 
@@ -83,14 +84,37 @@ def test_storage_that_the_library_binds_is_the_difference(builds: Builds) -> Non
     assert 2 * 4 * 360 <= kept - none < 2 * 4 * 360 + 64
 
 
+def _size(built: Built) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return what `size` says, and of the subscription."""
+    command = [sys.executable, "-m", "microros_gen", "size", str(built.out), "--format", "json"]
+    said = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+    [scan] = [entity for entity in said["entities"] if entity["kind"] == "subscription"]
+    return said, scan
+
+
+def test_a_queue_of_bytes_takes_what_it_is_given(builds: Builds) -> None:
+    """Ten samples that share the bytes of one of the largest: nine less, and where the oldest and newest are."""
+    need(CORTEX_M4)
+    texts = [
+        APPLICATION.format(transport="{type: udp}", qos=f"queue: 10{key}", ranges=360, storage="none")
+        for key in ("", ", queue_bytes: 2952")
+    ]
+    slots, shared = (builds.build(CORTEX_M4, text) for text in texts)
+    [declared] = json.loads((shared.out / "manifest.json").read_text())["entities"]["subscriptions"]
+    assert (declared["queue"], declared["queue_bytes"]) == (10, 2952)
+    (before, with_slots), (after, with_bytes) = _size(slots), _size(shared)
+    saved = 10 * declared["slot_size"] - 2952
+    assert with_slots["ram"] - with_bytes["ram"] == saved - 8
+    assert before["totals"]["ram"] - after["totals"]["ram"] >= saved - 8, "and a smaller input buffer"
+    assert after["totals"]["flash"] - before["totals"]["flash"] < 600
+
+
 @pytest.mark.parametrize(("line", "lent"), [("udp, best effort", True), ("udp, reliable", False)])
 def test_size_counts_a_slot_in_the_input_buffer_once(builds: Builds, line: str, lent: bool) -> None:
     """What waits there is no memory of the subscription's own."""
     need(CORTEX_M4)
     built = _built(builds, line, 360)
-    command = [sys.executable, "-m", "microros_gen", "size", str(built.out), "--format", "json"]
-    said = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
-    [scan] = [entity for entity in said["entities"] if entity["kind"] == "subscription"]
+    said, scan = _size(built)
     buffer = sum(part["bytes"] for part in said["ram"] if part["use"] == "input buffer")
     assert (buffer > _largest(built)) == lent == (scan["ram"] < 200)
     assert scan["shared"] == ([{"what": "input buffer", "bytes": buffer, "users": 1}] if lent else [])

@@ -10,11 +10,14 @@ from dataclasses import replace
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
+from microros_gen.client.plan.runtime_entities import QueuePlan
 from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
 from tests.support.runtime.harness import SERVER
 from tests.support.runtime.serving_agent import GUID, ServingAgent, identity
 
+SHARED = replace(SERVER, queues=(QueuePlan(9, 40, 60), QueuePlan(3, 20, 20), QueuePlan(2, 20)))
+"""With `queue_bytes`."""
 REPLIER = bytes.fromhex("0018")
 REQUESTER = bytes.fromhex("0027")
 SERVICE_TAKE_FAILED, CLIENT_TAKE_FAILED, NAME_INVALID = 601, 501, 104
@@ -83,6 +86,12 @@ def test_what_is_created(bench: Bench) -> None:
         (REQUESTER, 0x80, 3),
     }
     assert peer.client.ok("serve_names").lines == ("names /set /far/ask",)
+
+
+def test_what_fits_the_bytes_of_a_queue_is_asked_for(bench: Bench) -> None:
+    """A request takes 28 bytes here and a reply 8; a place of these pools could have larger ones."""
+    peer = Peer(bench, SHARED)
+    assert {(r.reader, r.samples) for r in peer.agent.reads} == {(REPLIER, 2), (REQUESTER, 2)}
 
 
 def test_requests_are_answered_in_any_order(bench: Bench) -> None:
@@ -201,11 +210,11 @@ def test_a_request_that_is_none(bench: Bench, sample: bytes, code: int, words: s
     assert peer.counted("service") == [0, 1]
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_no_call_is_lost_or_doubled_at_30_percent_loss(bench: Bench, seed: int) -> None:
+@pytest.mark.parametrize(("plan", "seed"), [(SERVER, 0), (SERVER, 1), (SERVER, 2), (SHARED, 0), (SHARED, 1)])
+def test_no_call_is_lost_or_doubled_at_30_percent_loss(bench: Bench, plan: RuntimePlan, seed: int) -> None:
     """Both directions at once, with loss, disorder and doubles."""
     chance = random.Random(seed)
-    peer = Peer(bench, liveliness="none")  # so much loss ends sessions, too
+    peer = Peer(bench, plan, liveliness="none")  # so much loss ends sessions, too
     peer.agent.drop = lambda datagram: chance.random() < 0.3
     peer.agent.drop_answer = lambda answer: chance.random() < 0.3
     served: list[int] = []

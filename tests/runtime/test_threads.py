@@ -9,6 +9,8 @@ import threading
 from dataclasses import replace
 from pathlib import Path
 
+import pytest
+
 from microros_gen.client.plan.runtime_entities import QueuePlan
 from tests.support.runtime.harness import EXECUTOR, build, components, render
 from tests.support.runtime.reading_agent import ReadingAgent
@@ -47,13 +49,14 @@ def serve(agent: ReadingAgent, served: socket.socket) -> None:
             served.sendto(answer, peer)
 
 
-def test_nothing_is_lost_and_nothing_races(tmp_path: Path) -> None:
+@pytest.mark.parametrize("queue", [QueuePlan(8, 16), QueuePlan(8, 16, 24)], ids=["slots", "bytes"])
+def test_nothing_is_lost_and_nothing_races(tmp_path: Path, queue: QueuePlan) -> None:
     agent = ReadingAgent()
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as served:
         served.bind(("127.0.0.1", 0))
         thread = threading.Thread(target=serve, args=(agent, served), daemon=True)
         thread.start()
-        plan = replace(PLAN, agent_port=served.getsockname()[1])
+        plan = replace(PLAN, agent_port=served.getsockname()[1], queues=(queue,))
         tree = render(tmp_path, plan, components(plan))
         program = build(tree, ["types_read.c", "threads.c"], "threads", "gcc", THREAD_SANITIZER)
         done = subprocess.run([program], capture_output=True, text=True, timeout=120, check=False)

@@ -98,13 +98,14 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         "best-effort-reference-reliable-held": _BEST_EFFORT
         + "entities: reference\ncreation: reliable\npools: {input_history: 2}\n",
         "reader": _READER
+        + "      - {topic: shared, type: std_msgs/msg/String, limits: {string: 900}, queue: 8, queue_bytes: 1000}\n"
         + "      - {topic: fast, type: std_msgs/msg/Int32, qos: {reliability: best_effort}}\n",
         "reader-code-none-preconfigured": _READER
         + "entities: preconfigured\nliveliness: none\nerrors: code\n",
         "simulation-pool": "version: 1\nprofiles: [simulation_node, pure_sender]\nlimits: {'*': {string: 8}}\n"
         + "interfaces: [std_msgs/msg/Header]\n",
         "reader-pool-xml": "version: 1\nprofiles: [pure_reader]\ninterfaces: [std_msgs/msg/String]\n"
-        + "entities: xml\nlimits: {'*': {string: 2000}}\ntransport: {mtu: 2400}\n",
+        + "entities: xml\nlimits: {'*': {string: 2000}}\ntransport: {mtu: 2400}\npools: {queue_bytes: 2100}\n",
         "server-binary-timers-sleep": _BUSY
         + _SERVES
         + "    timers: [{name: tick, period: 50 ms}]\nprofiles: [pure_reader]\ncomponents: [-subscribe, +services, "

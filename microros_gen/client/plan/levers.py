@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from microros_gen.application.model import Application, EndpointDecl, LimitRule
 from microros_gen.client.plan.project import Project
+from microros_gen.client.plan.runtime_entities import QueuePlan
 from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.capacity import Capacities, Capacity
 
@@ -32,14 +33,31 @@ def queue_levers(project: Project) -> Iterator[Lever]:
         if now > 1:
             yield _pool("queue", now)
         return
+    for endpoint, queue in _declared_queues(project):
+        yield _queue(endpoint, queue.slots)
+
+
+def shared_queue_levers(project: Project) -> Iterator[tuple[Lever, int]]:
+    """Yield the bytes of queues that hold more than one of the largest, and the fewest that each can have."""
+    application, queues = project.application, project.runtime.queues
+    if application.nodes:
+        for endpoint, queue in _declared_queues(project):
+            if queue.size > queue.slot_size:
+                yield _queue_bytes(endpoint, queue.size), queue.slot_size
+        return
+    least = max((queue.slot_size for queue in queues), default=0)
+    now = max((queue.size for queue in queues), default=0)
+    if now > least:
+        yield _pool("queue_bytes", now), least
+
+
+def _declared_queues(project: Project) -> list[tuple[EndpointDecl, QueuePlan]]:
+    """Return the declared queues of several samples, the largest first."""
+    application, queues = project.application, project.runtime.queues
     endpoints = [e for kind in ("subscription", "service", "client") for e in _of_kind(application, kind)]
     of_endpoints = queues[len(queues) - len(endpoints) :]  # the library's own come first
-    pairs = sorted(
-        ((e, q) for e, q in zip(endpoints, of_endpoints, strict=True) if q.slots > 1),
-        key=lambda pair: -pair[1].slots * pair[1].slot_size,
-    )
-    for endpoint, queue in pairs:
-        yield _queue(endpoint, queue.slots)
+    several = ((e, q) for e, q in zip(endpoints, of_endpoints, strict=True) if q.slots > 1)
+    return sorted(several, key=lambda pair: -pair[1].size)
 
 
 def history_lever(project: Project) -> Lever | None:
@@ -68,7 +86,16 @@ def _queue(endpoint: EndpointDecl, now: int) -> Lever:
     return Lever(
         now,
         lambda value: f"queue: {value} {place}",
-        lambda application, value: _with_queue(application, endpoint, value),
+        lambda application, value: _with_changed(application, endpoint, replace(endpoint, queue=value)),
+    )
+
+
+def _queue_bytes(endpoint: EndpointDecl, now: int) -> Lever:
+    place = f"of the {endpoint.kind} {endpoint.given or endpoint.topic} (now {now})"
+    return Lever(
+        now,
+        lambda value: f"queue_bytes: {value} {place}",
+        lambda application, value: _with_changed(application, endpoint, replace(endpoint, queue_bytes=value)),
     )
 
 
@@ -85,11 +112,9 @@ def _of_kind(application: Application, kind: str) -> list[EndpointDecl]:
     return [e for node in application.nodes for e in node.endpoints if e.kind == kind]
 
 
-def _with_queue(application: Application, endpoint: EndpointDecl, queue: int) -> Application:
+def _with_changed(application: Application, endpoint: EndpointDecl, changed: EndpointDecl) -> Application:
     nodes = tuple(
-        replace(
-            node, endpoints=tuple(replace(e, queue=queue) if e == endpoint else e for e in node.endpoints)
-        )
+        replace(node, endpoints=tuple(changed if e == endpoint else e for e in node.endpoints))
         for node in application.nodes
     )
     return replace(application, nodes=nodes)

@@ -13,6 +13,7 @@ from microros_gen.application.names import expand_topic_name
 from microros_gen.client.plan.board import RING_CHUNK, BoardPlan, has_own_line, plan_board
 from microros_gen.client.plan.creation import CreateNames, create_size, create_text, participant_reference
 from microros_gen.client.plan.declared import named_at, pool, publisher_declarations, timed_qos, type_name
+from microros_gen.client.plan.queues import check_pool_key
 from microros_gen.client.plan.receiving import plan_receiving
 from microros_gen.client.plan.running import plan_running
 from microros_gen.client.plan.runtime import DISCOVERY_GROUP, LINE_CHUNK, RuntimePlan
@@ -114,6 +115,7 @@ def plan_project(
     receiving = plan_receiving(application, selection, by_name, roots, diagnostics)
     serving = plan_serving(application, selection, by_name, services, diagnostics)
     queues = (*receiving.queues, *serving.queues)
+    check_pool_key(application, queues, diagnostics)
     endpoints: list[PublisherPlan | SubscriptionPlan] = [*publishers, *receiving.subscriptions]
     names = (*roots, *(type_name(e.type) for e in application.implied))
     create, create_text = _create_size(
@@ -130,7 +132,9 @@ def plan_project(
         (*receiving.received, *serving.received),
         create_text,
         # What is kept over a sleep ends before the input buffer.
-        lends_input=bool(nodes) and not selection.has("sleep_cycles"),
+        lends_input=bool(nodes)
+        and not selection.has("sleep_cycles")
+        and all(queue.asked is None for queue in queues),
         keeps_output=own_driver,
     )
     receivers = receiving.subscriptions_max + serving.services_max + serving.clients_max
@@ -366,6 +370,7 @@ def _plan_id(runtime: RuntimePlan, selection: Selection, types: tuple[TypePlan, 
     """Return 16 hexadecimal digits that change whenever the library's layout or behaviour does."""
     parts = [repr(runtime), *(c.component.name for c in selection.components)]
     parts += [f"{t.name} {t.type_hash} {t.max_encoded_size}" for t in types]
+    parts += [f"queue {i} {q.asked}" for i, q in enumerate(runtime.queues) if q.asked is not None]
     parts += [f"{p.index} {p.limited}" for p in runtime.publishers if p.limited]
     parts += [f"{s.kind} {s.index} {s.limited}" for s in (*runtime.services, *runtime.clients) if s.limited]
     parts += [f"{s.name} {s.max_encoded_size}" for t in types for s in t.limit_sets]

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from microros_gen.application.model import Application, EndpointDecl, Qos
 from microros_gen.client.plan.declared import full_name, named_at, pool, subscription_declarations, type_name
+from microros_gen.client.plan.queues import declared_queue, pooled_queue
 from microros_gen.client.plan.runtime_entities import QueuePlan, SubscriptionPlan
 from microros_gen.client.plan.streams import Received, slot_of
 from microros_gen.diagnostics import Diagnostics
@@ -57,7 +58,7 @@ def plan_receiving(
     if not application.nodes:
         least, default = (0, 0) if selection.serves_only("subscribe", CLOCK_ROS) else (1, len(roots))
         places = pool(application, "subscriptions", default, diagnostics)
-        return _pooled(application, types, roots, max(places, least))
+        return _pooled(application, types, roots, max(places, least), diagnostics)
     subscriptions, queues, received = [], [], []
     for index, (node_index, node, endpoint) in enumerate(subscription_declarations(application)):
         topic, name = full_name(node, endpoint), type_name(endpoint.type)
@@ -67,15 +68,17 @@ def plan_receiving(
             index, node_index, topic, dds_topic(topic), name, reliable, given=endpoint.given
         )
         subscriptions.append(_with_storage(plan, types, endpoint.stored))
-        queues.append(_queue(endpoint, size))
+        label = f"{endpoint.type} on {topic}"
+        slots = endpoint.queue or default_queue(endpoint.qos)
+        queues.append(declared_queue(endpoint, slots, slot_of(size), label, diagnostics))
         received.append(
             Received(
-                f"{endpoint.type} on {topic}",
+                label,
                 size,
                 reliable,
                 not reliable,
                 endpoint.type_span or endpoint.span,
-                alone=queues[-1].slots == 1,
+                alone=queues[-1].waits_alone,
             )
         )
     queues = queues or [QueuePlan(1, _SLOT_ALIGNMENT)]
@@ -122,25 +125,31 @@ def default_queue(qos: Qos) -> int:
     return LARGEST_DEFAULT_QUEUE if qos.history == "keep_all" else min(qos.depth, LARGEST_DEFAULT_QUEUE)
 
 
-def _queue(endpoint: EndpointDecl, size: int) -> QueuePlan:
+def _implied_queue(endpoint: EndpointDecl, size: int) -> QueuePlan:
     return QueuePlan(endpoint.queue or default_queue(endpoint.qos), slot_of(size))
 
 
 def _pooled(
-    application: Application, types: Mapping[TypeName, TypePlan], roots: tuple[TypeName, ...], places: int
+    application: Application,
+    types: Mapping[TypeName, TypePlan],
+    roots: tuple[TypeName, ...],
+    places: int,
+    diagnostics: Diagnostics,
 ) -> Receiving:
     """Return `places` for the application's subscriptions, behind those of the library itself."""
     slots = application.pools.get("queue", LARGEST_DEFAULT_QUEUE)
-    largest = max((types[root].max_encoded_size for root in roots), default=0)
+    largest = max(roots, key=lambda root: types[root].max_encoded_size, default=None)
+    slot_size = slot_of(types[largest].max_encoded_size if largest else 0)
     received = [
         Received(str(r), types[r].max_encoded_size, True, True, named_at(application, r))
         for r in roots
         if places
     ]
-    queues = [_queue(e, types[type_name(e.type)].max_encoded_size) for e in application.implied]
+    queues = [_implied_queue(e, types[type_name(e.type)].max_encoded_size) for e in application.implied]
     received += [
         Received(f"{e.type} on {e.topic}", types[type_name(e.type)].max_encoded_size, False, True, e.span)
         for e in application.implied
     ]
-    queues += [QueuePlan(slots, slot_of(largest))] * places
+    if places:
+        queues += [pooled_queue(application, slots, slot_size, str(largest), diagnostics)] * places
     return Receiving((), len(queues), tuple(queues), tuple(received))

@@ -250,9 +250,14 @@ class RuntimePlan(TimesPlan):
         first, offset = 0, 0
         for queue in self.queues:
             lent = len(rows) == self.input_reader
-            rows.append(QueueRow(queue.slots, queue.slot_size, first, 0 if lent else offset))
-            first, offset = first + queue.slots, offset + (0 if lent else queue.slots * queue.slot_size)
+            rows.append(QueueRow(queue.slots, queue.slot_size, first, 0 if lent else offset, queue.size))
+            first, offset = first + queue.slots, offset + (0 if lent else queue.size)
         return tuple(rows)
+
+    @property
+    def queue_mode(self) -> str:
+        """`bytes` or `slots`: whether a sample in a queue takes its own size, or that of the largest."""
+        return "bytes" if any(queue.asked is not None for queue in self.queues) else "slots"
 
     @property
     def queue_slots(self) -> int:
@@ -261,9 +266,9 @@ class RuntimePlan(TimesPlan):
 
     @property
     def queues_size(self) -> int:
-        """Bytes of all slots together, that in the input buffer left out."""
+        """Bytes of all queues together, that in the input buffer left out."""
         queues = (queue for i, queue in enumerate(self.queues) if i != self.input_reader)
-        return sum(queue.slots * queue.slot_size for queue in queues)
+        return sum(queue.size for queue in queues)
 
     @property
     def lends_input(self) -> bool:

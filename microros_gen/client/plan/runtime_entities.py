@@ -96,12 +96,24 @@ class SubscriptionPlan:
 class QueuePlan:
     """What waits for the application to take it: `slots` samples, of at most `slot_size` bytes each.
 
-    A sample is what DATA carries behind the object's id: the CDR body, for a service behind 24 bytes (who asks), for a
-    client behind 4 (which request).
+    `asked`: they share so many bytes, each takes what it has; None: each has `slot_size`. A sample is what DATA carries
+    behind the object's id: the CDR body, for a service behind 24 bytes (who asks), for a client behind 4 (which
+    request).
     """
 
     slots: int
     slot_size: int
+    asked: int | None = field(default=None, repr=False)
+
+    @property
+    def size(self) -> int:
+        """Bytes of all samples together."""
+        return self.slots * self.slot_size if self.asked is None else self.asked
+
+    @property
+    def waits_alone(self) -> bool:
+        """Whether a sample of the largest size waits alone."""
+        return self.size < 2 * self.slot_size
 
 
 @dataclass(frozen=True)

@@ -19,9 +19,10 @@ class EndpointRow:
 
 @dataclass(frozen=True)
 class QueueRow:
-    """Where a queue lies in the storage of all: its first slot, and the first byte of that."""
+    """Where a queue lies in the storage of all: its first slot, the first byte of that, and how many bytes it has."""
 
     slots: int
     slot_size: int
     first: int
     offset: int
+    size: int

@@ -18,6 +18,7 @@ from microros_gen.client.plan.declared import (
     service_parts,
     type_name,
 )
+from microros_gen.client.plan.queues import declared_queue, pooled_queue
 from microros_gen.client.plan.receiving import LARGEST_DEFAULT_QUEUE, buffers_of
 from microros_gen.client.plan.runtime_entities import QueuePlan
 from microros_gen.client.plan.services import ServicePlan, StoredMessage
@@ -76,15 +77,16 @@ def plan_serving(
             span = endpoint.type_span or endpoint.span
             slots = endpoint.queue or LARGEST_DEFAULT_QUEUE
             what = ("request", "reply") if kind == "service" else ("reply", "request")
-            queues.append(QueuePlan(slots, slot_of(arriving) + _HEAD[kind]))
+            size = slot_of(arriving) + _HEAD[kind]
+            queues.append(declared_queue(endpoint, slots, size, label.format(what[0]), diagnostics))
             received.append(
                 Received(
                     label.format(what[0]),
-                    slot_of(arriving) + _HEAD[kind],
+                    size,
                     True,
                     False,
                     span,
-                    alone=slots == 1,
+                    alone=queues[-1].waits_alone,
                 )
             )
             written.append(Written(label.format(what[1]), leaving + _WRITTEN_HEAD[kind], True, False, span))
@@ -172,8 +174,12 @@ def _pooled(
     slots = application.pools.get("queue", LARGEST_DEFAULT_QUEUE)
     requests = [(root, types[derived_name(root, "Request")].max_encoded_size) for root in roots]
     replies = [(root, types[derived_name(root, "Response")].max_encoded_size) for root in roots]
-    of_service = QueuePlan(slots, slot_of(max((size for _, size in requests), default=0)) + IDENTITY_SIZE)
-    of_client = QueuePlan(slots, slot_of(max((size for _, size in replies), default=0)) + RELATED_SIZE)
+    request = slot_of(max((size for _, size in requests), default=0)) + IDENTITY_SIZE
+    reply = slot_of(max((size for _, size in replies), default=0)) + RELATED_SIZE
+    queues: list[QueuePlan] = []
+    for places, size, label in ((services, request, "a request"), (clients, reply, "a reply")):
+        if places:
+            queues += [pooled_queue(application, slots, size, label, diagnostics)] * places
     at = {root: named_at(application, root) for root in roots}
     received = [
         *(
@@ -189,7 +195,7 @@ def _pooled(
     return Serving(
         services_max=services,
         clients_max=clients,
-        queues=(of_service,) * services + (of_client,) * clients,
+        queues=tuple(queues),
         received=tuple(received),
         written=tuple(written),
     )

@@ -102,6 +102,14 @@ def _endpoint_cases(
             f"3:{start + 21 + len(name_key) + len(type_name)}",
             f"'nodes[0].{key}[0].queue' must be a whole number between 1 and 250; it is 0",
         )
+        cases[f"{path}.queue_bytes"] = KeyCase(
+            one(f"{entry}, queue_bytes: 300"),
+            lambda a: _endpoint(a).queue_bytes,
+            300,
+            one(f"{name_key}: a, type: {type_name}, queue_bytes: 3"),
+            f"3:{start + 27 + len(name_key) + len(type_name)}",
+            f"'nodes[0].{key}[0].queue_bytes' must be a whole number between 4 and 16777216; it is 3",
+        )
         cases[f"{path}.storage"] = KeyCase(
             one(f"{entry}, storage: none"),
             lambda a: _endpoint(a).stored,
@@ -388,6 +396,14 @@ _TOP = {
             "name_size": 7,
         }.items()
     },
+    "pools.queue_bytes": KeyCase(
+        "pools: {queue_bytes: 3000}",
+        lambda a: a.pools["queue_bytes"],
+        3000,
+        "pools: {queue_bytes: 3 KiB}",
+        "1:22",
+        "'pools.queue_bytes' must be a whole number between ",
+    ),
     "pools.slot_size": KeyCase(
         "pools: {slot_size: 512}",
         lambda a: a.pools["slot_size"],

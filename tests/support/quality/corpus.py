@@ -86,6 +86,13 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "ordered_input": _BOTH + "creation: reliable\n",
         "large": _NODES + _LARGE,
         "reader": _READER + _HEARD + _SAID + "pools: {input_history: 2}\n",
+        "reader_shared": _READER
+        + "      - {topic: said, type: std_msgs/msg/String, limits: {string: 3000}, queue: 8, queue_bytes: 3100}\n"
+        + "target: {name: qemu-mps2-an386}\n",
+        "pool_shared": "version: 1\nprofiles: [pure_reader]\ncomponents: [+services]\n"
+        + "pools: {queue: 8, queue_bytes: 60}\ninterfaces: [std_msgs/msg/Int32, std_srvs/srv/SetBool]\n"
+        + "limits: {'*': {string: 20}}\n"
+        + "target: {name: qemu-mps2-an386}\n",
         "reader_pool": "version: 1\nprofiles: [pure_reader]\ninterfaces: [std_msgs/msg/Int32]\n",
         "reader_xml": _READER + _SAID + "entities: xml\nerrors: code\nlimits: {'*': {string: 12}}\n",
         "reader_reference": _READER + _HEARD + "entities: reference\n",

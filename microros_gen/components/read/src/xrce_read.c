@@ -89,13 +89,10 @@ static void read_send(xrce_client_t * client, uint32_t now)
 /* Returns how many samples to ask for; 0: none. */
 static uint16_t read_samples(const xrce_client_t * client, const xrce_receiver_t * receiver)
 {
-  const xrce_queue_t * queue = xrce_read_queue(client, receiver);
-  const uint16_t free = (uint16_t)(queue->slots - receiver->count);
-
   if (!xrce_read_is_reliable(client, receiver)) {
     return receiver->request == XRCE_REQUEST_NONE ? (uint16_t)SAMPLES_UNLIMITED : 0u;
   }
-  return receiver->granted == 0u && 2u * free >= queue->slots ? free : 0u;
+  return receiver->granted == 0u ? xrce_read_room(client, receiver) : 0u;
 }
 
 /* Whether something has to be said to the agent about a receiver, and how many samples to ask for. Preconfigured entities
@@ -270,7 +267,7 @@ void xrce_read_on_data(
   sample.arrived_ms = now;
   sample.size = (uint16_t)(size - XRCE_OBJECT_PREFIX);
   sample.big_endian = (flags & XRCE_FLAG_LITTLE_ENDIAN) == 0u;
-  if (sample.size > xrce_read_queue(client, receiver)->slot_size) {
+  if (sample.size > xrce_read_largest(client, receiver)) {
     read_refuse(client, receiver, sample.size);
   } else {
     xrce_read_keep(client, receiver, &sample, xrce_read_is_reliable(client, receiver));

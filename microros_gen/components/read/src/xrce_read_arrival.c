@@ -13,7 +13,7 @@ bool xrce_read_begin(xrce_client_t * client, const xrce_arrival_t * arrival)
   if (receiver == NULL) {
     return false;
   }
-  if (arrival->size > xrce_read_queue(client, receiver)->slot_size) {
+  if (arrival->size > xrce_read_largest(client, receiver)) {
     xrce_read_refuse(client, arrival->request, arrival->object, arrival->size);
     return false;
   }
