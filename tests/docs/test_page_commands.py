@@ -117,6 +117,13 @@ def test_parts_of_files_are_whole(name: str) -> None:
         assert shown.rstrip().endswith((";", "}"))
 
 
+@pytest.mark.parametrize("name", PAGES)
+def test_files_that_a_page_names_exist(name: str) -> None:
+    text = PAGES[name].read_text(encoding="utf-8")
+    named = re.findall(r"`((?:tests|examples|microros_gen|profiles|cmake|docs)/[\w./-]+\.\w+)`", text)
+    assert [path for path in named if not (ROOT / path).exists()] == []
+
+
 def test_blocks_are_read_as_a_page_has_them() -> None:
     page = """```console
 $ one
