@@ -108,3 +108,46 @@ def published_while_the_line_stands(
     assert stopped["small_ticks"] < 0.3 * TICKS_PER_MS, stopped
     assert stopped["large_ticks"] < 2 * TICKS_PER_MS, stopped
     return stopped, agent
+
+
+CLOSE_MS = 1200
+CLOSING = f"""\
+version: 1
+profiles: [pure_sender]
+liveliness: none
+entities: preconfigured
+session: {{key: 7, close_timeout: {CLOSE_MS} ms}}
+transport: {{type: serial, send_buffer: 600}}
+nodes:
+  - name: closes
+    publishers: [{{topic: count, type: std_msgs/msg/Int32, qos: {{reliability: best_effort, depth: 1}}}}]
+"""
+
+
+def test_closing_lets_what_waits_for_the_line_leave(builds: Builds) -> None:
+    """What the ring holds when the session ends; a line that stands holds the end no longer than `close_timeout`."""
+    built = counted(builds.build(NAME, CLOSING))
+    image = builds.application(built, "closing.c")
+    agent = FakeAgent(objects={b"\0\5": b""})
+
+    def reached(running: Board, what: int) -> list[int]:
+        return running.words("closing_report", 7)[what:]
+
+    with board(built, image) as running, Relay(running.device) as relay, scripted_agent(relay.device, agent):
+        running.go_on()
+        running.wait_for(lambda: reached(running, 0)[0] == 1, 60)
+        relay.stopped = True
+        running.wait_for(lambda: reached(running, 1)[0] == 1, 60)
+        relay.stopped = False
+        running.wait_for(lambda: reached(running, 2)[0] == 1, 60)
+        taken = reached(running, 3)[0]
+        running.wait_for(lambda: len(agent.written) >= taken, 20)
+        written = [int.from_bytes(body, "little") for _, body in agent.written]
+        running.wait_for(lambda: reached(running, 0)[0] == 2, 60)
+        relay.stopped = True
+        running.wait_for(lambda: reached(running, 2)[0] == 2, 60)
+        close_ms = reached(running, 5)
+    assert 8 <= taken < 4000, "the ring was full"
+    assert written == list(range(taken))
+    assert 1 <= close_ms[0] < CLOSE_MS, "as soon as the line had taken it"
+    assert CLOSE_MS <= close_ms[1] < CLOSE_MS + 100

@@ -8,6 +8,7 @@ import random
 import select
 import subprocess
 import threading
+import time
 import tty
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -16,9 +17,10 @@ from pathlib import Path
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
+from microros_gen.client.plan.runtime_entities import NodePlan, PublisherPlan
 from tests.support.runtime.fake_agent import FakeAgent
 from tests.support.runtime.frames import AGENT, CLIENT, events, frame
-from tests.support.runtime.harness import POOL, Tree, build, components, render
+from tests.support.runtime.harness import INT32, POOL, Tree, build, components, render
 from tests.support.runtime.udp import UdpAgent
 
 PLAN = replace(POOL, connect_timeout_ms=3000, create_timeout_ms=3000, liveliness_period_ms=50)
@@ -38,23 +40,25 @@ class LineAgent(threading.Thread):
         )  # the other end stays open, or reading fails between two clients
         tty.setraw(self._slave)
         self.path = os.ttyname(self._slave)
+        self.stopped = False  # it takes nothing of the line
         self._ended = threading.Event()
 
     def run(self) -> None:
         stream, known = b"", 0
         while not self._ended.is_set():
-            if not select.select([self._master], [], [], 0.05)[0]:
-                continue
-            stream += self._spoil(os.read(self._master, 4096))
-            found = events(stream, source=CLIENT, destination=AGENT)
-            for event in found[known:]:
-                if event.message is not None:
-                    for answer in self.agent.receive(event.message):
-                        os.write(self._master, self._spoil(frame(answer)))
-            known = len(found)
-            if stream.rfind(b"\x7e") > 2000:  # what is behind the last flag is still to come
-                stream = stream[stream.rfind(b"\x7e") :]
-                known = len(events(stream, source=CLIENT, destination=AGENT))
+            if self.stopped:
+                time.sleep(0.01)
+            elif select.select([self._master], [], [], 0.05)[0]:
+                stream += self._spoil(os.read(self._master, 4096))
+                found = events(stream, source=CLIENT, destination=AGENT)
+                for event in found[known:]:
+                    if event.message is not None:
+                        for answer in self.agent.receive(event.message):
+                            os.write(self._master, self._spoil(frame(answer)))
+                known = len(found)
+                if stream.rfind(b"\x7e") > 2000:  # what is behind the last flag is still to come
+                    stream = stream[stream.rfind(b"\x7e") :]
+                    known = len(events(stream, source=CLIENT, destination=AGENT))
 
     def stop(self) -> None:
         self._ended.set()
@@ -128,6 +132,57 @@ def test_a_terminal_that_nobody_reads_stops_nothing_and_gets_all_of_it_later(tmp
     assert running.wait(20) == 0
     os.close(master)
     os.close(slave)
+
+
+CLOSING_MS = {"soon": 20_000, "never": 400}
+
+
+@pytest.mark.parametrize("goes_on", ["soon", "never"])
+@pytest.mark.parametrize("entities", ["preconfigured", "binary"])
+def test_closing_lets_what_waits_for_the_line_leave(entities: str, goes_on: str, tmp_path: Path) -> None:
+    """The port holds more than a kilobyte when the session is closed; a line that takes nothing holds it no longer than
+    `close_timeout`.
+    """
+    plan = replace(SERIAL, declared=True, type_name_size=0, nodes_max=1, publishers_max=1, name_size=0)
+    plan = replace(plan, entities=entities, close_timeout_ms=CLOSING_MS[goes_on], liveliness_period_ms=30_000)
+    agent = LineAgent()
+    agent.agent.objects[b"\0\x05"] = b""  # that of a preconfigured writer
+    plan = replace(
+        plan,
+        serial_device=agent.path,
+        nodes=(NodePlan(0, "talker", "/", "talker", 0),),
+        publishers=(PublisherPlan(0, 0, "/chatter", "rt/chatter", INT32, False),),
+    )
+    agent.start()
+    program = _program(tmp_path, plan, "closing.c")
+    with subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as running:
+        assert running.stdin is not None
+        assert running.stdout is not None
+        assert running.stdout.readline() == "ready\n"
+        agent.stopped = True
+        time.sleep(0.1)
+        running.stdin.write("\n")
+        running.stdin.flush()
+        count = int(running.stdout.readline())
+        time.sleep(0.2)
+        agent.stopped = goes_on == "never"
+        took_ms = int(running.stdout.readline())
+        assert running.wait(20) == 0
+    if goes_on == "soon":
+        _eventually(lambda: len(agent.agent.written) >= count)
+        values = [int.from_bytes(body, "little") for _, body in agent.agent.written]
+        assert values == list(range(count))
+    else:
+        assert took_ms >= CLOSING_MS["never"]
+    agent.stop()
+    assert took_ms < 5_000, "as soon as the line was free, or when the time was up"
+
+
+def _eventually(condition: Callable[[], bool]) -> None:
+    end = time.monotonic() + 20
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.01)
 
 
 @pytest.mark.parametrize(

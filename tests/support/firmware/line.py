@@ -62,12 +62,10 @@ def _serve(handle: int, agent: FakeAgent, ends: threading.Event) -> None:
     waiting = b""
     while not ends.is_set():
         waiting += _read(handle)
-        last = waiting.rfind(b"\x7e")
-        found = events(waiting, source=CLIENT, destination=AGENT)
-        if not found or found[-1].message is None:
-            found, waiting = events(waiting[:last], source=CLIENT, destination=AGENT), waiting[max(last, 0) :]
-        else:
-            waiting = b""
+        last = max(waiting.rfind(b"\x7e"), 0)
+        found = events(waiting[:last], source=CLIENT, destination=AGENT)
+        ended = events(waiting[last:], source=CLIENT, destination=AGENT)  # none: its end is still to come
+        found, waiting = found + ended, b"" if ended else waiting[last:]
         for event in found:
             for answer in agent.receive(event.message) if event.message else ():
                 _write(handle, frame(answer))

@@ -31,7 +31,8 @@ void xrce_route_step(xrce_client_t * client, uint32_t now);
 /* Starts every part again: the agent counts from 0 and may have nothing. */
 void xrce_route_connected(xrce_client_t * client, uint32_t now);
 
-/* Takes leave of the agent, where the plan has a way to, for at most client->close_timeout_ms; then closes. */
+/* Takes leave of the agent, or, where the plan has no way to, lets what waits for the line leave it, for at most
+ * client->close_timeout_ms; then closes. */
 void xrce_route_close(xrce_client_t * client);
 
 /*
