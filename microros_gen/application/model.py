@@ -41,7 +41,8 @@ class Transport:
     """How the firmware reaches its agent. `mtu`: largest datagram or frame payload, bytes; None: planned.
 
     `type_span` None and `type` udp: the application does not say, so a profile's or the target's choice holds.
-    `device` and `baud` are the serial line's; `framing` None: a custom transport chooses at run time.
+    `device` and `baud` are the serial line's; `framing` None: a custom transport chooses at run time;
+    `read_polls`: its read function returns at once with a time-out of 0.
     `send_buffer`: bytes that wait for a serial line; None: planned. `discover`: the agent is to be found by
     multicast to this port; None: `host` and `port` say where it is, or, where `agent_span` is None too, the
     selection decides.
@@ -58,6 +59,7 @@ class Transport:
     device: str = "/dev/ttyUSB0"
     baud: int = 115_200
     framing: bool | None = None
+    read_polls: bool = False
     discover: int | None = None
     send_buffer: int | None = None
 

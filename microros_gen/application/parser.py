@@ -54,7 +54,13 @@ _POOLS_BESIDE_NODES = (
     "jump_callbacks",
 )
 _WITHOUT_ADDRESS = ("serial", "custom")
-_ONLY_FOR = {"device": "serial", "baud": "serial", "send_buffer": "serial", "framing": "custom"}
+_ONLY_FOR = {
+    "device": "serial",
+    "baud": "serial",
+    "send_buffer": "serial",
+    "framing": "custom",
+    "read_polls": "custom",
+}
 
 
 @reads
@@ -139,6 +145,10 @@ def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
         if child(node, key) is not None and type_name != only:
             message = f"transport: {type_name} has no `{key}`"
             diagnostics.error(message, span_of(child(node, key)), f"Remove `{key}`, or take type: {only}")
+    framing, read_polls = child(node, "framing"), child(node, "read_polls")
+    if bool_of(framing) and read_polls is not None:
+        message = "'transport.read_polls' has no effect with frames: their read function always gets a time-out of 0"
+        diagnostics.error(message, read_polls.span, "Remove `read_polls`, or set framing: false")
     size = int_of(mtu)
     if size is not None and type_name == "udp" and size > LARGEST_UDP_PAYLOAD:
         message = f"'transport.mtu' is {size}; a UDP datagram holds {LARGEST_UDP_PAYLOAD}"
@@ -154,7 +164,8 @@ def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
         agent_span=span_of(agent),
         device=text_of(child(node, "device")) or Transport().device,
         baud=int_of(child(node, "baud")) or Transport().baud,
-        framing=bool_of(child(node, "framing")),
+        framing=bool_of(framing),
+        read_polls=bool_of(read_polls) or False,
         discover=discover,
         send_buffer=int_of(child(node, "send_buffer")),
     )

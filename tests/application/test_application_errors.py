@@ -46,6 +46,15 @@ ERRORS: dict[str, tuple[str, str]] = {
         "session: {round_trip: 3 s, retry_max: 200 ms}\n",
         "f:1:39: error: 'session.retry_max' is 200 ms, less than `round_trip`. Write `retry_max: 3 s` or more",
     ),
+    "a promise about packets where there are none": (
+        "transport: {type: custom, framing: true, read_polls: true}\n",
+        "f:1:54: error: 'transport.read_polls' has no effect with frames: their read function always gets a time-out "
+        "of 0. Remove `read_polls`, or set framing: false",
+    ),
+    "a promise about the read function of no application": (
+        "transport: {type: udp, read_polls: true}\n",
+        "f:1:36: error: transport: udp has no `read_polls`. Remove `read_polls`, or take type: custom",
+    ),
     "unknown key": (
         "profles: [a]\n",
         "f:1:1: error: the file has no key 'profles'. Did you mean 'profiles'?",

@@ -178,6 +178,7 @@ def plan_project(
         line_input=streams.line_input,
         line_chunk=RING_CHUNK if own_driver else LINE_CHUNK,
         framing=_FRAMING[application.transport.framing],
+        read_polls=application.transport.read_polls,
         type_name_size=0 if nodes else _longest_type((*names, *services)) + 1,
         creation_size=streams.creation_size,
         subscriptions=receiving.subscriptions,

@@ -33,7 +33,8 @@ class RuntimePlan(TimesPlan):
     type names of `type_name_size`). `creation_size`: the largest CREATE, where creation is reliable, else 0.
     `client_key` None: the port supplies it (`session.key: device`).
     `entities` is preconfigured, reference, xml or binary; `creation` the stream of CREATE (best_effort, reliable).
-    `transport` is udp, tcp, serial or custom; `framing` of a custom one on, off or either (chosen at run time).
+    `transport` is udp, tcp, serial or custom; `framing` of a custom one on, off or either (chosen at run time),
+    `read_polls`: its function that reads packets never waits with a time-out of 0.
     `send_buffer`: bytes that wait for a serial line; `keeps_output`: it takes messages of the reliable stream from
     where they are; `line_input`: the largest message that it must not lose while nobody reads; `line_chunk`: bytes
     that are read of it at a time; `own_line`: the application has its functions.
@@ -82,6 +83,7 @@ class RuntimePlan(TimesPlan):
     line_chunk: int = LINE_CHUNK
     own_line: bool = False
     framing: str = "either"
+    read_polls: bool = False
     fragments: bool = False
     arrives_in_fragments: bool = False
     input_reader: int | None = None

@@ -2,7 +2,8 @@
 /*
  * An executor over a transport of the application: it rests in the read function. Prints how often that was called in a
  * second of nothing, how much of it the processor was busy (ms), and how long a sample had to wait that was sent meanwhile.
- * Argument: the agent's port.
+ * Arguments: the agent's port; `polls` to make calls without a time-out instead, and print how often they read, what the read
+ * function was told to wait for at most (ms), and whether all that was published is acknowledged.
  */
 #define _DEFAULT_SOURCE
 #include "types.h"
@@ -23,10 +24,14 @@
 #include <time.h>
 #include <unistd.h>
 
+enum { VALUES = 50, POLLS = 50000 };
+
+static rclc_support_t support;
 static int handle = -1;
 static uint16_t port;
 static long reads;
 static int taken;
+static int longest_ms; /* that the read function was told to wait */
 
 static bool my_open(struct uxrCustomTransport * transport)
 {
@@ -64,6 +69,7 @@ static size_t my_read(
 
   (void)transport;
   ++reads;
+  longest_ms = timeout > longest_ms ? timeout : longest_ms;
   if (poll(&end, 1, timeout) > 0) {
     size = recv(handle, buf, len, 0);
   }
@@ -93,12 +99,33 @@ static double seconds(clockid_t clock)
   return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
 }
 
+/* Publishes, takes and spins without a time-out; the agent has time to answer in between. */
+static void poll_only(
+  rcl_publisher_t * publisher, rcl_subscription_t * subscription, rclc_executor_t * executor)
+{
+  std_msgs__msg__Int32 message = {0};
+  int acknowledged = 0;
+
+  reads = 0;
+  longest_ms = 0;
+  for (int i = 0; i < POLLS && (message.data < VALUES || acknowledged == 0); ++i) {
+    if (message.data < VALUES && rcl_publish(publisher, &message, NULL) == RCL_RET_OK) {
+      ++message.data;
+    }
+    (void)rcl_take(subscription, &message, NULL, NULL);
+    (void)rclc_executor_spin_some(executor, 0);
+    acknowledged = rmw_uros_flush(rcl_context_get_rmw_context(&support.context), 0) == RMW_RET_OK ? 1 : 0;
+    (void)usleep(100);
+  }
+  printf("%ld %d %d\n", reads, longest_ms, message.data == VALUES && acknowledged != 0 ? 1 : 0);
+}
+
 int main(int argc, char ** argv)
 {
   rcl_allocator_t allocator = rcl_get_default_allocator();
   rclc_executor_t executor = rclc_executor_get_zero_initialized_executor();
-  static rclc_support_t support;
   static rcl_node_t node;
+  static rcl_publisher_t publisher;
   static rcl_subscription_t subscription;
   static std_msgs__msg__Int32 message;
   double start;
@@ -118,6 +145,14 @@ int main(int argc, char ** argv)
     rclc_executor_add_subscription(&executor, &subscription, &message, on_value, ON_NEW_DATA) == RCL_RET_OK,
     "add");
   (void)rclc_executor_spin_some(&executor, RCL_MS_TO_NS(200)); /* READ_DATA and its acknowledgement */
+  if (argc > 2) {
+    check(
+      rclc_publisher_init_default(
+        &publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32), "out") == RCL_RET_OK,
+      "publisher");
+    poll_only(&publisher, &subscription, &executor);
+    return 0;
+  }
   reads = 0;
   busy = seconds(CLOCK_PROCESS_CPUTIME_ID);
   start = seconds(CLOCK_MONOTONIC);

@@ -276,6 +276,14 @@ _TOP = {
         "1:36",
         "'transport.framing' must be true or false; it is 1",
     ),
+    "transport.read_polls": KeyCase(
+        "transport: {type: custom, framing: false, read_polls: true}",
+        lambda a: a.transport.read_polls,
+        True,
+        "transport: {type: custom, read_polls: 1}",
+        "1:39",
+        "'transport.read_polls' must be true or false; it is 1",
+    ),
     "session": KeyCase(
         "session: {key: device}",
         lambda a: a.session_key,
