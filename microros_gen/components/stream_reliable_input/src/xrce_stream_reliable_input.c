@@ -139,23 +139,19 @@ void xrce_stream_reliable_input_go_on(xrce_client_t * client, uint32_t now)
   }
 }
 
-/* Goes past messages that cannot be had any more, as far as one that is kept. */
-static void input_skip(xrce_stream_reliable_input_t * stream, uint16_t first)
+/* Goes past messages that cannot be had any more, `count` at most, as far as one that is kept. */
+static void input_skip(xrce_stream_reliable_input_t * stream, uint16_t count)
 {
-  for (uint8_t i = 0; i < WINDOW && stream->next != first; ++i) {
-    if (input_can_go_on(stream)) {
-      return;
-    }
+  for (uint16_t left = count; left != 0u && !input_can_go_on(stream); --left) {
     input_advance(stream);
   }
-  stream->next = first; /* nothing is kept beyond the window */
 }
 
 bool xrce_stream_reliable_input_on_heartbeat(
   xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags)
 {
   xrce_stream_reliable_input_t * stream = &client->reliable_input;
-  uint16_t first;
+  uint16_t ahead;
   uint16_t known;
 
   if (size < XRCE_HEARTBEAT_SIZE) {
@@ -164,9 +160,12 @@ bool xrce_stream_reliable_input_on_heartbeat(
   if (payload[4] != XRCE_STREAM_RELIABLE || client->session.state != XRCE_READY) {
     return true;
   }
-  first = xrce_get_u16(&payload[0], flags);
-  if ((uint16_t)(first - stream->next) < HALF) {
-    input_skip(stream, first);
+  ahead = (uint16_t)(xrce_get_u16(&payload[0], flags) - stream->next);
+  if (ahead < HALF) { /* else it has not heard of all that has arrived */
+    if (ahead > WINDOW) {
+      return false; /* of another session, or forged: an agent keeps what it does not know to have arrived */
+    }
+    input_skip(stream, ahead);
   }
   known = (uint16_t)(xrce_get_u16(&payload[2], flags) - stream->next + 1u);
   stream->announced =
