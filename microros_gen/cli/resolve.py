@@ -13,7 +13,7 @@ from microros_gen import compiler
 from microros_gen.cli.generate import warnings_text
 from microros_gen.cli.options import selection_options
 from microros_gen.cli.tables import format_selection, format_table, selection_data
-from microros_gen.client.plan.streams import StreamPlan
+from microros_gen.client.plan.streams import StreamSizes
 from microros_gen.compiler import Planned
 from microros_gen.typesupport.plan.layout import ILP32
 from microros_gen.typesupport.plan.types import DATA_MODELS, TypePlan
@@ -58,23 +58,23 @@ def command(kind: str, **options: Any) -> None:
 def pool_rows(planned: Planned) -> list[tuple[str, str, str]]:
     """Return each pool with its size and what it follows from."""
     runtime, streams = planned.project.runtime, planned.project.streams
-    source = "declared in nodes:" if runtime.declared else "pools: or one for each interface"
+    source = "declared in nodes:" if runtime.entities.declared else "pools: or one for each interface"
     rows = [
-        ("nodes", str(runtime.nodes_max), source),
-        ("publishers", str(runtime.publishers_max), source),
+        ("nodes", str(runtime.entities.nodes.max), source),
+        ("publishers", str(runtime.entities.publishers.max), source),
         *_receiving_rows(planned),
         *_running_rows(planned),
         *_stream_rows(streams),
         (
             "error text",
-            f"{runtime.error_text_size} bytes",
-            "errors: text" if runtime.error_text_size else "errors: code",
+            f"{runtime.errors.text_size} bytes",
+            "errors: text" if runtime.errors.text_size else "errors: code",
         ),
-        ("arena", f"{runtime.arena_size} bytes", "memory.arena"),
+        ("arena", f"{runtime.memory.arena_size} bytes", "memory.arena"),
         *_storage_rows(planned),
     ]
-    if not runtime.declared:
-        rows.insert(2, ("names", f"{runtime.name_size} bytes each", "pools.name_size"))
+    if not runtime.entities.declared:
+        rows.insert(2, ("names", f"{runtime.entities.name_size} bytes each", "pools.name_size"))
     return rows
 
 
@@ -88,7 +88,7 @@ def _storage_rows(planned: Planned) -> list[tuple[str, str, str]]:
             f"{', '.join(f'{b.count} x {b.elements}' for b in pool.blocks)}: {pool.bytes(model)} bytes",
             why,
         )
-        for pool in runtime.message_pools
+        for pool in runtime.memory.message_pools
         if not pool.of_messages
     ]
 
@@ -96,41 +96,50 @@ def _storage_rows(planned: Planned) -> list[tuple[str, str, str]]:
 def _receiving_rows(planned: Planned) -> list[tuple[str, str, str]]:
     runtime = planned.project.runtime
     rows = []
-    if runtime.subscriptions_max:
-        source = "declared in nodes:" if runtime.declared else "pools: or one for each interface"
-        rows.append(("subscriptions", str(runtime.subscriptions_max), source))
-    for name, places in (("services", runtime.services_max), ("clients", runtime.clients_max)):
+    if runtime.entities.subscriptions.max:
+        source = "declared in nodes:" if runtime.entities.declared else "pools: or one for each interface"
+        rows.append(("subscriptions", str(runtime.entities.subscriptions.max), source))
+    for name, places in (
+        ("services", runtime.entities.services.max),
+        ("clients", runtime.entities.clients.max),
+    ):
         if places:
             rows.append(
                 (
                     name,
                     str(places),
-                    "declared in nodes:" if runtime.declared else "pools: or one for each service",
+                    "declared in nodes:" if runtime.entities.declared else "pools: or one for each service",
                 )
             )
-    if runtime.queues:
-        slots = f"{runtime.queue_slots} slots, {runtime.queues_size} bytes"
-        shared = "queue_bytes:, else " if runtime.queue_mode == "bytes" else ""
+    if runtime.input.queues:
+        slots = f"{runtime.input.queue_slots} slots, {runtime.input.queues_size} bytes"
+        shared = "queue_bytes:, else " if runtime.input.queue_mode == "bytes" else ""
         rows.append(("queues", slots, f"{shared}queue: or depth, times the largest sample"))
     return rows
 
 
 def _running_rows(planned: Planned) -> list[tuple[str, str, str]]:
     runtime = planned.project.runtime
-    source = "declared in nodes:, or pools:" if runtime.declared else "pools: or one"
+    source = "declared in nodes:, or pools:" if runtime.entities.declared else "pools: or one"
     rows = []
-    if runtime.has_timers:
-        rows.append(("timers", str(runtime.timers_max), source))
-    if runtime.has_executors:
-        rows.append(("executors", str(runtime.executors_max), source))
+    if runtime.timers.any:
+        rows.append(("timers", str(runtime.timers.max), source))
+    if runtime.executor.any:
+        rows.append(("executors", str(runtime.executor.max), source))
         rows.append(
-            ("handles", f"{runtime.handles_max} each", "one for each entity that an executor can run")
+            (
+                "handles",
+                f"{runtime.executor.handles_max} each",
+                "one for each entity that an executor can run",
+            )
         )
-        rows.append(("guard conditions", str(runtime.guard_conditions_max), "pools.guard_conditions"))
+        rows.append(
+            ("guard conditions", str(runtime.executor.guard_conditions_max), "pools.guard_conditions")
+        )
     return rows
 
 
-def _stream_rows(streams: StreamPlan) -> list[tuple[str, str, str]]:
+def _stream_rows(streams: StreamSizes) -> list[tuple[str, str, str]]:
     arriving = (
         "; larger samples come in fragments, straight into their queue"
         if streams.arrives_in_fragments

@@ -17,7 +17,7 @@ from typing import Any
 import click
 
 from microros_gen.cli.options import image_option
-from microros_gen.client.plan.runtime import DISCOVERY_GROUP
+from microros_gen.client.plan.slices import DISCOVERY_GROUP
 from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.documents.files import read_json
 from microros_gen.image.records import Located, locate

@@ -25,14 +25,26 @@ def plan_summary(planned: Planned) -> str:
     lines = [
         ("profile", f"{project.name} for {project.target.name}: {_components(planned)}"),
         ("agent", _agent(planned)),
-        *(("publishes", line) for line in _entities(planned, "publish", runtime.publishers)),
-        *(("receives", line) for line in _entities(planned, "subscribe", runtime.subscriptions)),
-        *(("serves", line) for line in _services(runtime.services, runtime.services_max)),
-        *(("calls", line) for line in _services(runtime.clients, runtime.clients_max)),
+        *(
+            ("publishes", line)
+            for line in _entities(planned, "publish", runtime.entities.publishers.declared)
+        ),
+        *(
+            ("receives", line)
+            for line in _entities(planned, "subscribe", runtime.entities.subscriptions.declared)
+        ),
+        *(
+            ("serves", line)
+            for line in _services(runtime.entities.services.declared, runtime.entities.services.max)
+        ),
+        *(
+            ("calls", line)
+            for line in _services(runtime.entities.clients.declared, runtime.entities.clients.max)
+        ),
         (
             "streams",
-            f"reliable {runtime.reliable_slots} x {runtime.reliable_slot_size} bytes,"
-            f" best effort {runtime.best_effort_size}, input {runtime.input_size}",
+            f"reliable {runtime.streams.reliable_slots} x {runtime.streams.reliable_slot_size} bytes,"
+            f" best effort {runtime.streams.best_effort_size}, input {runtime.input.size}",
         ),
     ]
     lines += (("refuses", line) for line in refused_assigns(planned))
@@ -55,7 +67,7 @@ def refused_assigns(planned: Planned) -> list[str]:
 
 
 def _refused(members: Sequence[tuple[str, int]], runtime: RuntimePlan) -> str:
-    if not runtime.kept_messages and not runtime.arena_size:
+    if not runtime.memory.kept_messages and not runtime.memory.arena_size:
         return "each __assign and __Sequence__init: memory.messages is 0 (buffers of your own are filled)"
     shown = ", ".join(f"{path} above {most}" for path, most in members[:_SHOWN])
     more = len(members) - _SHOWN
@@ -82,12 +94,12 @@ def _agent(planned: Planned) -> str:
     project, runtime = planned.project, planned.project.runtime
     transport = project.selection.transport
     if transport == "serial":
-        line = runtime.serial_device if project.target.hosted else "the board's line"
-        return f"serial, {line}, {runtime.serial_baud} baud"
+        line = runtime.transport.device if project.target.hosted else "the board's line"
+        return f"serial, {line}, {runtime.transport.baud} baud"
     return (
         "custom transport of the application"
         if transport == "custom"
-        else f"{transport} {runtime.agent_place}"
+        else f"{transport} {runtime.transport.agent_place}"
     )
 
 
@@ -102,11 +114,11 @@ def _entities(
     planned: Planned, component: str, declared: Sequence[PublisherPlan | SubscriptionPlan]
 ) -> list[str]:
     runtime = planned.project.runtime
-    if runtime.declared:
+    if runtime.entities.declared:
         return [f"{d.topic} ({d.type}, {'reliable' if d.reliable else 'best effort'})" for d in declared]
     if not planned.project.selection.has(component):
         return []
-    places = runtime.publishers_max if component == "publish" else runtime.subscriptions_max
+    places = runtime.entities.publishers.max if component == "publish" else runtime.entities.subscriptions.max
     own = [f"{e.topic} ({e.type}, best effort)" for e in planned.project.application.implied]
     own = own if component == "subscribe" else []
     places -= len(own)

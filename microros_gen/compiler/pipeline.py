@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from dataclasses import replace
+from operator import attrgetter
 from pathlib import Path
 
 from microros_gen.application.find import APPLICATION_FILE
@@ -313,8 +314,7 @@ def _component_files(project: Project) -> tuple[ComponentFile, ...]:
 
 
 def _attribute(project: Project, key: str) -> object:
-    """Return what a condition of a component's file compares: of the runtime, the board or the target."""
-    for place in (project.runtime, project.board, project.target):
-        if hasattr(place, key):
-            return getattr(place, key)
-    raise AssertionError(f"no plan has the attribute '{key}'")
+    """Return what a condition of a component's file compares: `streams.on_full`, `board.stdio`, `target.has_image`."""
+    first, _, rest = key.partition(".")
+    places = {"board": project.board, "target": project.target}
+    return attrgetter(rest)(places[first]) if first in places else attrgetter(key)(project.runtime)

@@ -64,10 +64,10 @@ def _text(data: Mapping[str, Any], types: Mapping[str, Any]) -> str:
 
 def _transport(project: Project) -> dict[str, Any]:
     runtime, kind = project.runtime, project.selection.transport
-    common = {"type": kind, "mtu": runtime.mtu}
+    common = {"type": kind, "mtu": runtime.streams.mtu}
     if kind == "serial":
-        return {**common, "device": runtime.serial_device, "baud": runtime.serial_baud}
-    return common if kind == "custom" else {**common, "agent": runtime.agent_place}
+        return {**common, "device": runtime.transport.device, "baud": runtime.transport.baud}
+    return common if kind == "custom" else {**common, "agent": runtime.transport.agent_place}
 
 
 def _selection(project: Project) -> dict[str, Any]:
@@ -92,9 +92,9 @@ def _entities(project: Project) -> dict[str, Any]:
     return {
         "nodes": [
             {"name": n.name, "namespace": n.namespace, "domain_id": n.domain_id}
-            for n in project.runtime.nodes
+            for n in project.runtime.entities.nodes.declared
         ],
-        "publishers": [_publisher(project, p) for p in project.runtime.publishers],
+        "publishers": [_publisher(project, p) for p in project.runtime.entities.publishers.declared],
         **_subscriptions(project),
         **_services(project),
     }
@@ -103,9 +103,9 @@ def _entities(project: Project) -> dict[str, Any]:
 def _subscriptions(project: Project) -> dict[str, Any]:
     """Return the declared subscriptions; nothing where subscriptions are not selected."""
     runtime = project.runtime
-    if not runtime.subscriptions_max:
+    if not runtime.entities.subscriptions.max:
         return {}
-    queues = runtime.queues
+    queues = runtime.input.queues
     return {
         "subscriptions": [
             {
@@ -116,10 +116,10 @@ def _subscriptions(project: Project) -> dict[str, Any]:
                 "queue": queues[s.index].slots,
                 "slot_size": queues[s.index].slot_size,
                 **_queue_bytes(queues[s.index]),
-                **({"slot": "input buffer"} if s.index == runtime.input_reader else {}),
+                **({"slot": "input buffer"} if s.index == runtime.input.reader else {}),
                 **({"storage": "none"} if s.storage and not s.stored else {}),
             }
-            for s in runtime.subscriptions
+            for s in runtime.entities.subscriptions.declared
         ]
     }
 
@@ -127,10 +127,10 @@ def _subscriptions(project: Project) -> dict[str, Any]:
 def _services(project: Project) -> dict[str, Any]:
     """Return the declared services and clients; nothing where there are no places for them."""
     runtime = project.runtime
-    if not runtime.serves:
+    if not runtime.entities.serves:
         return {}
-    first = runtime.subscriptions_max
-    queues = runtime.queues[first:]
+    first = runtime.entities.subscriptions.max
+    queues = runtime.input.queues[first:]
     return {
         key: [
             {
@@ -144,8 +144,8 @@ def _services(project: Project) -> dict[str, Any]:
             for s in declared
         ]
         for key, declared, before in (
-            ("services", runtime.services, 0),
-            ("clients", runtime.clients, runtime.services_max),
+            ("services", runtime.entities.services.declared, 0),
+            ("clients", runtime.entities.clients.declared, runtime.entities.services.max),
         )
     }
 
@@ -196,37 +196,41 @@ def _memory(memory: Memory) -> dict[str, Any]:
 def _message_storage(project: Project) -> dict[str, Any]:
     """Return the blocks for strings and sequences of messages that are sent: pairs of elements and how many."""
     runtime = project.runtime
-    pools = {p.kind: [[b.elements, b.count] for b in p.blocks] for p in runtime.message_pools}
-    return {"messages": runtime.kept_messages, "blocks": pools}
+    pools = {p.kind: [[b.elements, b.count] for b in p.blocks] for p in runtime.memory.message_pools}
+    return {"messages": runtime.memory.kept_messages, "blocks": pools}
 
 
 def _pools(project: Project) -> dict[str, int]:
     runtime = project.runtime
     return {
-        "nodes": runtime.nodes_max,
-        "publishers": runtime.publishers_max,
-        **({"subscriptions": runtime.subscriptions_max} if runtime.subscriptions_max else {}),
-        **({"services": runtime.services_max} if runtime.has_services else {}),
-        **({"clients": runtime.clients_max} if runtime.has_clients else {}),
-        **({"queues": runtime.queues_size} if runtime.queues else {}),
-        **({"timers": runtime.timers_max} if runtime.has_timers else {}),
+        "nodes": runtime.entities.nodes.max,
+        "publishers": runtime.entities.publishers.max,
         **(
-            {
-                "executors": runtime.executors_max,
-                "handles": runtime.handles_max,
-                "guard_conditions": runtime.guard_conditions_max,
-            }
-            if runtime.has_executors
+            {"subscriptions": runtime.entities.subscriptions.max}
+            if runtime.entities.subscriptions.max
             else {}
         ),
-        "name_size": runtime.name_size,
-        "reliable_slots": runtime.reliable_slots,
-        "reliable_slot_size": runtime.reliable_slot_size,
-        "best_effort_size": runtime.best_effort_size,
-        "input_size": runtime.input_size,
-        **({"input_buffer": runtime.input_buffer_size} if runtime.lends_input else {}),
-        "arena": runtime.arena_size,
-        "error_text": runtime.error_text_size,
+        **({"services": runtime.entities.services.max} if runtime.entities.services.any else {}),
+        **({"clients": runtime.entities.clients.max} if runtime.entities.clients.any else {}),
+        **({"queues": runtime.input.queues_size} if runtime.input.queues else {}),
+        **({"timers": runtime.timers.max} if runtime.timers.any else {}),
+        **(
+            {
+                "executors": runtime.executor.max,
+                "handles": runtime.executor.handles_max,
+                "guard_conditions": runtime.executor.guard_conditions_max,
+            }
+            if runtime.executor.any
+            else {}
+        ),
+        "name_size": runtime.entities.name_size,
+        "reliable_slots": runtime.streams.reliable_slots,
+        "reliable_slot_size": runtime.streams.reliable_slot_size,
+        "best_effort_size": runtime.streams.best_effort_size,
+        "input_size": runtime.input.size,
+        **({"input_buffer": runtime.input.buffer_size} if runtime.input.lends else {}),
+        "arena": runtime.memory.arena_size,
+        "error_text": runtime.errors.text_size,
     }
 
 

@@ -17,7 +17,10 @@ NOT_READY = "this version of microros-gen does not have yet"
 
 
 Conditions = tuple[tuple[str, str | int | bool], ...]
-"""Attributes of the plan and their values: `(("on_full", "error"),)`: where `on_full` is `error`; empty: always."""
+"""Values of the plan by their paths: `(("streams.on_full", "error"),)`; empty: always.
+
+A path begins with a slice of the RuntimePlan, `board` or `target`.
+"""
 
 
 @dataclass(frozen=True)

@@ -66,14 +66,14 @@ def _source(item: YamlNode) -> SourceFile | None:
 
 
 def _asks(node: MappingNode, diagnostics: Diagnostics) -> tuple[Ask, ...]:
-    """Read a list of `time` and `{capability: lock, when: {multithread: true}}`."""
+    """Read a list of `time` and `{capability: lock, when: {session.multithread: true}}`."""
     value = node.get("asks")
     if value is not None and not isinstance(value, SequenceNode):
         diagnostics.error("'asks' must be a list", value.span, "Write `asks: [time, sleep]`")
     found = [(item, _conditional(item, "capability")) for item in items(value)]
     for item, ask in found:
         if ask is None:
-            hint = "Write `time` or `{capability: lock, when: {multithread: true}}`"
+            hint = "Write `time` or `{capability: lock, when: {session.multithread: true}}`"
             diagnostics.error("'asks' must list capabilities", item.span, hint)
     return tuple(Ask(*ask) for _, ask in found if ask is not None)
 

@@ -60,7 +60,7 @@ def test_a_name_of_two_things_has_two_places(handles: str, places: int, tmp_path
     planned = project_of(
         HEAD + "components: [+executor, +services]\n" + NODE + services + executors, tmp_path
     )
-    assert planned.runtime.handles_max == places
+    assert planned.runtime.executor.handles_max == places
 
 
 def test_a_publisher_is_nothing_that_an_executor_runs(tmp_path: Path) -> None:

@@ -137,13 +137,13 @@ def test_each_stream_is_sized_for_those_that_write_to_it(
 ) -> None:
     """A body of `limit` + 5 bytes behind 12, rounded up to four."""
     runtime = application(tmp_path, small, large).project.runtime
-    assert (runtime.best_effort_size, runtime.reliable_slot_size) == (best_effort, reliable)
-    assert [bool(p.limited) for p in runtime.publishers] == [small < large, large < small]
+    assert (runtime.streams.best_effort_size, runtime.streams.reliable_slot_size) == (best_effort, reliable)
+    assert [bool(p.limited) for p in runtime.entities.publishers.declared] == [small < large, large < small]
 
 
 def test_a_message_must_fit_its_own_stream_under_its_own_limits(tmp_path: Path) -> None:
     """The large one goes in fragments; the best-effort one, which cannot, has low limits and is no error."""
-    assert application(tmp_path, 20, 400).project.runtime.fragments
+    assert application(tmp_path, 20, 400).project.runtime.streams.fragments
     with pytest.raises(UserError) as told:
         application(tmp_path, 240, 400)
     (found,) = told.value.diagnostics
@@ -153,5 +153,5 @@ def test_a_message_must_fit_its_own_stream_under_its_own_limits(tmp_path: Path) 
 def test_nothing_is_there_where_publishers_agree(tmp_path: Path) -> None:
     found = application(tmp_path, 30, 30)
     assert (found.capacities.entities, found.capacities.topics) == ((), ())
-    assert found.project.runtime.limited_headers == ()
+    assert found.project.runtime.entities.limited_headers == ()
     assert all(not t.limit_sets for t in found.project.types)

@@ -47,14 +47,14 @@ def planned(folder: Path, text: str) -> compiler.Planned:
 
 def test_a_declared_queue_has_its_bytes(tmp_path: Path) -> None:
     runtime = planned(tmp_path, NODES.format(", queue_bytes: 1501", ", queue_bytes: 60")).project.runtime
-    assert runtime.queues == (
+    assert runtime.input.queues == (
         QueuePlan(8, LARGEST, 1504),
         QueuePlan(3, 4),
         QueuePlan(5, REQUEST, 60),
     ), "rounded up to four"
-    assert (runtime.queues_size, runtime.queue_slots) == (1504 + 12 + 60, 16)
-    assert [row.offset for row in runtime.queue_rows] == [0, 1504, 1516]
-    assert runtime.queue_mode == "bytes"
+    assert (runtime.input.queues_size, runtime.input.queue_slots) == (1504 + 12 + 60, 16)
+    assert [row.offset for row in runtime.input.queue_rows] == [0, 1504, 1516]
+    assert runtime.input.queue_mode == "bytes"
 
 
 def test_nothing_else_of_the_plan_knows_it(tmp_path: Path) -> None:
@@ -87,12 +87,12 @@ def test_the_manifest_and_the_configuration_say_it(tmp_path: Path) -> None:
 def test_a_pool_has_it_for_each_place(tmp_path: Path) -> None:
     """Kinds whose queues are smaller anyway keep them."""
     runtime = planned(tmp_path, POOL.format(", queue_bytes: 1050")).project.runtime
-    assert runtime.queues == (
+    assert runtime.input.queues == (
         *[QueuePlan(4, LARGEST, 1052)] * 2,
         QueuePlan(4, REQUEST),
         QueuePlan(4, 1016, 1052),
     )
-    assert runtime.queues_size == 3 * 1052 + 4 * REQUEST
+    assert runtime.input.queues_size == 3 * 1052 + 4 * REQUEST
 
 
 @pytest.mark.parametrize(
@@ -146,7 +146,7 @@ def test_bytes_for_less_than_one_sample_are_refused(
 )
 def test_bytes_that_save_nothing_are_told(tmp_path: Path, text: str, words: str) -> None:
     found = planned(tmp_path, text)
-    assert found.project.runtime.queue_mode == "slots"
+    assert found.project.runtime.input.queue_mode == "slots"
     assert words in [warning.message for warning in found.warnings]
 
 
@@ -154,4 +154,4 @@ def test_beside_nodes_the_key_of_pools_has_no_effect(tmp_path: Path) -> None:
     found = planned(tmp_path, NODES.format("", "") + "pools: {queue_bytes: 2000}\n")
     said = [warning.message for warning in found.warnings if "has no effect" in warning.message]
     assert said == ["'pools.queue_bytes' has no effect: with `nodes` there is what they declare"]
-    assert found.project.runtime.queue_mode == "slots"
+    assert found.project.runtime.input.queue_mode == "slots"

@@ -37,7 +37,7 @@ def planned(folder: Path, text: str) -> compiler.Planned:
 
 def test_with_nodes_it_is_the_first_subscription_of_the_first_node(tmp_path: Path) -> None:
     runtime = planned(tmp_path, NODES).project.runtime
-    clock, heard = runtime.subscriptions
+    clock, heard = runtime.entities.subscriptions.declared
     assert (clock.topic, clock.node, clock.reliable, clock.dds_type) == (
         "/clock",
         0,
@@ -45,10 +45,10 @@ def test_with_nodes_it_is_the_first_subscription_of_the_first_node(tmp_path: Pat
         "rosgraph_msgs::msg::dds_::Clock_",
     )
     assert (heard.topic, heard.node) == ("/heard", 1)
-    assert runtime.queues == (QueuePlan(1, 8), QueuePlan(3, 8))
-    assert (runtime.subscriptions_max, runtime.application_subscriptions) == (2, 1)
-    assert runtime.handles_max == 2, "a timer and a subscription: nobody adds /clock to an executor"
-    assert runtime.ros_clocks_max == 2, "one of rclc's support"
+    assert runtime.input.queues == (QueuePlan(1, 8), QueuePlan(3, 8))
+    assert (runtime.entities.subscriptions.max, runtime.entities.subscriptions.application) == (2, 1)
+    assert runtime.executor.handles_max == 2, "a timer and a subscription: nobody adds /clock to an executor"
+    assert runtime.clock.ros_clocks_max == 2, "one of rclc's support"
 
 
 def test_without_nodes_it_is_beside_the_pool(tmp_path: Path) -> None:
@@ -60,18 +60,18 @@ def test_without_nodes_it_is_beside_the_pool(tmp_path: Path) -> None:
     )
     runtime = found.project.runtime
     assert [str(root) for root in found.project.roots] == ["std_msgs/msg/Float64MultiArray"]
-    assert runtime.queues[0] == QueuePlan(1, 8)
-    assert runtime.queues[1:] == (QueuePlan(3, runtime.queues[1].slot_size),) * 2
-    assert runtime.queues[1].slot_size > 40
-    assert runtime.type_name_size > len("rosgraph_msgs::msg::dds_::Clock_")
+    assert runtime.input.queues[0] == QueuePlan(1, 8)
+    assert runtime.input.queues[1:] == (QueuePlan(3, runtime.input.queues[1].slot_size),) * 2
+    assert runtime.input.queues[1].slot_size > 40
+    assert runtime.entities.type_name_size > len("rosgraph_msgs::msg::dds_::Clock_")
 
 
 def test_a_node_of_a_simulation_alone_has_no_other_subscription(tmp_path: Path) -> None:
     found = planned(tmp_path, "version: 1\nprofiles: [simulation_node]\n")
     runtime = found.project.runtime
-    assert (runtime.subscriptions_max, runtime.application_subscriptions) == (1, 0)
-    assert runtime.queues == (QueuePlan(1, 8),)
-    assert runtime.reliable_input_slots == 0
+    assert (runtime.entities.subscriptions.max, runtime.entities.subscriptions.application) == (1, 0)
+    assert runtime.input.queues == (QueuePlan(1, 8),)
+    assert runtime.input.reliable_slots == 0
     assert [str(t.name) for t in found.project.types] == [
         "builtin_interfaces/msg/Time",
         "rosgraph_msgs/msg/Clock",
@@ -100,7 +100,7 @@ def test_one_reference_cannot_be_two(tmp_path: Path) -> None:
     heard = "topic: heard, type: std_msgs/msg/Int64, queue: 3"
     own = NODES.replace(heard, "topic: /clock, type: rosgraph_msgs/msg/Clock")
     runtime = planned(tmp_path, own).project.runtime
-    assert [(s.topic, s.node, s.reliable) for s in runtime.subscriptions] == [
+    assert [(s.topic, s.node, s.reliable) for s in runtime.entities.subscriptions.declared] == [
         ("/clock", 0, False),
         ("/clock", 1, True),
     ]
@@ -116,7 +116,7 @@ def test_a_rule_of_the_first_node_moves_it(tmp_path: Path) -> None:
     """The source says /clock, the wire has another name, as with a remapping rule of ROS 2."""
     text = NODES.replace("name: first", "name: first\n    remap: {/clock: /sim/clock}")
     result = planned(tmp_path, text)
-    clock = result.project.runtime.subscriptions[0]
+    clock = result.project.runtime.entities.subscriptions.declared[0]
     assert (clock.given, clock.topic, clock.dds_topic) == ("/clock", "/sim/clock", "rt/sim/clock")
     for wrong, said in (
         (text.replace("clock: ros\n", ""), "first does not subscribe to /clock. Select it with `clock: ros`"),

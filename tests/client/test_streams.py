@@ -14,7 +14,7 @@ from microros_gen.client.plan.streams import (
     DEFAULT_MTU,
     LARGEST_BODY,
     Received,
-    StreamPlan,
+    StreamSizes,
     Written,
     plan_streams,
 )
@@ -32,7 +32,7 @@ def plan(
     create: int = 92,
     transport: str = "udp",
     reliable_input: bool = False,
-) -> tuple[StreamPlan, list[str]]:
+) -> tuple[StreamSizes, list[str]]:
     found = Diagnostics()
     streams = plan_streams(
         application or Application(), transport, written, create, found, reliable_input=reliable_input
@@ -81,7 +81,7 @@ def test_a_serial_line_has_room_for_one_message_of_each_best_effort_writer() -> 
 
 
 def test_a_send_buffer_is_what_the_application_says_if_the_longest_frame_fits() -> None:
-    def asked(size: int) -> tuple[StreamPlan, list[str]]:
+    def asked(size: int) -> tuple[StreamSizes, list[str]]:
         application = Application(transport=Transport("serial", send_buffer=size))
         return plan(large(100), application=application, transport="serial", create=0)
 
@@ -99,14 +99,14 @@ def large(size: int, reliable: bool = True) -> Written:
 
 def test_no_buffer_is_larger_than_it_must_be() -> None:
     streams, said = plan(INT32)
-    assert streams == StreamPlan(92, 92, 4, 16, 64)
+    assert streams == StreamSizes(92, 92, 4, 16, 64)
     assert streams.ram == 92 + 4 * 16 + 64
     assert said == []
 
 
 def test_reliable_creation_alone_needs_no_best_effort_stream() -> None:
     streams, _ = plan(INT32, application=RELIABLE, reliable_input=True)
-    assert streams == StreamPlan(92, 0, 4, 16, 64, creation_size=92, reliable_input_slots=1)
+    assert streams == StreamSizes(92, 0, 4, 16, 64, creation_size=92, reliable_input_slots=1)
     demands = list(stream_demands(RELIABLE, frozenset(), "binary"))
     assert [d.component for d in demands] == ["stream_reliable", STREAM_RELIABLE_INPUT]
     assert all(d.text.startswith("creation: reliable (") for d in demands)
@@ -182,7 +182,7 @@ def test_the_settings_of_another_stack() -> None:
         transport=Transport(mtu=512), pools={"history": 4, "input_history": 1, "slot_size": 512}
     )
     streams, said = plan(INT32, application=asked, reliable_input=True)
-    assert streams == StreamPlan(512, 512, 4, 512, 512, reliable_input_slots=1)
+    assert streams == StreamSizes(512, 512, 4, 512, 512, reliable_input_slots=1)
     assert streams.ram == 6 * 512
     assert said == []
 
@@ -216,7 +216,7 @@ def reception(
     lends: bool = True,
     slot_size: int = 0,
     mtu: int | None = None,
-) -> StreamPlan:
+) -> StreamSizes:
     application = Application(
         transport=Transport(mtu=mtu), pools={"slot_size": slot_size} if slot_size else {}
     )

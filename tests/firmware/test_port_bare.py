@@ -17,6 +17,7 @@ from microros_gen.platform.target import Uart
 from microros_gen.selection.find_components import components_folder
 from microros_gen.toolchain.toolchain import WARNINGS
 from tests.support.firmware.board import C_FILES, check
+from tests.support.plans import POOL, changed
 
 COMPONENTS = components_folder()
 BOARD = (
@@ -48,12 +49,13 @@ def test_timers_and_steady_time_over_sixty_days(tmp_path: Path) -> None:
 
 
 def plan(reliable_slots: int, input_size: int) -> RuntimePlan:
-    return RuntimePlan(
-        plan_id="", error_text_size=0, agent_host="", agent_port=0, mtu=0, input_size=input_size, client_key=1,
-        session_id=0x81, best_effort_size=0, reliable_slots=reliable_slots, reliable_slot_size=16, declared=False,
-        nodes_max=1, publishers_max=1, name_size=8, nodes=(), publishers=(), arena_size=0, on_full="error",
-        on_full_block_ms=0, transport="serial", line_input=input_size,
-    )  # fmt: skip
+    return changed(
+        POOL,
+        streams__reliable_slots=reliable_slots,
+        input__size=input_size,
+        transport__kind="serial",
+        transport__line_input=input_size,
+    )
 
 
 @pytest.mark.parametrize(("slots", "size"), [(0, 64), (4, 64), (16, 64), (0, 512), (16, 4096)])
@@ -73,7 +75,7 @@ def test_of_a_large_best_effort_sample_the_ring_holds_what_comes_in_20_ms(
     baud: int, size: int, ring: int
 ) -> None:
     """Ten bits a byte; a quarter of the sample at most, and never less than what must not be lost: 64 bytes."""
-    assert ring_size(replace(plan(0, size), line_input=64, serial_baud=baud)) == ring
+    assert ring_size(changed(plan(0, size), transport__line_input=64, transport__baud=baud)) == ring
 
 
 @pytest.mark.parametrize(

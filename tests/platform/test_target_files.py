@@ -55,7 +55,7 @@ def test_ports_drivers_and_registers_are_the_same_everywhere() -> None:
     assert ports == set(PORTS) == set(SCHEMA["properties"]["port"]["enum"])
     for port, drivers in PORTS.items():
         when = [dict(source.when) for source in catalogue[port].sources]
-        assert {w["serial_driver"] for w in when if "serial_driver" in w} == set(drivers)
+        assert {w["board.serial_driver"] for w in when if "board.serial_driver" in w} == set(drivers)
     known = SCHEMA["properties"]["uart"]["properties"]["driver"]["enum"]
     assert set(known) == {OWN_DRIVER} | {driver for drivers in PORTS.values() for driver in drivers}
     registers = {name for names in REGISTERS.values() for name in names} | set(OPTIONAL_REGISTERS)

@@ -24,12 +24,12 @@ def programs(tmp_path_factory: pytest.TempPathFactory) -> ProgramFactory:
         names = [name for name in components(plan, liveliness) if name != "port_posix"]
         tree = render(tmp_path_factory.mktemp("client"), plan, names)
         ping = "client_ping.c" if liveliness == "ping" else "client_no_ping.c"
-        read = ["types_read.c" if plan.receives else "types.c"]
-        read += ["client_read.c" if plan.has_subscriptions else "client_no_read.c"]
-        read += ["client_serve.c" if plan.serves else "client_no_serve.c"]
-        epoch = "client_time.c" if plan.has_time_sync else "client_no_time.c"
-        extra = "client_extra.c" if plan.has_session_state and plan.has_sleep else "client_no_extra.c"
-        port = ["port_fake.c", *(["port_fake_lines.c"] if plan.has_discovery else [])]
+        read = ["types_read.c" if plan.input.receives else "types.c"]
+        read += ["client_read.c" if plan.entities.subscriptions.any else "client_no_read.c"]
+        read += ["client_serve.c" if plan.entities.serves else "client_no_serve.c"]
+        epoch = "client_time.c" if plan.session.has_time_sync else "client_no_time.c"
+        extra = "client_extra.c" if plan.session.has_state and plan.session.has_sleep else "client_no_extra.c"
+        port = ["port_fake.c", *(["port_fake_lines.c"] if plan.transport.has_discovery else [])]
         return build(tree, [*port, "client.c", ping, epoch, extra, *read], "client")
 
     return compiled

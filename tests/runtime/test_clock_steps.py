@@ -10,26 +10,28 @@ from __future__ import annotations
 import re
 import struct
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
 
-from microros_gen.client.plan.runtime import DISCOVERY_GROUP, RuntimePlan
+from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan
+from microros_gen.client.plan.slices import DISCOVERY_GROUP
 from microros_gen.selection.find_components import components_folder
+from tests.support.plans import POOL, READER, SERVER, changed
 from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
-from tests.support.runtime.harness import POOL, READER, SERVER, components
+from tests.support.runtime.harness import components
 from tests.support.runtime.serving_agent import ServingAgent, identity
 
-FIRST = POOL.publishers_max
+FIRST = POOL.entities.publishers.max
 """The first subscription's index among the endpoints."""
 STEP_MS = 5 * 86_400_000
 STEPS = 12
 """60 days: 2^31 ms are 24.9, 2^32 ms 49.7."""
 CREATE, TIMESTAMP = 0x01, 0x0E
-PERIOD_MS = POOL.liveliness_period_ms
+PERIOD_MS = POOL.times.liveliness_period_ms
 EPOCH_S = 1_790_000_000
 REPLIER = bytes.fromhex("0018")
 
@@ -274,30 +276,36 @@ def _begin_search(days: Days) -> None:
     _begin_to_send(days)
 
 
-WATCHED = replace(READER, has_session_state=True, has_sleep=True)
-LARGE = replace(
+WATCHED = changed(READER, session__has_state=True, session__has_sleep=True)
+LARGE = changed(
     READER,
-    fragments=True,
-    reliable_slot_size=1024,
-    queues=(QueuePlan(1, 400), QueuePlan(1, 16)),
-    arrives_in_fragments=True,
+    streams__fragments=True,
+    streams__reliable_slot_size=1024,
+    input__queues=(QueuePlan(1, 400), QueuePlan(1, 16)),
+    input__arrives_in_fragments=True,
 )
 SCENARIOS = {
     "samples, reliable": Scenario(READER, _begin("reliable"), _samples),
     "samples, best effort": Scenario(READER, _begin("best_effort"), _samples),
     "losses, ping": Scenario(READER, _begin("reliable"), _losses),
     "losses, acknack": Scenario(
-        replace(READER, on_full="drop_oldest"), _begin("reliable"), _losses, "acknack"
+        changed(READER, streams__on_full="drop_oldest"), _begin("reliable"), _losses, "acknack"
     ),
     "session state": Scenario(WATCHED, _begin_watched, _watched),
-    "hard liveliness": Scenario(replace(POOL, hard_liveliness_ms=2000), _begin_to_send, _hard, "acknack"),
+    "hard liveliness": Scenario(
+        changed(POOL, session__hard_liveliness_ms=2000), _begin_to_send, _hard, "acknack"
+    ),
     "services": Scenario(SERVER, _begin_services, _services),
     "refusals": Scenario(READER, _begin("reliable"), _refusals),
-    "full": Scenario(replace(POOL, on_full="block", on_full_block_ms=20), _begin_to_send, _full),
-    "ping and time": Scenario(replace(POOL, has_time_sync=True), _begin_to_send, _pings),
+    "full": Scenario(
+        changed(POOL, streams__on_full="block", streams__on_full_block_ms=20), _begin_to_send, _full
+    ),
+    "ping and time": Scenario(changed(POOL, session__has_time_sync=True), _begin_to_send, _pings),
     "fragments": Scenario(LARGE, _begin_large, _large),
     "discovery": Scenario(
-        replace(POOL, agent_host=DISCOVERY_GROUP, has_discovery=True), _begin_search, _searches
+        changed(POOL, transport__agent_host=DISCOVERY_GROUP, transport__has_discovery=True),
+        _begin_search,
+        _searches,
     ),
 }
 

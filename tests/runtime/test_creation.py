@@ -5,17 +5,16 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator
-from dataclasses import replace
 
 import pytest
 
 from microros_gen.client.plan.creation import CreateNames, create_size, participant_reference
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import NodePlan, PublisherPlan
+from tests.support.plans import DECLARED, INT32, POOL, changed
 from tests.support.runtime.bench import Bench
 from tests.support.runtime.creating_agent import CREATE, DELETE, CreatingAgent
 from tests.support.runtime.driver import Client
-from tests.support.runtime.harness import DECLARED, INT32, POOL
 
 WAYS = ("binary", "xml", "reference")
 STREAMS = ("best_effort", "reliable")
@@ -37,21 +36,25 @@ XML_WRITER = (
 
 def plan_of(entities: str, creation: str) -> RuntimePlan:
     """Return a plan with the storage that its largest CREATE takes; one with references has one node."""
-    base = replace(POOL, nodes_max=1) if (entities, creation) == ("reference", "best_effort") else POOL
-    name = base.name_size - 1
+    base = (
+        changed(POOL, entities__nodes__max=1)
+        if (entities, creation) == ("reference", "best_effort")
+        else POOL
+    )
+    name = base.entities.name_size - 1
     names = CreateNames(
-        2 * name + 1, name + 2, 28, len(participant_reference("x" * 2 * name, base.nodes_max))
+        2 * name + 1, name + 2, 28, len(participant_reference("x" * 2 * name, base.entities.nodes.max))
     )
     size = create_size(names, entities)
     if creation == "best_effort":
-        return replace(base, entities=entities, best_effort_size=size)
-    return replace(
+        return changed(base, creation__entities=entities, streams__best_effort_size=size)
+    return changed(
         base,
-        entities=entities,
-        creation=creation,
-        creation_size=size,
-        reliable_input_slots=1,
-        reliable_input_slot_size=base.input_size,
+        creation__entities=entities,
+        creation__stream=creation,
+        creation__size=size,
+        input__reliable_slots=1,
+        input__reliable_slot_size=base.input.size,
     )
 
 
@@ -73,7 +76,7 @@ def requests_of(datagrams: list[bytes]) -> list[bytes]:
 
 
 def stream_of(plan: RuntimePlan) -> int:
-    return 0x80 if plan.creation == "reliable" else 0x01
+    return 0x80 if plan.creation.stream == "reliable" else 0x01
 
 
 def test_entities_are_created_once_each(bench: Bench, plan: RuntimePlan) -> None:
@@ -130,7 +133,7 @@ def test_a_request_is_repeated_until_its_status_comes(bench: Bench, plan: Runtim
     sent = requests_of(client.sent)
     assert len(sent) == lost + 1
     assert len({d[4:] for d in sent}) == 1, "under one request id"
-    if plan.creation == "reliable":
+    if plan.creation.stream == "reliable":
         assert len(set(sent)) == 1, "the same message again"
     assert agent.created() == OBJECTS[:1]
 
@@ -157,7 +160,7 @@ def test_a_restarted_agent_gets_entities_before_what_was_kept(bench: Bench, plan
     agent.silent = True
     for word in "ab":
         client.ok(f"say 0 {word}")
-    client.spin(plan.liveliness_attempts + 3, plan.liveliness_period_ms)
+    client.spin(plan.times.liveliness_attempts + 3, plan.times.liveliness_period_ms)
     agent.restart()
     agent.requests.clear()
     agent.silent = False
@@ -169,16 +172,16 @@ def test_a_restarted_agent_gets_entities_before_what_was_kept(bench: Bench, plan
     client.ok("flush 200")
     assert [body[4:5] for _, body in agent.written] == [b"a", b"b", b"c"]
     data = [d for d in client.sent if d[4] == 0x07]
-    first = 4 if plan.creation == "reliable" else 0
+    first = 4 if plan.creation.stream == "reliable" else 0
     assert data[0][2:4] == bytes([first, 0]), "numbers go on behind the requests"
 
 
 def test_what_is_dropped_while_entities_are_created_leaves_no_gap(bench: Bench) -> None:
-    plan = replace(plan_of("binary", "reliable"), on_full="drop_oldest")
+    plan = changed(plan_of("binary", "reliable"), streams__on_full="drop_oldest")
     client, agent = started(bench, plan)
     agent.silent = True
-    client.spin(plan.liveliness_attempts + 3, plan.liveliness_period_ms)
-    for i in range(plan.reliable_slots + 2):
+    client.spin(plan.times.liveliness_attempts + 3, plan.times.liveliness_period_ms)
+    for i in range(plan.streams.reliable_slots + 2):
         client.ok(f"say 0 {i}")
     agent.restart()
     agent.silent = False
@@ -216,7 +219,9 @@ def lossy(seed: int) -> Iterator[bool]:
 
 @pytest.mark.parametrize("seed", range(6))
 def test_reliable_creation_with_losses_acts_once(bench: Bench, seed: int) -> None:
-    plan = replace(plan_of("binary", "reliable"), create_timeout_ms=4000, connect_timeout_ms=4000)
+    plan = changed(
+        plan_of("binary", "reliable"), times__create_timeout_ms=4000, times__connect_timeout_ms=4000
+    )
     losses = lossy(seed)
     agent = CreatingAgent(drop=lambda datagram: next(losses), drop_answer=lambda answer: next(losses))
     client = bench.start(plan, "none", agent)
@@ -316,7 +321,7 @@ def test_qos_in_xml(bench: Bench, qos: str, words: tuple[bytes, ...]) -> None:
 
 
 def test_the_largest_create_fits_to_the_byte(bench: Bench, plan: RuntimePlan) -> None:
-    name = "n" * (plan.name_size - 1)
+    name = "n" * (plan.entities.name_size - 1)
     client = bench.start(plan, "ping", CreatingAgent())
     for call in (
         "init",
@@ -325,17 +330,20 @@ def test_the_largest_create_fits_to_the_byte(bench: Bench, plan: RuntimePlan) ->
     ):
         client.ok(call)
     largest = max(len(d) for d in requests_of(client.sent))
-    room = plan.creation_size if plan.creation == "reliable" else plan.best_effort_size
+    room = plan.creation.size if plan.creation.stream == "reliable" else plan.streams.best_effort_size
     assert largest == room
 
 
-PRECONFIGURED = replace(
+PRECONFIGURED = changed(
     DECLARED,
-    entities="preconfigured",
-    nodes_max=2,
-    publishers_max=3,
-    nodes=(*DECLARED.nodes, NodePlan(1, "leg", "/", "leg", 0)),
-    publishers=(*DECLARED.publishers, PublisherPlan(2, 1, "/walk", "rt/walk", INT32, False)),
+    creation__entities="preconfigured",
+    entities__nodes__max=2,
+    entities__publishers__max=3,
+    entities__nodes__declared=(*DECLARED.entities.nodes.declared, NodePlan(1, "leg", "/", "leg", 0)),
+    entities__publishers__declared=(
+        *DECLARED.entities.publishers.declared,
+        PublisherPlan(2, 1, "/walk", "rt/walk", INT32, False),
+    ),
 )
 
 
@@ -372,7 +380,7 @@ def test_a_preconfigured_client_finds_its_way_back(bench: Bench) -> None:
         client.ok(call)
     agent.silent = True
     client.ok("publish 0 1")
-    client.spin(PRECONFIGURED.liveliness_attempts + 3, PRECONFIGURED.liveliness_period_ms)
+    client.spin(PRECONFIGURED.times.liveliness_attempts + 3, PRECONFIGURED.times.liveliness_period_ms)
     result = client.call("publish 0 2")
     assert result.error == "publisher /arm/chatter: no session with the agent"
     opened = client.call("publisher 1 0 Int32 ~/fast best_effort")

@@ -4,23 +4,26 @@
 from __future__ import annotations
 
 import random
-from dataclasses import replace
 
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
+from tests.support.plans import POOL, changed
 from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
 from tests.support.runtime.fake_agent import FakeAgent
-from tests.support.runtime.harness import POOL
 
-RELIABLE = replace(
-    POOL, creation="reliable", creation_size=128, reliable_input_slots=1, reliable_input_slot_size=64
+RELIABLE = changed(
+    POOL,
+    creation__stream="reliable",
+    creation__size=128,
+    input__reliable_slots=1,
+    input__reliable_slot_size=64,
 )
 PLANS = {
     "small": RELIABLE,
-    "held": replace(RELIABLE, reliable_input_slots=4),
-    "fragments": replace(RELIABLE, mtu=24, fragments=True, reliable_slot_size=256),
+    "held": changed(RELIABLE, input__reliable_slots=4),
+    "fragments": changed(RELIABLE, streams__mtu=24, streams__fragments=True, streams__reliable_slot_size=256),
 }
 ACKNACK = 0x0A
 
@@ -77,13 +80,13 @@ def test_fragments_from_the_agent_are_malformed_and_acknowledged(bench: Bench) -
 
 @pytest.mark.parametrize("plan", PLANS.values(), ids=PLANS)
 def test_a_new_session_counts_from_zero_in_both_directions(bench: Bench, plan: RuntimePlan) -> None:
-    client = bench.start(replace(plan, on_full="drop_oldest"))
+    client = bench.start(changed(plan, streams__on_full="drop_oldest"))
     connect(client)
     client.ok("publish 0 1")
     client.ok("flush 500")
     client.agent.restart()
     client.agent.silent = True
-    client.spin(POOL.liveliness_attempts + 3, POOL.liveliness_period_ms)
+    client.spin(POOL.times.liveliness_attempts + 3, POOL.times.liveliness_period_ms)
     for value in range(2, 9):
         client.ok(f"publish 0 {value}")
     client.agent.silent = False

@@ -9,21 +9,21 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from tests.support.runtime.harness import EXECUTOR, build, components, render
+from tests.support.plans import EXECUTOR, changed
+from tests.support.runtime.harness import build, components, render
 from tests.support.runtime.reading_agent import ReadingAgent
 
-PLAN = replace(
+PLAN = changed(
     EXECUTOR,
-    transport="custom",
-    timers_max=0,
-    connect_timeout_ms=10_000,
-    create_timeout_ms=10_000,
-    liveliness_period_ms=5000,
+    transport__kind="custom",
+    timers__max=0,
+    times__connect_timeout_ms=10_000,
+    times__create_timeout_ms=10_000,
+    times__liveliness_period_ms=5000,
 )
 
 
@@ -52,7 +52,7 @@ def serving(agent: ReadingAgent) -> Iterator[tuple[socket.socket, list[tuple[str
 @pytest.mark.parametrize("read_polls", [True, False])
 def test_calls_without_a_time_out(read_polls: bool, framing: str, tmp_path: Path) -> None:
     """What is acknowledged is seen although no call waits, where the read function looks and returns."""
-    plan = replace(PLAN, framing=framing, read_polls=read_polls)
+    plan = changed(PLAN, transport__framing=framing, transport__read_polls=read_polls)
     tree = render(tmp_path, plan, components(plan))
     program = build(tree, ["types_read.c", "custom_wait.c"], "custom_wait")
     with serving(ReadingAgent()) as (served, _):
@@ -66,7 +66,7 @@ def test_calls_without_a_time_out(read_polls: bool, framing: str, tmp_path: Path
 
 @pytest.mark.parametrize("framing", ["off", "either"])
 def test_the_processor_rests(framing: str, tmp_path: Path) -> None:
-    plan = replace(PLAN, framing=framing)
+    plan = changed(PLAN, transport__framing=framing)
     tree = render(tmp_path, plan, components(plan))
     program = build(tree, ["types_read.c", "custom_wait.c"], "custom_wait")
     agent = ReadingAgent()
@@ -80,7 +80,7 @@ def test_the_processor_rests(framing: str, tmp_path: Path) -> None:
         reads, busy_ms, took_ms = (int(word) for word in process.stdout.readline().split())
         time.sleep(0.2)
         sent = time.monotonic()
-        for answer in agent.numbers(plan.publisher_places, 7):
+        for answer in agent.numbers(plan.entities.publisher_places, 7):
             served.sendto(answer, peers[-1])
         came = float(process.stdout.readline())
         assert process.wait(timeout=20) == 0

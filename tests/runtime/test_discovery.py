@@ -9,24 +9,24 @@ import subprocess
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from microros_gen.client.plan.runtime import DISCOVERY_GROUP
+from microros_gen.client.plan.slices import DISCOVERY_GROUP
+from tests.support.plans import POOL, changed
 from tests.support.runtime.discovery import info, locator
-from tests.support.runtime.harness import POOL, build, components, render
+from tests.support.runtime.harness import build, components, render
 from tests.support.runtime.tcp import TcpAgent, serving
 from tests.support.runtime.udp import UdpAgent
 
-PLAN = replace(
+PLAN = changed(
     POOL,
-    agent_host=DISCOVERY_GROUP,
-    has_discovery=True,
-    connect_timeout_ms=3000,
-    create_timeout_ms=3000,
-    liveliness_period_ms=50,
+    transport__agent_host=DISCOVERY_GROUP,
+    transport__has_discovery=True,
+    times__connect_timeout_ms=3000,
+    times__create_timeout_ms=3000,
+    times__liveliness_period_ms=50,
 )
 QUESTION = bytes.fromhex("80000000 02010800 0009fffd 03000000")
 Answers = Callable[[], list[bytes]]
@@ -70,7 +70,7 @@ def answering(answers: Answers) -> Iterator[Group]:
 
 
 def run(group: Group, folder: Path, **changes: object) -> subprocess.CompletedProcess[str]:
-    plan = replace(PLAN, agent_port=group.port, discovery_port=group.port, **changes)  # type: ignore[arg-type]
+    plan = changed(PLAN, transport__agent_port=group.port, transport__discovery_port=group.port, **changes)
     program = build(render(folder, plan, components(plan)), ["types.c", "udp.c"], "udp")
     return subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
 

@@ -3,12 +3,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
+from tests.support.plans import DECLARED, POOL, changed
 from tests.support.runtime.bench import Bench
-from tests.support.runtime.harness import DECLARED, POOL
 
 TOPIC_INVALID = 103
 NODE_NAME_INVALID = 201
@@ -55,7 +53,7 @@ def test_an_agent_that_stops_half_way(bench: Bench) -> None:
     client.agent.drop = lambda datagram: datagram[12] == 3  # CREATE of the publisher
     result = client.call("publisher 0 0 Int32 x reliable")
     assert (result.code, result.error) == (2, "publisher /x: no answer of the agent within 400 ms")
-    assert POOL.create_timeout_ms <= result.slept <= POOL.create_timeout_ms + 1
+    assert POOL.times.create_timeout_ms <= result.slept <= POOL.times.create_timeout_ms + 1
     client.agent.drop = lambda datagram: False
     client.ok("publisher 0 0 Int32 x reliable")
     client.ok("publish 0 1")
@@ -134,7 +132,7 @@ def test_full_pools_name_the_key(bench: Bench) -> None:
 
 def test_long_names_name_the_key(bench: Bench) -> None:
     client = bench.connected()
-    name = "a" * (POOL.name_size - 2)
+    name = "a" * (POOL.entities.name_size - 2)
     client.ok(f"publisher 1 0 Int32 {name} reliable")
     result = client.call(f"publisher 2 0 Int32 {name}b reliable")
     assert result.error == f"name '{name}b' takes 32 bytes: set pools: {{name_size: 33}} in microros.yaml"
@@ -150,7 +148,7 @@ def test_places_are_reused_with_other_topics(bench: Bench) -> None:
 
 
 def test_a_place_that_could_not_be_deleted_is_deleted_before_it_is_used_again(bench: Bench) -> None:
-    client = bench.connected(replace(POOL, publishers_max=1))
+    client = bench.connected(changed(POOL, entities__publishers__max=1))
     client.agent.silent = True
     client.ok("publisher_fini 0 0")
     client.agent.silent = False
@@ -162,7 +160,7 @@ def test_a_place_that_could_not_be_deleted_is_deleted_before_it_is_used_again(be
 
 
 def test_an_old_owner_that_cannot_be_deleted_is_said(bench: Bench) -> None:
-    client = bench.connected(replace(POOL, publishers_max=1))
+    client = bench.connected(changed(POOL, entities__publishers__max=1))
     client.agent.silent = True
     client.ok("publisher_fini 0 0")
     result = client.call("publisher 0 0 Int32 other reliable")
@@ -173,7 +171,7 @@ def test_what_was_closed_without_a_session_is_deleted_in_the_next(bench: Bench) 
     client = bench.connected()
     client.ok("publisher 1 0 Int32 second reliable")
     client.agent.silent = True
-    client.spin(POOL.liveliness_attempts + 3, POOL.liveliness_period_ms)
+    client.spin(POOL.times.liveliness_attempts + 3, POOL.times.liveliness_period_ms)
     client.ok("destroy_timeout 0")
     client.ok("publisher_fini 1 0")
     client.agent.silent = False
@@ -278,8 +276,10 @@ def test_a_type_whose_name_does_not_fit_a_create(bench: Bench) -> None:
     """A type that the plan does not know; the longest CREATE that it knows fills the stream to the last byte."""
     size = len("std_msgs::msg::dds_::Int32_") + 1
     fits = 4 + 16 + 24 + 4 + size + 2
-    bench.connected(replace(POOL, best_effort_size=fits, type_name_size=size), topic="twelve_bytes")
-    client = bench.start(replace(POOL, type_name_size=size - 1))
+    bench.connected(
+        changed(POOL, streams__best_effort_size=fits, entities__type_name_size=size), topic="twelve_bytes"
+    )
+    client = bench.start(changed(POOL, entities__type_name_size=size - 1))
     for call in ("init", "node 0 n -"):
         client.ok(call)
     result = client.call("publisher 0 0 Int32 twelve_bytes reliable")
@@ -290,14 +290,14 @@ def test_a_type_whose_name_does_not_fit_a_create(bench: Bench) -> None:
 
 
 def test_a_type_that_does_not_fit_its_stream(bench: Bench) -> None:
-    client = bench.connected(replace(POOL, reliable_slot_size=24))
+    client = bench.connected(changed(POOL, streams__reliable_slot_size=24))
     result = client.call("publisher 1 0 String words reliable")
     assert result.error.startswith("std_msgs/msg/String takes 13 bytes and its stream holds 12: ")
     client.ok("publisher 1 0 String words best_effort")
 
 
 def test_a_stream_that_the_plan_does_not_have(bench: Bench) -> None:
-    plan = replace(POOL, reliable_slots=0, reliable_slot_size=0)
+    plan = changed(POOL, streams__reliable_slots=0, streams__reliable_slot_size=0)
     client = bench.connected(plan, qos="best_effort")
     assert client.call("publisher 1 0 Int32 x reliable").error.startswith(
         "std_msgs/msg/Int32 takes 4 bytes and its "
@@ -307,7 +307,7 @@ def test_a_stream_that_the_plan_does_not_have(bench: Bench) -> None:
 
 
 def test_codes_instead_of_text(bench: Bench) -> None:
-    client = bench.connected(replace(POOL, error_text_size=0))
+    client = bench.connected(changed(POOL, errors__text_size=0))
     assert client.call("publisher 1 0 Int32 9 reliable").error == "E08"
     assert client.call("node 0 a/b -").error == "E08"
     assert client.call("init").error == "E03"

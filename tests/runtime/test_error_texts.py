@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import replace
 
 import pytest
 
@@ -17,7 +16,7 @@ from microros_gen.client.plan.streams import LARGEST_MTU
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.documents.templates import make_environment
 from microros_gen.selection.find_components import components_folder
-from tests.support.runtime.harness import POOL
+from tests.support.plans import POOL, changed
 
 TEXT = re.compile(
     r'^const char (microros_error_\w+)\[\] =\n? *((?:"[^"\n]*"(?: XRCE_\w+ )?\s*)+);', re.MULTILINE
@@ -90,7 +89,9 @@ def full_text(plan: RuntimePlan) -> str:
     ],
 )
 def test_a_full_stream_advises_what_helps(slots: int, on_full: str, advice: list[str]) -> None:
-    text = full_text(replace(POOL, reliable_slots=slots, on_full=on_full, on_full_block_ms=20))
+    text = full_text(
+        changed(POOL, streams__reliable_slots=slots, streams__on_full=on_full, streams__on_full_block_ms=20)
+    )
     assert advised(text) == advice
     assert [said for line in advice for said in refused(line)] == []
     assert advice[:1] == [f"pools: {{history: {slots + 1}}}"] or "publish less often" in text

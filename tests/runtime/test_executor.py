@@ -4,41 +4,32 @@
 from __future__ import annotations
 
 import subprocess
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan, TimerPlan
-from tests.support.runtime.harness import (
-    EXECUTOR,
-    ROS_TIME,
-    SANITIZE,
-    Tree,
-    build,
-    compilers,
-    components,
-    render,
-)
+from tests.support.plans import EXECUTOR, ROS_TIME, changed
+from tests.support.runtime.harness import SANITIZE, Tree, build, compilers, components, render
 
 MS = 1_000_000
-TICKS = replace(
+TICKS = changed(
     EXECUTOR,
-    timers=(
+    timers__declared=(
         TimerPlan(0, 0, "system", 10 * MS, "rtos"),
         TimerPlan(1, 0, "hardware", 20 * MS, "hardware"),
         TimerPlan(2, 0, "plain", 30 * MS),
     ),
 )
-CHANGES = replace(
+CHANGES = changed(
     EXECUTOR,
-    mtu=256,
-    best_effort_size=256,
-    timers_max=2,
-    services_max=3,
-    clients_max=2,
-    queues=(*(QueuePlan(2, 16),) * 2, *(QueuePlan(2, 40),) * 3, *(QueuePlan(2, 20),) * 2),
+    streams__mtu=256,
+    streams__best_effort_size=256,
+    timers__max=2,
+    entities__services__max=3,
+    entities__clients__max=2,
+    input__queues=(*(QueuePlan(2, 16),) * 2, *(QueuePlan(2, 40),) * 3, *(QueuePlan(2, 20),) * 2),
 )
 UNITS = {
     "unit_clock.c": EXECUTOR,
@@ -69,7 +60,7 @@ def test_unit(unit: str, compiler: str, flags: tuple[str, ...], tmp_path: Path) 
 def _run(unit: str, plan: RuntimePlan, compiler: str, flags: tuple[str, ...], tmp_path: Path) -> None:
     names = [name for name in components(plan) if name != "port_posix"]
     tree = render(tmp_path, plan, names)
-    fixtures = ["port_agent.c", "types_read.c", *(["types_clock.c"] if plan.has_ros_time else []), unit]
+    fixtures = ["port_agent.c", "types_read.c", *(["types_clock.c"] if plan.clock.has_ros_time else []), unit]
     program = build(tree, fixtures, "unit", compiler, flags)
     done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 0, done.stderr

@@ -5,22 +5,28 @@ from __future__ import annotations
 
 import random
 import struct
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from tests.support.plans import POOL, changed
 from tests.support.runtime.bench import Bench, ProgramFactory
 from tests.support.runtime.driver import Client
 from tests.support.runtime.fake_agent import FakeAgent
-from tests.support.runtime.harness import POOL
 
 MTU = 32
 PIECE = MTU - 8
 FRAGMENT, HEARTBEAT, WRITE_DATA = 0x0D, 0x0B, 0x07
-LARGE = replace(POOL, mtu=MTU, fragments=True, reliable_slots=3, reliable_slot_size=1024)
-LARGE_DROP = replace(LARGE, on_full="drop_oldest")
+LARGE = changed(
+    POOL,
+    streams__mtu=MTU,
+    streams__fragments=True,
+    streams__reliable_slots=3,
+    streams__reliable_slot_size=1024,
+)
+LARGE_DROP = changed(LARGE, streams__on_full="drop_oldest")
 LAST = 0x02
 WRITER = b"\0\x05"
 
@@ -148,7 +154,7 @@ def test_a_new_session_sends_the_whole_again(bench: Bench) -> None:
     client.agent.restart()
     client.agent.drop = lambda datagram: False
     client.agent.silent = True
-    client.spin(POOL.liveliness_attempts + 3, POOL.liveliness_period_ms)
+    client.spin(POOL.times.liveliness_attempts + 3, POOL.times.liveliness_period_ms)
     client.agent.silent = False
     client.spin(30, 20)
     client.ok("flush 2000")
@@ -172,7 +178,7 @@ def test_drop_oldest_leaves_alone_what_is_on_its_way(bench: Bench) -> None:
 
 def test_a_message_on_its_way_is_not_given_up(bench: Bench) -> None:
     """One slot, which the plan refuses with drop_oldest: the newer message is refused."""
-    client = bench.connected(replace(LARGE_DROP, reliable_slots=1))
+    client = bench.connected(changed(LARGE_DROP, streams__reliable_slots=1))
     client.ok("flush 500")
     client.agent.silent = True
     client.ok("large 0 100 1")

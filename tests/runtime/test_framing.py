@@ -6,7 +6,6 @@ from __future__ import annotations
 import random
 import subprocess
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -14,19 +13,11 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from microros_gen.selection.find_components import components_folder
+from tests.support.plans import POOL, changed
 from tests.support.runtime.frames import CLIENT, Event, crc16, events, frame, stuffed
-from tests.support.runtime.harness import (
-    FIXTURES,
-    POOL,
-    SANITIZE,
-    Tree,
-    compile_objects,
-    components,
-    link,
-    render,
-)
+from tests.support.runtime.harness import FIXTURES, SANITIZE, Tree, compile_objects, components, link, render
 
-SERIAL = replace(POOL, transport="serial")
+SERIAL = changed(POOL, transport__kind="serial")
 SEND, KEPT = "xrce_framing_send.c", "xrce_framing_kept.c"
 VARIANTS = {
     "gcc": ("gcc", SANITIZE, SEND),

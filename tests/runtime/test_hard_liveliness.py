@@ -3,16 +3,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
 from tests.support.agent.fakes import Bench as AgentBench
+from tests.support.plans import POOL, changed
 from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
-from tests.support.runtime.harness import POOL
 
-PLAN = replace(POOL, hard_liveliness_ms=2000)
+PLAN = changed(POOL, session__hard_liveliness_ms=2000)
 CAPTURED = bytes.fromhex(
     "58524345 0100 010f a1b2c3d4 81 01 0000 01000000 07000000 7578725f686c00 00 07000000 30303230303000"
 )

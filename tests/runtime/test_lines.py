@@ -11,21 +11,25 @@ import threading
 import time
 import tty
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import NodePlan, PublisherPlan
+from tests.support.plans import INT32, POOL, changed
 from tests.support.runtime.fake_agent import FakeAgent
 from tests.support.runtime.frames import AGENT, CLIENT, events, frame
-from tests.support.runtime.harness import INT32, POOL, Tree, build, components, render
+from tests.support.runtime.harness import Tree, build, components, render
 from tests.support.runtime.udp import UdpAgent
 
-PLAN = replace(POOL, connect_timeout_ms=3000, create_timeout_ms=3000, liveliness_period_ms=50)
-SERIAL = replace(PLAN, transport="serial", serial_device="/dev/null")
-CUSTOM = {way: replace(PLAN, transport="custom", framing=way) for way in ("on", "off", "either")}
+PLAN = changed(
+    POOL, times__connect_timeout_ms=3000, times__create_timeout_ms=3000, times__liveliness_period_ms=50
+)
+SERIAL = changed(PLAN, transport__kind="serial", transport__device="/dev/null")
+CUSTOM = {
+    way: changed(PLAN, transport__kind="custom", transport__framing=way) for way in ("on", "off", "either")
+}
 
 
 class LineAgent(threading.Thread):
@@ -95,7 +99,7 @@ def _noise(seed: int) -> Callable[[bytes], bytes]:
 def test_serial_over_a_pseudo_terminal(noisy: bool, tmp_path: Path) -> None:
     agent = LineAgent(_noise(7) if noisy else bytes)
     agent.start()
-    done = _run(_program(tmp_path, replace(SERIAL, serial_device=agent.path), "udp.c"))
+    done = _run(_program(tmp_path, changed(SERIAL, transport__device=agent.path), "udp.c"))
     agent.stop()
     assert done.returncode == 0, done.stdout + done.stderr
     values = agent.agent.values()
@@ -106,7 +110,7 @@ def test_serial_over_a_pseudo_terminal(noisy: bool, tmp_path: Path) -> None:
 
 def test_a_terminal_that_nobody_reads_stops_nothing_and_gets_all_of_it_later(tmp_path: Path) -> None:
     """The port alone: what the system has no room for waits in the port, and no call does."""
-    plan = replace(SERIAL, executors_max=1, handles_max=1)
+    plan = changed(SERIAL, executor__max=1, executor__handles_max=1)
     tree = render(tmp_path, plan, components(plan))
     wanted = ("port_posix_serial.c", "port_posix_wait.c", "port_posix_time.c")
     alone = Tree(tree.folder, tuple(s for s in tree.sources if s.name in wanted))
@@ -119,7 +123,7 @@ def test_a_terminal_that_nobody_reads_stops_nothing_and_gets_all_of_it_later(tmp
     assert running.stdin is not None
     assert running.stdout is not None
     size, worst_ms = map(int, running.stdout.readline().split())
-    assert size > plan.send_buffer, "the system took some of it, and the port the rest"
+    assert size > plan.transport.send_buffer, "the system took some of it, and the port the rest"
     assert worst_ms < 90, "a write that waited for room gave up after 100 ms"
     running.stdin.write("\n")
     running.stdin.flush()
@@ -143,15 +147,27 @@ def test_closing_lets_what_waits_for_the_line_leave(entities: str, goes_on: str,
     """The port holds more than a kilobyte when the session is closed; a line that takes nothing holds it no longer than
     `close_timeout`.
     """
-    plan = replace(SERIAL, declared=True, type_name_size=0, nodes_max=1, publishers_max=1, name_size=0)
-    plan = replace(plan, entities=entities, close_timeout_ms=CLOSING_MS[goes_on], liveliness_period_ms=30_000)
+    plan = changed(
+        SERIAL,
+        entities__declared=True,
+        entities__type_name_size=0,
+        entities__nodes__max=1,
+        entities__publishers__max=1,
+        entities__name_size=0,
+    )
+    plan = changed(
+        plan,
+        creation__entities=entities,
+        times__close_timeout_ms=CLOSING_MS[goes_on],
+        times__liveliness_period_ms=30_000,
+    )
     agent = LineAgent()
     agent.agent.objects[b"\0\x05"] = b""  # that of a preconfigured writer
-    plan = replace(
+    plan = changed(
         plan,
-        serial_device=agent.path,
-        nodes=(NodePlan(0, "talker", "/", "talker", 0),),
-        publishers=(PublisherPlan(0, 0, "/chatter", "rt/chatter", INT32, False),),
+        transport__device=agent.path,
+        entities__nodes__declared=(NodePlan(0, "talker", "/", "talker", 0),),
+        entities__publishers__declared=(PublisherPlan(0, 0, "/chatter", "rt/chatter", INT32, False),),
     )
     agent.start()
     program = _program(tmp_path, plan, "closing.c")
@@ -193,7 +209,7 @@ def _eventually(condition: Callable[[], bool]) -> None:
     ],
 )
 def test_no_such_line(device: str, baud: int, words: str, tmp_path: Path) -> None:
-    plan = replace(SERIAL, serial_device=device, serial_baud=baud, connect_timeout_ms=100)
+    plan = changed(SERIAL, transport__device=device, transport__baud=baud, times__connect_timeout_ms=100)
     done = _run(_program(tmp_path, plan, "udp.c"))
     assert (done.returncode, done.stdout) == (2, words)
 
@@ -202,7 +218,7 @@ def test_no_such_line(device: str, baud: int, words: str, tmp_path: Path) -> Non
 def test_speeds(baud: int, code: int, tmp_path: Path) -> None:
     agent = LineAgent()
     agent.start()
-    plan = replace(SERIAL, serial_device=agent.path, serial_baud=baud, connect_timeout_ms=500)
+    plan = changed(SERIAL, transport__device=agent.path, transport__baud=baud, times__connect_timeout_ms=500)
     done = _run(_program(tmp_path, plan, "udp.c"))
     agent.stop()
     assert done.returncode == code, done.stdout + done.stderr
@@ -249,8 +265,12 @@ def test_custom_that_was_never_set(tmp_path: Path) -> None:
 @pytest.mark.parametrize("way", ["off", "either"])
 def test_a_call_uses_a_transport_of_packets_once(way: str, tmp_path: Path) -> None:
     """One fragment a call, since the write function may wait; and no read, which waits, while somebody else reads."""
-    plan = replace(
-        CUSTOM[way], fragments=True, reliable_slots=4, reliable_slot_size=1024, liveliness_period_ms=5000
+    plan = changed(
+        CUSTOM[way],
+        streams__fragments=True,
+        streams__reliable_slots=4,
+        streams__reliable_slot_size=1024,
+        times__liveliness_period_ms=5000,
     )
     agent = UdpAgent()
     agent.start()

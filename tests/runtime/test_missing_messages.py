@@ -4,19 +4,18 @@
 from __future__ import annotations
 
 import struct
-from dataclasses import replace
 
 import pytest
 
 from microros_gen.client.plan.runtime_entities import QueuePlan
+from tests.support.plans import POOL, READER, changed
 from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
-from tests.support.runtime.harness import POOL, READER
 from tests.support.runtime.reading_agent import ReadingAgent
 
-FIRST = POOL.publishers_max
+FIRST = POOL.entities.publishers.max
 PIECES = 9
-LARGE = replace(READER, queues=(QueuePlan(1, 500), QueuePlan(1, 16)), arrives_in_fragments=True)
+LARGE = changed(READER, input__queues=(QueuePlan(1, 500), QueuePlan(1, 16)), input__arrives_in_fragments=True)
 TEXT = "z" * (PIECES * 56 - 8 - 5)
 SAMPLE = struct.pack("<I", len(TEXT) + 1) + TEXT.encode() + b"\0"
 
@@ -26,7 +25,7 @@ class Line:
 
     def __init__(self, bench: Bench, slots: int) -> None:
         self.agent = ReadingAgent()
-        plan = replace(LARGE, reliable_input_slots=slots)
+        plan = changed(LARGE, input__reliable_slots=slots)
         self.client: Client = bench.start(plan, agent=self.agent)
         for call in ("init", "node 0 listener -", "read_init 0 0 String go reliable"):
             self.client.ok(call)
@@ -139,7 +138,7 @@ def test_what_is_left_of_a_session_does_not_touch_the_next(bench: Bench, behind:
     client.spin(3)
     agent.restart()
     agent.silent = True
-    client.spin(READER.liveliness_attempts + 4, READER.liveliness_period_ms)
+    client.spin(READER.times.liveliness_attempts + 4, READER.times.liveliness_period_ms)
     assert client.call("connected").code == 0, "not now"
     first, last = (1, 2) if behind else (100, 105)
     client.queued += [

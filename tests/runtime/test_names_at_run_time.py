@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import ctypes
 import subprocess
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.support.application.names import NAMES, accepted
-from tests.support.runtime.harness import POOL, components, render
+from tests.support.plans import POOL, changed
+from tests.support.runtime.harness import components, render
 
 pytestmark = pytest.mark.ros
 
@@ -144,7 +144,7 @@ class Names:
 @pytest.fixture(scope="module")
 def names(tmp_path_factory: pytest.TempPathFactory) -> Names:
     folder = tmp_path_factory.mktemp("names")
-    plan = replace(POOL, error_text_size=0)
+    plan = changed(POOL, errors__text_size=0)
     tree = render(folder, plan, [*components(plan), "name_substitutions"])
     (folder / "probe.c").write_text(PROBE, encoding="utf-8")
     command = ["gcc", "-shared", "-fPIC", "-Wall", "-Wextra", "-Werror", f"-I{tree.include}"]

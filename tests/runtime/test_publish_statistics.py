@@ -6,20 +6,20 @@ from __future__ import annotations
 import subprocess
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
+from tests.support.plans import POOL, changed
 from tests.support.runtime.driver import Client
 from tests.support.runtime.fake_agent import FakeAgent
-from tests.support.runtime.harness import POOL, build, components, render
+from tests.support.runtime.harness import build, components, render
 
-DROP_OLDEST = replace(POOL, on_full="drop_oldest")
-FRAGMENTS = replace(DROP_OLDEST, mtu=64, fragments=True, reliable_slot_size=300)
-BLOCK = replace(POOL, on_full="block", on_full_block_ms=5)
+DROP_OLDEST = changed(POOL, streams__on_full="drop_oldest")
+FRAGMENTS = changed(DROP_OLDEST, streams__mtu=64, streams__fragments=True, streams__reliable_slot_size=300)
+BLOCK = changed(POOL, streams__on_full="block", streams__on_full_block_ms=5)
 FIXTURES = ("port_fake.c", "client.c", "client_ping.c", "client_no_time.c", "client_no_read.c")
 
 
@@ -29,7 +29,7 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Callable[[RuntimePlan],
     def compiled(plan: RuntimePlan) -> Path:
         names = [name for name in components(plan) if name != "port_posix"] + ["publish_statistics"]
         tree = render(tmp_path_factory.mktemp("client"), plan, names)
-        extra = "client_drops_sleep.c" if plan.has_sleep else "client_drops.c"
+        extra = "client_drops_sleep.c" if plan.session.has_sleep else "client_drops.c"
         return build(tree, [*FIXTURES, "client_no_serve.c", extra, "types.c"], "client")
 
     return compiled
@@ -62,7 +62,7 @@ def test_what_is_refused_for_want_of_room(connect: Callable[..., Client], plan: 
     client = connect(plan)
     assert dropped(client) == [0, 0]
     client.agent.silent = True
-    for value in range(plan.reliable_slots + 3):
+    for value in range(plan.streams.reliable_slots + 3):
         client.call(f"publish 0 {value}")
     assert dropped(client) == [3, 0]
     client.call("publish 1 9")
@@ -79,7 +79,7 @@ def test_who_makes_room_has_dropped(connect: Callable[..., Client], plan: Runtim
     client = connect(plan)
     client.agent.restart()
     client.agent.silent = True
-    client.spin(plan.liveliness_attempts + 3, plan.liveliness_period_ms)
+    client.spin(plan.times.liveliness_attempts + 3, plan.times.liveliness_period_ms)
     for value in range(3):
         client.ok(f"publish 0 {value}")
     client.ok("publish 1 3")
@@ -97,7 +97,7 @@ def test_who_makes_room_has_dropped(connect: Callable[..., Client], plan: Runtim
 def test_no_session_and_a_new_owner(connect: Callable[..., Client]) -> None:
     client = connect(DROP_OLDEST, "best_effort")
     client.agent.silent = True
-    client.spin(POOL.liveliness_attempts + 3, POOL.liveliness_period_ms)
+    client.spin(POOL.times.liveliness_attempts + 3, POOL.times.liveliness_period_ms)
     client.ok("publish 1 1")
     client.ok("publish 1 2")
     assert dropped(client) == [0, 2]
@@ -112,7 +112,7 @@ def test_no_session_and_a_new_owner(connect: Callable[..., Client]) -> None:
 
 def test_it_outlives_a_sleep(program: Callable[[RuntimePlan], Path], tmp_path: Path) -> None:
     """A publisher that is opened again as it was goes on counting; one that is another begins at 0."""
-    plan = replace(POOL, has_sleep=True, has_session_state=True)
+    plan = changed(POOL, session__has_sleep=True, session__has_state=True)
     agent = FakeAgent()
     with Client(program(plan), agent) as client:
         for call in (
@@ -123,7 +123,7 @@ def test_it_outlives_a_sleep(program: Callable[[RuntimePlan], Path], tmp_path: P
         ):
             client.ok(call)
         agent.silent = True
-        for value in range(plan.reliable_slots + 2):
+        for value in range(plan.streams.reliable_slots + 2):
             client.call(f"publish 0 {value}")
         client.call("publish 1 9")
         assert dropped(client) == [2, 1]
@@ -140,7 +140,7 @@ def test_it_outlives_a_sleep(program: Callable[[RuntimePlan], Path], tmp_path: P
 
 
 def test_without_it_there_is_no_counter(tmp_path: Path) -> None:
-    plan = replace(POOL, error_text_size=0)
+    plan = changed(POOL, errors__text_size=0)
     names = components(plan)
     without = render(tmp_path / "without", plan, names)
     with_it = render(tmp_path / "with", plan, [*names, "publish_statistics"])
@@ -155,4 +155,4 @@ def test_without_it_there_is_no_counter(tmp_path: Path) -> None:
             ["nm", "-S", str(tree.folder / "size.o")], capture_output=True, text=True, check=True
         )
         sizes.append(int(said.stdout.split()[1], 16))
-    assert 4 * plan.publishers_max <= sizes[1] - sizes[0] <= 4 * plan.publishers_max + 4
+    assert 4 * plan.entities.publishers.max <= sizes[1] - sizes[0] <= 4 * plan.entities.publishers.max + 4

@@ -5,36 +5,40 @@ from __future__ import annotations
 
 import random
 import struct
-from dataclasses import replace
 
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan, SubscriptionPlan
+from tests.support.plans import DECLARED, INT32, READER, changed
 from tests.support.runtime.bench import Bench
-from tests.support.runtime.harness import DECLARED, INT32, READER, STRING
+from tests.support.runtime.harness import STRING
 from tests.support.runtime.places import Places, text
 
 LARGEST, BYTES, FAST_BYTES, SLOTS = 400, 800, 700, 10
-PLAN = replace(
+PLAN = changed(
     DECLARED,
-    subscriptions=(
+    entities__subscriptions__declared=(
         SubscriptionPlan(0, 0, "/arm/go", "rt/arm/go", STRING, True),
         SubscriptionPlan(1, 0, "/arm/fast", "rt/arm/fast", STRING, False),
         SubscriptionPlan(2, 0, "/arm/number", "rt/arm/number", INT32, True),
     ),
-    subscriptions_max=3,
-    queues=(QueuePlan(SLOTS, LARGEST, BYTES), QueuePlan(SLOTS, 300, FAST_BYTES), QueuePlan(3, 16)),
-    input_size=320,
-    reliable_input_slots=2,
-    reliable_input_slot_size=320,
-    arrives_in_fragments=True,
+    entities__subscriptions__max=3,
+    input__queues=(QueuePlan(SLOTS, LARGEST, BYTES), QueuePlan(SLOTS, 300, FAST_BYTES), QueuePlan(3, 16)),
+    input__size=320,
+    input__reliable_slots=2,
+    input__reliable_slot_size=320,
+    input__arrives_in_fragments=True,
 )
-SLEEPLESS = replace(PLAN, arrives_in_fragments=False, queues=(QueuePlan(SLOTS, 200, 400), *PLAN.queues[1:]))
+SLEEPLESS = changed(
+    PLAN,
+    input__arrives_in_fragments=False,
+    input__queues=(QueuePlan(SLOTS, 200, 400), *PLAN.input.queues[1:]),
+)
 """Every sample comes whole."""
 OPENED = ("String go reliable", "String fast best_effort", "Int32 number reliable")
 GO, FAST, NUMBER = range(3)
-FIRST = PLAN.publisher_places
+FIRST = PLAN.entities.publisher_places
 
 
 def share(size: int) -> int:
@@ -120,10 +124,10 @@ def test_nothing_is_lost_under_loss_and_disorder(bench: Bench, plan: RuntimePlan
     """Reliable samples, each once and in order; nothing that was acknowledged had no room."""
     chance = random.Random(seed)
     places = Places(bench, plan, OPENED)
-    places.agent.mtu = 64 if plan.arrives_in_fragments else 320
+    places.agent.mtu = 64 if plan.input.arrives_in_fragments else 320
     places.agent.drop = lambda datagram: chance.random() < 0.1
     places.agent.drop_answer = lambda answer: chance.random() < 0.1
-    longest = plan.queues[GO].slot_size - 6
+    longest = plan.input.queues[GO].slot_size - 6
     sent: list[list[str]] = [[], []]
     found: list[list[str]] = [[], []]
     for number in range(4000):
@@ -189,17 +193,17 @@ def test_a_larger_sample_than_the_largest_is_refused(bench: Bench) -> None:
 
 def test_a_place_of_a_pool_knows_the_largest_of_its_type(bench: Bench) -> None:
     """An Int32 takes four bytes, a String of this program up to 16; both places could hold one of 40."""
-    plan = replace(READER, queues=(QueuePlan(8, 40, 40), QueuePlan(8, 40, 40)))
+    plan = changed(READER, input__queues=(QueuePlan(8, 40, 40), QueuePlan(8, 40, 40)))
     places = Places(bench, plan, ("Int32 number reliable", "String text reliable"))
     assert [r.samples for r in places.agent.reads] == [8, 2]
-    places.send(places.agent.numbers(plan.publisher_places, *range(20)))
+    places.send(places.agent.numbers(plan.entities.publisher_places, *range(20)))
     found = []
     for _ in range(12):
         places.client.spin(3)
         while (value := places.take(0)) is not None:
             found.append(int(value))
     assert found == list(range(20))
-    places.send(places.agent.offer(plan.publisher_places, bytes(36)))
+    places.send(places.agent.offer(plan.entities.publisher_places, bytes(36)))
     places.client.spin(2)
     result = places.client.call("read_take 0")
     assert (result.code, result.error) == (

@@ -5,36 +5,40 @@ from __future__ import annotations
 
 import random
 import struct
-from dataclasses import replace
 
 import pytest
 
 from microros_gen.application.names import expand_topic_name
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan, SubscriptionPlan
+from tests.support.plans import DECLARED, INT32, POOL, READER, changed
 from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
-from tests.support.runtime.harness import DECLARED, INT32, POOL, READER, STRING
+from tests.support.runtime.harness import STRING
 from tests.support.runtime.reading_agent import READ_DATA, UNLIMITED, ReadingAgent
 
 TAKE_FAILED = 401
-FIRST = POOL.publishers_max
+FIRST = POOL.entities.publishers.max
 """The first subscription's index among the endpoints."""
-DECLARED_READER = replace(
+DECLARED_READER = changed(
     DECLARED,
-    subscriptions=(
+    entities__subscriptions__declared=(
         SubscriptionPlan(0, 0, "/arm/go", "rt/arm/go", INT32, True),
         SubscriptionPlan(1, 0, "/arm/words", "rt/arm/words", STRING, False),
     ),
-    subscriptions_max=2,
-    queues=(QueuePlan(2, 4), QueuePlan(1, 16)),
-    reliable_input_slots=1,
-    reliable_input_slot_size=64,
+    entities__subscriptions__max=2,
+    input__queues=(QueuePlan(2, 4), QueuePlan(1, 16)),
+    input__reliable_slots=1,
+    input__reliable_slot_size=64,
 )
-ONLY_READER = replace(
-    DECLARED_READER, publishers=(), publishers_max=1, reliable_slots=0, reliable_slot_size=0
+ONLY_READER = changed(
+    DECLARED_READER,
+    entities__publishers__declared=(),
+    entities__publishers__max=1,
+    streams__reliable_slots=0,
+    streams__reliable_slot_size=0,
 )
-PRECONFIGURED = replace(DECLARED_READER, entities="preconfigured")
+PRECONFIGURED = changed(DECLARED_READER, creation__entities="preconfigured")
 
 
 class Reader:
@@ -43,10 +47,14 @@ class Reader:
     def __init__(
         self, bench: Bench, plan: RuntimePlan = READER, qos: str = "reliable", type_name: str = "Int32"
     ) -> None:
-        self.agent = ReadingAgent(preconfigured=plan.entities == "preconfigured")
+        self.agent = ReadingAgent(preconfigured=plan.creation.entities == "preconfigured")
         self.client: Client = bench.start(plan, agent=self.agent)
-        name = f"{plan.nodes[0].name} {plan.nodes[0].namespace}" if plan.declared else "listener -"
-        self.index = plan.publisher_places
+        name = (
+            f"{plan.entities.nodes.declared[0].name} {plan.entities.nodes.declared[0].namespace}"
+            if plan.entities.declared
+            else "listener -"
+        )
+        self.index = plan.entities.publisher_places
         self.client.ok("init")
         self.client.ok(f"node 0 {name}")
         self.client.ok(f"read_init 0 0 {type_name} go {qos}")
@@ -228,7 +236,7 @@ def test_read_data_is_sent_again_until_it_is_acknowledged(bench: Bench) -> None:
     reader = Reader(bench)
     reader.agent.drop_answer = lambda answer: answer[4] == 0x0A
     reader.client.ok("read_init 1 0 Int32 more reliable")
-    reader.client.spin(10, POOL.retry_first_ms)
+    reader.client.spin(10, POOL.times.retry_first_ms)
     sent = [d for d in reader.client.sent if d[4] == READ_DATA][1:]
     assert len(sent) > 5
     assert len(set(sent)) == 1
@@ -236,7 +244,7 @@ def test_read_data_is_sent_again_until_it_is_acknowledged(bench: Bench) -> None:
     reader.number(7, index=FIRST + 1)
     assert reader.take(1) == 7, "a sample says as well that it has arrived"
     count = len(reader.client.sent)
-    reader.client.spin(3, POOL.retry_first_ms)
+    reader.client.spin(3, POOL.times.retry_first_ms)
     assert not [d for d in reader.client.sent[count:] if d[4] == READ_DATA]
 
 
@@ -249,7 +257,7 @@ def test_a_refused_read_is_told_and_tried_again(bench: Bench) -> None:
     assert (result.code, result.error) == (1, "/more: the agent refuses READ_DATA: UNKNOWN_REFERENCE")
     assert reader.client.call("read_take 1").code == TAKE_FAILED, "told once"
     reader.agent.read_status = 0
-    reader.client.spin(4, POOL.retry_most_ms)
+    reader.client.spin(4, POOL.times.retry_most_ms)
     reader.number(5, index=FIRST + 1)
     assert reader.take(1) == 5
     assert reader.client.statistics()["refused"] == 1
@@ -264,7 +272,7 @@ def test_a_subscription_goes_on_after_the_agent_restarts(bench: Bench, plan: Run
     reader.number(1)
     assert reader.take() == 1
     reader.agent.restart()
-    reader.client.spin(plan.liveliness_attempts + 25, 50)
+    reader.client.spin(plan.times.liveliness_attempts + 25, 50)
     assert reader.client.statistics()["reconnects"] == 1
     reader.number(2)
     assert reader.take() == 2
@@ -287,7 +295,7 @@ def test_what_waits_here_stays_over_a_lost_session(bench: Bench) -> None:
 def test_an_agent_that_lives_on_while_the_client_reconnects(bench: Bench) -> None:
     reader = Reader(bench, qos="best_effort")
     reader.agent.silent = True
-    reader.client.spin(POOL.liveliness_attempts + 3, POOL.liveliness_period_ms)
+    reader.client.spin(POOL.times.liveliness_attempts + 3, POOL.times.liveliness_period_ms)
     reader.agent.silent = False
     reader.client.spin(20, 50)
     reader.number(4, 5)
@@ -426,7 +434,10 @@ def test_any_bytes_leave_it_sound(bench: Bench) -> None:
     """Mutated datagrams of the agent; the sanitizers watch."""
     chance = random.Random(11)
     reader = Reader(
-        bench, replace(READER, queues=(QueuePlan(3, 100), QueuePlan(3, 16)), arrives_in_fragments=True)
+        bench,
+        changed(
+            READER, input__queues=(QueuePlan(3, 100), QueuePlan(3, 16)), input__arrives_in_fragments=True
+        ),
     )
     reader.agent.mtu = 40
     for value in range(400):
@@ -441,10 +452,10 @@ def test_any_bytes_leave_it_sound(bench: Bench) -> None:
         assert value >= 0
 
 
-LARGE = replace(
+LARGE = changed(
     READER,
-    queues=(QueuePlan(2, 400), QueuePlan(2, 16)),
-    arrives_in_fragments=True,
+    input__queues=(QueuePlan(2, 400), QueuePlan(2, 16)),
+    input__arrives_in_fragments=True,
 )
 
 

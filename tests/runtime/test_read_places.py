@@ -5,29 +5,28 @@ from __future__ import annotations
 
 import random
 import struct
-from dataclasses import replace
 
 import pytest
 
 from microros_gen.client.plan.runtime_entities import QueuePlan
+from tests.support.plans import POOL, READER, changed
 from tests.support.runtime.bench import Bench
-from tests.support.runtime.harness import POOL, READER
 from tests.support.runtime.places import Places, text
 from tests.support.runtime.reading_agent import ReadingAgent
 
-FIRST = POOL.publishers_max
-FRAGMENTS = replace(
+FIRST = POOL.entities.publishers.max
+FRAGMENTS = changed(
     READER,
-    subscriptions_max=3,
-    queues=(QueuePlan(1, 400), QueuePlan(1, 300), QueuePlan(3, 16)),
-    arrives_in_fragments=True,
+    entities__subscriptions__max=3,
+    input__queues=(QueuePlan(1, 400), QueuePlan(1, 300), QueuePlan(3, 16)),
+    input__arrives_in_fragments=True,
 )
-LENT = replace(
+LENT = changed(
     READER,
-    input_size=440,
-    queues=(QueuePlan(1, 400), QueuePlan(3, 16)),
-    input_reader=0,
-    input_free=64,
+    input__size=440,
+    input__queues=(QueuePlan(1, 400), QueuePlan(3, 16)),
+    input__reader=0,
+    input__free=64,
 )
 
 

@@ -5,18 +5,17 @@ from __future__ import annotations
 
 import random
 import struct
-from dataclasses import replace
 
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan
+from tests.support.plans import SERVER, changed
 from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
-from tests.support.runtime.harness import SERVER
 from tests.support.runtime.serving_agent import GUID, ServingAgent, identity
 
-SHARED = replace(SERVER, queues=(QueuePlan(9, 40, 60), QueuePlan(3, 20, 20), QueuePlan(2, 20)))
+SHARED = changed(SERVER, input__queues=(QueuePlan(9, 40, 60), QueuePlan(3, 20, 20), QueuePlan(2, 20)))
 """With `queue_bytes`."""
 REPLIER = bytes.fromhex("0018")
 REQUESTER = bytes.fromhex("0027")
@@ -297,7 +296,9 @@ def test_places_names_and_invalid_handles(bench: Bench) -> None:
 
 @pytest.mark.parametrize("entities", ["xml", "reference"])
 def test_other_ways_to_describe(bench: Bench, entities: str) -> None:
-    peer = Peer(bench, replace(SERVER, entities=entities, best_effort_size=512, mtu=512))
+    peer = Peer(
+        bench, changed(SERVER, creation__entities=entities, streams__best_effort_size=512, streams__mtu=512)
+    )
     replier, requester = peer.agent.objects[REPLIER], peer.agent.objects[REQUESTER]
     if entities == "reference":
         assert replier[:2] == b"\x08\x01"

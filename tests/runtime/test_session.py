@@ -5,15 +5,14 @@ from __future__ import annotations
 
 import random
 import struct
-from dataclasses import replace
 
 import pytest
 
+from tests.support.plans import DECLARED, POOL, changed
 from tests.support.runtime.bench import Bench
 from tests.support.runtime.fake_agent import FakeAgent
-from tests.support.runtime.harness import DECLARED, POOL
 
-PERIOD = POOL.liveliness_period_ms
+PERIOD = POOL.times.liveliness_period_ms
 LOGIN = bytes.fromhex("80000000 0001")
 
 
@@ -22,7 +21,7 @@ def test_no_agent_is_a_timeout_that_says_where(bench: Bench) -> None:
     result = client.call("init")
     assert result.code == 2
     assert result.error == "no agent answers at 127.0.0.1:8888 within 400 ms"
-    assert POOL.connect_timeout_ms <= result.slept <= POOL.connect_timeout_ms + 1
+    assert POOL.times.connect_timeout_ms <= result.slept <= POOL.times.connect_timeout_ms + 1
     assert [d[:6] for d in client.sent] == [LOGIN] * 5, "at 0, 40, 80, 160 and 320 ms"
     client.agent.silent = False
     client.ok("init")
@@ -110,7 +109,7 @@ def test_fini_without_an_agent_ends(bench: Bench) -> None:
     client = bench.connected()
     client.agent.silent = True
     result = client.ok("publisher_fini 0 0")
-    assert POOL.close_timeout_ms <= result.slept <= POOL.close_timeout_ms + 1
+    assert POOL.times.close_timeout_ms <= result.slept <= POOL.times.close_timeout_ms + 1
     client.ok("destroy_timeout 0")
     assert client.ok("node_fini 0").slept == 0
     sent = len(client.sent)
@@ -128,8 +127,8 @@ def test_silence_is_asked_about_and_then_the_session_is_lost(bench: Bench) -> No
     client.spin(1, 1)
     ping = bytes.fromhex("81000000 02010800 000afffd 02000000")
     assert client.sent == [ping]
-    client.spin(POOL.liveliness_attempts * PERIOD - 1, 1)
-    assert client.sent == [ping] * POOL.liveliness_attempts
+    client.spin(POOL.times.liveliness_attempts * PERIOD - 1, 1)
+    assert client.sent == [ping] * POOL.times.liveliness_attempts
     client.spin(1, 1)
     assert client.sent[-1][:6] == LOGIN
     assert client.call("connected").code == 0
@@ -186,7 +185,7 @@ def test_without_liveliness_nothing_is_asked(bench: Bench) -> None:
 def test_no_session_refuses_at_once_and_counts(bench: Bench) -> None:
     client = bench.connected()
     client.agent.silent = True
-    client.spin(POOL.liveliness_attempts + 3, PERIOD)
+    client.spin(POOL.times.liveliness_attempts + 3, PERIOD)
     result = client.call("publish 0 1")
     assert (result.code, result.slept) == (1, 0)
     assert result.error == "publisher /chatter: no session with the agent"
@@ -196,7 +195,7 @@ def test_no_session_refuses_at_once_and_counts(bench: Bench) -> None:
 def test_reconnection_slows_down(bench: Bench) -> None:
     client = bench.connected()
     client.agent.silent = True
-    client.spin(POOL.liveliness_attempts + 3, PERIOD)
+    client.spin(POOL.times.liveliness_attempts + 3, PERIOD)
     client.sent.clear()
     client.spin(1600, 1)
     assert len(client.sent) in (10, 11), "every retry_most_ms = 160"
@@ -295,6 +294,6 @@ def _random_datagram(chance: random.Random) -> bytes:
 
 
 def test_times_of_the_plan_hold(bench: Bench) -> None:
-    plan = replace(POOL, connect_timeout_ms=50)
+    plan = changed(POOL, times__connect_timeout_ms=50)
     client = bench.start(plan, agent=FakeAgent(silent=True))
     assert 50 <= client.call("init").slept <= 51

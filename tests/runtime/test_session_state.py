@@ -3,17 +3,15 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
+from tests.support.plans import POOL, READER, changed
 from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
-from tests.support.runtime.harness import POOL, READER
 from tests.support.runtime.reading_agent import ReadingAgent
 
 CLOSED, CONNECTING, CONNECTED, LOST, RECONNECTING = range(5)
 NONE, SILENT, FORGOTTEN, UNACKNOWLEDGED, BROKEN, REFUSED = range(6)
-PLAN = replace(READER, has_session_state=True, has_sleep=True)
-PERIOD = POOL.liveliness_period_ms
+PLAN = changed(READER, session__has_state=True, session__has_sleep=True)
+PERIOD = POOL.times.liveliness_period_ms
 
 
 class Watched:
@@ -69,7 +67,7 @@ def test_the_agent_starts_anew(bench: Bench) -> None:
     kept = watched.agent.values()
     assert kept == sorted(set(kept))
     assert len(kept) + watched.counters["dropped"] == 6, "each was sent once, or counted"
-    watched.client.queued += watched.agent.numbers(PLAN.publishers_max, 5)
+    watched.client.queued += watched.agent.numbers(PLAN.entities.publishers.max, 5)
     watched.spin(1)
     assert watched.call("read_take 0") == ("value 5",)
 

@@ -4,29 +4,28 @@
 from __future__ import annotations
 
 import struct
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan, SubscriptionPlan
+from tests.support.plans import DECLARED, INT32, READER, SERVER, changed
 from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
-from tests.support.runtime.harness import DECLARED, INT32, READER, SERVER
 from tests.support.runtime.reading_agent import ReadingAgent
 from tests.support.runtime.serving_agent import ServingAgent, identity
 
-PLAN = replace(READER, has_session_state=True, has_sleep=True)
-DECLARED_PLAN = replace(
+PLAN = changed(READER, session__has_state=True, session__has_sleep=True)
+DECLARED_PLAN = changed(
     DECLARED,
-    has_session_state=True,
-    has_sleep=True,
-    subscriptions=(SubscriptionPlan(0, 0, "/arm/go", "rt/arm/go", INT32, True),),
-    subscriptions_max=1,
-    queues=(QueuePlan(4, 4),),
-    reliable_input_slots=1,
-    reliable_input_slot_size=64,
+    session__has_state=True,
+    session__has_sleep=True,
+    entities__subscriptions__declared=(SubscriptionPlan(0, 0, "/arm/go", "rt/arm/go", INT32, True),),
+    entities__subscriptions__max=1,
+    input__queues=(QueuePlan(4, 4),),
+    input__reliable_slots=1,
+    input__reliable_slot_size=64,
 )
 CREATE_CLIENT, CREATE, DELETE = 0x00, 0x01, 0x03
 REPLIER = bytes.fromhex("0018")
@@ -38,7 +37,7 @@ class Device:
     def __init__(self, bench: Bench, memory: Path, plan: RuntimePlan = PLAN) -> None:
         self._bench, self._plan, self.memory = bench, plan, memory
         self.agent = ReadingAgent()
-        self.index = plan.publisher_places
+        self.index = plan.entities.publisher_places
         self.client: Client = bench.start(plan, agent=self.agent)
         self.begin()
 
@@ -47,8 +46,8 @@ class Device:
         self.begin_rest(publisher)
 
     def begin_rest(self, publisher: str = "reliable") -> None:
-        name = "imu /arm" if self._plan.declared else "n -"
-        topic = "/arm/chatter" if self._plan.declared else "chatter"
+        name = "imu /arm" if self._plan.entities.declared else "n -"
+        topic = "/arm/chatter" if self._plan.entities.declared else "chatter"
         for call in (
             f"node 0 {name}",
             f"publisher 0 0 Int32 {topic} {publisher}",
@@ -218,7 +217,7 @@ def test_memory_that_is_not_what_was_written(bench: Bench, memory: Path, place: 
 def test_another_plan_and_another_key(bench: Bench, memory: Path) -> None:
     device = Device(bench, memory)
     device.sleep()
-    other = bench.start(replace(PLAN, plan_id="fedcba9876543210"), agent=ReadingAgent())
+    other = bench.start(changed(PLAN, plan_id="fedcba9876543210"), agent=ReadingAgent())
     assert other.call(f"extra_wake {memory}").code == 0
     assert device.start()
     device.client.ok("init_options 0 127.0.0.1 8888 00000099")
@@ -242,7 +241,7 @@ def test_no_sleep_without_a_session(bench: Bench, memory: Path) -> None:
 
 def test_services_go_on(bench: Bench, memory: Path) -> None:
     """A request that waits for its reply gets it after the sleep; one that was not taken is taken then."""
-    plan = replace(SERVER, has_session_state=True, has_sleep=True)
+    plan = changed(SERVER, session__has_state=True, session__has_sleep=True)
     agent = ServingAgent()
 
     def start() -> Client:

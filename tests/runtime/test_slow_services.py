@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import pytest
 
 from microros_gen.application.model import SessionTimes
+from tests.support.plans import SERVER
 from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
-from tests.support.runtime.harness import SERVER
 from tests.support.runtime.serving_agent import ServingAgent, identity
 from tests.support.runtime.times import with_times
 
@@ -22,7 +22,7 @@ REPLIER = bytes.fromhex("0018")
 TAKE_FAILED, REPLY_FAILED = 601, 501
 STEP_MS = 20
 CALLS = 6
-SLOTS = SERVER.reliable_slots
+SLOTS = SERVER.streams.reliable_slots
 
 
 @dataclass(frozen=True)

@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 import subprocess
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from tests.support.runtime.harness import EXECUTOR, components, render
+from tests.support.plans import EXECUTOR, changed
+from tests.support.runtime.harness import components, render
 
 FILES = (
     "rmw_ping.c",
@@ -29,8 +29,16 @@ SAVED = 96
 def frames(folder: Path, transport: str, size: int) -> dict[str, int]:
     """Return the bytes of each function's frame, for an image whose messages have `size` bytes."""
     discovers = transport in ("udp", "tcp")
-    plan = replace(EXECUTOR, transport=transport, has_time_sync=True, has_discovery=discovers)
-    plan = replace(plan, mtu=size, input_size=size, reliable_input_slot_size=size, best_effort_size=size)
+    plan = changed(
+        EXECUTOR, transport__kind=transport, session__has_time_sync=True, transport__has_discovery=discovers
+    )
+    plan = changed(
+        plan,
+        streams__mtu=size,
+        input__size=size,
+        input__reliable_slot_size=size,
+        streams__best_effort_size=size,
+    )
     tree = render(folder, plan, components(plan))
     for source in tree.sources:
         if source.name in FILES:

@@ -9,26 +9,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import ExitStack
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
+from tests.support.plans import POOL, changed
 from tests.support.runtime.discovery import info, locator
 from tests.support.runtime.driver import Client
-from tests.support.runtime.harness import POOL, build, components, render
+from tests.support.runtime.harness import build, components, render
 from tests.support.runtime.time_sync import EPOCH_NS, TimedAgent, answer, moment
 from tests.support.runtime.wires import Datagrams, Frames, Lengths, Wire
 
-BASE = replace(POOL, has_time_sync=True)
+BASE = changed(POOL, session__has_time_sync=True)
 PLANS = {
-    "udp": replace(BASE, has_discovery=True),
-    "tcp": replace(BASE, transport="tcp", has_discovery=True),
-    "serial": replace(BASE, transport="serial"),
-    "custom-framed": replace(BASE, transport="custom", framing="on"),
-    "custom-packets": replace(BASE, transport="custom", framing="off"),
+    "udp": changed(BASE, transport__has_discovery=True),
+    "tcp": changed(BASE, transport__kind="tcp", transport__has_discovery=True),
+    "serial": changed(BASE, transport__kind="serial"),
+    "custom-framed": changed(BASE, transport__kind="custom", transport__framing="on"),
+    "custom-packets": changed(BASE, transport__kind="custom", transport__framing="off"),
 }
 WIRES: dict[str, type[Wire]] = {
     "udp": Datagrams,
@@ -37,8 +37,8 @@ WIRES: dict[str, type[Wire]] = {
     "custom-framed": Frames,
     "custom-packets": Datagrams,
 }
-PERIOD = POOL.liveliness_period_ms
-LOST_MS = PERIOD * (POOL.liveliness_attempts + 1)
+PERIOD = POOL.times.liveliness_period_ms
+LOST_MS = PERIOD * (POOL.times.liveliness_attempts + 1)
 FIXTURES = ("port_fake.c", "port_fake_lines.c", "client.c", "client_ping.c", "client_time.c", "types.c")
 NONE = ("client_no_read.c", "client_no_serve.c", "client_no_extra.c")
 
@@ -61,7 +61,7 @@ def program(tmp_path_factory: pytest.TempPathFactory):  # type: ignore[no-untype
 def client(request: pytest.FixtureRequest, program) -> Iterator[Client]:  # type: ignore[no-untyped-def]
     """A client of each transport that has made no call yet."""
     name, multithread = request.param
-    plan = replace(PLANS[name], multithread=multithread)
+    plan = changed(PLANS[name], session__multithread=multithread)
     agent = TimedAgent(reply=lambda o: [answer(moment(EPOCH_NS), moment(EPOCH_NS), o)])
     with ExitStack() as stack:
         yield stack.enter_context(Client(program(plan), agent, WIRES[name]()))
@@ -144,7 +144,7 @@ def test_a_ping_that_is_answered_brings_the_session_back_soon(client: Client) ->
     client.spin(100, 100)  # by now it asks seldom
     silence(client, False)
     assert client.call("ping 20 1").code == 0
-    client.spin(POOL.retry_first_ms // 10 + 4, 10)
+    client.spin(POOL.times.retry_first_ms // 10 + 4, 10)
     works(client, 1)
 
 

@@ -4,16 +4,15 @@
 from __future__ import annotations
 
 import random
-from dataclasses import replace
 
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
+from tests.support.plans import POOL, changed
 from tests.support.runtime.bench import Bench
-from tests.support.runtime.harness import POOL
 
-DROP_OLDEST = replace(POOL, on_full="drop_oldest")
-BLOCK = replace(POOL, on_full="block", on_full_block_ms=30)
+DROP_OLDEST = changed(POOL, streams__on_full="drop_oldest")
+BLOCK = changed(POOL, streams__on_full="block", streams__on_full_block_ms=30)
 ACKNACK = 0x0A
 HEARTBEAT = 0x0B
 WRITE_DATA = 0x07
@@ -22,7 +21,7 @@ WRITE_DATA = 0x07
 def test_full_stream_names_what_to_raise(bench: Bench) -> None:
     client = bench.connected()
     client.agent.silent = True
-    for value in range(POOL.reliable_slots):
+    for value in range(POOL.streams.reliable_slots):
         client.ok(f"publish 0 {value}")
     result = client.call("publish 0 9")
     assert (result.code, result.slept) == (1, 0)
@@ -40,7 +39,7 @@ def test_full_stream_names_what_to_raise(bench: Bench) -> None:
 def test_a_full_stream_of_a_lost_session_advises_no_larger_history(bench: Bench) -> None:
     client = bench.connected()
     client.agent.silent = True
-    for value in range(POOL.reliable_slots):
+    for value in range(POOL.streams.reliable_slots):
         client.ok(f"publish 0 {value}")
     client.spin(500, 20)
     assert client.call("publish 0 9").error == "publisher /chatter: no session with the agent"
@@ -105,7 +104,7 @@ def test_drop_oldest_holds_the_newest_over_a_lost_session(bench: Bench) -> None:
     client = bench.connected(DROP_OLDEST)
     client.agent.restart()
     client.agent.silent = True
-    client.spin(POOL.liveliness_attempts + 3, POOL.liveliness_period_ms)
+    client.spin(POOL.times.liveliness_attempts + 3, POOL.times.liveliness_period_ms)
     for value in range(7):
         client.ok(f"publish 0 {value}")
     client.agent.silent = False
@@ -117,7 +116,7 @@ def test_drop_oldest_holds_the_newest_over_a_lost_session(bench: Bench) -> None:
 def test_drop_oldest_gives_best_effort_up_without_a_session(bench: Bench) -> None:
     client = bench.connected(DROP_OLDEST, qos="best_effort")
     client.agent.silent = True
-    client.spin(POOL.liveliness_attempts + 3, POOL.liveliness_period_ms)
+    client.spin(POOL.times.liveliness_attempts + 3, POOL.times.liveliness_period_ms)
     client.ok("publish 0 1")
     assert client.statistics()["dropped"] == 1
 
@@ -144,7 +143,7 @@ def test_block_waits_for_room_and_no_longer(bench: Bench) -> None:
         assert client.ok(f"publish 0 {value}").slept == 0
     result = client.call("publish 0 4")
     assert result.code == 1
-    assert BLOCK.on_full_block_ms <= result.slept <= BLOCK.on_full_block_ms + 1
+    assert BLOCK.streams.on_full_block_ms <= result.slept <= BLOCK.streams.on_full_block_ms + 1
 
     def answer_late() -> None:
         client.agent.silent = False
@@ -189,7 +188,7 @@ def test_blocking_waits_for_the_line_too(bench: Bench) -> None:
     client.tell("send_fails 1")
     result = client.call("publish 0 1")
     assert (result.code, result.error) == (1, "publisher /chatter: the transport has no room for it")
-    assert BLOCK.on_full_block_ms <= result.slept <= BLOCK.on_full_block_ms + 1
+    assert BLOCK.streams.on_full_block_ms <= result.slept <= BLOCK.streams.on_full_block_ms + 1
     assert client.statistics()["dropped"] == 1
     client.on_sleep = lambda: client.tell("send_fails 0")
     assert client.ok("publish 0 2").slept == 1
@@ -207,7 +206,9 @@ def test_all_acked_waits_for_the_agent(bench: Bench) -> None:
     assert client.call("acked 0 -1").code == 0
 
 
-@pytest.mark.parametrize("plan", [POOL, replace(POOL, fragments=True)], ids=["whole", "in fragments"])
+@pytest.mark.parametrize(
+    "plan", [POOL, changed(POOL, streams__fragments=True)], ids=["whole", "in fragments"]
+)
 def test_held_messages_wait_for_their_writers_however_long_creation_takes(
     bench: Bench, plan: RuntimePlan
 ) -> None:
@@ -219,9 +220,9 @@ def test_held_messages_wait_for_their_writers_however_long_creation_takes(
     for index in range(3):
         client.ok(f"publish {index} {index}")
     client.agent.restart()
-    client.spin(POOL.liveliness_attempts + 3, POOL.liveliness_period_ms)
+    client.spin(POOL.times.liveliness_attempts + 3, POOL.times.liveliness_period_ms)
     client.agent.silent = False
-    client.round_trip_ms = POOL.create_timeout_ms // 5
+    client.round_trip_ms = POOL.times.create_timeout_ms // 5
     client.spin(200, 10)
     assert [client.agent.values(index) for index in range(3)] == [[0], [1], [2]]
 
@@ -231,7 +232,7 @@ def test_held_messages_go_out_when_one_entity_stays_refused(bench: Bench) -> Non
     client.agent.silent = True
     client.ok("publish 0 1")
     client.agent.restart()
-    client.spin(POOL.liveliness_attempts + 3, POOL.liveliness_period_ms)
+    client.spin(POOL.times.liveliness_attempts + 3, POOL.times.liveliness_period_ms)
     client.agent.silent = False
     client.agent.refuse = {"datawriter": 0x80}
     client.spin(100, 10)

@@ -6,75 +6,84 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan, SubscriptionPlan
-from tests.support.runtime.harness import (
-    DECLARED,
-    FIXTURES,
-    INT32,
-    POOL,
-    READER,
-    Tree,
-    compile_objects,
-    compilers,
-    components,
-    link,
-    render,
-)
+from tests.support.plans import DECLARED, INT32, POOL, READER, changed
+from tests.support.runtime.harness import FIXTURES, Tree, compile_objects, compilers, components, link, render
 
-BEST_EFFORT_ONLY = replace(
-    DECLARED, reliable_slots=0, reliable_slot_size=0, error_text_size=0, arena_size=512, on_full="drop_oldest"
-)
-BLOCKING = replace(POOL, on_full="block", on_full_block_ms=5, client_key=None)
-FRAGMENTS = replace(POOL, mtu=64, fragments=True, reliable_slot_size=70000, on_full="drop_oldest")
-CREATION = replace(
+BEST_EFFORT_ONLY = changed(
     DECLARED,
-    best_effort_size=0,
-    publishers=DECLARED.publishers[:1],
-    publishers_max=1,
-    creation="reliable",
-    creation_size=128,
-    reliable_input_slots=3,
-    reliable_input_slot_size=64,
+    streams__reliable_slots=0,
+    streams__reliable_slot_size=0,
+    errors__text_size=0,
+    memory__arena_size=512,
+    streams__on_full="drop_oldest",
 )
-ONLY_READER = replace(
+BLOCKING = changed(POOL, streams__on_full="block", streams__on_full_block_ms=5, session__client_key=None)
+FRAGMENTS = changed(
+    POOL,
+    streams__mtu=64,
+    streams__fragments=True,
+    streams__reliable_slot_size=70000,
+    streams__on_full="drop_oldest",
+)
+CREATION = changed(
     DECLARED,
-    publishers=(),
-    publishers_max=0,
-    reliable_slots=0,
-    reliable_slot_size=0,
-    subscriptions=(SubscriptionPlan(0, 0, "/arm/go", "rt/arm/go", INT32, True),),
-    subscriptions_max=1,
-    queues=(QueuePlan(4, 4),),
-    reliable_input_slots=1,
-    reliable_input_slot_size=64,
+    streams__best_effort_size=0,
+    entities__publishers__declared=DECLARED.entities.publishers.declared[:1],
+    entities__publishers__max=1,
+    creation__stream="reliable",
+    creation__size=128,
+    input__reliable_slots=3,
+    input__reliable_slot_size=64,
 )
-BEST_EFFORT_READER = replace(
+ONLY_READER = changed(
+    DECLARED,
+    entities__publishers__declared=(),
+    entities__publishers__max=0,
+    streams__reliable_slots=0,
+    streams__reliable_slot_size=0,
+    entities__subscriptions__declared=(SubscriptionPlan(0, 0, "/arm/go", "rt/arm/go", INT32, True),),
+    entities__subscriptions__max=1,
+    input__queues=(QueuePlan(4, 4),),
+    input__reliable_slots=1,
+    input__reliable_slot_size=64,
+)
+BEST_EFFORT_READER = changed(
     ONLY_READER,
-    reliable_input_slots=0,
-    reliable_input_slot_size=0,
-    error_text_size=0,
-    queues=(QueuePlan(1, 4),),
+    input__reliable_slots=0,
+    input__reliable_slot_size=0,
+    errors__text_size=0,
+    input__queues=(QueuePlan(1, 4),),
 )
-FRAGMENTED_READER = replace(
-    READER, entities="xml", mtu=64, arrives_in_fragments=True, queues=(QueuePlan(3, 2990),) * 2
+FRAGMENTED_READER = changed(
+    READER,
+    creation__entities="xml",
+    streams__mtu=64,
+    input__arrives_in_fragments=True,
+    input__queues=(QueuePlan(3, 2990),) * 2,
 )
 RELIABLE = {
-    "creation": "reliable",
-    "creation_size": 128,
-    "reliable_input_slots": 1,
-    "reliable_input_slot_size": 64,
+    "creation__stream": "reliable",
+    "creation__size": 128,
+    "input__reliable_slots": 1,
+    "input__reliable_slot_size": 64,
 }
 VARIANTS = {
-    "xml-reliable-acknack": (replace(POOL, entities="xml", **{**RELIABLE, "creation_size": 400}), "acknack"),
-    "reference-none": (replace(DECLARED, entities="reference"), "none"),
-    "reference-reliable-ping": (replace(POOL, entities="reference", best_effort_size=0, **RELIABLE), "ping"),
-    "preconfigured-none": (replace(DECLARED, entities="preconfigured"), "none"),
+    "xml-reliable-acknack": (
+        changed(POOL, creation__entities="xml", **{**RELIABLE, "creation__size": 400}),
+        "acknack",
+    ),
+    "reference-none": (changed(DECLARED, creation__entities="reference"), "none"),
+    "reference-reliable-ping": (
+        changed(POOL, creation__entities="reference", streams__best_effort_size=0, **RELIABLE),
+        "ping",
+    ),
+    "preconfigured-none": (changed(DECLARED, creation__entities="preconfigured"), "none"),
     "pool-ping": (POOL, "ping"),
     "declared-acknack": (DECLARED, "acknack"),
     "best-effort-none": (BEST_EFFORT_ONLY, "none"),
@@ -85,8 +94,8 @@ VARIANTS = {
     "reader-best-effort-none": (BEST_EFFORT_READER, "none"),
     "reader-only-none": (ONLY_READER, "none"),
     "reader-fragments-xml-ping": (FRAGMENTED_READER, "ping"),
-    "reader-preconfigured-ping": (replace(ONLY_READER, entities="preconfigured"), "ping"),
-    "reader-reference-ping": (replace(ONLY_READER, entities="reference"), "ping"),
+    "reader-preconfigured-ping": (changed(ONLY_READER, creation__entities="preconfigured"), "ping"),
+    "reader-reference-ping": (changed(ONLY_READER, creation__entities="reference"), "ping"),
 }
 FORBIDDEN = re.compile(
     r"\b(malloc|calloc|realloc|free|\w*printf|puts|fputs|fwrite|strtol|strdup|abort|exit|__assert\w*)$"
@@ -195,20 +204,22 @@ def test_no_symbol_that_is_not_selected(plan: RuntimePlan, liveliness: str, tmp_
     assert outside <= {"memcpy", "memset", "memcmp", "memmove", "strlen", "strcmp", "strncmp"}
     assert any("ping" in name for name in names) == (liveliness == "ping")
     acknack = {name for name in names if "acknack" in name and "xrce_read" not in name}
-    assert bool(acknack) == (liveliness == "acknack" or plan.reliable_slots > 0)
+    assert bool(acknack) == (liveliness == "acknack" or plan.streams.reliable_slots > 0)
     streams = {name for name in names if "stream_reliable" in name and "input" not in name}
-    assert bool(streams) == (plan.reliable_slots > 0)
-    assert any("xrce_read" in name for name in names) == plan.receives
+    assert bool(streams) == (plan.streams.reliable_slots > 0)
+    assert any("xrce_read" in name for name in names) == plan.input.receives
     assert any("subscription" in name for name in names if name.startswith("r")) == (
-        plan.subscriptions_max > 0
+        plan.entities.subscriptions.max > 0
     )
-    assert any("fragments" in name for name in names) == (plan.receives and plan.reliable_input_slots > 0)
-    assert ("rcl_publish" in names) == (plan.publisher_places > 0)
-    assert any("reliable_input" in name for name in names) == (plan.reliable_input_slots > 0)
+    assert any("fragments" in name for name in names) == (
+        plan.input.receives and plan.input.reliable_slots > 0
+    )
+    assert ("rcl_publish" in names) == (plan.entities.publisher_places > 0)
+    assert any("reliable_input" in name for name in names) == (plan.input.reliable_slots > 0)
     best_effort = {name for name in names if "xrce_stream_best_effort" in name and "input" not in name}
-    assert bool(best_effort) == (plan.best_effort_size > 0)
+    assert bool(best_effort) == (plan.streams.best_effort_size > 0)
     pieces = {"stream_flow", "stream_send_place", "stream_send_of", "stream_send_piece"}
-    assert bool(pieces & _local(objects)) == plan.fragments
+    assert bool(pieces & _local(objects)) == plan.streams.fragments
     _creates_as_the_plan_says(plan, names, b"".join(o.read_bytes() for o in objects))
     prefixes = ("rcl", "rclc", "rmw", "rcutils", "rosidl", "uxr", "xrce", "cdr", "port", "microros")
     assert all(name.startswith(prefixes) for name in names), "no name of ours can meet an application's"
@@ -217,22 +228,22 @@ def test_no_symbol_that_is_not_selected(plan: RuntimePlan, liveliness: str, tmp_
 def _creates_as_the_plan_says(plan: RuntimePlan, names: set[str], content: bytes) -> None:
     """No way to describe entities but the selected one, and none at all where they are preconfigured."""
     creation = {"xrce_creation_send", "xrce_describe", "xrce_entities_on_status", "xrce_session_leave"}
-    assert names & creation == (set() if plan.entities == "preconfigured" else creation)
-    assert any("reliable_input" in name for name in names) == (plan.reliable_input_slots > 0)
+    assert names & creation == (set() if plan.creation.entities == "preconfigured" else creation)
+    assert any("reliable_input" in name for name in names) == (plan.input.reliable_slots > 0)
     for word, way in (
         (b"<dds>", "xml"),
         (b"</name>", "xml"),
         (b"participant_profile", "reference"),
         (b"__dw", "reference"),
     ):
-        if way == plan.entities:
-            assert (word in content) == (word != b"participant_profile" or plan.nodes_max == 1)
+        if way == plan.creation.entities:
+            assert (word in content) == (word != b"participant_profile" or plan.entities.nodes.max == 1)
         else:
             assert word not in content
 
 
 def test_objects_of_another_plan_do_not_link(tree: Tree, tmp_path: Path) -> None:
-    other = render(tmp_path, replace(POOL, plan_id="fedcba9876543210"), components(POOL))
+    other = render(tmp_path, changed(POOL, plan_id="fedcba9876543210"), components(POOL))
     application = tmp_path / "application.c"
     application.write_text(
         "#include <rclc/rclc.h>\nint main(void) { rclc_support_t support; rcl_allocator_t a ="
@@ -256,8 +267,13 @@ ARM = ("-mcpu=cortex-m4", "-mthumb", "-Os")
 @pytest.mark.parametrize(("error_text_size", "most"), [(160, 9700), (0, 8300)])
 def test_size_on_a_cortex_m4(error_text_size: int, most: int, tmp_path: Path) -> None:
     """Of the library in a pure sender, without a port: two publishers, memcpy and memset of newlib included."""
-    plan = replace(DECLARED, error_text_size=error_text_size, best_effort_size=92, reliable_slot_size=16)
-    plan = replace(plan, fixed_messages=True)  # sender.c has Int32 alone
+    plan = changed(
+        DECLARED,
+        errors__text_size=error_text_size,
+        streams__best_effort_size=92,
+        streams__reliable_slot_size=16,
+    )
+    plan = changed(plan, memory__fixed_messages=True)  # sender.c has Int32 alone
     names = [name for name in components(plan) if name != "port_posix"]
     tree = render(tmp_path, plan, names)
     sources = [*tree.sources, FIXTURES / "types.c", FIXTURES / "sender.c"]

@@ -6,18 +6,22 @@ from __future__ import annotations
 import socket
 import subprocess
 import time
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
-from tests.support.runtime.harness import POOL, build, components, render
+from tests.support.plans import POOL, changed
+from tests.support.runtime.harness import build, components, render
 from tests.support.runtime.tcp import Sender, TcpAgent, framed, serving, together
 from tests.support.runtime.udp import UdpAgent
 
-PLAN = replace(
-    POOL, transport="tcp", connect_timeout_ms=3000, create_timeout_ms=3000, liveliness_period_ms=50
+PLAN = changed(
+    POOL,
+    transport__kind="tcp",
+    times__connect_timeout_ms=3000,
+    times__create_timeout_ms=3000,
+    times__liveliness_period_ms=50,
 )
 
 
@@ -45,7 +49,7 @@ def run(plan: RuntimePlan, folder: Path) -> subprocess.CompletedProcess[str]:
 )
 def test_whatever_the_segments(send: Sender, read: int, tmp_path: Path) -> None:
     with serving(TcpAgent(send, read)) as agent:
-        done = run(replace(PLAN, agent_port=agent.port), tmp_path)
+        done = run(changed(PLAN, transport__agent_port=agent.port), tmp_path)
     assert (done.returncode, done.stderr) == (0, ""), done.stdout
     assert agent.agent.values() == list(range(100))
     assert agent.connections == 1
@@ -58,10 +62,10 @@ def test_a_closed_connection_is_opened_again(
     close_at: tuple[int, ...], liveliness: str, tmp_path: Path
 ) -> None:
     """The agent closes it and forgets; without liveliness, too, the client finds back."""
-    plan = replace(PLAN, on_full="block", on_full_block_ms=50)
+    plan = changed(PLAN, streams__on_full="block", streams__on_full_block_ms=50)
     with serving(TcpAgent()) as agent:
         agent.before = lambda count: count not in close_at
-        plan = replace(plan, agent_port=agent.port)
+        plan = changed(plan, transport__agent_port=agent.port)
         tree = render(tmp_path, plan, components(plan, liveliness))
         program = build(tree, ["types.c", "udp.c"], "udp")
         done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
@@ -73,10 +77,10 @@ def test_a_closed_connection_is_opened_again(
 
 
 def test_a_connection_that_breaks_is_told_as_such(tmp_path: Path) -> None:
-    plan = replace(PLAN, on_full="block", on_full_block_ms=50, has_session_state=True)
+    plan = changed(PLAN, streams__on_full="block", streams__on_full_block_ms=50, session__has_state=True)
     with serving(TcpAgent()) as agent:
         agent.before = lambda count: count != 30
-        plan = replace(plan, agent_port=agent.port)
+        plan = changed(plan, transport__agent_port=agent.port)
         tree = render(tmp_path, plan, components(plan))
         program = build(tree, ["types.c", "watched.c"], "watched")
         done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
@@ -88,7 +92,15 @@ def test_a_connection_that_breaks_is_told_as_such(tmp_path: Path) -> None:
 def test_a_slow_peer_blocks_nobody(tmp_path: Path) -> None:
     """It reads a few bytes at a time, with pauses; nothing is lost and nothing is cut."""
     with serving(TcpAgent(read=16, pause_s=0.002)) as agent:
-        done = run(replace(PLAN, agent_port=agent.port, on_full="block", on_full_block_ms=200), tmp_path)
+        done = run(
+            changed(
+                PLAN,
+                transport__agent_port=agent.port,
+                streams__on_full="block",
+                streams__on_full_block_ms=200,
+            ),
+            tmp_path,
+        )
     assert (done.returncode, done.stderr) == (0, ""), done.stdout
     assert agent.agent.values() == list(range(100))
     assert agent.agent.spoiled == 0
@@ -98,11 +110,14 @@ def test_a_slow_peer_blocks_nobody(tmp_path: Path) -> None:
 def test_ipv6(transport: str, tmp_path: Path) -> None:
     if transport == "tcp":
         with serving(TcpAgent(host="::1")) as agent:
-            done = run(replace(PLAN, agent_host="::1", agent_port=agent.port), tmp_path)
+            done = run(changed(PLAN, transport__agent_host="::1", transport__agent_port=agent.port), tmp_path)
     else:
         udp = UdpAgent("::1")
         udp.start()
-        done = run(replace(PLAN, transport="udp", agent_host="::1", agent_port=udp.port), tmp_path)
+        done = run(
+            changed(PLAN, transport__kind="udp", transport__agent_host="::1", transport__agent_port=udp.port),
+            tmp_path,
+        )
         udp.socket.close()
     assert (done.returncode, done.stderr) == (0, ""), done.stdout
     assert (agent if transport == "tcp" else udp).agent.values() == list(range(100))
@@ -114,7 +129,12 @@ def test_nobody_listens(host: str, place: str, tmp_path: Path) -> None:
     with socket.socket(family, socket.SOCK_STREAM) as taken:
         taken.bind((host, 0))
         port = taken.getsockname()[1]
-        done = run(replace(PLAN, agent_host=host, agent_port=port, connect_timeout_ms=200), tmp_path)
+        done = run(
+            changed(
+                PLAN, transport__agent_host=host, transport__agent_port=port, times__connect_timeout_ms=200
+            ),
+            tmp_path,
+        )
     assert done.returncode == 2
     assert done.stdout in (
         f"no transport to {place}:{port}\n",
@@ -124,6 +144,6 @@ def test_nobody_listens(host: str, place: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("host", ["localhost", "1.2.3", "::g", ""])
 def test_what_is_no_address_in_digits(host: str, tmp_path: Path) -> None:
-    done = run(replace(PLAN, agent_host=host, connect_timeout_ms=50), tmp_path)
+    done = run(changed(PLAN, transport__agent_host=host, times__connect_timeout_ms=50), tmp_path)
     assert done.returncode == 2
     assert done.stdout.startswith("no transport to ")

@@ -6,29 +6,29 @@ from __future__ import annotations
 import socket
 import subprocess
 import threading
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from microros_gen.client.plan.runtime_entities import QueuePlan
-from tests.support.runtime.harness import EXECUTOR, build, components, render
+from tests.support.plans import EXECUTOR, changed
+from tests.support.runtime.harness import build, components, render
 from tests.support.runtime.reading_agent import ReadingAgent
 
 TASKS, PUBLISHERS, VALUES, TASK_VALUES, RECEIVED = 4, 3, 150, 100_000, 300
-PLAN = replace(
+PLAN = changed(
     EXECUTOR,
-    multithread=True,
-    subscriptions_max=1,
-    queues=(QueuePlan(8, 16),),
-    reliable_input_slots=4,
-    timers_max=0,
-    guard_conditions_max=1,
-    on_full="block",
-    on_full_block_ms=20_000,
-    create_timeout_ms=20_000,
-    connect_timeout_ms=20_000,
-    liveliness_period_ms=5000,
+    session__multithread=True,
+    entities__subscriptions__max=1,
+    input__queues=(QueuePlan(8, 16),),
+    input__reliable_slots=4,
+    timers__max=0,
+    executor__guard_conditions_max=1,
+    streams__on_full="block",
+    streams__on_full_block_ms=20_000,
+    times__create_timeout_ms=20_000,
+    times__connect_timeout_ms=20_000,
+    times__liveliness_period_ms=5000,
 )
 THREAD_SANITIZER = ("-g", "-O1", "-fsanitize=thread")
 
@@ -44,7 +44,7 @@ def serve(agent: ReadingAgent, served: socket.socket) -> None:
         answers = agent.receive(datagram)
         if agent.reads and not offered:
             offered = True
-            answers += agent.numbers(PLAN.publisher_places, *range(RECEIVED))
+            answers += agent.numbers(PLAN.entities.publisher_places, *range(RECEIVED))
         for answer in [*answers, *(agent.tick() if agent.unacknowledged else [])]:
             served.sendto(answer, peer)
 
@@ -56,7 +56,7 @@ def test_nothing_is_lost_and_nothing_races(tmp_path: Path, queue: QueuePlan) -> 
         served.bind(("127.0.0.1", 0))
         thread = threading.Thread(target=serve, args=(agent, served), daemon=True)
         thread.start()
-        plan = replace(PLAN, agent_port=served.getsockname()[1], queues=(queue,))
+        plan = changed(PLAN, transport__agent_port=served.getsockname()[1], input__queues=(queue,))
         tree = render(tmp_path, plan, components(plan))
         program = build(tree, ["types_read.c", "threads.c"], "threads", "gcc", THREAD_SANITIZER)
         done = subprocess.run([program], capture_output=True, text=True, timeout=120, check=False)
@@ -68,7 +68,7 @@ def test_nothing_is_lost_and_nothing_races(tmp_path: Path, queue: QueuePlan) -> 
 
 
 def test_two_tasks_that_ask_for_agents_do_not_share_what_came(tmp_path: Path) -> None:
-    plan = replace(EXECUTOR, multithread=True, transport="custom", framing="on")
+    plan = changed(EXECUTOR, session__multithread=True, transport__kind="custom", transport__framing="on")
     tree = render(tmp_path, plan, components(plan))
     program = build(tree, ["unit_inquiry.c"], "unit", "gcc", THREAD_SANITIZER)
     done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)

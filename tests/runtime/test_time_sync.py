@@ -5,17 +5,16 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from itertools import count
 
 import pytest
 
+from tests.support.plans import POOL, changed
 from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
-from tests.support.runtime.harness import POOL
 from tests.support.runtime.time_sync import EPOCH_NS, TimedAgent, answer, moment
 
-PLAN = replace(POOL, has_time_sync=True)
+PLAN = changed(POOL, session__has_time_sync=True)
 START_MS = 5_000_000_124
 """The steady time of the fake port when it has a session: connecting took a millisecond."""
 MOST_S = 2**31 - 1
@@ -134,7 +133,7 @@ def test_what_is_lost_is_asked_again(bench: Bench) -> None:
         bench, lambda o: [answer(moment(EPOCH_NS), moment(EPOCH_NS), o)] if next(replies) == 3 else []
     )
     result = client.ok("epoch_sync 1000")
-    assert 3 * PLAN.retry_first_ms <= result.slept <= 3 * PLAN.retry_first_ms + 5
+    assert 3 * PLAN.times.retry_first_ms <= result.slept <= 3 * PLAN.times.retry_first_ms + 5
     assert len(agent.asked) == 4
     assert len(set(agent.asked)) == 4, "each question has its own time"
 
@@ -195,7 +194,7 @@ def test_time_outlives_a_lost_session(bench: Bench) -> None:
     client.ok("epoch_sync 1000")
     before = epoch(client)
     agent.restart()
-    client.spin(8, POOL.liveliness_period_ms)
+    client.spin(8, POOL.times.liveliness_period_ms)
     assert client.statistics()["reconnects"] == 1
     assert epoch(client)[0]
-    assert epoch(client)[2] - before[2] == 8 * POOL.liveliness_period_ms * 10**6
+    assert epoch(client)[2] - before[2] == 8 * POOL.times.liveliness_period_ms * 10**6

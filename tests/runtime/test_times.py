@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import subprocess
 from collections import Counter
-from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -14,10 +13,11 @@ import pytest
 from microros_gen.application.model import SessionTimes
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.session_times import plan_times
+from tests.support.plans import EXECUTOR, POOL, READER, changed
 from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
 from tests.support.runtime.fake_agent import FakeAgent
-from tests.support.runtime.harness import EXECUTOR, POOL, READER, build, components, render
+from tests.support.runtime.harness import build, components, render
 from tests.support.runtime.reading_agent import ReadingAgent
 from tests.support.runtime.time_sync import EPOCH_NS, answer, moment
 from tests.support.runtime.times import with_times
@@ -27,7 +27,7 @@ CREATE_CLIENT, CREATE, GET_INFO, READ_DATA, HEARTBEAT = 0x00, 0x01, 0x02, 0x08, 
 
 
 SLOW = with_times(
-    replace(READER, has_time_sync=True), SessionTimes(round_trip=ROUND_TRIP_MS + ROUND_TRIP_MS // 4)
+    changed(READER, session__has_time_sync=True), SessionTimes(round_trip=ROUND_TRIP_MS + ROUND_TRIP_MS // 4)
 )
 
 
@@ -82,7 +82,7 @@ def test_samples_both_ways_with_three_seconds_of_round_trip(slow: Client) -> Non
     slow.ok("flush 5000")
     assert agent.values() == [0, 1, 2, 3]
     assert kinds(slow)[HEARTBEAT] == 0, "the acknowledgement is not late"
-    slow.queued += agent.numbers(POOL.publishers_max, 7, 8)
+    slow.queued += agent.numbers(POOL.entities.publishers.max, 7, 8)
     slow.spin(2, 10)
     assert [slow.ok("read_take 0").lines[0].split()[1] for _ in range(2)] == ["7", "8"]
     slow.ok("epoch_sync 5000")
@@ -200,7 +200,7 @@ def hour(plan: RuntimePlan, liveliness: str, folder: Path) -> tuple[int, int, li
     return woke[0], woke[1], [int(number) for word, number in words if word == "asked"]
 
 
-QUIET = replace(EXECUTOR, timers_max=0)
+QUIET = changed(EXECUTOR, timers__max=0)
 BATTERY = SessionTimes(retry_max=600_000, liveliness_period=300_000)
 
 
@@ -230,7 +230,7 @@ def test_a_node_without_its_agent_rests_longer_and_longer(liveliness: str, tmp_p
 
 
 def test_tasks_that_share_the_library_look_once_a_second(tmp_path: Path) -> None:
-    plan = with_times(replace(QUIET, multithread=True), SessionTimes())
+    plan = with_times(changed(QUIET, session__multithread=True), SessionTimes())
     names = [name for name in components(plan, "acknack") if name != "port_posix"]
     program = build(
         render(tmp_path, plan, names), ["port_agent.c", "types_read.c", "unit_wakes.c", "no_lock.c"], "w"

@@ -6,21 +6,21 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
-from tests.support.runtime.harness import DECLARED, FIXTURES, POOL, compile_objects, components, link, render
+from tests.support.plans import DECLARED, POOL, changed
+from tests.support.runtime.harness import FIXTURES, compile_objects, components, link, render
 
 PLANS = {
     "udp": POOL,
-    "serial": replace(POOL, transport="serial", serial_device="/dev/ttyUSB0"),
-    "serial-board": replace(POOL, transport="serial"),
-    "custom-on": replace(POOL, transport="custom", framing="on"),
-    "custom-off": replace(POOL, transport="custom", framing="off"),
-    "custom-either": replace(POOL, transport="custom", framing="either"),
+    "serial": changed(POOL, transport__kind="serial", transport__device="/dev/ttyUSB0"),
+    "serial-board": changed(POOL, transport__kind="serial"),
+    "custom-on": changed(POOL, transport__kind="custom", transport__framing="on"),
+    "custom-off": changed(POOL, transport__kind="custom", transport__framing="off"),
+    "custom-either": changed(POOL, transport__kind="custom", transport__framing="either"),
 }
 OWN = {
     "udp": re.compile("udp"),
@@ -39,7 +39,7 @@ def test_one_transport_and_no_other(name: str, tmp_path: Path) -> None:
     names = {n for n in names if not n.startswith("microros_error_")}  # texts: each an object of its own
     for transport, pattern in OWN.items():
         found = {n for n in names if pattern.search(n)}
-        if transport == plan.transport:
+        if transport == plan.transport.kind:
             assert found
         else:
             assert {n for n in found if "framing" not in n} == set()
@@ -83,6 +83,6 @@ def _text(plan: RuntimePlan, folder: Path) -> int:
     [("serial", "either", 520), ("custom", "on", 860), ("custom", "off", 280)],
 )
 def test_size_beside_udp(transport: str, framing: str, most: int, tmp_path: Path) -> None:
-    udp = replace(DECLARED, best_effort_size=92, reliable_slot_size=16)
-    other = replace(udp, transport=transport, framing=framing)
+    udp = changed(DECLARED, streams__best_effort_size=92, streams__reliable_slot_size=16)
+    other = changed(udp, transport__kind=transport, transport__framing=framing)
     assert _text(other, tmp_path / "other") - _text(udp, tmp_path / "udp") <= most

@@ -5,19 +5,19 @@ from __future__ import annotations
 
 import socket
 import subprocess
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from tests.support.runtime.harness import INT32, POOL, build, components, render
+from tests.support.plans import INT32, POOL, changed
+from tests.support.runtime.harness import build, components, render
 from tests.support.runtime.udp import UdpAgent
 
-PLAN = replace(POOL, create_timeout_ms=3000, liveliness_period_ms=50)
+PLAN = changed(POOL, times__create_timeout_ms=3000, times__liveliness_period_ms=50)
 
 
 def _program(tmp_path: Path, port: int, connect_timeout_ms: int = 3000) -> Path:
-    plan = replace(PLAN, agent_port=port, connect_timeout_ms=connect_timeout_ms)
+    plan = changed(PLAN, transport__agent_port=port, times__connect_timeout_ms=connect_timeout_ms)
     tree = render(tmp_path, plan, components(plan))
     return build(tree, ["types.c", "udp.c"], "udp")
 
@@ -56,7 +56,9 @@ def test_two_programs_on_one_machine_have_two_keys(tmp_path: Path) -> None:
     """Each draws its own when it starts, and keeps it: none is 0."""
     agent = UdpAgent()
     agent.start()
-    plan = replace(PLAN, agent_port=agent.port, connect_timeout_ms=3000, client_key=None)
+    plan = changed(
+        PLAN, transport__agent_port=agent.port, times__connect_timeout_ms=3000, session__client_key=None
+    )
     program = build(render(tmp_path, plan, components(plan)), ["types.c", "udp.c"], "udp")
     keys = []
     for _ in range(3):

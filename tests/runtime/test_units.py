@@ -5,26 +5,26 @@ from __future__ import annotations
 
 import shutil
 import subprocess
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.selection.find_components import components_folder
-from tests.support.runtime.harness import POOL, SANITIZE, Tree, build, compilers, components, render
+from tests.support.plans import POOL, changed
+from tests.support.runtime.harness import SANITIZE, Tree, build, compilers, components, render
 
-ARENA = replace(POOL, arena_size=1024)
+ARENA = changed(POOL, memory__arena_size=1024)
 
 
 @pytest.mark.parametrize(
     ("unit", "plan", "flags"),
     [
         ("unit_stream.c", POOL, SANITIZE),
-        ("unit_memory.c", replace(POOL, arena_size=512), SANITIZE),
+        ("unit_memory.c", changed(POOL, memory__arena_size=512), SANITIZE),
         ("unit_strings.c", ARENA, SANITIZE),
         ("unit_strings.c", POOL, ("-O2",)),
-        ("unit_memory.c", replace(POOL, arena_size=512), ("-m32", "-Os")),
+        ("unit_memory.c", changed(POOL, memory__arena_size=512), ("-m32", "-Os")),
     ],
     ids=["stream", "memory", "strings", "strings-no-arena", "memory-m32"],
 )
@@ -47,7 +47,13 @@ BOARD = """\
 
 def test_messages_that_the_line_does_not_copy(tmp_path: Path) -> None:
     """The stream, the framing and a board's line, without the board."""
-    plan = replace(POOL, transport="serial", keeps_output=True, reliable_slots=1, reliable_slot_size=300)
+    plan = changed(
+        POOL,
+        transport__kind="serial",
+        transport__keeps_output=True,
+        streams__reliable_slots=1,
+        streams__reliable_slot_size=300,
+    )
     tree = render(tmp_path, plan, [name for name in components(plan) if name != "port_posix"])
     bare = components_folder() / "port_bare"
     shutil.copytree(bare / "include", tree.include, dirs_exist_ok=True)
@@ -73,7 +79,7 @@ def test_reliable_input(slots: int, compiler: str, flags: tuple[str, ...], tmp_p
     """The stream alone: what it hands on and what it answers goes to the unit."""
     if compiler not in compilers():
         pytest.skip(f"no {compiler}")
-    plan = replace(POOL, reliable_input_slots=slots, reliable_input_slot_size=64)
+    plan = changed(POOL, input__reliable_slots=slots, input__reliable_slot_size=64)
     tree = render(tmp_path, plan, components(plan))
     alone = Tree(tree.folder, tuple(s for s in tree.sources if s.parent.name == "stream_reliable_input"))
     program = build(alone, ["unit_input.c"], "unit", compiler, flags)

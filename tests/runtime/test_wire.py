@@ -6,12 +6,10 @@ Request ids of objects begin at 11 here, and at 10 there, where a ping has the s
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
+from tests.support.plans import DECLARED, POOL, changed
 from tests.support.runtime.bench import Bench
-from tests.support.runtime.harness import DECLARED, POOL
 
 PARTICIPANT = "01071e00 000b0001 01030000 10000000 00 010000 08000000 6d795f6e6f646500 4d00"
 TOPIC = (
@@ -128,7 +126,7 @@ def test_serialized_message_goes_without_its_encapsulation(bench: Bench) -> None
     assert client.sent[-1][8:] == _bytes("00000005 01020304")
     assert client.call("raw 0 8 0").code == 1
     assert client.call("raw 0 4 1").code == 1
-    largest = POOL.reliable_slot_size - 12 + 4
+    largest = POOL.streams.reliable_slot_size - 12 + 4
     assert client.call(f"raw 0 {largest} 1").code == 0
     assert client.call(f"raw 0 {largest + 1} 1").code == 1
 
@@ -141,6 +139,6 @@ def test_declared_entities_take_their_places(bench: Bench) -> None:
 
 
 def test_the_key_of_the_device(bench: Bench) -> None:
-    client = bench.start(replace(POOL, client_key=None))
+    client = bench.start(changed(POOL, session__client_key=None))
     client.ok("init")
     assert client.sent[0][16:20] == _bytes("feedbeef")

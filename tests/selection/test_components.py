@@ -3,18 +3,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import fields
+from operator import attrgetter
 from pathlib import Path
 
 import pytest
 
 from microros_gen.client.plan.board import BoardPlan
-from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.diagnostics import UserError
 from microros_gen.platform.target import Target
-from microros_gen.selection.component import Ask, Catalogue, Middleware, Provision, SourceFile
+from microros_gen.selection.component import Ask, Catalogue, Component, Middleware, Provision, SourceFile
 from microros_gen.selection.find_components import components_folder, load_catalogue
 from microros_gen.selection.xrce import MICRO_ROS_COMPONENTS
+from tests.support.plans import POOL
 
 GOOD = """\
 component: x
@@ -28,7 +30,7 @@ receives: [DATA]
 objects: [datareader]
 headers: [rcl/x.h]
 sources: [rcl_x.c, {file: rcl_y.c, when: {on_full: error, mtu: 512}}]
-asks: [time, {capability: lock, when: {multithread: true}}]
+asks: [time, {capability: lock, when: {session.multithread: true}}]
 provides: {wait: {sources: [rcl_w.c], asks: [idle], when: {transport: udp}, always: true}}
 """
 
@@ -55,7 +57,7 @@ def test_a_component_is_read(tmp_path: Path) -> None:
         ("rcl/x.h",),
         (SourceFile("rcl_x.c"), SourceFile("rcl_y.c", (("on_full", "error"), ("mtu", 512)))),
     )
-    assert component.asks == (Ask("time"), Ask("lock", (("multithread", True),)))
+    assert component.asks == (Ask("time"), Ask("lock", (("session.multithread", True),)))
     wait = Provision("wait", (SourceFile("rcl_w.c"),), (Ask("idle"),), (("transport", "udp"),), True)
     assert component.provides == (wait,)
 
@@ -147,8 +149,6 @@ def test_the_eleven_components_are_there(real_catalogue: Catalogue) -> None:
 
 
 def test_files_of_components_are_there(real_catalogue: Catalogue) -> None:
-    plans = (RuntimePlan, BoardPlan, Target)
-    attributes = {name for plan in plans for name in (*(field.name for field in fields(plan)), *dir(plan))}
     for component in real_catalogue.values():
         folder = components_folder() / component.name
         if component.ready:
@@ -157,7 +157,36 @@ def test_files_of_components_are_there(real_catalogue: Catalogue) -> None:
             assert not component.sources, component.name
         for source in component.sources:
             assert (folder / "src" / source.path).is_file(), f"{component.name}: {source.path}"
-            assert {key for key, _ in source.when} <= attributes, f"{component.name}: {source.path}"
+        for path in conditions(component):
+            assert is_of_the_plan(path), f"{component.name}: {path}"
+
+
+def conditions(component: Component) -> Iterator[str]:
+    """Yield the paths of all conditions of a component."""
+    parts: list[SourceFile | Ask | Provision] = [*component.sources, *component.asks, *component.provides]
+    for provision in component.provides:
+        parts += [*provision.sources, *provision.asks]
+    yield from (path for part in parts for path, _ in part.when)
+
+
+def is_of_the_plan(path: str) -> bool:
+    """Whether a condition names a value of a slice of the plan, of the board or of the target."""
+    first, _, name = path.partition(".")
+    others = {"board": BoardPlan, "target": Target}
+    if first in others:
+        return name in {*dir(others[first]), *(field.name for field in fields(others[first]))}
+    try:
+        value = attrgetter(path)(POOL)
+    except AttributeError:
+        return False
+    return isinstance(value, (str, int))
+
+
+@pytest.mark.parametrize(
+    "path", ["on_full", "streams", "streams.when_full", "board.on_full", "entities.clients"]
+)
+def test_a_condition_names_one_value(path: str) -> None:
+    assert not is_of_the_plan(path)
 
 
 def test_no_two_components_have_the_same_public_header(real_catalogue: Catalogue) -> None:

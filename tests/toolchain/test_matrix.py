@@ -44,7 +44,7 @@ CORTEX_M = {
     "cortex-m0plus": ("-mcpu=cortex-m0plus", "-mthumb"),
     "cortex-m4f": ("-mcpu=cortex-m4", "-mthumb", "-mfpu=fpv4-sp-d16", "-mfloat-abi=hard"),
 }
-KEPT_BY_A_BOARD = ("keeps_output", True)
+KEPT_BY_A_BOARD = ("transport.keeps_output", True)
 """Of files for the line of a board, whose interrupt takes messages where they are."""
 CPP_FLAGS = ("-std=c++11", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror", "-x", "c++")
 

@@ -130,10 +130,10 @@ def object_id(index: int, kind: str) -> int:
 def plan_agent_files(project: Project) -> AgentFiles:
     """Return what the agent must hold. Without `nodes:` it is what the example creates."""
     runtime = project.runtime
-    if not runtime.declared:
+    if not runtime.entities.declared:
         nodes, found = _of_the_example(project)
         named = tuple(_services_of_the_example(project))
-        return AgentFiles(runtime.client_key, nodes, found, complete=False, services=named)
+        return AgentFiles(runtime.session.client_key, nodes, found, complete=False, services=named)
     written = [endpoint.qos for _, _, endpoint in declarations(project.application, "publisher")]
     read = [endpoint.qos for _, _, endpoint in declarations(project.application, "subscription")]
     nodes = tuple(
@@ -141,30 +141,38 @@ def plan_agent_files(project: Project) -> AgentFiles:
             n.index,
             n.participant_name,
             n.domain_id,
-            participant_reference(n.participant_name, len(runtime.nodes)),
+            participant_reference(n.participant_name, len(runtime.entities.nodes.declared)),
         )
-        for n in runtime.nodes
+        for n in runtime.entities.nodes.declared
     )
     endpoints = [
-        _endpoint(p.index, p.node, p.topic, p.dds_type, written[p.index]) for p in runtime.publishers
+        _endpoint(p.index, p.node, p.topic, p.dds_type, written[p.index])
+        for p in runtime.entities.publishers.declared
     ]
     endpoints += [
-        _endpoint(runtime.publisher_places + s.index, s.node, s.topic, s.dds_type, read[s.index], reads=True)
-        for s in runtime.subscriptions
+        _endpoint(
+            runtime.entities.publisher_places + s.index,
+            s.node,
+            s.topic,
+            s.dds_type,
+            read[s.index],
+            reads=True,
+        )
+        for s in runtime.entities.subscriptions.declared
     ]
-    adopt = project.selection.liveliness == "none" and runtime.client_key is not None
+    adopt = project.selection.liveliness == "none" and runtime.session.client_key is not None
     services = tuple(_services(runtime))
     return AgentFiles(
-        runtime.client_key, nodes, tuple(endpoints), complete=True, adopt=adopt, services=services
+        runtime.session.client_key, nodes, tuple(endpoints), complete=True, adopt=adopt, services=services
     )
 
 
 def _services(runtime: RuntimePlan) -> Iterator[AgentService]:
-    first = runtime.publisher_places + runtime.subscriptions_max
-    for service in runtime.services:
+    first = runtime.entities.publisher_places + runtime.entities.subscriptions.max
+    for service in runtime.entities.services.declared:
         yield AgentService(first + service.index, service.node, service.name, service.dds_type, calls=False)
-    for client in runtime.clients:
-        index = first + runtime.services_max + client.index
+    for client in runtime.entities.clients.declared:
+        index = first + runtime.entities.services.max + client.index
         yield AgentService(index, client.node, client.name, client.dds_type, calls=True)
 
 
@@ -205,13 +213,13 @@ def _check_references(application: Application, diagnostics: Diagnostics) -> Non
 def _of_the_example(project: Project) -> tuple[tuple[AgentNode, ...], tuple[AgentEndpoint, ...]]:
     runtime = project.runtime
     name = example_node(project.name)
-    node = AgentNode(0, name, 0, participant_reference(name, runtime.nodes_max))
-    written = runtime.publishers_max if project.selection.has("publish") else 0
+    node = AgentNode(0, name, 0, participant_reference(name, runtime.entities.nodes.max))
+    written = runtime.entities.publishers.max if project.selection.has("publish") else 0
     endpoints = [
         _endpoint(index, 0, f"/{topic}", dds_type(root), Qos())
         for index, (root, topic) in enumerate(example_topics(project.roots[:written]))
     ]
-    first = runtime.publisher_places
+    first = runtime.entities.publisher_places
     endpoints += [
         _endpoint(index, 0, e.topic, dds_type(type_name(e.type)), e.qos, reads=True)
         for index, e in enumerate(project.application.implied, first)
@@ -219,7 +227,7 @@ def _of_the_example(project: Project) -> tuple[tuple[AgentNode, ...], tuple[Agen
     endpoints += [
         _endpoint(index, 0, f"/{topic}", dds_type(root), Qos(), reads=True)
         for index, (root, topic) in enumerate(
-            example_topics(project.roots[: runtime.application_subscriptions]),
+            example_topics(project.roots[: runtime.entities.subscriptions.application]),
             first + len(project.application.implied),
         )
     ]
@@ -228,10 +236,10 @@ def _of_the_example(project: Project) -> tuple[tuple[AgentNode, ...], tuple[Agen
 
 def _services_of_the_example(project: Project) -> Iterator[AgentService]:
     runtime = project.runtime
-    places = runtime.publisher_places + runtime.subscriptions_max
+    places = runtime.entities.publisher_places + runtime.entities.subscriptions.max
     for most, first, calls in (
-        (runtime.services_max, places, False),
-        (runtime.clients_max, places + runtime.services_max, True),
+        (runtime.entities.services.max, places, False),
+        (runtime.entities.clients.max, places + runtime.entities.services.max, True),
     ):
         for index, (service, name) in enumerate(example_topics(project.services[:most]), first):
             yield AgentService(index, 0, f"/{name}", dds_type(service), calls)

@@ -93,13 +93,13 @@ def plan_board(
         return BoardPlan()
     _check_unique_id(application, target, runtime, diagnostics)
     has_line = target.has_image or target.uart_driver == OWN_DRIVER
-    driver = target.uart_driver if has_line and runtime.transport in _LINE_USERS else "none"
-    functions = _application_functions(runtime.transport, driver)
-    functions += _LOCK_FUNCTIONS if runtime.multithread else ()
+    driver = target.uart_driver if has_line and runtime.transport.kind in _LINE_USERS else "none"
+    functions = _application_functions(runtime.transport.kind, driver)
+    functions += _LOCK_FUNCTIONS if runtime.session.multithread else ()
     if not target.has_image:
         return BoardPlan(
             ring_size=ring_size(runtime),
-            output_size=runtime.send_buffer,
+            output_size=runtime.transport.send_buffer,
             serial_driver=driver,
             application_functions=functions,
         )
@@ -113,7 +113,7 @@ def plan_board(
         stdio_divisor=_stdio_divisor(target, uart, runtime, application, diagnostics),
         stack_size=_stack_size(application, target, diagnostics),
         ring_size=ring_size(runtime),
-        output_size=runtime.send_buffer,
+        output_size=runtime.transport.send_buffer,
         ticks_per_ms=target.clock_hz // 1000,
         serial_driver=driver,
         uart_divisor=_divisor(uart, target, application, diagnostics) if uart else 0,
@@ -150,11 +150,11 @@ def ring_size(runtime: RuntimePlan) -> int:
     more. A larger sample comes on a best-effort stream at any time, and may be lost: of it there is what the line
     brings in REACTION_MS, or a quarter of it where that is less, for it is decoded out of the ring while it comes.
     """
-    frames = [runtime.line_input, *([_ACKNACK] * runtime.reliable_slots)]
+    frames = [runtime.transport.line_input, *([_ACKNACK] * runtime.streams.reliable_slots)]
     needed = sum(usual_frame(size) + _MORE_STUFFED for size in frames)
-    if runtime.input_size > runtime.line_input:
-        in_time = runtime.serial_baud * REACTION_MS // (1000 * _BITS_OF_A_BYTE)
-        needed = max(needed, min(in_time, runtime.input_size // 4))
+    if runtime.input.size > runtime.transport.line_input:
+        in_time = runtime.transport.baud * REACTION_MS // (1000 * _BITS_OF_A_BYTE)
+        needed = max(needed, min(in_time, runtime.input.size // 4))
     return min((needed + 4) & ~3, 1 << 15)
 
 
@@ -195,13 +195,17 @@ def _application_functions(transport: str, driver: str) -> tuple[str, ...]:
 def _check_unique_id(
     application: Application, target: Target, runtime: RuntimePlan, diagnostics: Diagnostics
 ) -> None:
-    if application.session_key is None and not target.has_unique_id and runtime.entities != "preconfigured":
+    if (
+        application.session_key is None
+        and not target.has_unique_id
+        and runtime.creation.entities != "preconfigured"
+    ):
         diagnostics.warning(
             "all boards with this image have the same client key, and two of them take each other's session: the "
             f"target {target.name} names no unique id",
             application.target.span,
             "Write where it is into the target file: `unique_id: {address: 0x1FFF7A10, words: 3}`, or give each "
-            f"board a key of its own: `session: {{key: 0x{runtime.client_key or 0:08X}}}`",
+            f"board a key of its own: `session: {{key: 0x{runtime.session.client_key or 0:08X}}}`",
         )
     if isinstance(application.session_key, str) and not target.has_unique_id:
         diagnostics.error(
@@ -246,7 +250,7 @@ def _stdio_divisor(
     stdio = target.stdio
     if stdio is None or stdio.to != "uart":
         return 0
-    if uart is not None and uart.base == stdio.base and runtime.transport == "serial":
+    if uart is not None and uart.base == stdio.base and runtime.transport.kind == "serial":
         diagnostics.error(
             f"'stdio' of {target.name} prints to the UART of the agent",
             application.target.span,

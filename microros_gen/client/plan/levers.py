@@ -27,7 +27,7 @@ class Lever:
 
 def queue_levers(project: Project) -> Iterator[Lever]:
     """Yield the queues that have more than one place, those of the largest messages first."""
-    application, queues = project.application, project.runtime.queues
+    application, queues = project.application, project.runtime.input.queues
     if not application.nodes:
         now = application.pools.get("queue", max((q.slots for q in queues), default=1))
         if now > 1:
@@ -39,7 +39,7 @@ def queue_levers(project: Project) -> Iterator[Lever]:
 
 def shared_queue_levers(project: Project) -> Iterator[tuple[Lever, int]]:
     """Yield the bytes of queues that hold more than one of the largest, and the fewest that each can have."""
-    application, queues = project.application, project.runtime.queues
+    application, queues = project.application, project.runtime.input.queues
     if application.nodes:
         for endpoint, queue in _declared_queues(project):
             if queue.size > queue.slot_size:
@@ -53,7 +53,7 @@ def shared_queue_levers(project: Project) -> Iterator[tuple[Lever, int]]:
 
 def _declared_queues(project: Project) -> list[tuple[EndpointDecl, QueuePlan]]:
     """Return the declared queues of several samples, the largest first."""
-    application, queues = project.application, project.runtime.queues
+    application, queues = project.application, project.runtime.input.queues
     endpoints = [e for kind in ("subscription", "service", "client") for e in _of_kind(application, kind)]
     of_endpoints = queues[len(queues) - len(endpoints) :]  # the library's own come first
     several = ((e, q) for e, q in zip(endpoints, of_endpoints, strict=True) if q.slots > 1)

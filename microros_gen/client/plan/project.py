@@ -13,15 +13,27 @@ from microros_gen.application.names import expand_topic_name
 from microros_gen.client.plan.board import RING_CHUNK, BoardPlan, has_own_line, plan_board
 from microros_gen.client.plan.creation import CreateNames, create_size, create_text, participant_reference
 from microros_gen.client.plan.declared import named_at, pool, publisher_declarations, timed_qos, type_name
+from microros_gen.client.plan.entities import EntitiesPlan, Places
 from microros_gen.client.plan.queues import check_pool_key
 from microros_gen.client.plan.receiving import plan_receiving
 from microros_gen.client.plan.running import plan_running
-from microros_gen.client.plan.runtime import DISCOVERY_GROUP, LINE_CHUNK, RuntimePlan
+from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import NodePlan, PublisherPlan, SubscriptionPlan
 from microros_gen.client.plan.senders import SentStorage, plan_sent_storage
 from microros_gen.client.plan.serving import Serving, plan_serving
 from microros_gen.client.plan.session_times import plan_times
-from microros_gen.client.plan.streams import StreamPlan, Written, plan_streams
+from microros_gen.client.plan.slices import (
+    DISCOVERY_GROUP,
+    LINE_CHUNK,
+    CreationPlan,
+    ErrorsPlan,
+    InputPlan,
+    MemoryPlan,
+    OutputPlan,
+    SessionPlan,
+    TransportPlan,
+)
+from microros_gen.client.plan.streams import StreamSizes, Written, plan_streams
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.dds_names import dds_topic, dds_type, participant_name
 from microros_gen.interfaces.types import Message, TypeName
@@ -53,7 +65,7 @@ class Project:
     target: Target
     types: tuple[TypePlan, ...]
     roots: tuple[TypeName, ...]
-    streams: StreamPlan
+    streams: StreamSizes
     runtime: RuntimePlan
     board: BoardPlan
     storage: SentStorage
@@ -138,89 +150,99 @@ def plan_project(
         keeps_output=own_driver,
     )
     receivers = receiving.subscriptions_max + serving.services_max + serving.clients_max
-    receivers -= 1 if selection.has(CLOCK_ROS) else 0  # nobody adds the subscription of /clock to an executor
+    implied = 1 if selection.has(CLOCK_ROS) else 0
+    receivers -= implied  # nobody adds the subscription of /clock to an executor
     running = plan_running(application, selection, receivers, diagnostics)
     storage = plan_sent_storage(application, selection, by_name, roots, services)
-    agent = _agent(application.transport, selection)
     baud = application.transport.baud if selection.transport == "serial" else None
-    times = plan_times(application.times, baud, streams.mtu, streams.input_size)
     runtime = RuntimePlan(
         plan_id="",
-        error_text_size=ERROR_TEXT_SIZE if application.error_text else 0,
-        agent_host=agent[0],
-        agent_port=agent[1],
-        mtu=streams.mtu,
-        input_size=streams.input_size,
-        client_key=_client_key(application, selection, target, name),
-        session_id=SESSION_ID,
-        best_effort_size=streams.best_effort_size,
-        reliable_slots=streams.reliable_slots,
-        reliable_slot_size=streams.reliable_slot_size,
-        declared=bool(nodes),
-        nodes_max=len(nodes) or pool(application, "nodes", 1, diagnostics),
-        publishers_max=_publishers_max(application, selection, publishers, roots, diagnostics),
-        name_size=0 if nodes else application.pools.get("name_size", DEFAULT_NAME_SIZE),
-        nodes=nodes,
-        publishers=publishers,
-        arena_size=application.memory.arena,
-        on_full=application.on_full,
-        on_full_block_ms=application.on_full_block_ms,
-        **vars(times),
-        entities=selection.entities,
-        creation=application.creation.name if application.creation else "best_effort",
-        transport=selection.transport,
-        serial_device=application.transport.device
-        if selection.transport == "serial" and target.hosted
-        else "",
-        serial_baud=application.transport.baud,
+        session=SessionPlan(
+            id=SESSION_ID,
+            client_key=_client_key(application, selection, target, name),
+            multithread=selection.has("multithread"),
+            hard_liveliness_ms=_hard_liveliness(application, selection),
+            has_state=selection.has("session_state"),
+            has_sleep=selection.has("sleep_cycles"),
+            has_time_sync=selection.has("time_sync"),
+        ),
+        times=plan_times(application.times, baud, streams.mtu, streams.input_size),
+        transport=_transport(application, selection, target, streams, own_driver),
+        streams=OutputPlan(
+            mtu=streams.mtu,
+            best_effort_size=streams.best_effort_size,
+            reliable_slots=streams.reliable_slots,
+            reliable_slot_size=streams.reliable_slot_size,
+            on_full=application.on_full,
+            on_full_block_ms=application.on_full_block_ms,
+            fragments=streams.fragments,
+        ),
+        input=InputPlan(
+            size=streams.input_size,
+            reader=streams.input_reader,
+            free=streams.input_free,
+            arrives_in_fragments=streams.arrives_in_fragments,
+            reliable_slots=streams.reliable_input_slots,
+            reliable_slot_size=streams.input_size if streams.reliable_input_slots else 0,
+            queues=queues,
+        ),
+        creation=CreationPlan(
+            entities=selection.entities,
+            stream=application.creation.name if application.creation else "best_effort",
+            size=streams.creation_size,
+        ),
+        entities=EntitiesPlan(
+            declared=bool(nodes),
+            nodes=Places(len(nodes) or pool(application, "nodes", 1, diagnostics), nodes),
+            publishers=Places(
+                _publishers_max(application, selection, publishers, roots, diagnostics), publishers
+            ),
+            subscriptions=Places(receiving.subscriptions_max, receiving.subscriptions, implied),
+            services=Places(serving.services_max, serving.services),
+            clients=Places(serving.clients_max, serving.clients),
+            name_size=0 if nodes else application.pools.get("name_size", DEFAULT_NAME_SIZE),
+            type_name_size=0 if nodes else _longest_type((*names, *services)) + 1,
+            timed_qos=timed_qos(application, selection.entities, diagnostics),
+        ),
+        memory=MemoryPlan(
+            arena_size=application.memory.arena,
+            fixed_messages=all(plan.fixed_size for plan in types if plan.wire is not None),
+            kept_messages=storage.kept,
+            message_pools=storage.pools,
+        ),
+        errors=ErrorsPlan(text_size=ERROR_TEXT_SIZE if application.error_text else 0),
+        timers=running.timers,
+        executor=running.executor,
+        clock=running.clock,
+    )
+    board = plan_board(application, target, runtime, diagnostics)
+    own_line = runtime.transport.kind == "serial" and not target.hosted and not board.has_serial_driver
+    runtime = replace(runtime, transport=replace(runtime.transport, own_line=own_line))
+    runtime = replace(runtime, plan_id=_plan_id(runtime, selection, types))
+    return Project(
+        name, application, selection, target, types, roots, streams, runtime, board, storage, services
+    )
+
+
+def _transport(
+    application: Application, selection: Selection, target: Target, streams: StreamSizes, own_driver: bool
+) -> TransportPlan:
+    asked = application.transport
+    host, port = _agent(asked, selection)
+    return TransportPlan(
+        kind=selection.transport,
+        agent_host=host,
+        agent_port=port,
+        has_discovery=selection.has("discovery"),
+        discovery_port=asked.discover or DISCOVERY_PORT,
+        framing=_FRAMING[asked.framing],
+        device=asked.device if selection.transport == "serial" and target.hosted else "",
+        baud=asked.baud,
         send_buffer=streams.send_buffer,
         keeps_output=streams.keeps_output,
         line_input=streams.line_input,
         line_chunk=RING_CHUNK if own_driver else LINE_CHUNK,
-        framing=_FRAMING[application.transport.framing],
-        read_polls=application.transport.read_polls,
-        type_name_size=0 if nodes else _longest_type((*names, *services)) + 1,
-        creation_size=streams.creation_size,
-        subscriptions=receiving.subscriptions,
-        subscriptions_max=receiving.subscriptions_max,
-        services=serving.services,
-        services_max=serving.services_max,
-        clients=serving.clients,
-        clients_max=serving.clients_max,
-        queues=queues,
-        timers=running.timers,
-        timers_max=running.timers_max,
-        executors_max=running.executors_max,
-        handles_max=running.handles_max,
-        guard_conditions_max=running.guard_conditions_max,
-        wait_sets_max=running.wait_sets_max,
-        ros_clocks_max=running.ros_clocks_max,
-        jump_callbacks_max=running.jump_callbacks_max,
-        has_discovery=selection.has("discovery"),
-        has_session_state=selection.has("session_state"),
-        has_sleep=selection.has("sleep_cycles"),
-        multithread=selection.has("multithread"),
-        hard_liveliness_ms=_hard_liveliness(application, selection),
-        discovery_port=application.transport.discover or DISCOVERY_PORT,
-        has_time_sync=selection.has("time_sync"),
-        has_ros_time=selection.has(CLOCK_ROS),
-        fixed_messages=all(plan.fixed_size for plan in types if plan.wire is not None),
-        timed_qos=timed_qos(application, selection.entities, diagnostics),
-        kept_messages=storage.kept,
-        message_pools=storage.pools,
-        fragments=streams.fragments,
-        arrives_in_fragments=streams.arrives_in_fragments,
-        input_reader=streams.input_reader,
-        input_free=streams.input_free,
-        reliable_input_slots=streams.reliable_input_slots,
-        reliable_input_slot_size=streams.input_size if streams.reliable_input_slots else 0,
-    )
-    board = plan_board(application, target, runtime, diagnostics)
-    own_line = runtime.transport == "serial" and not target.hosted and not board.has_serial_driver
-    runtime = replace(runtime, own_line=own_line)
-    runtime = replace(runtime, plan_id=_plan_id(runtime, selection, types))
-    return Project(
-        name, application, selection, target, types, roots, streams, runtime, board, storage, services
+        read_polls=asked.read_polls,
     )
 
 
@@ -371,8 +393,12 @@ def _plan_id(runtime: RuntimePlan, selection: Selection, types: tuple[TypePlan, 
     """Return 16 hexadecimal digits that change whenever the library's layout or behaviour does."""
     parts = [repr(runtime), *(c.component.name for c in selection.components)]
     parts += [f"{t.name} {t.type_hash} {t.max_encoded_size}" for t in types]
-    parts += [f"queue {i} {q.asked}" for i, q in enumerate(runtime.queues) if q.asked is not None]
-    parts += [f"{p.index} {p.limited}" for p in runtime.publishers if p.limited]
-    parts += [f"{s.kind} {s.index} {s.limited}" for s in (*runtime.services, *runtime.clients) if s.limited]
+    parts += [f"queue {i} {q.asked}" for i, q in enumerate(runtime.input.queues) if q.asked is not None]
+    parts += [f"{p.index} {p.limited}" for p in runtime.entities.publishers.declared if p.limited]
+    parts += [
+        f"{s.kind} {s.index} {s.limited}"
+        for s in (*runtime.entities.services.declared, *runtime.entities.clients.declared)
+        if s.limited
+    ]
     parts += [f"{s.name} {s.max_encoded_size}" for t in types for s in t.limit_sets]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:16]

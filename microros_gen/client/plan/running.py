@@ -14,18 +14,73 @@ from microros_gen.selection.model import Selection
 _NS_PER_US = 1000
 
 
-@dataclass(frozen=True)
-class Running:
-    """Places of each; see RuntimePlan."""
+@dataclass(frozen=True, kw_only=True)
+class TimersPlan:
+    """`max` places of timers, the first for those that are `declared`; 0: `timers` is not selected."""
 
-    timers: tuple[TimerPlan, ...] = ()
-    timers_max: int = 0
-    executors_max: int = 0
+    max: int = 0
+    declared: tuple[TimerPlan, ...] = ()
+
+    @property
+    def any(self) -> bool:
+        """Whether `timers` is selected."""
+        return self.max > 0
+
+    @property
+    def has_rtos(self) -> bool:
+        """Whether a timer of the system drives a declared one."""
+        return any(timer.kind == "rtos" for timer in self.declared)
+
+    @property
+    def has_hardware(self) -> bool:
+        """Whether the application drives a declared timer."""
+        return any(timer.kind == "hardware" for timer in self.declared)
+
+    @property
+    def has_ticked(self) -> bool:
+        """Whether something else than its clock makes a timer ready."""
+        return self.has_rtos or self.has_hardware
+
+
+@dataclass(frozen=True, kw_only=True)
+class ExecutorPlan:
+    """`max` places of executors, with `handles_max` handles each; 0: `executor` is not selected."""
+
+    max: int = 0
     handles_max: int = 0
     guard_conditions_max: int = 0
     wait_sets_max: int = 0
+
+    @property
+    def any(self) -> bool:
+        """Whether `executor` is selected."""
+        return self.max > 0
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClockPlan:
+    """Places of clocks of ROS time, 0: `clock` is not selected; and of callbacks of each at a jump of its time.
+
+    `has_ros_time`: the first subscription is that of /clock, which the library opens itself.
+    """
+
     ros_clocks_max: int = 0
     jump_callbacks_max: int = 0
+    has_ros_time: bool = False
+
+    @property
+    def any(self) -> bool:
+        """Whether `clock` is selected."""
+        return self.ros_clocks_max > 0
+
+
+@dataclass(frozen=True)
+class Running:
+    """The slices of what runs the application."""
+
+    timers: TimersPlan
+    executor: ExecutorPlan
+    clock: ClockPlan
 
 
 def plan_running(
@@ -38,32 +93,50 @@ def plan_running(
     not declared by a node: with `nodes:` there are those of `pools`. rclc's support has a ROS clock where time comes
     from /clock.
     """
-    declared = bool(application.nodes)
-    clocks, of_support = selection.has("clock"), 1 if selection.has(CLOCK_ROS) else 0
-    ros_clocks = max(pool(application, "ros_clocks", 1 + of_support, diagnostics), 1) if clocks else 0
-    jump_callbacks = max(pool(application, "jump_callbacks", 1, diagnostics), 1) if clocks else 0
-    timers = _timers(application) if selection.has("timers") else ()
-    timers_max = _places(application, "timers", len(timers), diagnostics) if selection.has("timers") else 0
+    clock = _clock_plan(application, selection, diagnostics)
+    timers = _timers_plan(application, selection, diagnostics)
+    executor = _executor_plan(application, selection, receivers, timers, diagnostics)
+    return Running(timers, executor, clock)
+
+
+def _timers_plan(application: Application, selection: Selection, diagnostics: Diagnostics) -> TimersPlan:
+    if not selection.has("timers"):
+        return TimersPlan()
+    timers = _timers(application)
+    return TimersPlan(max=_places(application, "timers", len(timers), diagnostics), declared=timers)
+
+
+def _executor_plan(
+    application: Application,
+    selection: Selection,
+    receivers: int,
+    timers: TimersPlan,
+    diagnostics: Diagnostics,
+) -> ExecutorPlan:
     if not selection.has("executor"):
-        return Running(
-            ros_clocks_max=ros_clocks,
-            jump_callbacks_max=jump_callbacks,
-        )
-    guards = pool(application, "guard_conditions", 0 if declared else 1, diagnostics)
+        return ExecutorPlan()
+    guards = pool(application, "guard_conditions", 0 if application.nodes else 1, diagnostics)
     executors = tuple((node, e) for node in application.nodes for e in node.executors)
-    everything = receivers + timers_max
+    everything = receivers + timers.max
     most = max((_handles(node, executor) for node, executor in executors), default=everything)
-    extra_timers = timers_max - len(timers)
+    extra_timers = timers.max - len(timers.declared)
     handles = (most + extra_timers if executors else everything) + guards
-    return Running(
-        timers=timers,
-        timers_max=timers_max,
-        executors_max=_places(application, "executors", len(executors), diagnostics),
+    return ExecutorPlan(
+        max=_places(application, "executors", len(executors), diagnostics),
         handles_max=max(pool(application, "handles", handles, diagnostics), 1),
         guard_conditions_max=guards,
         wait_sets_max=max(pool(application, "wait_sets", 1, diagnostics), 1),
-        ros_clocks_max=ros_clocks,
-        jump_callbacks_max=jump_callbacks,
+    )
+
+
+def _clock_plan(application: Application, selection: Selection, diagnostics: Diagnostics) -> ClockPlan:
+    ros_time = selection.has(CLOCK_ROS)
+    if not selection.has("clock"):
+        return ClockPlan(has_ros_time=ros_time)
+    return ClockPlan(
+        ros_clocks_max=max(pool(application, "ros_clocks", 2 if ros_time else 1, diagnostics), 1),
+        jump_callbacks_max=max(pool(application, "jump_callbacks", 1, diagnostics), 1),
+        has_ros_time=ros_time,
     )
 
 

@@ -42,7 +42,7 @@ class _Trial:
 
 def stream_bytes(project: Project) -> int:
     """Return the static memory of streams and queues."""
-    return project.streams.ram + project.runtime.queues_size
+    return project.streams.ram + project.runtime.input.queues_size
 
 
 def check_stream_budget(
@@ -55,7 +55,7 @@ def check_stream_budget(
 
     `plan` plans another application, with its own budget unchecked; it raises UserError where it cannot.
     """
-    application, streams, queues = project.application, project.streams, project.runtime.queues_size
+    application, streams, queues = project.application, project.streams, project.runtime.input.queues_size
     budget, now = application.memory.ram_budget, stream_bytes(project)
     if budget is None or now <= budget:
         return

@@ -88,7 +88,7 @@ class Received:
 
 
 @dataclass(frozen=True)
-class StreamPlan:
+class StreamSizes:
     """Bytes of each stream's storage; 0 or no slots where a stream is not needed.
 
     `mtu`: the largest message that is sent. `fragments`: some reliable message is larger, and goes in pieces.
@@ -151,7 +151,7 @@ def plan_streams(
     create_text: int = 0,
     lends_input: bool = False,
     keeps_output: bool = False,
-) -> StreamPlan:
+) -> StreamSizes:
     """Size the streams; a message that cannot fit its stream is an error with the number that would do.
 
     `transport` is the selected one. `create` is the size of the largest CREATE (client/plan/creation.py), 0 where the
@@ -201,7 +201,7 @@ def plan_streams(
     kept = keeps_output and not fragments and application.on_full != "drop_oldest"
     kept = kept and line.saves(application.transport.send_buffer)
     lent = _lent(samples, max(WRITE_SIDE_INPUT, least), ceiling, PIECES[transport]) if lends_input else None
-    return StreamPlan(
+    return StreamSizes(
         mtu=ceiling if fragments else max(best_effort, reliable, create),
         best_effort_size=best_effort,
         reliable_slots=slots,

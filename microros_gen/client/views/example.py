@@ -106,8 +106,8 @@ def example_view(project: Project) -> ExampleView:
     includes |= {include_path(types[name].files.storage) for name in used if types[name].storage}
     views = tuple(p.view for p in publishers)
     services = service_views(project, tuple(node.variable for node in nodes))
-    shows_time = project.runtime.has_ros_time and not (
-        views or subscriptions or project.runtime.serves or project.runtime.has_timers
+    shows_time = project.runtime.clock.has_ros_time and not (
+        views or subscriptions or project.runtime.entities.serves or project.runtime.timers.any
     )
     running = None
     if not shows_time:
@@ -124,7 +124,7 @@ def example_view(project: Project) -> ExampleView:
         includes.add("rosidl_runtime_c/string.h")
     uses_time = any(view.stamps for view in views) or any(s.filling.stamps for s in services)
     waits = running is not None and not running.timers
-    has_period = running is None or waits or not project.runtime.timers
+    has_period = running is None or waits or not project.runtime.timers.declared
     return ExampleView(
         title=project.name,
         heading=f"An application for {project.name}, to start from: copy it out of this folder and change it.",
@@ -137,11 +137,11 @@ def example_view(project: Project) -> ExampleView:
         puts_text=puts_text,
         uses_time=uses_time,
         hosted=project.target.hosted,
-        ros_time=project.runtime.has_ros_time,
+        ros_time=project.runtime.clock.has_ros_time,
         has_epoch=project.target.hosted or project.selection.has("time_sync"),
         shows_time=shows_time,
         running=running,
-        needs_port=(uses_time and not project.runtime.has_ros_time) or waits,
+        needs_port=(uses_time and not project.runtime.clock.has_ros_time) or waits,
         has_period=has_period,
     )
 
@@ -153,12 +153,12 @@ class _Publisher:
 
 
 def _nodes(project: Project) -> tuple[NodeView, ...]:
-    if project.runtime.nodes:
+    if project.runtime.entities.nodes.declared:
         return tuple(
             NodeView(f"node_{n.index}" if n.index else "node", n.source_name, _namespace(n.source_namespace))
-            for n in project.runtime.nodes
+            for n in project.runtime.entities.nodes.declared
         )
-    has_node = project.runtime.nodes_max and project.selection.has("node")
+    has_node = project.runtime.entities.nodes.max and project.selection.has("node")
     return (NodeView("node", example_node(project.name), ""),) if has_node else ()
 
 
@@ -166,7 +166,7 @@ def _publishers(
     project: Project, types: dict[TypeName, TypePlan], nodes: tuple[NodeView, ...]
 ) -> list[_Publisher]:
     runtime = project.runtime
-    if runtime.nodes:
+    if runtime.entities.nodes.declared:
         declared = [endpoint for _, _, endpoint in publisher_declarations(project.application)]
         return [
             _publisher(
@@ -178,9 +178,9 @@ def _publishers(
                 declared[p.index].qos,
                 types[p.type].storage_name(p.topic),
             )
-            for p in runtime.publishers
+            for p in runtime.entities.publishers.declared
         ]
-    roots = project.roots[: runtime.publishers_max] if project.selection.has("publish") else ()
+    roots = project.roots[: runtime.entities.publishers.max] if project.selection.has("publish") else ()
     return [
         _publisher(project, types[root], nodes[0], index, topic, Qos(), types[root].c_name)
         for index, (root, topic) in enumerate(example_topics(roots))
@@ -216,17 +216,17 @@ def _subscriptions(
     project: Project, types: dict[TypeName, TypePlan], nodes: tuple[NodeView, ...]
 ) -> list[tuple[TypeName, SubscriptionView]]:
     runtime = project.runtime
-    if runtime.nodes:
+    if runtime.entities.nodes.declared:
         declared = [endpoint for _, _, endpoint in subscription_declarations(project.application)]
         return [
             (
                 s.type,
                 _subscription(project, types[s.type], nodes[s.node], s.index, declared[s.index], s.storage),
             )
-            for s in runtime.subscriptions
+            for s in runtime.entities.subscriptions.declared
             if not declared[s.index].of_the_library
         ]
-    topics = example_topics(project.roots[: runtime.application_subscriptions])
+    topics = example_topics(project.roots[: runtime.entities.subscriptions.application])
     return [
         (
             root,

@@ -93,7 +93,7 @@ def running_view(
     services: Sequence[ServiceView],
 ) -> RunningView | None:
     """Return what runs the example; None without an executor. `nodes` are the variables of the nodes."""
-    if not project.runtime.has_executors or not nodes:
+    if not project.runtime.executor.any or not nodes:
         return None
     timers = tuple(_timers(project, nodes))
     handles = (*_timer_handles(timers), *_received_handles(received), *_service_handles(services))
@@ -119,9 +119,9 @@ def _timers(project: Project, nodes: Sequence[str]) -> Iterator[TimerView]:
     None where hardware drives one: the function that starts it is the application's.
     """
     runtime = project.runtime
-    if not runtime.has_timers or runtime.has_hardware_timers:
+    if not runtime.timers.any or runtime.timers.has_hardware:
         return
-    for timer in runtime.timers:
+    for timer in runtime.timers.declared:
         yield TimerView(
             f"timer_{timer.index}",
             nodes[timer.node],
@@ -129,7 +129,7 @@ def _timers(project: Project, nodes: Sequence[str]) -> Iterator[TimerView]:
             f"on_timer_{timer.index}",
             _time(timer.period_ns),
         )
-    if not runtime.timers:
+    if not runtime.timers.declared:
         yield TimerView("example_timer", nodes[0], "", "on_example_timer", "RCL_MS_TO_NS(EXAMPLE_PERIOD_MS)")
 
 
@@ -140,7 +140,7 @@ def _time(nanoseconds: int) -> str:
 
 
 def _of_hardware(project: Project) -> Iterator[str]:
-    timers = project.runtime.timers if project.runtime.has_hardware_timers else ()
+    timers = project.runtime.timers.declared if project.runtime.timers.has_hardware else ()
     for timer in timers:
         why = " (port_hardware_timer_start is yours to write)" if timer.kind == "hardware" else ""
         yield f"timer {timer.name}{why}"

@@ -55,16 +55,19 @@ def service_views(project: Project, nodes: tuple[str, ...]) -> tuple[ServiceView
     """Return servers, then clients. `nodes` are the variables of the nodes."""
     types = {plan.name: plan for plan in project.types}
     runtime = project.runtime
-    if not runtime.declared:
+    if not runtime.entities.declared:
         named = example_topics(project.services)
-        places = (("service", runtime.services_max), ("client", runtime.clients_max))
+        places = (("service", runtime.entities.services.max), ("client", runtime.entities.clients.max))
         return tuple(
             _view(project, types, kind, index, (nodes[0], 0), topic, service, topic)
             for kind, most in places
             for index, (service, topic) in enumerate(named[:most])
         )
     views: list[ServiceView] = []
-    for kind, planned in (("service", runtime.services), ("client", runtime.clients)):
+    for kind, planned in (
+        ("service", runtime.entities.services.declared),
+        ("client", runtime.entities.clients.declared),
+    ):
         declared = [endpoint for _, _, endpoint in declarations(project.application, kind)]
         views += [
             _view(

@@ -70,7 +70,7 @@ def render_project(
     `#error` each.
     """
     rendered = _component_files(project, files, environment)
-    pools = frozenset(pool.kind for pool in project.runtime.message_pools)
+    pools = frozenset(pool.kind for pool in project.runtime.memory.message_pools)
     rendered |= render_types(project.types, environment, project.selection.has("services"), pools)
     rendered |= render_decoders(project.types, environment)
     if project.selection.has("micro_ros_utilities"):
@@ -157,27 +157,33 @@ def _own_limits(project: Project, publisher: PublisherPlan) -> str:
 
 def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectView:
     runtime = project.runtime
-    declared = [f"node `{n.name}` in `{n.namespace}`" for n in runtime.nodes]
+    declared = [f"node `{n.name}` in `{n.namespace}`" for n in runtime.entities.nodes.declared]
     declared += [
         f"publisher `{p.topic}` of {p.type}, {'reliable' if p.reliable else 'best effort'}{_own_limits(project, p)}"
-        for p in runtime.publishers
+        for p in runtime.entities.publishers.declared
     ]
     declared += [
         f"subscription `{s.topic}` of {s.type}, {'reliable' if s.reliable else 'best effort'}"
-        for s in runtime.subscriptions
+        for s in runtime.entities.subscriptions.declared
     ]
-    declared += [f"{s.kind} `{s.name}` of {s.type}" for s in (*runtime.services, *runtime.clients)]
+    declared += [
+        f"{s.kind} `{s.name}` of {s.type}"
+        for s in (*runtime.entities.services.declared, *runtime.entities.clients.declared)
+    ]
     pools = [
-        f"up to {runtime.nodes_max} node(s), named by the application",
+        f"up to {runtime.entities.nodes.max} node(s), named by the application",
     ]
     pools += [f"subscription `{e.topic}` of {e.type}" for e in project.application.implied]
     of_roots = ", ".join(str(root) for root in project.roots)
     for name, places in (
-        ("publisher", runtime.publishers_max),
-        ("subscription", runtime.application_subscriptions),
+        ("publisher", runtime.entities.publishers.max),
+        ("subscription", runtime.entities.subscriptions.application),
     ):
         pools += [f"up to {places} {name}(s) of {of_roots}"] if places else []
-    for name, places in (("service", runtime.services_max), ("client", runtime.clients_max)):
+    for name, places in (
+        ("service", runtime.entities.services.max),
+        ("client", runtime.entities.clients.max),
+    ):
         pools += [f"up to {places} {name}(s)"] if places else []
     return _ProjectView(
         title=project.name,
@@ -193,13 +199,13 @@ def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectVi
         has_image=not project.lacks_image,
         budgets=_budgets(project.application.memory),
         agent=project.selection.entities,
-        declared=runtime.declared,
+        declared=runtime.entities.declared,
         agent_file=next((path for path in rendered if path.startswith("agent/")), ""),
         memory=(
-            _Bytes("reliable output", runtime.reliable_slots * runtime.reliable_slot_size),
-            _Bytes("best-effort output", runtime.best_effort_size),
-            _Bytes("input", runtime.input_buffer_size),
+            _Bytes("reliable output", runtime.streams.reliable_slots * runtime.streams.reliable_slot_size),
+            _Bytes("best-effort output", runtime.streams.best_effort_size),
+            _Bytes("input", runtime.input.buffer_size),
             *((_Bytes("serial line, both directions", _line(project)),) if _line(project) else ()),
-            *((_Bytes("queues", runtime.queues_size),) if runtime.queues else ()),
+            *((_Bytes("queues", runtime.input.queues_size),) if runtime.input.queues else ()),
         ),
     )

@@ -8,9 +8,9 @@ from contextlib import ExitStack
 from pathlib import Path
 
 from microros_gen.client.plan.runtime import RuntimePlan
+from tests.support.plans import POOL
 from tests.support.runtime.driver import Client
 from tests.support.runtime.fake_agent import FakeAgent
-from tests.support.runtime.harness import POOL
 
 ProgramFactory = Callable[[RuntimePlan, str], Path]
 
@@ -37,7 +37,11 @@ class Bench:
     ) -> Client:
         """Return a client with node 0 and publisher 0 (Int32), whose datagrams so far are forgotten."""
         client = self.start(plan, liveliness)
-        name = f"{plan.nodes[0].name} {plan.nodes[0].namespace}" if plan.declared else "talker -"
+        name = (
+            f"{plan.entities.nodes.declared[0].name} {plan.entities.nodes.declared[0].namespace}"
+            if plan.entities.declared
+            else "talker -"
+        )
         for call in ("init", f"node 0 {name}", f"publisher 0 0 Int32 {topic} {qos}"):
             client.ok(call)
         client.sent.clear()

@@ -13,13 +13,14 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan
 from tests.support.paths import TESTS
-from tests.support.runtime.harness import POOL, READER, Tree, build, components, render
+from tests.support.plans import POOL, READER, changed
+from tests.support.runtime.harness import Tree, build, components, render
 
 CORPUS = TESTS / "runtime" / "corpus"
 SECONDS = int(os.environ.get("MICROROS_FUZZ_SECONDS", "600"))
@@ -41,21 +42,21 @@ class Target:
 FRAMING = Target(
     "framing",
     ("fuzz_framing.c",),
-    replace(POOL, transport="serial"),
+    changed(POOL, transport__kind="serial"),
     ("xrce_framing.c", "xrce_framing_send.c"),
 )
 SESSION = Target(
     "session",
     ("fuzz_session.c", "port_agent.c", "types_read.c"),
-    replace(
+    changed(
         READER,
-        mtu=128,
-        queues=(QueuePlan(3, 16), QueuePlan(2, 100)),
-        arrives_in_fragments=True,
-        reliable_input_slots=3,
-        has_time_sync=True,
-        has_session_state=True,
-        hard_liveliness_ms=10_000,
+        streams__mtu=128,
+        input__queues=(QueuePlan(3, 16), QueuePlan(2, 100)),
+        input__arrives_in_fragments=True,
+        input__reliable_slots=3,
+        session__has_time_sync=True,
+        session__has_state=True,
+        session__hard_liveliness_ms=10_000,
     ),
     longest=1500,
 )

@@ -10,13 +10,13 @@ import subprocess
 import time
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
+from operator import attrgetter
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from microros_gen.client.plan.runtime import RuntimePlan
-from microros_gen.client.plan.runtime_entities import NodePlan, PublisherPlan, QueuePlan
 from microros_gen.documents.templates import make_environment
 from microros_gen.interfaces.types import TypeName
 from microros_gen.selection.find_components import components_folder, load_catalogue
@@ -25,7 +25,6 @@ from microros_gen.toolchain.toolchain import LIBRARY_FLAGS, WARNINGS
 from tests.support.paths import ROOT, TESTS
 
 FIXTURES = TESTS / "runtime" / "c"
-INT32 = TypeName("std_msgs", "msg", "Int32")
 STRING = TypeName("std_msgs", "msg", "String")
 CORE = (
     "support",
@@ -41,118 +40,35 @@ CORE = (
 )
 SANITIZE = ("-g", "-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 
-POOL = RuntimePlan(
-    plan_id="0123456789abcdef",
-    error_text_size=160,
-    agent_host="127.0.0.1",
-    agent_port=8888,
-    mtu=128,
-    input_size=64,
-    client_key=0xA1B2C3D4,
-    session_id=0x81,
-    best_effort_size=128,
-    reliable_slots=4,
-    reliable_slot_size=64,
-    declared=False,
-    nodes_max=2,
-    publishers_max=3,
-    name_size=32,
-    nodes=(),
-    publishers=(),
-    arena_size=0,
-    on_full="error",
-    on_full_block_ms=0,
-    connect_timeout_ms=400,
-    create_timeout_ms=400,
-    close_timeout_ms=200,
-    liveliness_period_ms=100,
-    liveliness_wait_ms=100,
-    retry_first_ms=40,
-    retry_most_ms=160,
-    type_name_size=32,
-)
-
-DECLARED = replace(
-    POOL,
-    declared=True,
-    type_name_size=0,
-    nodes_max=1,
-    publishers_max=2,
-    name_size=0,
-    nodes=(NodePlan(0, "imu", "/arm", "/arm/imu", 77),),
-    publishers=(
-        PublisherPlan(0, 0, "/arm/chatter", "rt/arm/chatter", INT32, True),
-        PublisherPlan(1, 0, "/arm/imu/fast", "rt/arm/imu/fast", INT32, False),
-    ),
-)
-
-
-READER = replace(
-    POOL,
-    subscriptions_max=2,
-    queues=(QueuePlan(3, 16), QueuePlan(3, 16)),
-    reliable_input_slots=2,
-    reliable_input_slot_size=64,
-)
-
-
-SERVER = replace(
-    POOL,
-    mtu=256,
-    best_effort_size=256,
-    publishers_max=1,
-    services_max=1,
-    clients_max=2,
-    queues=(QueuePlan(2, 40), QueuePlan(3, 20), QueuePlan(2, 20)),
-    reliable_input_slots=2,
-    reliable_input_slot_size=64,
-)
-
-EXECUTOR = replace(
-    READER,
-    timers_max=3,
-    executors_max=2,
-    handles_max=5,
-    guard_conditions_max=2,
-    wait_sets_max=1,
-    ros_clocks_max=2,
-    jump_callbacks_max=2,
-)
-
-# The first subscription is that of /clock.
-ROS_TIME = replace(
-    EXECUTOR,
-    has_ros_time=True,
-    type_name_size=40,
-    subscriptions_max=3,
-    queues=(QueuePlan(1, 8), QueuePlan(3, 16), QueuePlan(3, 16)),
-)
-
 
 def components(plan: RuntimePlan, liveliness: str = "ping") -> tuple[str, ...]:
     """Return the components that the resolver selects for `plan`."""
-    names = [*CORE, f"entities_{plan.entities}", f"transport_{plan.transport}"]
-    names = [name for name in names if name != "publish" or plan.publisher_places]
-    names = [name for name in names if name != "write" or plan.publisher_places or plan.serves]
-    framed = plan.transport == "serial" or (plan.transport == "custom" and plan.framing != "off")
+    names = [*CORE, f"entities_{plan.creation.entities}", f"transport_{plan.transport.kind}"]
+    names = [name for name in names if name != "publish" or plan.entities.publisher_places]
+    names = [
+        name for name in names if name != "write" or plan.entities.publisher_places or plan.entities.serves
+    ]
+    framed = plan.transport.kind == "serial" or (
+        plan.transport.kind == "custom" and plan.transport.framing != "off"
+    )
     names += ["framing"] if framed else []
-    names += ["entities", "session_close"] if plan.entities != "preconfigured" else []
-    names += ["stream_reliable_input"] if plan.reliable_input_slots else []
-    names += ["stream_best_effort"] if plan.best_effort_size else []
-    names += ["read", "cdr_decode"] if plan.receives else []
-    names += ["subscribe", "stream_best_effort_input"] if plan.has_subscriptions else []
-    names += ["services"] if plan.serves else []
-    names += ["stream_reliable"] if plan.reliable_slots else []
-    names += ["discovery"] if plan.has_discovery else []
-    names += ["liveliness_hard"] if plan.hard_liveliness_ms else []
-    names += ["multithread"] if plan.multithread else []
-    names += ["sleep_cycles"] if plan.has_sleep else []
-    names += ["session_state"] if plan.has_session_state else []
-    names += ["time_sync"] if plan.has_time_sync else []
-    names += ["executor"] if plan.has_executors else []
-    names += ["timers"] if plan.has_timers else []
-    names += ["clock"] if plan.has_clocks else []
-    names += ["clock_ros"] if plan.has_ros_time else []
+    names += ["entities", "session_close"] if plan.creation.entities != "preconfigured" else []
+    names += ["stream_reliable_input"] if plan.input.reliable_slots else []
+    names += ["stream_best_effort"] if plan.streams.best_effort_size else []
+    names += ["read", "cdr_decode"] if plan.input.receives else []
+    names += ["subscribe", "stream_best_effort_input"] if plan.entities.subscriptions.any else []
+    names += ["services"] if plan.entities.serves else []
+    names += ["stream_reliable"] if plan.streams.reliable_slots else []
+    names += ["discovery"] if plan.transport.has_discovery else []
+    names += ["liveliness_hard"] if plan.session.hard_liveliness_ms else []
+    names += ["multithread"] if plan.session.multithread else []
+    names += ["sleep_cycles"] if plan.session.has_sleep else []
+    names += ["session_state"] if plan.session.has_state else []
+    names += ["time_sync"] if plan.session.has_time_sync else []
+    names += ["executor"] if plan.executor.any else []
+    names += ["timers"] if plan.timers.any else []
+    names += ["clock"] if plan.clock.any else []
+    names += ["clock_ros"] if plan.clock.has_ros_time else []
     names += {"ping": ["ping"], "acknack": ["liveliness_acknack"], "none": []}[liveliness]
     return tuple(sorted(names))
 
@@ -173,7 +89,9 @@ def render(out: Path, plan: RuntimePlan, names: Sequence[str]) -> Tree:
     """Write include/ and src/ of the components `names` below `out`."""
     catalogue = load_catalogue()
     chosen = tuple(ChosenComponent(catalogue[name], ("test",)) for name in names)
-    selection = Selection(("test",), chosen, plan.entities, plan.transport, "ping", (), (), (), (), ())
+    selection = Selection(
+        ("test",), chosen, plan.creation.entities, plan.transport.kind, "ping", (), (), (), (), ()
+    )
     headers = [header for c in chosen for header in c.component.headers]
     environment = make_environment()
     sources = []
@@ -181,7 +99,7 @@ def render(out: Path, plan: RuntimePlan, names: Sequence[str]) -> Tree:
         root = components_folder() / component.name
         files = [(p, p.relative_to(root)) for p in sorted((root / "include").rglob("*")) if p.is_file()]
         for source in component.sources:
-            if all(getattr(plan, key) == value for key, value in source.when):
+            if all(attrgetter(key)(plan) == value for key, value in source.when):
                 files.append((root / "src" / source.path, Path("src", component.name, source.path)))
         for path, place in files:
             target = out / str(place).removesuffix(".j2")

@@ -31,8 +31,8 @@ class Places:
         self.client: Client = self.bench.start(self.plan, agent=self.agent)
         self.client.ok("init")
         name = (
-            f"{self.plan.nodes[0].name} {self.plan.nodes[0].namespace}"
-            if self.plan.declared
+            f"{self.plan.entities.nodes.declared[0].name} {self.plan.entities.nodes.declared[0].namespace}"
+            if self.plan.entities.declared
             else "listener -"
         )
         self.client.ok(f"node 0 {name}")
@@ -56,7 +56,7 @@ class Places:
 
     def data(self, index: int, body: bytes) -> bytes:
         """Return DATA as the agent answers the last READ_DATA of this subscription."""
-        reader = (((self.plan.publisher_places + index) << 4) | 6).to_bytes(2, "big")
+        reader = (((self.plan.entities.publisher_places + index) << 4) | 6).to_bytes(2, "big")
         request = next(r.request for r in reversed(self.agent.reads) if r.reader == reader)
         return struct.pack("<BBH", DATA, 1, 4 + len(body)) + request + reader + body
 

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The slice of the client's plan for its entities: what is declared, and places for the rest."""
+
+from __future__ import annotations
+
+from dataclasses import field
+from typing import Generic, TypeVar
+
+from microros_gen.client.plan.runtime_entities import NodePlan, PublisherPlan, SubscriptionPlan
+from microros_gen.client.plan.runtime_rows import EndpointRow
+from microros_gen.client.plan.services import ServicePlan
+from microros_gen.records import dataclass
+from microros_gen.typesupport.plan.names import include_path, type_files
+
+Declared = TypeVar("Declared")
+
+
+@dataclass(frozen=True)
+class Places(Generic[Declared]):
+    """Places of one kind of entity: `max` of them, the first for those that are `declared`.
+
+    The library itself opens the first `implied` ones.
+    """
+
+    max: int = 0
+    declared: tuple[Declared, ...] = ()
+    implied: int = 0
+
+    @property
+    def any(self) -> bool:
+        """Whether there are any."""
+        return self.max > 0
+
+    @property
+    def application(self) -> int:
+        """How many the application opens: the last ones."""
+        return self.max - self.implied
+
+
+@dataclass(frozen=True, kw_only=True)
+class EntitiesPlan:
+    """Places of entities, and their names.
+
+    `declared` is false for an application without `nodes:`: then names come from the calls and are kept in pools
+    (names of at most `name_size` bytes with their terminator, DDS type names of `type_name_size`). Subscriptions have
+    one place at least where they are selected; services and clients none where `nodes:` declares none.
+    `timed_qos`: an endpoint has a deadline or a lifespan.
+    """
+
+    declared: bool
+    nodes: Places[NodePlan]
+    publishers: Places[PublisherPlan]
+    subscriptions: Places[SubscriptionPlan] = field(default_factory=Places)
+    services: Places[ServicePlan] = field(default_factory=Places)
+    clients: Places[ServicePlan] = field(default_factory=Places)
+    name_size: int = 0
+    type_name_size: int = 0
+    timed_qos: bool = False
+
+    @property
+    def names_mode(self) -> str:
+        """`declared` or `pool`: where names of nodes and publishers come from."""
+        return "declared" if self.declared else "pool"
+
+    @property
+    def serves(self) -> bool:
+        """Whether there are places of services or of clients."""
+        return self.services.any or self.clients.any
+
+    @property
+    def publisher_places(self) -> int:
+        """Places of publishers, which come first among the endpoints; a table needs one place at least."""
+        receives = self.subscriptions.any or self.serves
+        return max(self.publishers.max, 0 if receives else 1)
+
+    @property
+    def endpoints(self) -> tuple[EndpointRow, ...]:
+        """The declared endpoints in the order of their places, with the places that nobody declared."""
+        declared = self.publishers.declared
+        publishers = [EndpointRow(p.topic, p.dds_type, p.node, p.limited, p.given) for p in declared]
+        subscriptions = [
+            EndpointRow(s.topic, s.dds_type, s.node, given=s.given) for s in self.subscriptions.declared
+        ]
+        rows = publishers + [EndpointRow()] * (self.publisher_places - len(publishers))
+        subscriptions += [EndpointRow()] * (self.subscriptions.max - len(subscriptions))
+        services = [
+            EndpointRow(s.name, s.dds_type, s.node, s.limited, s.given)
+            for s in (*self.services.declared, *self.clients.declared)
+        ]
+        return (*rows, *subscriptions, *services)
+
+    @property
+    def remaps(self) -> bool:
+        """Whether some name of the source is another one on the wire."""
+        nodes = any(node.given_name for node in self.nodes.declared)
+        return nodes or any(row.given for row in self.endpoints)
+
+    @property
+    def limited_headers(self) -> tuple[str, ...]:
+        """Headers that declare the types of what sends with limits of their own; none: no publisher has such."""
+        senders: list[PublisherPlan | ServicePlan] = [
+            *self.publishers.declared,
+            *self.services.declared,
+            *self.clients.declared,
+        ]
+        headers = {type_files(s.type).type_support for s in senders if s.limited}
+        return tuple(sorted(map(include_path, headers)))

@@ -1,0 +1,263 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The slices of the client's plan, by subject. Sizes are bytes, times are milliseconds."""
+
+from __future__ import annotations
+
+from microros_gen.application.model import DISCOVERY_PORT, MOST_HISTORY
+from microros_gen.client.plan.runtime_entities import QueuePlan
+from microros_gen.client.plan.runtime_rows import QueueRow
+from microros_gen.records import dataclass
+from microros_gen.typesupport.plan.message_pools import MessagePool, PoolPointer, pool_pointers
+
+DISCOVERY_GROUP = "239.255.0.2"
+"""Where clients ask for agents and agents listen (OMG DDS-XRCE 1.0, 9.3)."""
+LINE_CHUNK = 32
+"""Bytes that are read of a line at a time."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SessionPlan:
+    """The session with the agent; its times are in TimesPlan.
+
+    `client_key` None: the port supplies it (`session.key: device`). `hard_liveliness_ms`: after so long a silence the
+    agent gives the client up; 0: as it likes.
+    """
+
+    id: int
+    client_key: int | None
+    multithread: bool = False
+    hard_liveliness_ms: int = 0
+    has_state: bool = False
+    has_sleep: bool = False
+    has_time_sync: bool = False
+
+    @property
+    def has_device_key(self) -> bool:
+        """Whether the port supplies the client key."""
+        return self.client_key is None
+
+
+@dataclass(frozen=True, kw_only=True)
+class TransportPlan:
+    """How messages reach the agent, and where it is.
+
+    `kind` is udp, tcp, serial or custom; `framing` of a custom one on, off or either (chosen at run time),
+    `read_polls`: its function that reads packets never waits with a time-out of 0.
+    `device` and `baud` are those of a serial line. `send_buffer`: bytes that wait for it; `keeps_output`: it takes
+    messages of the reliable stream from where they are; `line_input`: the largest message that it must not lose while
+    nobody reads; `line_chunk`: bytes that are read of it at a time; `own_line`: the application has its functions.
+    """
+
+    agent_host: str
+    agent_port: int
+    kind: str = "udp"
+    has_discovery: bool = False
+    discovery_port: int = DISCOVERY_PORT
+    framing: str = "either"
+    read_polls: bool = False
+    device: str = ""
+    baud: int = 115_200
+    send_buffer: int = 2048
+    keeps_output: bool = False
+    line_input: int = 64
+    line_chunk: int = LINE_CHUNK
+    own_line: bool = False
+
+    @property
+    def has_sockets(self) -> bool:
+        """Whether it goes over a socket of the port."""
+        return self.kind in ("udp", "tcp")
+
+    @property
+    def send_may_wait(self) -> bool:
+        """Whether sending is a function of the application, which may wait for its line."""
+        return self.kind == "custom" or self.own_line
+
+    @property
+    def input_is_free(self) -> bool:
+        """Whether the input buffer is free between two looks at the line, for what is asked over another one.
+
+        A session keeps the part of a message there that has come over a line of bytes. A board has one such line, and
+        nothing else is asked while it is a session's.
+        """
+        lines_of_bytes = self.kind == "tcp" or bool(self.device)
+        return not lines_of_bytes and (self.kind != "custom" or self.framing == "off")
+
+    @property
+    def discovers(self) -> bool:
+        """Whether a session searches for its agent by itself."""
+        return self.agent_host == DISCOVERY_GROUP
+
+    @property
+    def agent_place(self) -> str:
+        """Where the agent is: `192.168.1.10:8888`, `[::1]:8888`."""
+        host = f"[{self.agent_host}]" if ":" in self.agent_host else self.agent_host
+        return f"{host}:{self.agent_port}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class OutputPlan:
+    """The output streams. `mtu`: the largest message that is sent.
+
+    `best_effort_size` 0 or `reliable_slots` 0: there is no such stream. `fragments`: some reliable message is larger
+    than the MTU, `reliable_slot_size` holds it whole. `on_full`: what a write does when no slot is free.
+    """
+
+    mtu: int
+    best_effort_size: int
+    reliable_slots: int
+    reliable_slot_size: int
+    on_full: str
+    on_full_block_ms: int
+    fragments: bool = False
+
+    @property
+    def reliable_front(self) -> int:
+        """Bytes of a reliable slot before the first submessage: a message header, with fragments also FRAGMENT's."""
+        return 8 if self.fragments else 4
+
+    @property
+    def reliable_begun(self) -> int:
+        """How many messages may be on their way at a time. With drop_oldest one is left that can be dropped."""
+        return self.reliable_slots - (1 if self.on_full == "drop_oldest" and self.reliable_slots > 1 else 0)
+
+    @property
+    def history_can_grow(self) -> bool:
+        """Whether `pools: {history: …}` may be larger than it is."""
+        return 0 < self.reliable_slots < MOST_HISTORY
+
+
+@dataclass(frozen=True, kw_only=True)
+class InputPlan:
+    """The input buffer, the reliable input stream and the queues of samples.
+
+    `size`: the largest message of the agent, as it is told. `queues` has one entry for each place of a subscription,
+    a service and a client, in this order. `reliable_slots`: messages of the agent's reliable stream that the client
+    holds at a time; 0: no such stream. `arrives_in_fragments`: some reliable DATA is larger than the input buffer.
+    `reader`: the queue whose one slot is the end of the input buffer, after `free` bytes.
+    """
+
+    size: int
+    reader: int | None = None
+    free: int = 0
+    arrives_in_fragments: bool = False
+    reliable_slots: int = 0
+    reliable_slot_size: int = 0
+    queues: tuple[QueuePlan, ...] = ()
+
+    @property
+    def receives(self) -> bool:
+        """Whether there are endpoints that receive: then `read` is selected."""
+        return bool(self.queues)
+
+    @property
+    def queue_rows(self) -> tuple[QueueRow, ...]:
+        """The queues with their places in the storage."""
+        rows: list[QueueRow] = []
+        first, offset = 0, 0
+        for queue in self.queues:
+            lent = len(rows) == self.reader
+            rows.append(QueueRow(queue.slots, queue.slot_size, first, 0 if lent else offset, queue.size))
+            first, offset = first + queue.slots, offset + (0 if lent else queue.size)
+        return tuple(rows)
+
+    @property
+    def queue_mode(self) -> str:
+        """`bytes` or `slots`: whether a sample in a queue takes its own size, or that of the largest."""
+        return "bytes" if any(queue.asked is not None for queue in self.queues) else "slots"
+
+    @property
+    def queue_slots(self) -> int:
+        """Slots of all queues together."""
+        return sum(queue.slots for queue in self.queues)
+
+    @property
+    def queues_size(self) -> int:
+        """Bytes of all queues together, that in the input buffer left out."""
+        queues = (queue for i, queue in enumerate(self.queues) if i != self.reader)
+        return sum(queue.size for queue in queues)
+
+    @property
+    def lends(self) -> bool:
+        """Whether a sample waits in the input buffer."""
+        return self.reader is not None
+
+    @property
+    def buffer_size(self) -> int:
+        """Bytes of the buffer that messages are received in."""
+        slot = 0 if self.reader is None else self.queues[self.reader].slot_size
+        return max(self.size, self.free + slot)
+
+    @property
+    def reliable_mode(self) -> str:
+        """`ordered` or `held`: what becomes of a reliable message of the agent that comes before its turn."""
+        return "held" if self.reliable_slots > 1 else "ordered"
+
+    @property
+    def fragments(self) -> str:
+        """`kept`, `refused` or `none`: what becomes of samples that come in fragments.
+
+        Where every sample fits the input buffer, one that does not is too large for its queue as well.
+        """
+        if not self.receives or not self.reliable_slots:
+            return "none"
+        return "kept" if self.arrives_in_fragments else "refused"
+
+
+@dataclass(frozen=True, kw_only=True)
+class CreationPlan:
+    """How the client's entities come to be at the agent.
+
+    `entities` is preconfigured, reference, xml or binary; `stream` that of CREATE (best_effort, reliable). `size`: the
+    largest CREATE, where creation is reliable, else 0.
+    """
+
+    entities: str = "binary"
+    stream: str = "best_effort"
+    size: int = 0
+
+
+@dataclass(frozen=True, kw_only=True)
+class MemoryPlan:
+    """Where messages get memory.
+
+    `message_pools`: storage of `kept_messages` messages of each sender. `fixed_messages`: no message that is sent has
+    a string or sequence.
+    """
+
+    arena_size: int
+    fixed_messages: bool = False
+    kept_messages: int = 0
+    message_pools: tuple[MessagePool, ...] = ()
+
+    @property
+    def mode(self) -> str:
+        """`arena` or `none`: what is behind the default allocator."""
+        return "arena" if self.arena_size else "none"
+
+    @property
+    def messages(self) -> str:
+        """`pools` or `allocator`: where strings and sequences get their memory."""
+        return "pools" if self.message_pools else "allocator"
+
+    @property
+    def pool_pointers(self) -> tuple[PoolPointer, ...]:
+        """What functions of rosidl_runtime_c name for each kind of element."""
+        return pool_pointers(self.message_pools)
+
+    @property
+    def refusal(self) -> str:
+        """`told` or `never`: whether an encoder can refuse a message."""
+        return "never" if self.fixed_messages else "told"
+
+
+@dataclass(frozen=True, kw_only=True)
+class ErrorsPlan:
+    """What is said of an error. `text_size` 0: codes only."""
+
+    text_size: int
+
+    @property
+    def mode(self) -> str:
+        """`text` or `code`: which file speaks for errors."""
+        return "text" if self.text_size else "code"
