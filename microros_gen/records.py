@@ -37,9 +37,10 @@ else:
 
     def _values_of(names):
         """Return a function from an instance to the values that are compared; no method of the class."""
-        if len(names) > 1:
-            return attrgetter(*names)
-        return staticmethod(lambda record: tuple(getattr(record, name) for name in names))
+        if not names:
+            return staticmethod(lambda record: ())
+        values = attrgetter(*names)
+        return values if len(names) > 1 else staticmethod(lambda record: (values(record),))
 
     def _init_at_first_use(cls, fields):
         def init(self, *arguments, **named):

@@ -5,14 +5,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import PublisherPlan, SubscriptionPlan
 from microros_gen.client.plan.services import ServicePlan
 from microros_gen.compiler.pipeline import Planned
-from microros_gen.toolchain.compile import BuildReport
-from microros_gen.toolchain.measure import Usage
 from microros_gen.typesupport.plan.message_pools import open_members
+
+if TYPE_CHECKING:
+    from microros_gen.toolchain.compile import BuildReport
+    from microros_gen.toolchain.measure import Usage
 
 _SHOWN = 6
 """Members that a line names."""

@@ -15,7 +15,6 @@ from microros_gen.interfaces.interface_set import Interface, InterfaceSet
 from microros_gen.interfaces.msg.action import parse_action
 from microros_gen.interfaces.msg.parser import parse_msg
 from microros_gen.interfaces.msg.srv import parse_srv
-from microros_gen.interfaces.omg_idl.parser import parse_idl
 from microros_gen.interfaces.types import Declaration, Field, Message, NamedType, TypeName, element_of
 
 __all__ = ["Interface", "InterfaceSet", "resolve_interfaces", "split_type_name"]
@@ -40,9 +39,10 @@ def resolve_interfaces(
         roots.update(resolver.request(request))
     found = resolver.close({declaring_name(name) for name in roots})
     order = _dependency_order(found, diagnostics)
+    interfaces = {name: found[name] for name in order}
     return InterfaceSet(
-        MappingProxyType({name: found[name] for name in order}),
-        tuple(sorted(name for name in roots if declaring_name(name) in order)),
+        MappingProxyType(interfaces),
+        tuple(sorted(name for name in roots if declaring_name(name) in interfaces)),
     )
 
 
@@ -216,6 +216,8 @@ def _parsed(source: Source, name: TypeName, diagnostics: Diagnostics) -> Declara
     """Return what a file declares, or None with errors in `diagnostics`."""
     if not source.name.endswith(".idl"):
         return _PARSERS[name.kind](source, name, diagnostics)
+    from microros_gen.interfaces.omg_idl.parser import parse_idl  # few packages have such files
+
     found = Diagnostics()
     declarations = parse_idl(source, name.package, name.kind, found)
     declaration = next((d for d in declarations if d.name == name), None)

@@ -65,13 +65,13 @@ def record_run(
     `begun_ns` is the time (nanoseconds since the epoch) before anything was read: an input that is as young may
     have been read before its change.
     """
-    states = {str(p.absolute()): _state(p) for p in inputs}
+    states = _states(inputs)
     if any(max(state[1:]) >= begun_ns - _CLOCK_STEP_NS for state in states.values()):
         return
     data = {
         "tool": _tool_state(),
         "inputs": states,
-        "outputs": {str(p.absolute()): _state(p) for p in outputs},
+        "outputs": _states(outputs),
         "out": str(run.out),
         "files": run.files,
         "summary": run.summary,
@@ -91,14 +91,10 @@ def cache_folder(environ: Mapping[str, str]) -> Path:
     return (Path(base) if base else Path.home() / ".cache") / "microros-gen"
 
 
-def compiled_templates(environ: Mapping[str, str]) -> Path | None:
-    """Return the folder that keeps compiled templates between runs; None where there can be none."""
-    folder = cache_folder(environ) / "templates"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError:
-        return None
-    return folder if os.access(folder, os.W_OK) else None
+def compiled_templates(environ: Mapping[str, str]) -> Path:
+    """Return the file that keeps the compiled templates of this installation between runs."""
+    installation = hashlib.sha256(f"{microros_gen.__file__} {sys.version}".encode()).hexdigest()
+    return cache_folder(environ) / "templates" / f"{installation[:16]}.bin"
 
 
 def _record(command: Mapping[str, object], environ: Mapping[str, str]) -> Path:
@@ -110,6 +106,12 @@ def _record(command: Mapping[str, object], environ: Mapping[str, str]) -> Path:
     ]
     digest = hashlib.sha256(json.dumps(key, sort_keys=True).encode()).hexdigest()
     return cache_folder(environ) / "runs" / f"{digest[:32]}.json"
+
+
+def _states(paths: Iterable[Path]) -> dict[str, list[int]]:
+    """Return the state of each path, by its absolute name."""
+    here = Path.cwd()
+    return {str(here / path): _state(path) for path in paths}
 
 
 def _state(path: Path) -> list[int]:

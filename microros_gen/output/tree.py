@@ -55,7 +55,7 @@ def write_tree(out: Path, files: Mapping[str, bytes]) -> WriteReport:
         owned = _owned_files(out)
         _refuse_links(out, files)
         out.mkdir(parents=True, exist_ok=True)
-        changed = tuple(sorted(p for p in files if _differs(out / p, files[p])))
+        changed = _changed(out, files)
         others = sorted(p for p in owned if p not in files and os.path.lexists(out / p) and not _link(out, p))
         stale = tuple(p for p in others if _is_as_written(out / p, owned[p]))
         if changed or stale or (out / JOURNAL).exists():
@@ -84,7 +84,7 @@ def write_files(folder: Path, files: Mapping[str, bytes]) -> tuple[str, ...]:
     Nothing is removed. Raises UserError when the folder cannot be written.
     """
     with _told_as_user_error(folder):
-        changed = tuple(sorted(name for name in files if _differs(folder / name, files[name])))
+        changed = _changed(folder, files)
         for name in changed:
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             _replace(folder / name, files[name])
@@ -157,7 +157,7 @@ def _link(out: Path, name: str) -> Path | None:
 
 def _refuse_links(out: Path, names: Iterable[str], themselves: bool = False) -> None:
     """Raise UserError where a folder on the way to one of `names` (or the name itself) is a symbolic link."""
-    folders = {str(PurePosixPath(name) if themselves else PurePosixPath(name).parent) for name in names}
+    folders = set(names) if themselves else _folders_of(names)
     found = {link for folder in folders if (link := _link(out, f"{folder}/file")) is not None}
     if found:
         hint = "Remove it; nothing outside the output folder is touched, and nothing was changed"
@@ -169,6 +169,16 @@ def _is_as_written(path: Path, digests: frozenset[str]) -> bool:
         return hashlib.sha256(read_bytes(path, _LARGEST_FILE, follow=False)).hexdigest() in digests
     except OSError:
         return False
+
+
+def _folders_of(names: Iterable[str]) -> set[str]:
+    """Return the folders below the output folder that hold these files: far fewer than files."""
+    return {name.rpartition("/")[0] for name in names} - {""}
+
+
+def _changed(folder: Path, files: Mapping[str, bytes]) -> tuple[str, ...]:
+    """Return the names of the files that are not there with these bytes, sorted."""
+    return tuple(sorted(name for name, content in files.items() if _differs(folder / name, content)))
 
 
 def _differs(path: Path, content: bytes) -> bool:
@@ -192,9 +202,9 @@ def _replace_all(
     listed = {name: sorted(digests.get(name, owned.get(name, ()))) for name in sorted({*files, *owned})}
     journal = {"files": listed, "generator": {"name": "microros-gen"}}
     _replace(out / JOURNAL, (json.dumps(journal, indent=1) + "\n").encode())
-    _remove_temporaries(out, {name for name in listed if _link(out, name) is None})
-    for folder in sorted({(out / name).parent for name in changed}):
-        folder.mkdir(parents=True, exist_ok=True)
+    _remove_temporaries(out, [f for f in _folders_of(listed) if _link(out, f"{f}/file") is None])
+    for folder in sorted(_folders_of(changed)):
+        (out / folder).mkdir(parents=True, exist_ok=True)
     for name in changed:
         if name != MANIFEST:
             _replace(out / name, files[name])
@@ -217,8 +227,8 @@ def _replace(path: Path, content: bytes) -> None:
         raise
 
 
-def _remove_temporaries(out: Path, names: set[str]) -> None:
-    for folder in sorted({(out / n).parent for n in names} | {out}):
+def _remove_temporaries(out: Path, folders: Iterable[str]) -> None:
+    for folder in (out, *(out / name for name in sorted(folders))):
         if folder.is_dir():
             for leftover in folder.glob(f".*{TEMPORARY_SUFFIX}"):
                 leftover.unlink(missing_ok=True)

@@ -20,7 +20,7 @@ from lark import Lark, Token
 from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedToken
 
 from microros_gen.diagnostics import Diagnostics, Source, Span, reads
-from microros_gen.interfaces.msg.declarations import Declaration, Line, read_declaration
+from microros_gen.interfaces.msg.declarations import Declaration, Line, SyntaxNode, read_declaration
 from microros_gen.interfaces.msg.names import package_name_fault, type_name_fault
 from microros_gen.interfaces.types import Field, Message, TypeName
 
@@ -162,11 +162,17 @@ def _check_comment(source: Source, number: int, line: str, diagnostics: Diagnost
 
 def _parse_line(line: Line, package: str, diagnostics: Diagnostics) -> Declaration | None:
     try:
-        tree = _grammar().parse(line.text)
+        tree = _tree(line.text)
     except UnexpectedInput as fault:
         _report_syntax(line, fault, diagnostics)
         return None
     return read_declaration(tree, line, package, diagnostics)
+
+
+@lru_cache(maxsize=1024)
+def _tree(text: str) -> SyntaxNode:
+    """Return the syntax of a declaration; packages say `std_msgs/Header header` and `string name` again and again."""
+    return _grammar().parse(text)
 
 
 @lru_cache(maxsize=1)
