@@ -5,18 +5,21 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from microros_gen.compiler.options import Options
 from microros_gen.compiler.pipeline import Planned, Resolved, plan_request, render_request, resolve_request
 from microros_gen.compiler.request import Request, read_request, request_of
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source
-from microros_gen.output.golden import golden_differences
 from microros_gen.output.tree import WriteReport, check_build_folders, check_owned, write_tree
-from microros_gen.toolchain.compile import BuildReport, compile_project
-from microros_gen.toolchain.measure import Usage, measure_library
-from microros_gen.toolchain.toolchain import Toolchain, find_toolchain
+from microros_gen.records import dataclass
+
+if TYPE_CHECKING:
+    from microros_gen.toolchain.compile import BuildReport
+    from microros_gen.toolchain.measure import Usage
+    from microros_gen.toolchain.toolchain import Toolchain
 
 
 @dataclass(frozen=True)
@@ -99,6 +102,8 @@ def write(files: Mapping[str, bytes], out: Path) -> WriteReport:
 
 def differences(files: Mapping[str, bytes], golden: Path) -> tuple[str, ...]:
     """Return how `files` differ from a golden copy, a unified diff for each; none: they are the same."""
+    from microros_gen.output.golden import golden_differences
+
     return golden_differences(golden, files)
 
 
@@ -115,6 +120,8 @@ def toolchain(planned: Planned, environ: Mapping[str, str] | None = None) -> Too
 
     Raises UserError that names what to install.
     """
+    from microros_gen.toolchain.toolchain import find_toolchain
+
     return find_toolchain(planned.project.target, os.environ if environ is None else environ)
 
 
@@ -123,6 +130,9 @@ def compile(planned: Planned, out: Path, tools: Toolchain | None = None) -> Buil
 
     Raises UserError with status 1: a source does not compile, or the image is larger than the target's memory.
     """
+    from microros_gen.toolchain.compile import compile_project
+    from microros_gen.toolchain.measure import measure_library
+
     tools = tools or toolchain(planned)
     check_build_folders(out)
     report = compile_project(out, planned.project, tools)
