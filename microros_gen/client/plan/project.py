@@ -14,6 +14,7 @@ from microros_gen.client.plan.board import RING_CHUNK, BoardPlan, has_own_line, 
 from microros_gen.client.plan.creation import CreateNames, create_size, create_text, participant_reference
 from microros_gen.client.plan.declared import named_at, pool, publisher_declarations, timed_qos, type_name
 from microros_gen.client.plan.entities import EntitiesPlan, Places
+from microros_gen.client.plan.plan_id import plan_id
 from microros_gen.client.plan.queues import check_pool_key
 from microros_gen.client.plan.receiving import plan_receiving
 from microros_gen.client.plan.running import plan_running
@@ -218,7 +219,8 @@ def plan_project(
     board = plan_board(application, target, runtime, diagnostics)
     own_line = runtime.transport.kind == "serial" and not target.hosted and not board.has_serial_driver
     runtime = replace(runtime, transport=replace(runtime.transport, own_line=own_line))
-    runtime = replace(runtime, plan_id=_plan_id(runtime, selection, types))
+    names_of_components = (c.component.name for c in selection.components)
+    runtime = replace(runtime, plan_id=plan_id(runtime, names_of_components, types))
     return Project(
         name, application, selection, target, types, roots, streams, runtime, board, storage, services
     )
@@ -387,18 +389,3 @@ def _agent(transport: Transport, selection: Selection) -> tuple[str, int]:
     if selection.has("discovery") and transport.agent_span is None:
         return DISCOVERY_GROUP, DISCOVERY_PORT
     return transport.host, transport.port
-
-
-def _plan_id(runtime: RuntimePlan, selection: Selection, types: tuple[TypePlan, ...]) -> str:
-    """Return 16 hexadecimal digits that change whenever the library's layout or behaviour does."""
-    parts = [repr(runtime), *(c.component.name for c in selection.components)]
-    parts += [f"{t.name} {t.type_hash} {t.max_encoded_size}" for t in types]
-    parts += [f"queue {i} {q.asked}" for i, q in enumerate(runtime.input.queues) if q.asked is not None]
-    parts += [f"{p.index} {p.limited}" for p in runtime.entities.publishers.declared if p.limited]
-    parts += [
-        f"{s.kind} {s.index} {s.limited}"
-        for s in (*runtime.entities.services.declared, *runtime.entities.clients.declared)
-        if s.limited
-    ]
-    parts += [f"{s.name} {s.max_encoded_size}" for t in types for s in t.limit_sets]
-    return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:16]
