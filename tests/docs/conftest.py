@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The site, built once for all tests of a process; the generators of docs/ as modules."""
+"""The site, built once for all workers; the generators of docs/ as modules."""
 
 from __future__ import annotations
 
+import fcntl
 import os
 import subprocess
 import sys
@@ -17,8 +18,20 @@ sys.path.insert(0, str(ROOT / "docs"))  # as mkdocs does for docs/hooks.py
 
 @pytest.fixture(scope="session")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Build the site as `make docs` does, strictly, without a way to the network; return its folder."""
-    folder = tmp_path_factory.mktemp("site")
+    """Return the folder of the site, which the first worker that needs it builds."""
+    base = tmp_path_factory.getbasetemp()
+    shared = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+    folder = shared / "site"
+    with (shared / "site.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not folder.exists():
+            build(shared / "site.new")
+            (shared / "site.new").rename(folder)
+    return folder
+
+
+def build(folder: Path) -> None:
+    """Build the site as `make docs` does, strictly, without a way to the network."""
     nowhere = "http://127.0.0.1:9"
     environment = {
         **os.environ,
@@ -31,4 +44,3 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert "WARNING" not in done.stderr
-    return folder
