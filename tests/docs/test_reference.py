@@ -153,6 +153,30 @@ typedef void (*call_t)(void * data);
     assert "inside" in time.items[1].text
 
 
+def test_every_error_number_has_its_text() -> None:
+    rows = re.findall(r"(?m)^\| E(\d+) \| `(.+)` \|$", generated()["reference/error_texts.md"])
+    assert [int(number) for number, _ in rows] == list(range(2, len(rows) + 2))
+    assert all(text.strip() and '"' not in text for _, text in rows)
+
+
+def test_the_error_texts_of_troubleshooting_exist() -> None:
+    page = (ROOT / "docs/troubleshooting.md").read_text(encoding="utf-8")
+    (table,) = re.findall(r"(?m)^\| text contains \|.*\n\|[-|]+\n((?:\|.*\n)+)", page)
+    named = re.findall(r"(?m)^\| `([^`]+)` \|", table)
+    texts = generated()["reference/error_texts.md"]
+    assert len(named) > 4
+    assert [text for text in named if text not in texts] == []
+
+
+def test_the_counters_of_troubleshooting_exist() -> None:
+    page = (ROOT / "docs/troubleshooting.md").read_text(encoding="utf-8")
+    named = re.findall(r"(?m)^\| `(\w+)` \| `(rmw_uros_get_statistics)` \|", page)
+    text = "\n".join(c_api.pages().values())
+    (members,) = re.findall(r"(?s)typedef struct rmw_uros_statistics_t \{(.*?)\}", text)
+    assert len(named) == 5
+    assert [member for member, _ in named if not re.search(rf"\b{member};", members)] == []
+
+
 def test_two_runs_write_the_same() -> None:
     """In a process with other hashes too."""
     script = "import json; from hooks import SCHEMA_FILES, generated; print(json.dumps(generated()))"
