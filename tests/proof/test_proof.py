@@ -131,6 +131,7 @@ def test_commands_of_the_page_are_there() -> None:
             assert f"\n{words[1]}: " in makefile
             continue
         files = [word for word in words if word.startswith("tests/")]
+        files += [word.replace(".", "/") + ".py" for word in words if word.startswith("tests.")]
         assert files
         assert all((ROOT / file).is_file() for file in files)
         assert "prove.py" not in files[0] or words[-1] in names
