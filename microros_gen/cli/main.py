@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import gc
 import importlib
 import os
 import sys
@@ -29,6 +30,10 @@ _COMMANDS = {
     "run": "Start a built image together with an agent.",
     "agent": "Connect XRCE clients to ROS 2.",
 }
+
+
+# They end soon and make few cycles: collecting these takes 5 to 14 % of a run and frees 2 MB of 96 for 1000 messages.
+_UNCOLLECTED = ("generate", "build", "check")
 
 
 class _LazyGroup(click.Group):
@@ -72,6 +77,9 @@ def cli() -> None:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and exit; shows a traceback only where MICROROS_GEN_TRACEBACK asks for one."""
+    words = sys.argv[1:] if arguments is None else arguments
+    if words and words[0] in _UNCOLLECTED:
+        gc.disable()
     sys.exit(_status(arguments))
 
 

@@ -128,3 +128,15 @@ def test_a_whole_run_imports_what_it_uses(tmp_path: Path) -> None:
     assert {"lark", "jinja2", "yaml", "microros_gen.output.tree"} <= imported
     found = {name for name in imported if f"{name}.".startswith(tuple(f"{n}." for n in NOT_NEEDED))}
     assert found == set()
+
+
+def test_only_commands_that_end_soon_collect_no_cycles() -> None:
+    code = "import atexit, gc, sys; from microros_gen.cli.main import main\n"
+    code += "atexit.register(lambda: print(gc.isenabled())); main(sys.argv[1:])"
+    environment = {**os.environ, "PYTHONPATH": str(Path(microros_gen.__file__).parents[1])}
+    said = {}
+    for command in ("generate", "build", "agent"):
+        call = [sys.executable, "-c", code, command, "--help"]
+        done = subprocess.run(call, env=environment, text=True, capture_output=True, check=True)
+        said[command] = done.stdout.splitlines()[-1]
+    assert said == {"generate": "False", "build": "False", "agent": "True"}
