@@ -73,7 +73,7 @@ def _sections(component: str, name: str, everything: frozenset[str]) -> list[Sec
         view = {
             "headers": everything,
             "selection": SimpleNamespace(has=lambda _name: True),
-            "plan": SimpleNamespace(transport=transport, serial_device="/dev/ttyUSB0"),
+            "plan": SimpleNamespace(transport=SimpleNamespace(kind=transport, device="/dev/ttyUSB0")),
         }
         text = _REFUSAL.sub("", environment.get_template(f"{name}.j2").render(view))
         seen[text] = read_header(text)
