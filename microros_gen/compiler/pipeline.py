@@ -37,6 +37,7 @@ from microros_gen.selection.component import Catalogue, Profile
 from microros_gen.selection.component_sources import ComponentFile, read_headers, read_sources
 from microros_gen.selection.find_components import load_catalogue
 from microros_gen.selection.find_profiles import load_middleware, load_profiles
+from microros_gen.selection.implied import with_implied
 from microros_gen.selection.model import Selection
 from microros_gen.selection.profiles import resolve_profiles
 from microros_gen.selection.resolve import check_ready, resolve_selection
@@ -98,6 +99,7 @@ def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
         application = replace(application, interfaces=(Named(DEFAULT_INTERFACE),))
     _check_interfaces_have_a_use(application, selection, diagnostics)
     diagnostics.check()
+    application = with_implied(application, selection, diagnostics)
     request = replace(request, application=with_clock(application, selection, diagnostics))
     diagnostics.check()
     return Resolved(request, own, catalogue, selection)

@@ -1,40 +1,40 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ROS time: the subscription of /clock, which the component `clock_ros` opens without a word of the application."""
+"""ROS time: what the application file says of the subscription of /clock, which `clock_ros` implies."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
 
-from microros_gen.application.model import CLOCK_TOPIC, Application, EndpointDecl, NodeDecl, Qos
+from microros_gen.application.model import CLOCK_TOPIC, Application, EndpointDecl, NodeDecl
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.selection.model import Selection
 
 CLOCK_ROS = "clock_ros"
-CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
 
 
 def with_clock(application: Application, selection: Selection, diagnostics: Diagnostics) -> Application:
-    """Return the application with the subscription of /clock where `clock_ros` is selected.
+    """Return the application with its rule for /clock applied to the implied subscription.
 
-    Its QoS is that of rclcpp::ClockQoS: best effort, and the newest sample alone counts. It is the first subscription
-    of all: with `nodes:` it belongs to the first node, whose rule for /clock counts; any other rule for it is an error.
+    The rule of the first node counts, which has that subscription; any other rule for it is an error.
     """
     listens = selection.has(CLOCK_ROS)
     _check_rules(application.nodes[1:] if listens else application.nodes, listens, diagnostics)
     if not listens:
         return application
-    span = application.clock.span if application.clock else None
-    qos = Qos(reliability="best_effort", depth=1)
-    clock = EndpointDecl(
-        "subscription", CLOCK_TOPIC, CLOCK_TYPE, qos, span=span, queue=1, of_the_library=True
-    )
     if not application.nodes:
-        return replace(application, implied=(clock,))
+        return replace(application, implied=tuple(_placed(application, e, "") for e in application.implied))
     first, *others = application.nodes
-    if first.clock_topic:
-        clock = replace(clock, topic=first.clock_topic, given=CLOCK_TOPIC)
-    return replace(application, nodes=(replace(first, endpoints=(clock, *first.endpoints)), *others))
+    endpoints = tuple(_placed(application, e, first.clock_topic) for e in first.endpoints)
+    return replace(application, nodes=(replace(first, endpoints=endpoints), *others))
+
+
+def _placed(application: Application, endpoint: EndpointDecl, topic: str) -> EndpointDecl:
+    """Return the implied subscription of /clock with its place in the file, and on `topic` where a rule says so."""
+    if not endpoint.of_the_library or endpoint.topic != CLOCK_TOPIC:
+        return endpoint
+    endpoint = replace(endpoint, span=application.clock.span if application.clock else None)
+    return replace(endpoint, topic=topic, given=CLOCK_TOPIC) if topic else endpoint
 
 
 def _check_rules(nodes: Iterable[NodeDecl], listens: bool, diagnostics: Diagnostics) -> None:

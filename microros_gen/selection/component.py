@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import field
 from pathlib import Path
 
-from microros_gen.application.model import ComponentChange
+from microros_gen.application.model import ComponentChange, Qos
 from microros_gen.diagnostics import Span
 from microros_gen.documents.named import Named
 from microros_gen.records import dataclass
@@ -54,6 +54,22 @@ class Provision:
 
 
 @dataclass(frozen=True)
+class Implied:
+    """An endpoint that the library opens by itself: one in the first node, or one in every node.
+
+    `name` is that of the topic or service; `{node}` and `{ns}` in it are replaced. `queue`: how many samples wait;
+    None: follows from the depth.
+    """
+
+    kind: str
+    name: str
+    type: str
+    qos: Qos = Qos()
+    queue: int | None = None
+    every_node: bool = False
+
+
+@dataclass(frozen=True)
 class Component:
     """One component: what it needs, what it adds to the wire, which files it brings.
 
@@ -62,6 +78,7 @@ class Component:
     `headers` are public headers below include/; they become an `#error` when the component is not selected.
     `sends`, `receives` name XRCE submessages; `objects` name XRCE object kinds that the client creates.
     `asks` are capabilities of the platform; a component of layer `port` `provides` some. `folder` has its files.
+    `implies`: what it opens by itself; the components that this takes are among its `needs`.
     """
 
     name: str
@@ -77,6 +94,7 @@ class Component:
     sources: tuple[SourceFile, ...] = ()
     asks: tuple[Ask, ...] = ()
     provides: tuple[Provision, ...] = ()
+    implies: tuple[Implied, ...] = ()
     folder: Path = field(default_factory=Path, compare=False)
 
 

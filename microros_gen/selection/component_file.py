@@ -3,17 +3,19 @@
 
 from __future__ import annotations
 
+from microros_gen.application.model import Qos
 from microros_gen.diagnostics import Diagnostics, Source, reads
 from microros_gen.documents.tree_read import check_keys, expect_mapping, read_choice, read_names, read_text
-from microros_gen.documents.tree_values import bool_of, entries, items, text_of
+from microros_gen.documents.tree_values import bool_of, entries, int_of, items, text_of
 from microros_gen.documents.yaml_tree import MappingNode, ScalarNode, SequenceNode, YamlNode, parse_yaml
-from microros_gen.selection.component import Ask, Component, Conditions, Provision, SourceFile
+from microros_gen.selection.component import Ask, Component, Conditions, Implied, Provision, SourceFile
 from microros_gen.selection.xrce import OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
 
 LAYERS = ("micro-ROS", "middleware", "port")
 _REQUIRED = ("component", "summary", "layer", "status")
-_LISTS = ("needs", "asks", "xrce", "sends", "receives", "objects", "headers", "sources")
+_LISTS = ("needs", "asks", "xrce", "sends", "receives", "objects", "headers", "sources", "implies")
 _PROVISION = ("sources", "asks", "when", "always")
+ENDPOINT_KINDS = ("publisher", "subscription", "service", "client")
 _STATUS = ("ready", "planned")
 
 
@@ -43,6 +45,7 @@ def parse_component(source: Source, diagnostics: Diagnostics) -> Component | Non
         sources=_sources(node, diagnostics),
         asks=_asks(node, diagnostics),
         provides=_provides(node, diagnostics),
+        implies=_implies(node, diagnostics),
     )
     return component if before or not diagnostics.has_errors() else None
 
@@ -98,6 +101,40 @@ def _provides(node: MappingNode, diagnostics: Diagnostics) -> tuple[Provision, .
         sources, asks = _sources(one, diagnostics), _asks(one, diagnostics)
         found.append(Provision(entry.key, sources, asks, when or (), always))
     return tuple(found)
+
+
+def _implies(node: MappingNode, diagnostics: Diagnostics) -> tuple[Implied, ...]:
+    """Read a list of `{subscription: /clock, type: …, every_node: true, queue: 1, qos: {…}}`."""
+    found = []
+    for item in items(node.get("implies")):
+        one = expect_mapping(item, "an item of 'implies'", diagnostics)
+        kind = next((k for k in ENDPOINT_KINDS if one is not None and k in one.entries), None)
+        if one is None or kind is None:
+            hint = f"Write one of {', '.join(f'`{k}: NAME`' for k in ENDPOINT_KINDS)}"
+            diagnostics.error("'implies' must list endpoints", item.span, hint)
+            continue
+        check_keys(one, (kind, "type", "every_node", "queue", "qos"), (kind, "type"), diagnostics)
+        every_node = bool_of(one.get("every_node")) or False
+        name, type_ = read_text(one, kind, diagnostics), read_text(one, "type", diagnostics)
+        queue = int_of(one.get("queue"))
+        found.append(Implied(kind, name, type_, _qos(one.get("qos"), diagnostics), queue, every_node))
+    return tuple(found)
+
+
+def _qos(node: YamlNode | None, diagnostics: Diagnostics) -> Qos:
+    mapping = expect_mapping(node, "'qos'", diagnostics) if node is not None else None
+    if mapping is None:
+        return Qos()
+    check_keys(mapping, ("reliability", "durability", "depth"), (), diagnostics)
+    reliability = read_choice(mapping, "reliability", ("reliable", "best_effort"), diagnostics)
+    durability = read_choice(mapping, "durability", ("volatile", "transient_local"), diagnostics)
+    depth = int_of(mapping.get("depth"))
+    default = Qos()
+    return Qos(
+        reliability=reliability.name if reliability else default.reliability,
+        durability=durability.name if durability else default.durability,
+        depth=default.depth if depth is None else depth,
+    )
 
 
 def _conditional(item: YamlNode, key: str) -> tuple[str, Conditions] | None:

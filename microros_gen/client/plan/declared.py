@@ -22,6 +22,13 @@ def declarations(application: Application, *kinds: str) -> tuple[tuple[int, Node
     )
 
 
+def implied(application: Application, *kinds: str) -> int:
+    """Return how many endpoints of these kinds the library opens by itself."""
+    of_nodes = (endpoint for _, _, endpoint in declarations(application, *kinds))
+    own = (endpoint for endpoint in application.implied if endpoint.kind in kinds)
+    return sum(endpoint.of_the_library for endpoint in (*of_nodes, *own))
+
+
 def publisher_declarations(application: Application) -> tuple[tuple[int, NodeDecl, EndpointDecl], ...]:
     """Return every declared publisher, as `declarations`."""
     return declarations(application, "publisher")

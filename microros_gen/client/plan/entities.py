@@ -19,7 +19,7 @@ Declared = TypeVar("Declared")
 class Places(Generic[Declared]):
     """Places of one kind of entity: `max` of them, the first for those that are `declared`.
 
-    The library itself opens the first `implied` ones.
+    The library itself opens `implied` of them; where the application declares no nodes, the first.
     """
 
     max: int = 0

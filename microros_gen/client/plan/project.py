@@ -12,7 +12,14 @@ from microros_gen.application.model import DISCOVERY_PORT, Application, Endpoint
 from microros_gen.application.names import expand_topic_name
 from microros_gen.client.plan.board import RING_CHUNK, BoardPlan, has_own_line, plan_board
 from microros_gen.client.plan.creation import CreateNames, create_size, create_text, participant_reference
-from microros_gen.client.plan.declared import named_at, pool, publisher_declarations, timed_qos, type_name
+from microros_gen.client.plan.declared import (
+    implied,
+    named_at,
+    pool,
+    publisher_declarations,
+    timed_qos,
+    type_name,
+)
 from microros_gen.client.plan.entities import EntitiesPlan, Places
 from microros_gen.client.plan.plan_id import plan_id
 from microros_gen.client.plan.queues import check_pool_key
@@ -40,7 +47,6 @@ from microros_gen.interfaces.dds_names import dds_topic, dds_type, participant_n
 from microros_gen.interfaces.types import Message, TypeName
 from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
-from microros_gen.selection.clock import CLOCK_ROS
 from microros_gen.selection.model import Selection
 from microros_gen.typesupport.plan.own_limits import LimitSet
 from microros_gen.typesupport.plan.types import TypePlan
@@ -151,8 +157,7 @@ def plan_project(
         keeps_output=own_driver,
     )
     receivers = receiving.subscriptions_max + serving.services_max + serving.clients_max
-    implied = 1 if selection.has(CLOCK_ROS) else 0
-    receivers -= implied  # nobody adds the subscription of /clock to an executor
+    receivers -= implied(application, "subscription", "service", "client")  # nobody adds these to an executor
     running = plan_running(application, selection, receivers, diagnostics)
     storage = plan_sent_storage(application, selection, by_name, roots, services)
     baud = application.transport.baud if selection.transport == "serial" else None
@@ -196,11 +201,15 @@ def plan_project(
             declared=bool(nodes),
             nodes=Places(len(nodes) or pool(application, "nodes", 1, diagnostics), nodes),
             publishers=Places(
-                _publishers_max(application, selection, publishers, roots, diagnostics), publishers
+                _publishers_max(application, selection, publishers, roots, diagnostics),
+                publishers,
+                implied(application, "publisher"),
             ),
-            subscriptions=Places(receiving.subscriptions_max, receiving.subscriptions, implied),
-            services=Places(serving.services_max, serving.services),
-            clients=Places(serving.clients_max, serving.clients),
+            subscriptions=Places(
+                receiving.subscriptions_max, receiving.subscriptions, implied(application, "subscription")
+            ),
+            services=Places(serving.services_max, serving.services, implied(application, "service")),
+            clients=Places(serving.clients_max, serving.clients, implied(application, "client")),
             name_size=0 if nodes else application.pools.get("name_size", DEFAULT_NAME_SIZE),
             type_name_size=0 if nodes else _longest_type((*names, *services)) + 1,
             timed_qos=timed_qos(application, selection.entities, diagnostics),

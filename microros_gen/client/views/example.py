@@ -179,6 +179,7 @@ def _publishers(
                 types[p.type].storage_name(p.topic),
             )
             for p in runtime.entities.publishers.declared
+            if not declared[p.index].of_the_library
         ]
     roots = project.roots[: runtime.entities.publishers.max] if project.selection.has("publish") else ()
     return [

@@ -81,6 +81,7 @@ def service_views(project: Project, nodes: tuple[str, ...]) -> tuple[ServiceView
                 s.name,
             )
             for s in planned
+            if not declared[s.index].of_the_library
         ]
     return tuple(views)
 

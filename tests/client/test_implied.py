@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A component states the endpoints that it opens by itself; they are planned as those that a node declares."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import MappingProxyType
+
+import pytest
+
+from microros_gen import compiler
+from microros_gen.compiler import pipeline
+from microros_gen.diagnostics import Diagnostics, Source, UserError
+from microros_gen.interfaces.find import shipped_folder
+from microros_gen.selection.component_file import parse_component
+from microros_gen.selection.find_components import load_catalogue
+
+COMPONENT = """\
+component: beat
+summary: "Made up: a service in every node, and a topic once"
+layer: middleware
+status: ready
+needs: [publish, services]
+implies:
+  - {publisher: /beats, type: std_msgs/msg/Int32, qos: {durability: transient_local, depth: 1}}
+  - {service: "~/still_there", type: std_srvs/srv/Trigger, every_node: true, queue: 2}
+"""
+APPLICATION = """\
+version: 1
+profiles: [pure_sender]
+components: [+beat]
+limits: {"*": {string: 20}}
+"""
+NODES = """\
+nodes:
+  - {name: one, publishers: [{topic: out, type: std_msgs/msg/String}]}
+  - {name: two, namespace: /arm, services: [{name: set, type: std_srvs/srv/SetBool}]}
+"""
+
+
+@pytest.fixture
+def made_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Add a component to those that ship."""
+    diagnostics = Diagnostics()
+    beat = parse_component(Source("beat/component.yaml", COMPONENT), diagnostics)
+    diagnostics.check()
+    assert beat is not None
+    catalogue = MappingProxyType({**load_catalogue(), "beat": beat})
+    monkeypatch.setattr(pipeline, "load_catalogue", lambda: catalogue)
+    return tmp_path
+
+
+def planned(folder: Path, text: str) -> compiler.Planned:
+    config = folder / "microros.yaml"
+    config.write_text(text)
+    options = compiler.Options(config=config, interface_paths=(shipped_folder(),))
+    return compiler.plan(compiler.resolve(compiler.read(options)))
+
+
+def test_they_are_planned_in_front_of_the_declared_ones(made_up: Path) -> None:
+    entities = planned(made_up, APPLICATION + NODES).project.runtime.entities
+    assert [p.topic for p in entities.publishers.declared] == ["/beats", "/out"]
+    names = [(s.node, s.name, str(s.type)) for s in entities.services.declared]
+    assert names == [
+        (0, "/one/still_there", "std_srvs/srv/Trigger"),
+        (1, "/arm/two/still_there", "std_srvs/srv/Trigger"),
+        (1, "/arm/set", "std_srvs/srv/SetBool"),
+    ]
+    assert (entities.publishers.max, entities.publishers.implied) == (2, 1)
+    assert (entities.services.max, entities.services.implied) == (3, 2)
+
+
+def test_what_is_built_has_them_and_the_example_leaves_them_to_the_library(made_up: Path) -> None:
+    result = planned(made_up, APPLICATION + NODES)
+    files = compiler.render(result)
+    tables = files["src/support/microros_plan.c"].decode()
+    for name in ("/beats", "/one/still_there", "/arm/two/still_there", "/arm/set"):
+        assert f'"{name}"' in tables
+    example = files[result.project.example].decode()
+    assert '"out"' in example
+    assert '"set"' in example
+    assert "beats" not in example
+    assert "still_there" not in example
+    out = made_up / "out"
+    compiler.write(files, out)
+    built = compiler.compile(result, out)
+    assert (out / built.report.library).is_file()
+
+
+def test_without_nodes_the_message_says_what_is_missing(made_up: Path) -> None:
+    with pytest.raises(UserError) as caught:
+        planned(made_up, APPLICATION + "interfaces: [std_msgs/msg/Int32]\n")
+    said = [diagnostic.headline() for diagnostic in caught.value.diagnostics]
+    assert len(said) == 2
+    assert "the publisher '/beats', which a component opens by itself, needs a declared node" in said[0]
+
+
+def test_ros_time_is_one_of_them() -> None:
+    (clock,) = load_catalogue()["clock_ros"].implies
+    assert (clock.kind, clock.name, clock.type) == ("subscription", "/clock", "rosgraph_msgs/msg/Clock")
+    assert (clock.qos.reliability, clock.qos.depth, clock.queue) == ("best_effort", 1, 1)
+    assert [name for name, c in load_catalogue().items() if c.implies] == ["clock_ros"]
+
+
+@pytest.mark.parametrize(
+    ("item", "said"),
+    [
+        ("{topic: /x, type: a/msg/B}", "'implies' must list endpoints"),
+        ("{service: /x}", "type"),
+        ("{publisher: /x, type: a/msg/B, rate: 3}", "rate"),
+        ("{publisher: /x, type: a/msg/B, qos: {reliability: never}}", "'reliability' must be one of"),
+    ],
+)
+def test_a_faulty_one_is_refused(item: str, said: str, tmp_path: Path) -> None:
+    folder = tmp_path / "x"
+    folder.mkdir()
+    head = "component: x\nsummary: An example\nlayer: middleware\nstatus: ready\n"
+    (folder / "component.yaml").write_text(f"{head}implies: [{item}]\n")
+    with pytest.raises(UserError) as caught:
+        load_catalogue(tmp_path)
+    assert any(said in diagnostic.headline() for diagnostic in caught.value.diagnostics)
