@@ -101,7 +101,7 @@ def test_an_agent_is_found_and_served(tmp_path: Path) -> None:
 
 def test_tcp(tmp_path: Path) -> None:
     with serving(TcpAgent()) as agent, answering(lambda: [info(locator("127.0.0.1", agent.port))]) as group:
-        done = run(group, tmp_path, transport="tcp")
+        done = run(group, tmp_path, transport__kind="tcp")
     assert (done.returncode, done.stderr) == (0, ""), done.stdout
     assert agent.agent.values() == list(range(100))
 
@@ -127,7 +127,7 @@ def test_another_agent_is_found_after_a_loss(tmp_path: Path) -> None:
 
     agents[0].before = stop_the_first
     with answering(lambda: [info(locator("127.0.0.1", living[0].port))]) as group:
-        done = run(group, tmp_path, on_full="block", on_full_block_ms=500)
+        done = run(group, tmp_path, streams__on_full="block", streams__on_full_block_ms=500)
     for agent in agents:
         agent.socket.close()
     assert (done.returncode, done.stderr) == (0, ""), done.stdout
@@ -156,7 +156,7 @@ def test_answers_that_are_none(kind: str, tmp_path: Path) -> None:
         return [*spoiled[:6], good] if rounds[0] > 1 else spoiled
 
     with answering(answers) as group:
-        done = run(group, tmp_path, connect_timeout_ms=9000)
+        done = run(group, tmp_path, times__connect_timeout_ms=9000)
     agent.socket.close()
     assert (done.returncode, done.stderr) == (0, ""), done.stdout
     assert agent.agent.values() == list(range(100))
@@ -164,7 +164,7 @@ def test_answers_that_are_none(kind: str, tmp_path: Path) -> None:
 
 def test_no_agent(tmp_path: Path) -> None:
     with answering(list) as group:
-        done = run(group, tmp_path, connect_timeout_ms=400)
+        done = run(group, tmp_path, times__connect_timeout_ms=400)
     assert done.returncode == 2
     assert done.stdout == f"no transport to {DISCOVERY_GROUP}:{group.port}\n"
     assert len(set(group.asked)) == 1
