@@ -63,7 +63,7 @@ def headers() -> list[Header]:
 
 
 def _sections(component: str, name: str, everything: frozenset[str]) -> list[Section]:
-    folder = components_folder() / component / "include"
+    folder = load_catalogue()[component].folder / "include"
     path = folder / name
     if path.is_file():
         return read_header(path.read_text(encoding="utf-8"))

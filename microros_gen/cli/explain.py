@@ -13,7 +13,7 @@ import click
 from microros_gen.cli.options import check_map, image_option, map_option
 from microros_gen.image.explain import Explainer, Explanation
 from microros_gen.image.report import measure
-from microros_gen.selection.find_components import components_folder, load_catalogue
+from microros_gen.selection.find_components import load_catalogue
 
 
 @click.command()
@@ -46,18 +46,20 @@ def command(out: Path, what: str, image: Path | None, linker_map: Path | None, k
     microros-gen explain my_robot/build rclc_executor_spin
     """
     check_map(image, linker_map)
-    explanation = Explainer(measure(out, image, linker_map), load_catalogue(), _sources_of).explain(what)
+    catalogue = load_catalogue()
+
+    def sources_of(component: str) -> Iterator[bytes]:
+        folder = catalogue[component].folder if component in catalogue else Path(component)
+        for path in sorted((folder / "src").glob("*.c*")):
+            yield path.read_bytes()
+
+    explanation = Explainer(measure(out, image, linker_map), catalogue, sources_of).explain(what)
     if kind == "json":
         data = dataclasses.asdict(explanation)
         data["holds"] = [{"name": name, "bytes": size} for name, size in explanation.holds]
         click.echo(json.dumps({"version": 1, **data}, indent=2, sort_keys=True, ensure_ascii=False))
     else:
         click.echo(_text(explanation), nl=False)
-
-
-def _sources_of(component: str) -> Iterator[bytes]:
-    for path in sorted((components_folder() / component / "src").glob("*.c*")):
-        yield path.read_bytes()
 
 
 def _text(found: Explanation) -> str:

@@ -13,6 +13,7 @@ from microros_gen.application.model import Application
 from microros_gen.cli.tables import FORMATS, format_selection, format_table
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.documents.named import Named
+from microros_gen.platform.find import read_target
 from microros_gen.selection.component import Catalogue, Middleware, Profile, ProfileSet
 from microros_gen.selection.find_components import load_catalogue
 from microros_gen.selection.find_profiles import load_builtin_profiles, load_middleware, load_profiles
@@ -60,7 +61,9 @@ def _select(
     resolved = resolve_profiles(loaded, diagnostics)
     diagnostics.check()
     application = Application(profiles=loaded.requested)
-    selection = resolve_selection(application, resolved, catalogue, middleware, diagnostics)
+    host = read_target(application.target.name, near=Path(), span=None, diagnostics=diagnostics)
+    parts = tuple(part.component.name for part in host.target.parts) if host is not None else ()
+    selection = resolve_selection(application, resolved, catalogue, middleware, diagnostics, parts)
     diagnostics.check()
     for diagnostic in diagnostics:
         click.echo(diagnostic.render(), err=True)

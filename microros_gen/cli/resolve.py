@@ -52,6 +52,10 @@ def command(kind: str, **options: Any) -> None:
         click.echo()
         click.echo(format_table(("POOL", "SIZE", "WHY"), pool_rows(planned)), nl=False)
         click.echo()
+        click.echo(
+            format_table(("CAPABILITY", "PROVIDED BY", "ASKED FOR BY"), _capability_rows(planned)), nl=False
+        )
+        click.echo()
         click.echo(format_table(("TYPE", "LARGEST", "TYPE HASH"), _type_rows(planned)), nl=False)
 
 
@@ -76,6 +80,18 @@ def pool_rows(planned: Planned) -> list[tuple[str, str, str]]:
     if not runtime.entities.declared:
         rows.insert(2, ("names", f"{runtime.entities.name_size} bytes each", "pools.name_size"))
     return rows
+
+
+def _capability_rows(planned: Planned) -> list[tuple[str, str, str]]:
+    """Return each capability of the platform with its provider; nobody: the application defines the functions."""
+    return [
+        (
+            row.capability.name,
+            row.provider or f"nobody: define {', '.join(row.capability.functions)}",
+            ", ".join(row.asked_by) or "the application, if it wants",
+        )
+        for row in planned.project.provisions.rows
+    ]
 
 
 def _storage_rows(planned: Planned) -> list[tuple[str, str, str]]:
@@ -187,6 +203,14 @@ def _own_limits(plan: TypePlan) -> list[dict[str, Any]]:
 
 def _plan_data(planned: Planned) -> dict[str, Any]:
     return {
+        "capabilities": {
+            row.capability.name: {
+                "provider": row.provider or None,
+                "asked_by": row.asked_by,
+                "functions": row.capability.functions if row.of_application else (),
+            }
+            for row in planned.project.provisions.rows
+        },
         "streams": dataclasses.asdict(planned.project.streams),
         "pools": {name: {"size": size, "reason": why} for name, size, why in pool_rows(planned)},
         "types": {

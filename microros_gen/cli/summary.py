@@ -50,6 +50,11 @@ def plan_summary(planned: Planned) -> str:
             f" best effort {runtime.streams.best_effort_size}, input {runtime.input.size}",
         ),
     ]
+    functions = (*project.provisions.functions(), *project.board.hooks)
+    if functions:
+        lines.append(
+            ("you define", f"{', '.join(functions)} (README.md of the output has their declarations)")
+        )
     lines += (("refuses", line) for line in refused_assigns(planned))
     if planned.capacities.defaulted:
         lines.append(("limits", _defaults(planned)))

@@ -14,6 +14,7 @@ import click
 from microros_gen.cli.tables import format_table
 from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
 from microros_gen.platform.find import builtin_targets, read_target
+from microros_gen.platform.part import Part
 from microros_gen.platform.target import Emulator, Region, Target, Uart, UniqueId
 
 _COLUMNS = ("target", "what", "image", "needs")
@@ -98,7 +99,9 @@ def _line(target: Target) -> tuple[str, str, str, str]:
 
 
 def _data(target: Target) -> dict[str, Any]:
-    return {**dataclasses.asdict(target), "missing_packages": missing_packages(target)}
+    parts = {part.kind: part.component.name for part in target.parts}
+    data = dataclasses.asdict(dataclasses.replace(target, parts=()))
+    return {**data, "parts": parts, "missing_packages": missing_packages(target)}
 
 
 def _rows(target: Target) -> list[tuple[str, str]]:
@@ -115,9 +118,11 @@ def _text(value: object) -> str:
         return f"{value.words} words at {value.address:#010x}"
     if isinstance(value, Emulator):
         return " ".join((value.program, *value.arguments))
+    if isinstance(value, Part):
+        return f"{value.component.name} ({value.kind})"
     if isinstance(value, tuple):
         pairs = [f"{a} {b:#010x}" if isinstance(b, int) else f"{a} {b}" for a, b in _pairs(value)]
-        return " ".join(map(str, value)) if not pairs else ", ".join(pairs)
+        return " ".join(map(_text, value)) if not pairs else ", ".join(pairs)
     return "-" if value is None else str(value)
 
 

@@ -6,8 +6,8 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from dataclasses import replace
-from operator import attrgetter
 from pathlib import Path
+from types import MappingProxyType
 
 from microros_gen.application.find import APPLICATION_FILE
 from microros_gen.application.model import Application, EndpointDecl
@@ -21,6 +21,7 @@ from microros_gen.client.plan.declared import (
     type_name,
 )
 from microros_gen.client.plan.project import Project, plan_project
+from microros_gen.client.plan.provisions import holds
 from microros_gen.client.plan.service_limits import service_roots
 from microros_gen.client.plan.stream_budget import check_stream_budget
 from microros_gen.client.plan.streams import DEFAULT_MTU, WRITE_DATA_OVERHEAD
@@ -31,6 +32,8 @@ from microros_gen.interfaces.closure import InterfaceSet, resolve_interfaces, sp
 from microros_gen.interfaces.derived import declaring_name, derived_name
 from microros_gen.interfaces.find import InterfaceFinder
 from microros_gen.interfaces.types import TypeName
+from microros_gen.platform.part_file import own_part_files
+from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
 from microros_gen.selection.clock import CLOCK_ROS, with_clock
 from microros_gen.selection.component import Catalogue, Profile
@@ -76,7 +79,7 @@ class Planned:
 
 def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
     """Resolve profiles and components; what sends or receives and names no type gets the default one."""
-    catalogue = load_catalogue()
+    catalogue = _catalogue(request.target)
     profiles = load_profiles(request.application.profiles, request.profiles_near, diagnostics)
     resolved = resolve_profiles(profiles, diagnostics)
     diagnostics.check()
@@ -87,7 +90,7 @@ def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
         catalogue,
         load_middleware(),
         diagnostics,
-        target.port,
+        tuple(part.component.name for part in target.parts),
         target.transport,
     )
     diagnostics.check()
@@ -103,6 +106,12 @@ def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
     request = replace(request, application=with_clock(application, selection, diagnostics))
     diagnostics.check()
     return Resolved(request, own, catalogue, selection)
+
+
+def _catalogue(target: Target) -> Catalogue:
+    """Return all components that ship with the tool, and the parts of the target that do not."""
+    own = {part.component.name: part.component for part in target.parts if part.own}
+    return MappingProxyType({**load_catalogue(), **own}) if own else load_catalogue()
 
 
 def _check_interfaces_have_a_use(
@@ -181,6 +190,7 @@ def render_request(planned: Planned) -> dict[str, bytes]:
     inputs |= {
         f"target {Path(s.name).name}": s.text.encode() for s in planned.resolved.request.found_target.own
     }
+    inputs |= {name: path.read_bytes() for name, path in own_part_files(planned.project.target)}
     inputs |= {str(entry.name): entry.source.text.encode() for entry in planned.interfaces}
     files[MANIFEST] = manifest(planned.project, inputs, files)
     return files
@@ -197,6 +207,7 @@ def read_paths(planned: Planned) -> Iterator[Path]:
     yield from (candidate for path in own for candidate in (path, path.with_suffix(".yaml")))
     yield near / request.application.target.name
     yield from (Path(source.name) for source in request.found_target.own)
+    yield from (path for _, path in own_part_files(request.target))
     yield from planned.searched
     for entry in planned.interfaces:
         yield from (entry.place.folder / entry.name.kind, Path(entry.source.name))
@@ -306,18 +317,9 @@ def _component_files(project: Project) -> tuple[ComponentFile, ...]:
     files: list[ComponentFile] = []
     for chosen in project.selection.components:
         component = chosen.component
-        names = tuple(
-            source.path
-            for source in component.sources
-            if all(_attribute(project, key) == value for key, value in source.when)
-        )
-        files += read_headers(component.name)
-        files += read_sources(component.name, names)
+        plans = (project.runtime, project.board, project.target)
+        names = [source.path for source in component.sources if holds(source.when, *plans)]
+        names += [path for part, path in project.provisions.files if part == component.name]
+        files += read_headers(component)
+        files += read_sources(component, tuple(names))
     return tuple(files)
-
-
-def _attribute(project: Project, key: str) -> object:
-    """Return what a condition of a component's file compares: `streams.on_full`, `board.stdio`, `target.has_image`."""
-    first, _, rest = key.partition(".")
-    places = {"board": project.board, "target": project.target}
-    return attrgetter(rest)(places[first]) if first in places else attrgetter(key)(project.runtime)

@@ -275,7 +275,7 @@ class Explainer:
         sources = sorted({p.source for p in pieces if p.source}) if kind in ("file", "symbol") else ()
         for source in sources:
             component = self._catalogue.get(source.split("/")[1]) if source.count("/") > 1 else None
-            for file in component.sources if component else ():
+            for file in component.files if component else ():
                 if file.path.removesuffix(".j2") == source.rpartition("/")[2] and file.when:
                     wanted = ", ".join(f"{key} = {value}" for key, value in file.when)
                     yield f"another choice of {wanted}: this file stands for it"

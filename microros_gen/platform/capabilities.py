@@ -11,6 +11,7 @@ from types import MappingProxyType
 
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.documents.files import read_text
+from microros_gen.documents.templates import TEMPLATE_FOLDERS
 from microros_gen.documents.tree_values import bool_of, entries, items, text_of
 from microros_gen.documents.yaml_tree import parse_yaml
 from microros_gen.records import dataclass
@@ -20,13 +21,16 @@ CAPABILITIES_FILE = Path(__file__).with_name("capabilities.yaml")
 
 @dataclass(frozen=True)
 class Capability:
-    """A group of C functions that `header` declares. `in_example`: the generated example calls them."""
+    """A group of C functions that `header` declares.
+
+    `of_application`: the application has it on every platform, and the generated example does without it.
+    """
 
     name: str
     summary: str
     header: str
     functions: tuple[str, ...]
-    in_example: bool = True
+    of_application: bool = False
 
 
 @cache
@@ -43,9 +47,15 @@ def capabilities() -> Mapping[str, Capability]:
             text_of(said["summary"]) or "",
             text_of(said["header"]) or "",
             tuple(text_of(item) or "" for item in items(said["functions"])),
-            bool_of(said.get("example")) is not False,
+            bool_of(said.get("application")) or False,
         )
     return MappingProxyType(found)
+
+
+def declarations(capability: Capability) -> tuple[str, ...]:
+    """Return the prototypes of a capability's functions, as its header has them."""
+    headers = (p for folder in TEMPLATE_FOLDERS for p in folder.glob(f"**/include/{capability.header}"))
+    return prototypes(read_text(next(headers)), capability.functions)
 
 
 def prototypes(header: str, functions: tuple[str, ...]) -> tuple[str, ...]:

@@ -1,26 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Targets: what the C compiler is told, and which port component the image stands on."""
+"""Targets: what the C compiler is told, and which parts of a platform are below the library."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from types import MappingProxyType
-
+from microros_gen.platform.part import Cpu, Os, Part
 from microros_gen.records import dataclass
-
-PORTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
-    {"port_posix": (), "port_cortex_m": ("cmsdk", "nrf51"), "port_riscv": ("ns16550",)}
-)
-"""The components of layer `port`, and the drivers of serial lines that each has."""
+from microros_gen.selection.component import Provision
 
 OWN_DRIVER = "application"
 """The driver of a serial line that the application provides: the functions of microros/port_uart.h."""
-
-REGISTERS: Mapping[str, tuple[str, ...]] = MappingProxyType({"port_riscv": ("mtime", "mtimecmp", "plic")})
-"""Addresses that a port must know of a board besides those of its parts (RISC-V: ACLINT and PLIC)."""
-
-OPTIONAL_REGISTERS = ("finisher",)
-"""Further addresses that a board may have: a SiFive test device, which restarts it."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +69,7 @@ class Stdio:
 
 @dataclass(frozen=True)
 class Uart:
-    """A serial interface of a board: `driver` names a source file of the port, `irq` its receive interrupt.
+    """A serial interface of a board: `driver` is one of the processor (Cpu.drivers), `irq` its receive interrupt.
 
     `tx_irq` is its transmit interrupt, the same where it has one for both. `driver` application: the program
     drives it, and nothing else is known of it. `clock_hz` divides down to the baud rate; 0: that of the target.
@@ -123,17 +111,18 @@ class Emulator:
 class Target:
     """A target. `compilers` are tried in order; `package` names the Debian package that brings the first.
 
-    `c_flags` apply to every file, `link_flags` to the image; `port` is a component of layer `port`. `hosted`:
-    an operating system with standard input and output is below. A target without an operating system that knows
-    its board has `flash` and `ram`, and so an image; without them it has the library alone. `clock_hz` counts the
-    system timer. `interrupts` are handlers of the application by their number, `registers` addresses by name
-    (REGISTERS). `memories` are those besides flash and RAM; the hooks are functions of the application, empty: none.
+    `c_flags` apply to every file, `link_flags` to the image. `parts` are below the library: the first that has a
+    capability provides it, unless the application does (`provides`). `hosted`: an operating system with standard
+    input and output is below. Without one, a target that knows its board has `flash` and `ram`, and so an image;
+    without them it has the library alone. `clock_hz` counts the system timer. `interrupts` are handlers of the
+    application by their number, `registers` addresses by name (Cpu.registers). `memories` are those besides flash
+    and RAM; the hooks are functions of the application, empty: none.
     `data_model` is lp64 or ilp32. `transport` is what holds where neither application nor profile say.
     """
 
     name: str
     summary: str
-    port: str
+    parts: tuple[Part, ...]
     compilers: tuple[str, ...]
     archivers: tuple[str, ...]
     package: str
@@ -156,11 +145,46 @@ class Target:
     clocks_hook: str = ""
     watchdog_hook: str = ""
     stdio: Stdio | None = None
+    provides: tuple[str, ...] = ()
+
+    @property
+    def cpu(self) -> Cpu:
+        """What is known of the processor."""
+        return next((part.cpu for part in self.parts if part.cpu is not None), Cpu())
+
+    @property
+    def os(self) -> Os:
+        """What is known of the operating system."""
+        return next((part.os for part in self.parts if part.os is not None), Os())
+
+    def part(self, kind: str) -> Part | None:
+        """Return the part of a kind."""
+        return next((part for part in self.parts if part.kind == kind), None)
+
+    @property
+    def own_capabilities(self) -> tuple[str, ...]:
+        """Capabilities that the target file leaves to the application: `provides`, its own UART, its own output."""
+        uart = ("uart",) if self.uart_driver == OWN_DRIVER else ()
+        output = ("stdio_put",) if self.stdio is not None and self.stdio.to == OWN_DRIVER else ()
+        return (*self.provides, *uart, *output)
+
+    @property
+    def knows_memory(self) -> bool:
+        """Whether the target says where flash and RAM are."""
+        return self.flash is not None and self.ram is not None
 
     @property
     def has_image(self) -> bool:
         """Whether an image can be linked, or the library alone."""
-        return self.hosted or (self.flash is not None and self.ram is not None)
+        return self.hosted or (self.knows_memory and bool(self.os.linker_script))
+
+    @property
+    def linker_script(self) -> str | None:
+        """The path of the linker script below the output folder, where this project has the image's start-up."""
+        os = self.part("os")
+        if self.hosted or not self.has_image or os is None:
+            return None
+        return f"src/{os.component.name}/{self.os.linker_script}"
 
     def has_register(self, name: str) -> bool:
         """Whether the target says where `name` is."""
@@ -179,9 +203,20 @@ class Target:
     @property
     def has_unique_id(self) -> bool:
         """Whether the port supplies a client key that no other device has (`session: {key: device}`)."""
-        return self.hosted or self.unique_id is not None
+        named = {p.capability for part in self.parts for p in part.component.provides if _has_file(p)}
+        return self.has_id_words or "unique_id" in (*named, *self.provides)
+
+    @property
+    def has_id_words(self) -> bool:
+        """Whether the board has a number in its memory."""
+        return self.unique_id is not None
 
     @property
     def uart_driver(self) -> str:
         """The driver of its serial line, or `none`: the application has one."""
         return self.uart.driver if self.uart else "none"
+
+
+def _has_file(provision: Provision) -> bool:
+    """Return whether a part has a capability in every plan."""
+    return any(not file.when for file in provision.sources)

@@ -3,16 +3,27 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 
-from microros_gen.diagnostics import Diagnostics, Source, reads
+from microros_gen.diagnostics import Diagnostics, Source, nearest, reads
+from microros_gen.documents.files import read_text
 from microros_gen.documents.tree_values import bool_of, child, entries, int_of, items, size_of, text_of
-from microros_gen.documents.yaml_tree import Entry, MappingNode, SequenceNode, YamlNode, parse_yaml
+from microros_gen.documents.yaml_tree import (
+    Entry,
+    MappingNode,
+    ScalarNode,
+    SequenceNode,
+    YamlNode,
+    parse_yaml,
+)
+from microros_gen.platform.capabilities import capabilities
+from microros_gen.platform.part import KINDS, Part
+from microros_gen.platform.part_file import read_part
 from microros_gen.platform.target import (
     OWN_DRIVER,
-    PORTS,
-    REGISTERS,
     Emulator,
     Memory,
     Region,
@@ -23,12 +34,10 @@ from microros_gen.platform.target import (
 )
 
 SCHEMA = Path(__file__).with_name("target.schema.json")
-_REQUIRED = ("target", "summary", "port", "compilers", "archivers", "package")
+PORTS_FILE = Path(__file__).with_name("ports.yaml")
+_REQUIRED = ("target", "summary", "os", "compilers", "archivers", "package")
 _ADDED = ("c_flags", "link_flags", "libraries")
 _ADDRESS_SPACE = 1 << 32
-# Where the transmit interrupt is when nobody says: CMSDK systems have it next to the one that receives.
-_TX_AFTER_RX = {"cmsdk": 1}
-_STDIO_DRIVERS = ("cmsdk", "ns16550")
 
 
 @reads
@@ -43,8 +52,37 @@ def parse_target(source: Source, diagnostics: Diagnostics, builtin: bool = False
         from microros_gen.documents.schema import load_schema, validate
 
         validate(tree, source, load_schema(SCHEMA), found)
+    if isinstance(tree, MappingNode) and not found.has_errors():
+        tree = _with_parts(tree, found)
     diagnostics.extend(found)
     return tree if isinstance(tree, MappingNode) and not found.has_errors() else None
+
+
+@cache
+def _ports() -> MappingNode:
+    tree = parse_yaml(Source(PORTS_FILE.name, read_text(PORTS_FILE)), Diagnostics())
+    assert isinstance(tree, MappingNode)
+    return tree
+
+
+def _with_parts(node: MappingNode, diagnostics: Diagnostics) -> MappingNode:
+    """Write `port:` out as the parts that it stands for (ports.yaml), at the same place."""
+    port = node.entries.get("port")
+    if port is None:
+        return node
+    known = _ports().entries
+    name = text_of(port.value) or ""
+    if name not in known:
+        hint = nearest(name, known) or f"Write `cpu:` and `os:` instead; {', '.join(known)} are taken, too"
+        diagnostics.error(f"unknown port '{name}'", port.value.span, hint)
+        return node
+    parts = {
+        entry.key: Entry(entry.key, port.key_span, replace(entry.value, span=port.value.span))
+        for entry in entries(known[name].value)
+        if isinstance(entry.value, ScalarNode)
+    }
+    rest = {key: entry for key, entry in node.entries.items() if key != "port"}
+    return MappingNode({**parts, **rest}, node.span)
 
 
 def merge_target(node: MappingNode, base: MappingNode) -> MappingNode:
@@ -64,15 +102,32 @@ def target_of(node: MappingNode, diagnostics: Diagnostics) -> Target | None:
         if key not in node.entries:
             hint = f"Add `{key}: …`, or `extends: cortex-m4` and its like, which have it"
             diagnostics.error(f"the target lacks the key '{key}'", node.span, hint)
-    _check(node, diagnostics)
-    return None if diagnostics.has_errors() else _target(node)
+    if diagnostics.has_errors():
+        return None
+    target = _target(node, _parts(node, diagnostics))
+    _check(node, target, diagnostics)
+    return None if diagnostics.has_errors() else target
 
 
-def _target(node: MappingNode) -> Target:
+def _parts(node: MappingNode, diagnostics: Diagnostics) -> tuple[Part, ...]:
+    """Read the parts that a target names; a path is relative to the file that has it."""
+    found = []
+    for kind in KINDS:
+        value = node.get(kind)
+        if value is not None:
+            near = Path(value.span.source.name).parent
+            found.append(read_part(kind, text_of(value) or "", near, value.span, diagnostics))
+    return tuple(part for part in found if part is not None)
+
+
+def _target(node: MappingNode, parts: tuple[Part, ...]) -> Target:
+    hosted = bool_of(node.get("hosted"))
+    if hosted is None:
+        hosted = any(part.os is not None and part.os.hosted for part in parts)
     return Target(
         name=_text(node, "target"),
         summary=_text(node, "summary"),
-        port=_text(node, "port"),
+        parts=parts,
         compilers=_texts(node.get("compilers")),
         archivers=_texts(node.get("archivers")),
         package=_text(node, "package"),
@@ -80,13 +135,13 @@ def _target(node: MappingNode) -> Target:
         link_flags=_texts(node.get("link_flags")),
         libraries=_texts(node.get("libraries")),
         image_suffix=_text(node, "image_suffix"),
-        hosted=bool_of(node.get("hosted")) or False,
+        hosted=hosted,
         data_model=text_of(node.get("data_model")) or Target.data_model,
         transport=text_of(node.get("transport")),
         clock_hz=int_of(node.get("clock_hz")) or 0,
         flash=_region(node.get("flash")),
         ram=_region(node.get("ram")),
-        uart=_uart(node.get("uart")),
+        uart=_uart(node.get("uart"), parts),
         unique_id=_unique_id(node.get("unique_id")),
         emulator=_emulator(node.get("emulator")),
         interrupts=tuple(
@@ -97,6 +152,7 @@ def _target(node: MappingNode) -> Target:
         clocks_hook=text_of(child(node.get("hooks"), "clocks")) or "",
         watchdog_hook=text_of(child(node.get("hooks"), "watchdog")) or "",
         stdio=_stdio(node.get("stdio")),
+        provides=_texts(node.get("provides")),
     )
 
 
@@ -121,7 +177,7 @@ def _stdio(node: YamlNode | None) -> Stdio | None:
     return Stdio(text_of(child(node, "to")) or "", driver, base or 0, baud or Stdio.baud, floats)
 
 
-def _uart(node: YamlNode | None) -> Uart | None:
+def _uart(node: YamlNode | None, parts: tuple[Part, ...]) -> Uart | None:
     if node is None:
         return None
     base, irq, clock_hz = (int_of(child(node, key)) or 0 for key in ("base", "irq", "clock_hz"))
@@ -129,7 +185,8 @@ def _uart(node: YamlNode | None) -> Uart | None:
     tx_pin, rx_pin = (-1 if pin is None else pin for pin in pins)
     driver, tx_irq = text_of(child(node, "driver")) or "", int_of(child(node, "tx_irq"))
     if tx_irq is None:
-        tx_irq = irq + _TX_AFTER_RX.get(driver, 0)
+        known = (part.cpu.driver(driver) for part in parts if part.cpu is not None)
+        tx_irq = irq + next((one.tx_irq for one in known if one is not None), 0)
     return Uart(driver, base, irq, clock_hz, tx_pin, rx_pin, tx_irq)
 
 
@@ -146,23 +203,50 @@ def _emulator(node: YamlNode | None) -> Emulator | None:
     return Emulator(program, package, _texts(child(node, "arguments")))
 
 
-def _check(node: MappingNode, diagnostics: Diagnostics) -> None:
-    """Report what the schema cannot say: what belongs together, and what the port does not have."""
-    port = text_of(node.get("port")) or ""
+def _check(node: MappingNode, target: Target, diagnostics: Diagnostics) -> None:
+    """Report what the schema cannot say: what belongs together, and what the parts do not have."""
+    _check_provides(node, diagnostics)
     _check_memory(node, diagnostics)
-    _check_uart(node, port, diagnostics)
-    _check_interrupts(node, diagnostics)
-    _check_stdio(node, port, diagnostics)
-    _check_image_keys(node, diagnostics)
-    if node.get("flash") is None or bool_of(node.get("hosted")):
+    _check_uart(node, target, diagnostics)
+    _check_interrupts(node, target, diagnostics)
+    _check_stdio(node, target, diagnostics)
+    _check_image_keys(node, target, diagnostics)
+    _check_registers(node, target, diagnostics)
+    if target.linker_script is not None and target.cpu.image is None:
+        hint = "Add `image: {entry: …, first: …, first_section: …, uart_handler: …}` to its cpu.yaml"
+        diagnostics.error(f"{_cpu_name(target)} has no start-up code for an image", node.span, hint)
+
+
+def _check_provides(node: MappingNode, diagnostics: Diagnostics) -> None:
+    for item in items(node.get("provides")):
+        name = text_of(item) or ""
+        if name not in capabilities():
+            hint = nearest(name, capabilities()) or f"Known are: {', '.join(capabilities())}"
+            diagnostics.error(f"unknown capability '{name}'", item.span, hint)
+
+
+def _check_registers(node: MappingNode, target: Target, diagnostics: Diagnostics) -> None:
+    cpu, name_of = target.cpu, _cpu_name(target)
+    known = (*cpu.registers, *cpu.optional_registers)
+    for entry in entries(node.get("registers")):
+        if entry.key not in known:
+            hint = nearest(entry.key, known) or f"Known are: {', '.join(known) or 'none'}"
+            diagnostics.error(f"{name_of} knows no register '{entry.key}'", entry.key_span, hint)
+    if target.hosted or not target.has_image:
         return
-    for name in REGISTERS.get(port, ()):
+    for name in cpu.registers:
         if child(node.get("registers"), name) is None:
             hint = f"Add `registers: {{{name}: 0x…}}`"
-            diagnostics.error(f"{port} needs the address of {name}", node.span, hint)
+            diagnostics.error(f"{name_of} needs the address of {name}", node.span, hint)
 
 
-def _check_uart(node: MappingNode, port: str, diagnostics: Diagnostics) -> None:
+def _cpu_name(target: Target) -> str:
+    """Return the component of the processor, or of the operating system where none is named, for messages."""
+    part = target.part("cpu") or target.part("os")
+    return part.component.name if part is not None else "the target"
+
+
+def _check_uart(node: MappingNode, target: Target, diagnostics: Diagnostics) -> None:
     uart, driver = node.get("uart"), child(node.get("uart"), "driver")
     if driver is None:
         return
@@ -175,10 +259,13 @@ def _check_uart(node: MappingNode, port: str, diagnostics: Diagnostics) -> None:
     for key in ("base", "irq"):
         if child(uart, key) is None:
             diagnostics.error(f"'uart' lacks the key '{key}'", (uart or node).span, f"Add `{key}: …`")
-    if text_of(driver) not in PORTS.get(port, ()):
-        has = ", ".join((*PORTS.get(port, ()), OWN_DRIVER))
-        hint = f"Its drivers are: {has}. Without `uart:` the application provides port_serial_*"
-        diagnostics.error(f"{port} has no driver '{text_of(driver)}'", driver.span, hint)
+    name = text_of(driver) or ""
+    if target.cpu.driver(name) is None:
+        known = (*(one.name for one in target.cpu.drivers), OWN_DRIVER)
+        has = f"Its drivers are: {', '.join(known)}. Without `uart:` the application provides port_serial_*"
+        diagnostics.error(
+            f"{_cpu_name(target)} has no driver '{name}'", driver.span, nearest(name, known) or has
+        )
 
 
 def _check_memory(node: MappingNode, diagnostics: Diagnostics) -> None:
@@ -223,9 +310,9 @@ def _origin_of(part: tuple[Region, str, YamlNode]) -> int:
     return part[0].origin
 
 
-def _check_image_keys(node: MappingNode, diagnostics: Diagnostics) -> None:
+def _check_image_keys(node: MappingNode, target: Target, diagnostics: Diagnostics) -> None:
     """Report keys that only an image has."""
-    if node.get("flash") is not None and not bool_of(node.get("hosted")):
+    if node.get("flash") is not None and target.os.linker_script and not target.hosted:
         return
     for owner, key in (("memories", None), ("stdio", None), ("hooks", "clocks")):
         found = node.get(owner) if key is None else child(node.get(owner), key)
@@ -235,7 +322,7 @@ def _check_image_keys(node: MappingNode, diagnostics: Diagnostics) -> None:
             diagnostics.error(f"'{name}' has no effect without an image of this project", found.span, hint)
 
 
-def _check_stdio(node: MappingNode, port: str, diagnostics: Diagnostics) -> None:
+def _check_stdio(node: MappingNode, target: Target, diagnostics: Diagnostics) -> None:
     stdio = node.get("stdio")
     to = text_of(child(stdio, "to"))
     for key in ("driver", "base", "baud"):
@@ -245,19 +332,19 @@ def _check_stdio(node: MappingNode, port: str, diagnostics: Diagnostics) -> None
         if found is None and to == "uart" and key != "baud":
             diagnostics.error(f"'stdio' lacks the key '{key}'", (stdio or node).span, f"Add `{key}: …`")
     floats = child(stdio, "floats")
-    if floats is not None and port != "port_cortex_m":
-        text = f"'stdio.floats' has no effect with {port}: its C library, picolibc, always formats %f"
+    if floats is not None and not target.cpu.stdio_heap:
+        name = _cpu_name(target)
+        text = f"'stdio.floats' has no effect with {name}: its C library, picolibc, always formats %f"
         diagnostics.error(text, floats.span, "Remove `floats`")
     driver = child(stdio, "driver")
-    if driver is not None and to == "uart" and text_of(driver) not in PORTS.get(port, ()):
-        has = ", ".join(name for name in PORTS.get(port, ()) if name in _STDIO_DRIVERS) or "none"
-        hint = f"Its drivers for output are: {has}. With `to: application` the program has one"
-        diagnostics.error(f"{port} has no driver '{text_of(driver)}'", driver.span, hint)
+    drivers = [one.name for one in target.cpu.drivers if one.stdio]
+    if driver is not None and to == "uart" and text_of(driver) not in drivers:
+        hint = f"Its drivers for output are: {', '.join(drivers) or 'none'}. With `to: application` the program has one"
+        diagnostics.error(f"{_cpu_name(target)} has no driver '{text_of(driver)}'", driver.span, hint)
 
 
-def _check_interrupts(node: MappingNode, diagnostics: Diagnostics) -> None:
-    uart = _uart(node.get("uart"))
-    taken = uart.interrupts if uart else ()
+def _check_interrupts(node: MappingNode, target: Target, diagnostics: Diagnostics) -> None:
+    taken = target.uart.interrupts if target.uart else ()
     for entry in entries(node.get("interrupts")):
         if int(entry.key) in taken:
             hint = "Remove it here, or remove `uart:`"

@@ -41,15 +41,15 @@ class Ask:
 
 @dataclass(frozen=True)
 class Provision:
-    """A capability that a part of a platform provides where `when` holds: the files that have it, what they ask for.
+    """A capability that a part of a platform provides: the files that have it, and what these ask for.
 
-    `always`: the application may call it as well, so it is there even where no component asks for it.
+    A plan in which none of the files has its place lacks the capability. `always`: the application may call it as
+    well, so it is there even where no component asks for it.
     """
 
     capability: str
     sources: tuple[SourceFile, ...]
     asks: tuple[Ask, ...] = ()
-    when: Conditions = ()
     always: bool = False
 
 
@@ -96,6 +96,12 @@ class Component:
     provides: tuple[Provision, ...] = ()
     implies: tuple[Implied, ...] = ()
     folder: Path = field(default_factory=Path, compare=False)
+
+    @property
+    def files(self) -> tuple[SourceFile, ...]:
+        """All files that the component can bring, each once."""
+        provided = (source for provision in self.provides for source in provision.sources)
+        return tuple(dict.fromkeys((*self.sources, *provided)))
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from microros_gen.selection.xrce import OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
 LAYERS = ("micro-ROS", "middleware", "port")
 _REQUIRED = ("component", "summary", "layer", "status")
 _LISTS = ("needs", "asks", "xrce", "sends", "receives", "objects", "headers", "sources", "implies")
-_PROVISION = ("sources", "asks", "when", "always")
+_PROVISION = ("sources", "asks", "always")
 ENDPOINT_KINDS = ("publisher", "subscription", "service", "client")
 _STATUS = ("ready", "planned")
 
@@ -82,7 +82,7 @@ def _asks(node: MappingNode, diagnostics: Diagnostics) -> tuple[Ask, ...]:
 
 
 def _provides(node: MappingNode, diagnostics: Diagnostics) -> tuple[Provision, ...]:
-    """Read `time: {sources: [a.c], asks: [idle], when: {…}, always: true}` for each capability."""
+    """Read `time: {sources: [a.c], asks: [idle], always: true}` for each capability."""
     value = node.get("provides")
     if value is not None and not isinstance(value, MappingNode):
         diagnostics.error(
@@ -94,12 +94,9 @@ def _provides(node: MappingNode, diagnostics: Diagnostics) -> tuple[Provision, .
         if one is None:
             continue
         check_keys(one, _PROVISION, ("sources",), diagnostics)
-        when = _conditions(one.get("when"))
-        if when is None:
-            diagnostics.error("'when' must be a mapping of names and values", one.span)
         always = bool_of(one.get("always")) or False
         sources, asks = _sources(one, diagnostics), _asks(one, diagnostics)
-        found.append(Provision(entry.key, sources, asks, when or (), always))
+        found.append(Provision(entry.key, sources, asks, always))
     return tuple(found)
 
 

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the components that ship with the tool: one folder each, described by its `component.yaml`."""
+"""Reads the components that ship with the tool: one folder each, described by its `component.yaml`.
+
+Parts of a platform (layer `port`) are below platform/<kind>/, the component `port_<name>` in the folder `<name>`.
+"""
 
 from __future__ import annotations
 
@@ -27,6 +30,11 @@ def components_folder() -> Path:
     return Path(__file__).resolve().parent.parent / "components"
 
 
+def parts_folder() -> Path:
+    """Return the folder of the parts of platforms that ship with the tool: `<kind>/<name>/` each."""
+    return Path(__file__).resolve().parent.parent / "platform"
+
+
 def load_catalogue(folder: Path | None = None) -> Catalogue:
     """Return every component below `folder` (the tool's own unless given) by name, in the order of the names.
 
@@ -34,12 +42,18 @@ def load_catalogue(folder: Path | None = None) -> Catalogue:
     its folder, and a `needs` that names no component.
     """
     root = components_folder() if folder is None else folder
+    parts = parts_folder() if folder is None else root
     diagnostics = Diagnostics()
     found: dict[str, Component] = {}
     for path in sorted(root.glob(f"*/{COMPONENT_FILE}")):
         component = _read(path, root, diagnostics)
         if component is not None:
             found[component.name] = component
+    for path in sorted(parts.glob(f"*/*/{COMPONENT_FILE}")):
+        component = _read(path, parts, diagnostics, "port_")
+        if component is not None:
+            found[component.name] = component
+    found = dict(sorted(found.items()))
     for component in found.values():
         _check_needs(component, found, diagnostics)
     diagnostics.check()
@@ -50,7 +64,7 @@ def declared_functions(catalogue: Catalogue) -> Mapping[str, str]:
     """Return which ready component declares each function of the C API, from the public headers below its include/."""
     found: dict[str, str] = {}
     for component in catalogue.values():
-        folder = components_folder() / component.name / "include"
+        folder = component.folder / "include"
         for header in component.headers if component.ready else ():
             path = folder / header
             path = path if path.exists() else path.with_name(f"{path.name}.j2")
@@ -60,7 +74,7 @@ def declared_functions(catalogue: Catalogue) -> Mapping[str, str]:
     return MappingProxyType(found)
 
 
-def _read(path: Path, root: Path, diagnostics: Diagnostics) -> Component | None:
+def _read(path: Path, root: Path, diagnostics: Diagnostics, prefix: str = "") -> Component | None:
     shown = path.relative_to(root).as_posix()
     try:
         source = Source(shown, read_text(path))
@@ -68,7 +82,7 @@ def _read(path: Path, root: Path, diagnostics: Diagnostics) -> Component | None:
         diagnostics.error(f"cannot read the component file '{shown}': {fault}")
         return None
     component = parse_component(source, diagnostics)
-    if component is not None and component.name != path.parent.name:
+    if component is not None and component.name != f"{prefix}{path.parent.name}":
         diagnostics.error(f"'{shown}' describes '{component.name}'", None, "Name the folder as the component")
         return None
     return component and replace(component, folder=path.parent)

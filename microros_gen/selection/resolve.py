@@ -15,13 +15,19 @@ from microros_gen.documents.named import Named
 from microros_gen.records import dataclass
 from microros_gen.selection.axes import AxisChoice, choose_axes
 from microros_gen.selection.clock import CLOCK_ROS
-from microros_gen.selection.component import NOT_READY, AxisValue, Catalogue, Middleware, ResolvedProfile
+from microros_gen.selection.component import (
+    NOT_READY,
+    AxisValue,
+    Catalogue,
+    Component,
+    Middleware,
+    ResolvedProfile,
+)
 from microros_gen.selection.declared import STREAM_RELIABLE, declared_components, stream_demands
 from microros_gen.selection.model import Chosen, ChosenAxis, ChosenComponent, Selection
 from microros_gen.selection.profiles import at, signed, unique_changes
 from microros_gen.selection.xrce import MICRO_ROS_COMPONENTS, OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
 
-HOST_PORT = "port_posix"
 # Objects that a CREATE makes; the client itself comes with CREATE_CLIENT.
 _CREATED = frozenset(OBJECT_KINDS) - {"agent", "client"}
 _LAYERS = ("micro-ROS", "middleware", "port")
@@ -33,13 +39,13 @@ def resolve_selection(
     catalogue: Catalogue,
     middleware: Middleware,
     diagnostics: Diagnostics,
-    port: str | None = None,
+    parts: tuple[str, ...] = (),
     transport: str | None = None,
 ) -> Selection:
     """Return everything that the application and its profiles select, each item with its reasons.
 
-    `port` is the component of the target (`Target.port`); without it the host has `port_posix`, another
-    target none. `transport` is what the target has where nobody else chooses (`Target.transport`).
+    `parts` are the components of the target's platform (`Target.parts`). `transport` is what the target has where
+    nobody else chooses (`Target.transport`).
     Contradictions and unknown components go to `diagnostics`, each with both places; then the selection is only
     good for showing. Planned components are selected like others: `check_ready` names them.
     """
@@ -50,7 +56,6 @@ def resolve_selection(
         _report_nothing(application, diagnostics)
     for choice in axes.values():
         _pick_axis(picker, choice, middleware)
-    _pick_port(picker, application, port)
     picker.close()
     for demand in stream_demands(application, picker.open_to(application), axes["entities"].value):
         picker.pick(demand.component, demand.text, demand.span)
@@ -64,6 +69,7 @@ def resolve_selection(
     if application.transport.discover is not None:
         picker.pick("discovery", "transport: {agent: discover}", application.transport.agent_span)
     picker.close()
+    _pick_parts(picker, application, parts)
     _check(picker, application, profiles, axes, middleware)
     return _selection(picker, profiles, axes, middleware)
 
@@ -202,11 +208,29 @@ def _pick_axis(picker: _Picker, choice: AxisChoice, middleware: Middleware) -> N
         picker.pick(brought, choice.text, choice.span)
 
 
-def _pick_port(picker: _Picker, application: Application, port: str | None) -> None:
+def _pick_parts(picker: _Picker, application: Application, parts: tuple[str, ...]) -> None:
+    """Select the parts of the platform that have something of use: for the application, a component, another part."""
     target = application.target
-    name = port or (HOST_PORT if target.name == "host" else None)
-    if name is not None:
-        picker.pick(name, f"target: {target.name}{at(target.span)}", target.span)
+    waiting = list(parts)
+    while waiting:
+        asks = {ask.capability for name in picker.causes for ask in picker.catalogue[name].asks}
+        chosen = (picker.catalogue[name] for name in parts if name in picker.causes)
+        asks |= {ask.capability for part in chosen for one in part.provides for ask in one.asks}
+        useful = [name for name in waiting if _is_useful(picker.catalogue[name], asks)]
+        if not useful:
+            return
+        for name in useful:
+            picker.pick(name, f"target: {target.name}{at(target.span)}", target.span)
+        picker.close()
+        waiting = [name for name in waiting if name not in useful]
+
+
+def _is_useful(part: Component, asked: set[str]) -> bool:
+    return (
+        bool(part.sources)
+        or not part.provides
+        or any(one.always or one.capability in asked for one in part.provides)
+    )
 
 
 def _check(

@@ -110,7 +110,7 @@ def test_interfaces(run: Runner) -> None:
 def test_targets(run: Runner) -> None:
     assert any(line.startswith("host") for line in table_of(run, "targets"))
     (host,) = [entry for entry in data_of(run, "targets") if entry["name"] == "host"]
-    assert host["port"] == "port_posix"
+    assert host["parts"] == {"network": "port_posix_sockets", "os": "port_posix"}
     assert data_of(run, "targets", "host") == [host]
     assert any(line.startswith("compilers") for line in table_of(run, "targets", "host"))
 

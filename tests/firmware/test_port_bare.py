@@ -14,12 +14,13 @@ from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.platform.find import read_target
 from microros_gen.platform.target import Uart
-from microros_gen.selection.find_components import components_folder
+from microros_gen.selection.find_components import components_folder, parts_folder
 from microros_gen.toolchain.toolchain import WARNINGS
 from tests.support.firmware.board import C_FILES, check
 from tests.support.plans import POOL, changed
 
 COMPONENTS = components_folder()
+BARE = parts_folder() / "os" / "bare"
 BOARD = (
     "#pragma once\n#define PORT_BOARD_RING_SIZE 64u\n"
     "#define PORT_BOARD_OUTPUT_SIZE 61u\n#define PORT_BOARD_UART_BAUD 115200u\n"
@@ -32,7 +33,7 @@ SANITIZE = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 def test_time_sleep_epoch_and_ring(tmp_path: Path) -> None:
     (tmp_path / "microros").mkdir()
     (tmp_path / "microros" / "port_board.h").write_text(BOARD)
-    bare, support = COMPONENTS / "port_bare", COMPONENTS / "support"
+    bare, support = BARE, COMPONENTS / "support"
     includes = [f"-I{path}" for path in (tmp_path, bare / "src", bare / "include", support / "include")]
     program = tmp_path / "unit"
     check(["gcc", *WARNINGS, *SANITIZE, *includes, str(C_FILES / "unit_bare.c"), "-o", str(program)])
@@ -41,7 +42,7 @@ def test_time_sleep_epoch_and_ring(tmp_path: Path) -> None:
 
 def test_timers_and_steady_time_over_sixty_days(tmp_path: Path) -> None:
     (tmp_path / "microros_config.h").write_text("#define MICROROS_TIMERS_MAX 2u\n")
-    bare, support = COMPONENTS / "port_bare", COMPONENTS / "support"
+    bare, support = BARE, COMPONENTS / "support"
     includes = [f"-I{path}" for path in (tmp_path, bare / "src", bare / "include", support / "include")]
     program = tmp_path / "unit"
     check(["gcc", *WARNINGS, *SANITIZE, *includes, str(C_FILES / "unit_bare_timers.c"), "-o", str(program)])
@@ -95,7 +96,8 @@ def test_of_a_large_best_effort_sample_the_ring_holds_what_comes_in_20_ms(
 def test_the_divisor_of_a_uart_is_within_what_its_receiver_bears(
     driver: str, clock_hz: int, baud: int, divisor: int | None
 ) -> None:
-    found = read_target("qemu-mps2-an385", Path(), None, Diagnostics())
+    name = "qemu-riscv32-virt" if driver == "ns16550" else "qemu-mps2-an385"
+    found = read_target(name, Path(), None, Diagnostics())
     assert found is not None
     target = replace(found.target, uart=Uart(driver, 0x40004000, 1, clock_hz))
     diagnostics = Diagnostics()

@@ -12,9 +12,10 @@ from jsonschema import Draft202012Validator
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.documents.schema import load_schema
 from microros_gen.platform.find import TARGETS, FoundTarget, builtin_targets, read_target
-from microros_gen.platform.target import OPTIONAL_REGISTERS, OWN_DRIVER, PORTS, REGISTERS, Region
+from microros_gen.platform.part import KINDS
+from microros_gen.platform.part_file import builtin_parts, read_part
+from microros_gen.platform.target import Region
 from microros_gen.platform.target_file import SCHEMA as TARGET_SCHEMA
-from microros_gen.selection.find_components import load_catalogue
 
 SCHEMA = load_schema(TARGET_SCHEMA)
 BOARD = """\
@@ -46,20 +47,25 @@ def test_every_built_in_target_reads(name: str) -> None:
     found = read_target(name, Path(), None, diagnostics)
     assert found is not None, list(diagnostics)
     assert found.own == ()
-    assert found.target.port in PORTS
+    assert {part.kind for part in found.target.parts} <= set(KINDS)
+    assert found.target.part("os") is not None
 
 
-def test_ports_drivers_and_registers_are_the_same_everywhere() -> None:
-    catalogue = load_catalogue()
-    ports = {name for name, component in catalogue.items() if component.layer == "port"} - {"port_bare"}
-    assert ports == set(PORTS) == set(SCHEMA["properties"]["port"]["enum"])
-    for port, drivers in PORTS.items():
-        when = [dict(source.when) for source in catalogue[port].sources]
-        assert {w["board.serial_driver"] for w in when if "board.serial_driver" in w} == set(drivers)
-    known = SCHEMA["properties"]["uart"]["properties"]["driver"]["enum"]
-    assert set(known) == {OWN_DRIVER} | {driver for drivers in PORTS.values() for driver in drivers}
-    registers = {name for names in REGISTERS.values() for name in names} | set(OPTIONAL_REGISTERS)
-    assert set(SCHEMA["properties"]["registers"]["properties"]) == registers
+@pytest.mark.parametrize("name", builtin_parts("cpu"))
+def test_each_driver_of_a_processor_has_its_files(name: str) -> None:
+    diagnostics = Diagnostics()
+    part = read_part("cpu", name, Path(), None, diagnostics)
+    assert part is not None, list(diagnostics)
+    assert part.cpu is not None
+    provides = {provision.capability: provision.sources for provision in part.component.provides}
+    drivers = {dict(source.when)["board.serial_driver"] for source in provides["uart"]}
+    assert drivers == {driver.name for driver in part.cpu.drivers}
+    output = {dict(source.when)["board.stdio_driver"] for source in provides["stdio_put"]}
+    assert output == {driver.name for driver in part.cpu.drivers if driver.stdio}
+    described = SCHEMA["properties"]["uart"]["properties"]["driver"]["description"]
+    assert all(driver in described for driver in drivers)
+    registers = SCHEMA["properties"]["registers"]["description"]
+    assert all(f"`{one}`" in registers for one in (*part.cpu.registers, *part.cpu.optional_registers))
 
 
 def test_a_file_adds_a_board_to_a_cpu(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.selection.find_components import components_folder
+from microros_gen.selection.find_components import load_catalogue
 from tests.support.quality import misra
 from tests.support.quality.corpus import (
     ROOT,
@@ -79,7 +79,7 @@ def test_corpus_holds_every_source(trees: list[Tree]) -> None:
     """Every C file and every C template of a component that is ready is in some tree."""
     wanted = set()
     for name in ready_components():
-        folder = components_folder() / name / "src"
+        folder = load_catalogue()[name].folder / "src"
         wanted |= {f"{name}/{path.name.removesuffix('.j2')}" for path in folder.glob("*.c*")}
     assert sorted(wanted - covered(trees)) == []
 

@@ -18,7 +18,7 @@ import pytest
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan
 from microros_gen.client.plan.slices import DISCOVERY_GROUP
-from microros_gen.selection.find_components import components_folder
+from microros_gen.selection.find_components import load_catalogue
 from tests.support.plans import POOL, READER, SERVER, changed
 from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
@@ -383,9 +383,10 @@ TIME = re.compile(r"\b(port_time_\w+|port_sleep_ms|xrce_is_due|\w+_(ms|ns))\b")
 
 def test_every_component_that_has_to_do_with_time_is_stepped() -> None:
     timed = {
-        path.relative_to(components_folder()).parts[0]
+        component.name
+        for component in load_catalogue().values()
         for pattern in ("*.c", "*.h", "*.j2")
-        for path in components_folder().rglob(pattern)
+        for path in component.folder.rglob(pattern)
         if TIME.search(path.read_text())
     }
     known = STEPPED.keys() | ELSEWHERE.keys() | TIMELESS.keys()

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
-from microros_gen.selection.find_components import components_folder
+from microros_gen.selection.find_components import parts_folder
 from tests.support.plans import POOL, changed
 from tests.support.runtime.harness import SANITIZE, Tree, build, compilers, components, render
 
@@ -55,7 +55,7 @@ def test_messages_that_the_line_does_not_copy(tmp_path: Path) -> None:
         streams__reliable_slot_size=300,
     )
     tree = render(tmp_path, plan, [name for name in components(plan) if name != "port_posix"])
-    bare = components_folder() / "port_bare"
+    bare = parts_folder() / "os" / "bare"
     shutil.copytree(bare / "include", tree.include, dirs_exist_ok=True)
     shutil.copy(bare / "src" / "port_bare_wait.c", tree.include)
     shutil.copy(bare / "src" / "port_bare_serial.c", tree.include)

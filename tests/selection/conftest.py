@@ -20,6 +20,11 @@ from microros_gen.selection.resolve import resolve_selection
 from tests.support.selection.small_catalogue import Outcome, small_catalogue
 
 
+def parts_of(application: Application) -> tuple[str, ...]:
+    """Return the parts of the small catalogue that the target stands on."""
+    return ("port_posix",) if application.target.name == "host" else ()
+
+
 @pytest.fixture(scope="session")
 def catalogue() -> Catalogue:
     return small_catalogue()
@@ -34,7 +39,9 @@ def middleware() -> Middleware:
 def resolve(catalogue: Catalogue, middleware: Middleware) -> Callable[..., Outcome]:
     """Resolve profiles by name, or the text of an application file, in a folder."""
 
-    def run(*profiles: str, text: str = "", folder: Path = Path(), port: str | None = None) -> Outcome:
+    def run(
+        *profiles: str, text: str = "", folder: Path = Path(), parts: tuple[str, ...] | None = None
+    ) -> Outcome:
         said = Diagnostics()
         application: Application | None = Application()
         if text:
@@ -42,7 +49,8 @@ def resolve(catalogue: Catalogue, middleware: Middleware) -> Callable[..., Outco
             assert application is not None, [d.headline() for d in said]
         names = [Named(name) for name in profiles] or list(application.profiles)
         resolved = resolve_profiles(load_profiles(names, folder, said), said)
-        selection = resolve_selection(application, resolved, catalogue, middleware, said, port)
+        below = parts_of(application) if parts is None else parts
+        selection = resolve_selection(application, resolved, catalogue, middleware, said, below)
         return Outcome(selection, tuple(d.headline() for d in said))
 
     return run
@@ -62,7 +70,7 @@ def resolve_with(middleware: Middleware) -> Callable[..., Outcome]:
         application = parse_application(Source("microros.yaml", text), said)
         assert application is not None
         resolved = resolve_profiles(load_profiles([Named(n) for n in profiles], Path(), said), said)
-        selection = resolve_selection(application, resolved, parts, middleware, said)
+        selection = resolve_selection(application, resolved, parts, middleware, said, parts_of(application))
         return Outcome(selection, tuple(d.headline() for d in said))
 
     return run

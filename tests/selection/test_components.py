@@ -14,7 +14,7 @@ from microros_gen.client.plan.board import BoardPlan
 from microros_gen.diagnostics import UserError
 from microros_gen.platform.target import Target
 from microros_gen.selection.component import Ask, Catalogue, Component, Middleware, Provision, SourceFile
-from microros_gen.selection.find_components import components_folder, load_catalogue
+from microros_gen.selection.find_components import load_catalogue
 from microros_gen.selection.xrce import MICRO_ROS_COMPONENTS
 from tests.support.plans import POOL
 
@@ -31,7 +31,7 @@ objects: [datareader]
 headers: [rcl/x.h]
 sources: [rcl_x.c, {file: rcl_y.c, when: {on_full: error, mtu: 512}}]
 asks: [time, {capability: lock, when: {session.multithread: true}}]
-provides: {wait: {sources: [rcl_w.c], asks: [idle], when: {transport: udp}, always: true}}
+provides: {wait: {sources: [rcl_w.c], asks: [idle], always: true}}
 """
 
 
@@ -58,7 +58,7 @@ def test_a_component_is_read(tmp_path: Path) -> None:
         (SourceFile("rcl_x.c"), SourceFile("rcl_y.c", (("on_full", "error"), ("mtu", 512)))),
     )
     assert component.asks == (Ask("time"), Ask("lock", (("session.multithread", True),)))
-    wait = Provision("wait", (SourceFile("rcl_w.c"),), (Ask("idle"),), (("transport", "udp"),), True)
+    wait = Provision("wait", (SourceFile("rcl_w.c"),), (Ask("idle"),), True)
     assert component.provides == (wait,)
 
 
@@ -96,12 +96,7 @@ ERRORS = {
         "x/component.yaml:13:11: error: 'provides' must be a mapping",
     ),
     "provision": ("sources: [rcl_w.c], ", "", "x/component.yaml:13:18: error: the key 'sources' is missing"),
-    "provision key": ("always", "alway", "x/component.yaml:13:77: error: there is no key 'alway' here"),
-    "provision value": (
-        "{transport: udp}",
-        "[udp]",
-        "x/component.yaml:13:18: error: 'when' must be a mapping",
-    ),
+    "provision key": ("always", "alway", "x/component.yaml:13:53: error: there is no key 'alway' here"),
     "xrce": (
         "[read, w",
         "[reed, w",
@@ -150,12 +145,12 @@ def test_the_eleven_components_are_there(real_catalogue: Catalogue) -> None:
 
 def test_files_of_components_are_there(real_catalogue: Catalogue) -> None:
     for component in real_catalogue.values():
-        folder = components_folder() / component.name
+        folder = component.folder
         if component.ready:
             assert any(path.is_file() for path in folder.glob("*/**/*")), component.name
         else:
             assert not component.sources, component.name
-        for source in component.sources:
+        for source in component.files:
             assert (folder / "src" / source.path).is_file(), f"{component.name}: {source.path}"
         for path in conditions(component):
             assert is_of_the_plan(path), f"{component.name}: {path}"
@@ -163,7 +158,7 @@ def test_files_of_components_are_there(real_catalogue: Catalogue) -> None:
 
 def conditions(component: Component) -> Iterator[str]:
     """Yield the paths of all conditions of a component."""
-    parts: list[SourceFile | Ask | Provision] = [*component.sources, *component.asks, *component.provides]
+    parts: list[SourceFile | Ask] = [*component.sources, *component.asks]
     for provision in component.provides:
         parts += [*provision.sources, *provision.asks]
     yield from (path for part in parts for path, _ in part.when)

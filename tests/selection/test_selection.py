@@ -155,7 +155,7 @@ def test_a_static_sender_refers_and_can_be_preconfigured(resolve: Resolve) -> No
 def test_the_port_is_the_targets(resolve: Resolve) -> None:
     text = "profiles: [pure_sender]\ntarget: cortex-m4\n"
     assert not any(name.startswith("port_") for name in resolve(text=text).names())
-    assert resolve(text=text, port="port_posix").reasons("port_posix") == (
+    assert resolve(text=text, parts=("port_posix",)).reasons("port_posix") == (
         "target: cortex-m4 (microros.yaml:2)",
     )
 

@@ -7,6 +7,7 @@ from microros_gen.application.model import Application
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.streams import usual_frame
 from microros_gen.diagnostics import Diagnostics
+from microros_gen.platform.part import Divisor, Fraction
 from microros_gen.platform.target import OWN_DRIVER, Target, Uart
 from microros_gen.records import dataclass
 
@@ -15,8 +16,6 @@ _STACK_ALIGNMENT = 16  # RISC-V; the Arm procedure call standard asks for 8
 _FREQUENCY_TOLERANCE = (
     0.025  # a frame of ten bits is sampled in the middle of its bits: each side may err by half of 5 %
 )
-_FIRST_INTERRUPT = 16  # words of a Cortex-M's vector table before that of interrupt 0
-_LEAST_TABLE = 128  # bytes; the lowest bits of VTOR are 0
 _LINE_USERS = ("serial", "custom")
 # OMG DDS-XRCE 1.0: a header of 4, a submessage of 4 and 5 (ACKNACK).
 _ACKNACK = 13
@@ -27,26 +26,15 @@ REACTION_MS = 20
 # Read of the ring at a time: a call costs little there.
 RING_CHUNK = 8
 _BITS_OF_A_BYTE = 10  # with start and stop bit
-_SERIAL_FUNCTIONS = (
-    "port_serial_open",
-    "port_serial_close",
-    "port_serial_room",
-    "port_serial_write",
-    "port_serial_is_idle",
-    "port_serial_read",
-)
-_UART_FUNCTIONS = ("port_uart_start", "port_uart_stop", "port_uart_send")
-_LOCK_FUNCTIONS = ("port_lock", "port_unlock")
-_UDP_FUNCTIONS = ("port_udp_open", "port_udp_close", "port_udp_send", "port_udp_receive")
 
 
 @dataclass(frozen=True)
 class BoardPlan:
     """Sizes are bytes. `vectors` are handlers by interrupt number, `handlers` those that the application provides.
 
-    `entry` is where the program begins, `first` what lies first in flash, in the section `first_section`.
-    `application_functions` are functions of microros/port.h that only the application can provide; then the
-    example is not linked. `serial_driver` is `none` where nothing uses the line, or the board has none.
+    `entry` is where the program begins, `first` what lies first in flash, in the section `first_section`. `hooks`
+    are functions of the application that the target file names. `serial_driver` is `none` where nothing uses the
+    line, or the board has none.
     """
 
     stack_size: int = 0
@@ -64,7 +52,7 @@ class BoardPlan:
     entry: str = ""
     first: str = ""
     first_section: str = ""
-    application_functions: tuple[str, ...] = ()
+    hooks: tuple[str, ...] = ()
     stdio: str = "absent"
     stdio_driver: str = "none"
     stdio_divisor: int = 0
@@ -94,17 +82,15 @@ def plan_board(
     _check_unique_id(application, target, runtime, diagnostics)
     has_line = target.has_image or target.uart_driver == OWN_DRIVER
     driver = target.uart_driver if has_line and runtime.transport.kind in _LINE_USERS else "none"
-    functions = _application_functions(runtime.transport.kind, driver)
-    functions += _LOCK_FUNCTIONS if runtime.session.multithread else ()
     if not target.has_image:
         return BoardPlan(
             ring_size=ring_size(runtime),
             output_size=runtime.transport.send_buffer,
             serial_driver=driver,
-            application_functions=functions,
         )
     uart = target.uart if driver not in ("none", OWN_DRIVER) else None
-    entry, first, section, handler, unused = _NAMES[target.port]
+    image = target.cpu.image
+    assert image is not None
     _check_vectors(target, uart, application, diagnostics)
     stdio = target.stdio
     return BoardPlan(
@@ -120,15 +106,13 @@ def plan_board(
         tx_irq=uart.tx_irq if uart else 0,
         tx_pin=uart.tx_pin & 0xFFFFFFFF if uart else 0,
         rx_pin=uart.rx_pin & 0xFFFFFFFF if uart else 0,
-        has_fpu=any(flag in ("-mfloat-abi=hard", "-mfloat-abi=softfp") for flag in target.c_flags),
-        vectors=_vectors(target, uart, handler, unused),
+        has_fpu=any(flag in target.cpu.fpu_flags for flag in target.c_flags),
+        vectors=_vectors(target, uart, image.uart_handler, image.no_handler),
         handlers=tuple(sorted({name for _, name in target.interrupts})),
-        entry=entry,
-        first=first,
-        first_section=section,
-        application_functions=functions
-        + tuple(name for name in (target.clocks_hook, target.watchdog_hook) if name)
-        + (("port_stdio_put",) if stdio and stdio.to == "application" else ()),
+        entry=image.entry,
+        first=image.first,
+        first_section=image.first_section,
+        hooks=tuple(name for name in (target.clocks_hook, target.watchdog_hook) if name),
     )
 
 
@@ -158,38 +142,11 @@ def ring_size(runtime: RuntimePlan) -> int:
     return min((needed + 4) & ~3, 1 << 15)
 
 
-# port → entry, what lies first in flash, its section, the UART's handler, what stands for an unused interrupt
-_NAMES = {
-    "port_cortex_m": (
-        "port_cortex_m_reset",
-        "port_cortex_m_vectors",
-        ".rodata.port_cortex_m_vectors",
-        "port_cortex_m_uart_interrupt",
-        "port_cortex_m_fault",
-    ),
-    "port_riscv": (
-        "port_riscv_reset",
-        "port_riscv_reset",
-        ".text.port_riscv_reset",
-        "port_riscv_uart_interrupt",
-        "",
-    ),
-}
-
-
 def _vectors(target: Target, uart: Uart | None, handler: str, unused: str) -> tuple[str, ...]:
     named = dict(target.interrupts)
     if uart is not None:
         named |= dict.fromkeys(uart.interrupts, handler)
     return tuple(named.get(number, unused) for number in range(max(named, default=0) + 1))
-
-
-def _application_functions(transport: str, driver: str) -> tuple[str, ...]:
-    if transport == "serial" and driver == "none":
-        return _SERIAL_FUNCTIONS
-    if driver == OWN_DRIVER:
-        return _UART_FUNCTIONS
-    return _UDP_FUNCTIONS if transport == "udp" else ()
 
 
 def _check_unique_id(
@@ -219,15 +176,17 @@ def _check_unique_id(
 def _check_vectors(
     target: Target, uart: Uart | None, application: Application, diagnostics: Diagnostics
 ) -> None:
-    """Report a vector table where the processor cannot have one (Armv6-M, Armv7-M: VTOR, "TBLOFF")."""
+    """Report a vector table where the processor cannot have one."""
     flash = target.flash
-    if flash is None or not flash.offset or target.port != "port_cortex_m":
+    table = target.cpu.vector_table
+    if flash is None or not flash.offset or table is None:
         return
-    words = _FIRST_INTERRUPT + len(_vectors(target, uart, "", ""))
-    alignment = max(_LEAST_TABLE, 1 << (4 * words - 1).bit_length())
-    if "-mcpu=cortex-m0" in target.c_flags:
+    words = table.words + len(_vectors(target, uart, "", ""))
+    alignment = max(table.least, 1 << (4 * words - 1).bit_length())
+    fixed = next((name for flag, name in table.fixed if flag in target.c_flags), "")
+    if fixed:
         diagnostics.error(
-            f"the Cortex-M0 of {target.name} has no vector table offset register: 'flash.offset' has no effect",
+            f"the {fixed} of {target.name} has no vector table offset register: 'flash.offset' has no effect",
             application.target.span,
             "Let the bootloader hand interrupts on, or remove it",
         )
@@ -257,7 +216,11 @@ def _stdio_divisor(
             "Give it another base, or take `stdio: {to: semihosting}`",
         )
     clock_hz = target.uart.clock_hz if target.uart else 0
-    found = _nearest_divisor(stdio.driver, clock_hz or target.clock_hz, stdio.baud)
+    driver = target.cpu.driver(stdio.driver)
+    assert driver is not None, "target_file checks it"
+    if isinstance(driver.baud, Fraction):
+        return driver.baud.register(stdio.baud)
+    found = _nearest_divisor(driver.baud, clock_hz or target.clock_hz, stdio.baud)
     if found.error > _FREQUENCY_TOLERANCE:
         diagnostics.error(
             f"{stdio.baud} baud cannot be had from {clock_hz or target.clock_hz} Hz by the UART of 'stdio'",
@@ -285,10 +248,11 @@ def _stack_size(application: Application, target: Target, diagnostics: Diagnosti
 def _divisor(uart: Uart, target: Target, application: Application, diagnostics: Diagnostics) -> int:
     """Return the value of the UART's baud register for the application's rate."""
     clock, baud = uart.clock_hz or target.clock_hz, application.transport.baud
-    if uart.driver == "nrf51":
-        # nRF51 Reference Manual, BAUDRATE: 32 bits of fraction of 16 MHz, of which the upper 20 count.
-        return ((baud << 32) // 16_000_000 + 0x800) & 0xFFFFF000
-    found = _nearest_divisor(uart.driver, clock, baud)
+    driver = target.cpu.driver(uart.driver)
+    assert driver is not None, "target_file checks it"
+    if isinstance(driver.baud, Fraction):
+        return driver.baud.register(baud)
+    found = _nearest_divisor(driver.baud, clock, baud)
     if found.error > _FREQUENCY_TOLERANCE:
         diagnostics.error(
             f"{baud} baud cannot be had from {clock} Hz by the UART of {target.name}",
@@ -307,7 +271,7 @@ class _Divisor:
     error: float
 
 
-def _nearest_divisor(driver: str, clock: int, baud: int) -> _Divisor:
-    step, lowest, largest = {"cmsdk": (1, 16, 0xFFFFF), "ns16550": (16, 1, 0xFFFF)}[driver]
-    divisor = min(max(round(clock / (step * baud)), lowest), largest)
+def _nearest_divisor(register: Divisor, clock: int, baud: int) -> _Divisor:
+    step = register.by
+    divisor = min(max(round(clock / (step * baud)), register.least), register.most)
     return _Divisor(divisor, clock // (step * divisor), abs(clock / (step * divisor) / baud - 1))

@@ -22,6 +22,7 @@ from microros_gen.client.plan.declared import (
 )
 from microros_gen.client.plan.entities import EntitiesPlan, Places
 from microros_gen.client.plan.plan_id import plan_id
+from microros_gen.client.plan.provisions import plan_provisions
 from microros_gen.client.plan.queues import check_pool_key
 from microros_gen.client.plan.receiving import plan_receiving
 from microros_gen.client.plan.running import plan_running
@@ -45,6 +46,7 @@ from microros_gen.client.plan.streams import StreamSizes, Written, plan_streams
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.dds_names import dds_topic, dds_type, participant_name
 from microros_gen.interfaces.types import Message, TypeName
+from microros_gen.platform.provide import Provisions
 from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
 from microros_gen.selection.model import Selection
@@ -76,6 +78,7 @@ class Project:
     runtime: RuntimePlan
     board: BoardPlan
     storage: SentStorage
+    provisions: Provisions
     services: tuple[TypeName, ...] = ()
 
     @cached_property
@@ -91,12 +94,15 @@ class Project:
     @property
     def lacks_image(self) -> str:
         """Why the example is not linked to an image; empty where it is."""
+        os = self.target.part("os")
+        if self.target.knows_memory and not self.target.has_image and os is not None:
+            return f"start-up code and linker script belong to {os.component.name}: link the library to your firmware"
         if not self.target.has_image:
             return (
                 f"target {self.target.name} names a processor and no memory: link the library to your firmware,"
                 f" or write a target file that extends it with `flash` and `ram`"
             )
-        functions = self.board.application_functions
+        functions = (*self.provisions.functions(in_example=True), *self.board.hooks)
         return f"your application provides {', '.join(functions)} (microros/port.h)" if functions else ""
 
     @property
@@ -107,7 +113,7 @@ class Project:
     @property
     def linker_script(self) -> str | None:
         """The path of the linker script below the output folder, where the target has a board."""
-        return None if self.target.hosted or not self.target.has_image else "src/port_bare/image.ld"
+        return self.target.linker_script
 
     @property
     def example(self) -> str:
@@ -230,8 +236,20 @@ def plan_project(
     runtime = replace(runtime, transport=replace(runtime.transport, own_line=own_line))
     names_of_components = (c.component.name for c in selection.components)
     runtime = replace(runtime, plan_id=plan_id(runtime, names_of_components, types))
+    provisions = plan_provisions(application, selection, runtime, board, target, diagnostics)
     return Project(
-        name, application, selection, target, types, roots, streams, runtime, board, storage, services
+        name,
+        application,
+        selection,
+        target,
+        types,
+        roots,
+        streams,
+        runtime,
+        board,
+        storage,
+        provisions,
+        services,
     )
 
 

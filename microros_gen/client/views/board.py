@@ -14,7 +14,7 @@ from microros_gen.records import dataclass
 class BoardView:
     """Flags are one text each. `script` is the linker script below the output folder, empty without an image.
 
-    `functions` are those of microros/port.h that the application provides, as they are printed.
+    `tick` is called each millisecond from `timer_interrupt`; empty where the operating system does that.
     """
 
     target: str
@@ -22,8 +22,9 @@ class BoardView:
     link_flags: str
     script: str
     stack: int
-    functions: str
-    is_arm: bool
+    os: str
+    tick: str
+    timer_interrupt: str
 
 
 @dataclass(frozen=True)
@@ -50,6 +51,13 @@ def board_view(project: Project) -> BoardView | None:
         link_flags=" ".join((*target.link_flags, *target.libraries)),
         script=project.linker_script or "",
         stack=project.board.stack_size,
-        functions=", ".join(f"`{name}`" for name in project.board.application_functions),
-        is_arm=target.port == "port_cortex_m",
+        os=_os(project),
+        tick=target.os.tick,
+        timer_interrupt=target.cpu.timer_interrupt,
     )
+
+
+def _os(project: Project) -> str:
+    """Return the operating system that has start-up code of its own; empty: the image has that of this project."""
+    os = project.target.part("os")
+    return "" if os is None or project.target.os.linker_script else os.component.name

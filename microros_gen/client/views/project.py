@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 
-from jinja2 import Environment
+from jinja2 import Environment, Template
 
 from microros_gen.application.model import Memory
 from microros_gen.client.plan.project import Project
@@ -14,6 +14,7 @@ from microros_gen.client.plan.runtime_entities import PublisherPlan
 from microros_gen.client.views.agent_files import render_agent_files
 from microros_gen.client.views.board import BoardView, board_view, render_toolchain
 from microros_gen.client.views.example import example_view
+from microros_gen.platform.capabilities import declarations
 from microros_gen.records import dataclass
 from microros_gen.selection.component import Component
 from microros_gen.selection.component_sources import ComponentFile
@@ -49,6 +50,8 @@ class _ProjectView:
     declared: bool
     memory: tuple[_Bytes, ...]
     board: BoardView | None
+    functions: tuple[str, ...]
+    declarations: tuple[str, ...]
     has_image: bool
     budgets: str
 
@@ -108,14 +111,24 @@ def _component_files(
         "selection": project.selection,
         "target": project.target,
         "board": project.board,
+        "functions": (*project.provisions.functions(), *project.board.hooks),
         "headers": tuple(sorted(h for c in project.selection.components for h in c.component.headers)),
     }
     return {
-        file.path: environment.get_template(file.template).render(context).encode()
-        if file.template
-        else file.content
+        file.path: file.content
+        if file.template is None
+        else _template(file, environment).render(context).encode()
         for file in files
     }
+
+
+def _template(file: ComponentFile, environment: Environment) -> Template:
+    """Return a template by its name, or from the text of one that does not ship with the tool."""
+    return (
+        environment.get_template(file.template)
+        if file.template
+        else environment.from_string(file.content.decode())
+    )
 
 
 def _unselected_headers(
@@ -153,6 +166,12 @@ def _line(project: Project) -> int:
 def _own_limits(project: Project, publisher: PublisherPlan) -> str:
     own = project.own_limits(publisher)
     return f", limits of its own: at most {own.max_encoded_size} bytes" if own else ""
+
+
+def _declarations(project: Project) -> tuple[str, ...]:
+    """Return the declarations of what the application provides, and of its hooks."""
+    declared = [line for row in project.provisions.of_application for line in declarations(row.capability)]
+    return (*declared, *(f"void {name}(void);" for name in project.board.hooks))
 
 
 def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectView:
@@ -196,6 +215,8 @@ def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectVi
         ),
         entities=tuple(declared or pools),
         board=board_view(project),
+        functions=(*project.provisions.functions(), *project.board.hooks),
+        declarations=_declarations(project),
         has_image=not project.lacks_image,
         budgets=_budgets(project.application.memory),
         agent=project.selection.entities,

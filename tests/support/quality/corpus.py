@@ -18,7 +18,7 @@ from types import MappingProxyType
 
 from microros_gen import compiler
 from microros_gen.interfaces.find import shipped_folder
-from microros_gen.selection.find_components import components_folder, load_catalogue
+from microros_gen.selection.find_components import load_catalogue
 from tests.support.paths import ROOT, TESTS
 
 EXAMPLES = ROOT / "examples"
@@ -273,7 +273,9 @@ def units(trees: Sequence[Tree], is_header_a_difference: bool = True) -> list[Un
     What is rendered from a template counts as another file where the headers that it includes differ, and so does
     every file where errors are codes; with `is_header_a_difference` false, where its own text differs.
     """
-    rendered = {path.name.removesuffix(".j2") for path in components_folder().rglob("*.c.j2")}
+    rendered = {
+        p.name.removesuffix(".j2") for c in load_catalogue().values() for p in c.folder.rglob("*.c.j2")
+    }
 
     def preprocess(tree: Tree, source: str) -> str:
         # -dD keeps the definitions of macros: a finding may be in one.

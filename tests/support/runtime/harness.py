@@ -12,14 +12,15 @@ from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache
-from operator import attrgetter
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from microros_gen.client.plan.provisions import holds
 from microros_gen.client.plan.runtime import RuntimePlan
-from microros_gen.documents.templates import make_environment
+from microros_gen.documents.templates import TEMPLATE_FOLDERS, make_environment
 from microros_gen.interfaces.types import TypeName
-from microros_gen.selection.find_components import components_folder, load_catalogue
+from microros_gen.platform.provide import provide
+from microros_gen.selection.find_components import load_catalogue
 from microros_gen.selection.model import ChosenComponent, Selection
 from microros_gen.toolchain.toolchain import LIBRARY_FLAGS, WARNINGS
 from tests.support.paths import ROOT, TESTS
@@ -38,6 +39,7 @@ CORE = (
     "cdr",
     "port_posix",
 )
+PORTS = ("port_posix_sockets", "port_posix")
 SANITIZE = ("-g", "-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 
 
@@ -88,6 +90,7 @@ class Tree:
 def render(out: Path, plan: RuntimePlan, names: Sequence[str]) -> Tree:
     """Write include/ and src/ of the components `names` below `out`."""
     catalogue = load_catalogue()
+    names = [*names, *(["port_posix_sockets"] if "port_posix" in names else [])]
     chosen = tuple(ChosenComponent(catalogue[name], ("test",)) for name in names)
     selection = Selection(
         ("test",), chosen, plan.creation.entities, plan.transport.kind, "ping", (), (), (), (), ()
@@ -95,17 +98,19 @@ def render(out: Path, plan: RuntimePlan, names: Sequence[str]) -> Tree:
     headers = [header for c in chosen for header in c.component.headers]
     environment = make_environment()
     sources = []
+    provisions = provide((c.component for c in chosen), PORTS, (), lambda when: holds(when, plan))
     for component in (c.component for c in chosen):
-        root = components_folder() / component.name
+        root = component.folder
         files = [(p, p.relative_to(root)) for p in sorted((root / "include").rglob("*")) if p.is_file()]
-        for source in component.sources:
-            if all(attrgetter(key)(plan) == value for key, value in source.when):
-                files.append((root / "src" / source.path, Path("src", component.name, source.path)))
+        own = [source.path for source in component.sources if holds(source.when, plan)]
+        own += [path for part, path in provisions.files if part == component.name]
+        files += [(root / "src" / path, Path("src", component.name, path)) for path in own]
         for path, place in files:
             target = out / str(place).removesuffix(".j2")
             target.parent.mkdir(parents=True, exist_ok=True)
             if path.suffix == ".j2":
-                template = environment.get_template(path.relative_to(components_folder()).as_posix())
+                folder = next(f for f in TEMPLATE_FOLDERS if path.is_relative_to(f))
+                template = environment.get_template(path.relative_to(folder).as_posix())
                 target.write_text(template.render(plan=plan, selection=selection, headers=headers))
             else:
                 shutil.copyfile(path, target)

@@ -3,16 +3,6 @@
   .syntax unified
   .thumb
 
-  .section .text.port_bare_wait, "ax", %progbits
-  .global port_bare_wait
-  .type port_bare_wait, %function
-  .thumb_func
-port_bare_wait:
-  dsb
-  wfi
-  bx lr
-  .size port_bare_wait, . - port_bare_wait
-
   .section .text.port_cortex_m_barrier, "ax", %progbits
   .global port_cortex_m_barrier
   .type port_cortex_m_barrier, %function

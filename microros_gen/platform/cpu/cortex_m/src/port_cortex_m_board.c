@@ -7,7 +7,6 @@
 #define SYST_CSR 0xe000e010u
 #define SYST_RVR 0xe000e014u
 #define SYST_CVR 0xe000e018u
-#define NVIC_ISER 0xe000e100u
 #define SCB_VTOR 0xe000ed08u
 #define SCB_AIRCR 0xe000ed0cu
 #define SCB_CPACR 0xe000ed88u
@@ -38,9 +37,4 @@ void port_bare_reset(void)
   for (;;) {
     port_cortex_m_barrier(); /* it takes a moment */
   }
-}
-
-void port_cortex_m_interrupt_enable(uint32_t number)
-{
-  PORT_CORTEX_M_REGISTER(NVIC_ISER + 4u * (number / 32u)) = (uint32_t)1 << (number % 32u);
 }

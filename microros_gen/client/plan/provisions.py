@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which part of the platform provides what a plan asks for, and what only the application can define."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from operator import attrgetter
+
+from microros_gen.application.model import Application
+from microros_gen.client.plan.board import BoardPlan
+from microros_gen.client.plan.runtime import RuntimePlan
+from microros_gen.diagnostics import Diagnostic, Diagnostics, Severity
+from microros_gen.platform.capabilities import declarations
+from microros_gen.platform.provide import Provisions, provide
+from microros_gen.platform.target import Target
+from microros_gen.selection.component import Conditions
+from microros_gen.selection.model import Selection
+
+
+def holds(
+    when: Conditions, runtime: RuntimePlan, board: BoardPlan | None = None, target: Target | None = None
+) -> bool:
+    """Return whether conditions hold: `streams.on_full`, `board.stdio`, `target.has_image` with their values."""
+    return all(_value(key, runtime, {"board": board, "target": target}) == value for key, value in when)
+
+
+def _value(key: str, runtime: RuntimePlan, others: Mapping[str, object]) -> object:
+    first, _, rest = key.partition(".")
+    return attrgetter(rest)(others[first]) if first in others else attrgetter(key)(runtime)
+
+
+def plan_provisions(
+    application: Application,
+    selection: Selection,
+    runtime: RuntimePlan,
+    board: BoardPlan,
+    target: Target,
+    diagnostics: Diagnostics,
+) -> Provisions:
+    """Choose who provides each capability, and warn of what only the application can define."""
+    found = provide(
+        (chosen.component for chosen in selection.components),
+        tuple(part.component.name for part in target.parts),
+        target.own_capabilities,
+        lambda when: holds(when, runtime, board, target),
+    )
+    for clash in found.clashes:
+        diagnostics.error(
+            f"{clash.file} of {clash.part} has '{clash.kept}' and '{clash.taken}', and only '{clash.taken}' comes from "
+            "elsewhere",
+            application.target.span,
+            f"Provide both, or neither: `provides: [{clash.taken}, {clash.kept}]`",
+        )
+    _report_missing(found, application, target, diagnostics)
+    return found
+
+
+def _report_missing(
+    found: Provisions, application: Application, target: Target, diagnostics: Diagnostics
+) -> None:
+    """Warn of what no part of the platform has, with the declarations of the functions that the application defines."""
+    if not found.missing:
+        return
+    names = ", ".join(row.capability.name for row in found.missing)
+    askers = sorted({asker for row in found.missing for asker in row.asked_by})
+    block = tuple(line for row in found.missing for line in declarations(row.capability))
+    diagnostics.add(
+        Diagnostic(
+            f"the target {target.name} provides no {names} for {', '.join(askers)}",
+            application.target.span,
+            "Define the functions below in your application, which a target file with "
+            f"`provides: [{names}]` says, or add a part that has them",
+            Severity.WARNING,
+            block,
+        )
+    )

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A part's folder → Part: its component.yaml, and cpu.yaml or os.yaml beside it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
+from microros_gen.documents.files import read_text
+from microros_gen.documents.tree_read import check_keys, expect_mapping
+from microros_gen.documents.tree_read import read_text as text_at
+from microros_gen.documents.tree_values import bool_of, child, entries, int_of, items, text_of
+from microros_gen.documents.yaml_tree import MappingNode, YamlNode, parse_yaml
+from microros_gen.platform.capabilities import capabilities
+from microros_gen.platform.part import Cpu, Divisor, Driver, Fraction, Image, Os, Part, VectorTable
+from microros_gen.platform.target import Target
+from microros_gen.selection.component import Component
+from microros_gen.selection.component_file import parse_component
+from microros_gen.selection.find_components import COMPONENT_FILE, parts_folder
+
+_CPU_KEYS = (
+    "image",
+    "vector_table",
+    "timer_interrupt",
+    "fpu_flags",
+    "stdio_heap",
+    "small_data",
+    "registers",
+    "optional_registers",
+    "drivers",
+)
+_IMAGE_KEYS = ("entry", "first", "first_section", "uart_handler")
+_TABLE_KEYS = ("words", "least")
+_DRIVER_KEYS = ("divisor", "fraction", "tx_irq", "stdio")
+_BAUD_KEYS = {"divisor": ("by", "least", "most"), "fraction": ("of_hz", "bits", "unused")}
+_OS_KEYS = ("hosted", "linker_script", "tick")
+
+
+def builtin_parts(kind: str) -> tuple[str, ...]:
+    """Return the names of the parts of a kind that ship with the tool, sorted."""
+    return tuple(sorted(path.parent.name for path in (parts_folder() / kind).glob(f"*/{COMPONENT_FILE}")))
+
+
+def read_part(kind: str, name: str, near: Path, span: Span | None, diagnostics: Diagnostics) -> Part | None:
+    """Read a part by its name, or a folder of the user's by its path relative to `near` (with a / in it).
+
+    None and errors in `diagnostics` where there is none, or one of its files does not hold.
+    """
+    own = "/" in name or "\\" in name
+    if not own and name not in builtin_parts(kind):
+        known = builtin_parts(kind)
+        hint = nearest(name, known) or f"Known are: {', '.join(known) or 'none'}; or give a folder, ./{name}"
+        diagnostics.error(f"unknown {kind} '{name}'", span, hint)
+        return None
+    folder = near / name if own else parts_folder() / kind / name
+    found = Diagnostics()
+    component = _component(folder, span, found)
+    part = Part(kind, component, own=own) if component is not None else None
+    if part is not None and kind in ("cpu", "os"):
+        part = _with_facts(part, folder / f"{kind}.yaml", found)
+    if own and component is not None:
+        _check(component, kind, span, found)
+    diagnostics.extend(found)
+    return None if found.has_errors() else part
+
+
+def own_part_files(target: Target) -> tuple[tuple[str, Path], ...]:
+    """Return every file of the target's parts that do not ship with the tool: what it is, and its path."""
+    found = []
+    for part in target.parts:
+        folder = part.component.folder
+        for path in sorted(p for p in folder.rglob("*") if p.is_file()) if part.own else ():
+            found.append((f"part {part.component.name}/{path.relative_to(folder).as_posix()}", path))
+    return tuple(found)
+
+
+def _component(folder: Path, span: Span | None, diagnostics: Diagnostics) -> Component | None:
+    source = _source(folder / COMPONENT_FILE, span, diagnostics)
+    component = parse_component(source, diagnostics) if source is not None else None
+    return replace(component, folder=folder) if component is not None else None
+
+
+def _source(path: Path, span: Span | None, diagnostics: Diagnostics) -> Source | None:
+    try:
+        return Source(str(path), read_text(path))
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else error
+        diagnostics.error(f"cannot read '{path}': {reason}", span, "Give the folder of a part")
+        return None
+
+
+def _check(component: Component, kind: str, span: Span | None, diagnostics: Diagnostics) -> None:
+    """Report what the file of a user's part says and the tool does not know."""
+    place = f"the {kind} '{component.name}'"
+    if component.layer != "port" or not component.name.startswith("port_"):
+        diagnostics.error(
+            f"{place} is no part of a platform", span, "Write `component: port_…`, `layer: port`"
+        )
+    named = [provision.capability for provision in component.provides]
+    asks = (*component.asks, *(ask for provision in component.provides for ask in provision.asks))
+    named += [ask.capability for ask in asks]
+    for name in sorted(set(named) - set(capabilities())):
+        hint = nearest(name, capabilities()) or f"Known are: {', '.join(capabilities())}"
+        diagnostics.error(f"{place} names an unknown capability '{name}'", span, hint)
+    for file in component.files:
+        if not (component.folder / "src" / file.path).is_file():
+            diagnostics.error(f"{place} lacks the file 'src/{file.path}'", span, "Add it, or remove its name")
+
+
+def _with_facts(part: Part, path: Path, diagnostics: Diagnostics) -> Part:
+    if not path.is_file():
+        return replace(part, cpu=Cpu()) if part.kind == "cpu" else replace(part, os=Os())
+    source = _source(path, None, diagnostics)
+    tree = parse_yaml(source, diagnostics) if source is not None else None
+    node = expect_mapping(tree, path.name, diagnostics)
+    if node is None:
+        return part
+    if part.kind == "cpu":
+        return replace(part, cpu=_cpu(node, diagnostics))
+    check_keys(node, _OS_KEYS, (), diagnostics)
+    hosted = bool_of(node.get("hosted")) or False
+    linker_script = text_at(node, "linker_script", diagnostics)
+    return replace(part, os=Os(hosted, linker_script, text_at(node, "tick", diagnostics)))
+
+
+def _cpu(node: MappingNode, diagnostics: Diagnostics) -> Cpu:
+    check_keys(node, _CPU_KEYS, (), diagnostics)
+    return Cpu(
+        image=_image(node.get("image"), diagnostics),
+        vector_table=_vector_table(node.get("vector_table"), diagnostics),
+        timer_interrupt=text_at(node, "timer_interrupt", diagnostics),
+        fpu_flags=_texts(node.get("fpu_flags")),
+        stdio_heap=bool_of(node.get("stdio_heap")) or False,
+        small_data=bool_of(node.get("small_data")) or False,
+        registers=_texts(node.get("registers")),
+        optional_registers=_texts(node.get("optional_registers")),
+        drivers=tuple(
+            driver
+            for entry in entries(node.get("drivers"))
+            if (driver := _driver(entry.key, entry.value, diagnostics)) is not None
+        ),
+    )
+
+
+def _image(value: YamlNode | None, diagnostics: Diagnostics) -> Image | None:
+    node = expect_mapping(value, "'image'", diagnostics)
+    if node is None:
+        return None
+    check_keys(node, (*_IMAGE_KEYS, "no_handler"), _IMAGE_KEYS, diagnostics)
+    return Image(*(text_at(node, key, diagnostics) for key in (*_IMAGE_KEYS, "no_handler")))
+
+
+def _vector_table(value: YamlNode | None, diagnostics: Diagnostics) -> VectorTable | None:
+    node = expect_mapping(value, "'vector_table'", diagnostics)
+    if node is None:
+        return None
+    check_keys(node, (*_TABLE_KEYS, "fixed"), _TABLE_KEYS, diagnostics)
+    words, least = (int_of(node.get(key)) or 0 for key in _TABLE_KEYS)
+    fixed = tuple((entry.key, text_of(entry.value) or "") for entry in entries(node.get("fixed")))
+    return VectorTable(words, least, fixed)
+
+
+def _driver(name: str, value: YamlNode, diagnostics: Diagnostics) -> Driver | None:
+    node = expect_mapping(value, f"'drivers.{name}'", diagnostics)
+    if node is None:
+        return None
+    check_keys(node, _DRIVER_KEYS, (), diagnostics)
+    kinds = [kind for kind in _BAUD_KEYS if kind in node.entries]
+    if len(kinds) != 1:
+        diagnostics.error(f"'drivers.{name}' takes one of divisor, fraction", node.span)
+        return None
+    baud = expect_mapping(node.get(kinds[0]), f"'drivers.{name}.{kinds[0]}'", diagnostics)
+    if baud is None:
+        return None
+    keys = _BAUD_KEYS[kinds[0]]
+    check_keys(baud, keys, keys, diagnostics)
+    numbers = [int_of(child(baud, key)) or 0 for key in keys]
+    rate = Divisor(*numbers) if kinds[0] == "divisor" else Fraction(*numbers)
+    return Driver(name, rate, int_of(node.get("tx_irq")) or 0, bool_of(node.get("stdio")) or False)
+
+
+def _texts(node: YamlNode | None) -> tuple[str, ...]:
+    return tuple(text_of(item) or "" for item in items(node))

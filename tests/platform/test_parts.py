@@ -1,0 +1,290 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A platform of parts: who provides what, what the application must define, and parts of the user's own."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.platform.find import read_target
+from microros_gen.platform.part import Fraction
+from microros_gen.platform.provide import APPLICATION, Clash, provide
+from microros_gen.platform.target import Target
+from microros_gen.selection.component import Ask, Component, Provision, SourceFile
+from tests.support.command_line import Runner
+
+PART = """\
+component: port_demo
+summary: "A made-up kernel"
+layer: port
+status: ready
+needs: [support]
+headers: [microros/port_demo.h]
+provides:
+  time: &time {sources: [port_demo_time.c], always: true}
+  sleep: *time
+  lock: {sources: [port_demo_lock.c.j2]}
+  timer: {sources: [port_demo_timer.c]}
+"""
+FILES = {
+    "component.yaml": PART,
+    "include/microros/port_demo.h": "extern unsigned demo_ticks(void);\n",
+    "src/port_demo_time.c": (
+        '#include "microros/port.h"\n#include "microros/port_demo.h"\n\n'
+        "uint32_t port_time_ms(void)\n{\n  return demo_ticks();\n}\n\n"
+        "void port_sleep_ms(uint32_t duration_ms)\n{\n  (void)duration_ms;\n}\n"
+    ),
+    "src/port_demo_lock.c.j2": (
+        '/* {{ target.name }} */\n#include "microros/port.h"\n\n'
+        "void port_lock(void)\n{\n}\n\nvoid port_unlock(void)\n{\n}\n"
+    ),
+    "src/port_demo_timer.c": "#error nobody asks for timers here\n",
+}
+TARGET = "target: demo\nsummary: A board under a kernel\nextends: qemu-mps2-an385\nos: ./kernel\n"
+APPLICATION_FILE = (
+    "profiles: [pure_sender]\ncomponents: [+multithread]\ntarget: demo.yaml\nsession: {key: 1}\n"
+)
+
+
+@pytest.fixture
+def demo(folder: Path) -> Path:
+    """A folder with an application for a board under a kernel, and the kernel's part."""
+    for name, text in FILES.items():
+        path = folder / "kernel" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    (folder / "demo.yaml").write_text(TARGET)
+    (folder / "microros.yaml").write_text(APPLICATION_FILE)
+    return folder
+
+
+def declared(text: str) -> list[str]:
+    """Return the declarations of functions in a text."""
+    return [line for line in text.splitlines() if line.endswith(");") and " port_" in line]
+
+
+SERIAL = [
+    "bool port_serial_open(port_serial_t * serial, const char * device, uint32_t baud);",
+    "void port_serial_close(port_serial_t * serial);",
+    "size_t port_serial_room(port_serial_t * serial);",
+    "bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size);",
+    "bool port_serial_is_idle(port_serial_t * serial);",
+    "size_t port_serial_read(port_serial_t * serial, uint8_t * buffer, size_t capacity);",
+]
+MISSING = ["int64_t port_time_epoch_ns(void);", "int64_t port_time_steady_ns(void);", *SERIAL]
+
+
+def test_what_a_kernel_lacks_is_named_and_can_be_pasted(demo: Path, run: Runner) -> None:
+    done = run("generate", "-o", "out")
+    assert done.status == 0, done.err
+    assert (
+        "microros.yaml:3:9: warning: the target demo provides no epoch, steady, serial for support"
+        in done.err
+    )
+    assert "`provides: [epoch, steady, serial]`" in done.err
+    assert declared(done.err) == MISSING
+    line = next(line for line in done.out.splitlines() if line.startswith("you define"))
+    assert "port_time_epoch_ns, port_time_steady_ns, port_serial_open" in line
+    assert declared((demo / "out" / "README.md").read_text()) == MISSING
+    program = "#include <microros/port.h>\n" + "\n".join(MISSING)
+    check = ["gcc", "-std=c99", "-Wall", "-Wredundant-decls", "-fsyntax-only", "-Iout/include", "-xc", "-"]
+    subprocess.run(check, input=program, text=True, check=True)
+    rows = json.loads(run("resolve", "--format", "json").out)["capabilities"]
+    assert {name for name, row in rows.items() if row["provider"] is None} == {"epoch", "steady", "serial"}
+    assert rows["lock"] == {"provider": "port_demo", "asked_by": ["multithread"], "functions": []}
+    table = run("resolve").out
+    assert "nobody: define port_time_steady_ns" in table
+
+
+@pytest.mark.skipif(not shutil.which("arm-none-eabi-gcc"), reason="tests/tools/system_packages.py names it")
+def test_nothing_of_bare_metal_is_in_the_archive(demo: Path, run: Runner) -> None:
+    done = run("build", "-o", "out")
+    assert done.status == 0, done.err
+    assert "none: start-up code and linker script belong to port_demo" in done.out
+    archive = str(demo / "out" / "lib" / "libmicroros.a")
+    listed = subprocess.run(["arm-none-eabi-nm", archive], capture_output=True, text=True, check=True).stdout
+    symbols = {line.split()[-1] for line in listed.splitlines() if line.strip() and not line.endswith(":")}
+    assert {"port_time_ms", "port_sleep_ms", "port_lock", "port_cortex_m_interrupt_enable"} <= symbols
+    assert not {s for s in symbols if s.startswith(("port_bare", "port_board", "port_stdio", "port_uart"))}
+    of_processor = {s for s in symbols if s.startswith("port_cortex_m")}
+    assert of_processor == {"port_cortex_m_interrupt_enable", "port_cortex_m_barrier"}
+    assert (demo / "out" / "src" / "port_demo" / "port_demo_lock.c").read_text().startswith("/* demo */")
+    assert not (demo / "out" / "src" / "port_demo" / "port_demo_timer.c").exists()
+    assert (demo / "out" / "include" / "microros" / "port_demo.h").is_file()
+    readme = (demo / "out" / "README.md").read_text()
+    assert "belong to the operating system (`port_demo`)" in readme
+    assert "port_bare_tick" not in readme
+
+
+def test_a_changed_file_of_an_own_part_is_rendered_again(demo: Path, run: Runner) -> None:
+    assert run("generate", "-o", "out").status == 0
+    path = demo / "kernel" / "src" / "port_demo_lock.c.j2"
+    path.write_text(path.read_text().replace("{{ target.name }}", "changed"))
+    assert run("generate", "-o", "out").status == 0
+    assert (demo / "out" / "src" / "port_demo" / "port_demo_lock.c").read_text().startswith("/* changed */")
+
+
+def test_what_the_target_file_leaves_to_the_application_is_no_warning(demo: Path, run: Runner) -> None:
+    (demo / "demo.yaml").write_text(f"{TARGET}provides: [epoch, steady, serial, time, sleep]\n")
+    done = run("generate", "-o", "out")
+    assert done.status == 0, done.err
+    assert "warning" not in done.err
+    assert declared((demo / "out" / "README.md").read_text())[0] == "uint32_t port_time_ms(void);"
+    assert not (demo / "out" / "src" / "port_demo" / "port_demo_time.c").exists()
+
+
+def test_half_of_a_file_cannot_be_replaced(demo: Path, run: Runner) -> None:
+    (demo / "demo.yaml").write_text(f"{TARGET}provides: [time]\n")
+    done = run("generate", "-o", "out")
+    assert done.status == 2
+    assert (
+        "port_demo_time.c of port_demo has 'sleep' and 'time', and only 'time' comes from elsewhere"
+        in done.err
+    )
+    assert "`provides: [time, sleep]`" in done.err
+
+
+def test_a_board_precedes_network_system_and_processor(demo: Path, run: Runner) -> None:
+    board = demo / "board"
+    (board / "src").mkdir(parents=True)
+    (board / "src" / "own_lock.c").write_text("extern int own_lock;\n")
+    (board / "component.yaml").write_text(
+        "component: port_my_board\nsummary: A board\nlayer: port\nstatus: ready\n"
+        "provides: {lock: {sources: [own_lock.c]}}\n"
+    )
+    (demo / "demo.yaml").write_text(f"{TARGET}board: ./board\n")
+    rows = json.loads(run("resolve", "--format", "json").out)["capabilities"]
+    assert rows["lock"]["provider"] == "port_my_board"
+    assert rows["time"]["provider"] == "port_demo"
+
+
+ERRORS = {
+    "capability": (
+        {"component.yaml": PART.replace("lock:", "lok:")},
+        TARGET,
+        "names an unknown capability 'lok'",
+    ),
+    "file": (
+        {"component.yaml": PART.replace("port_demo_timer.c", "x.c")},
+        TARGET,
+        "demo.yaml:4:5: error: the os 'port_demo' lacks the file 'src/x.c'",
+    ),
+    "folder": ({}, TARGET.replace("./kernel", "./kernal"), "demo.yaml:4:5: error: cannot read"),
+    "name": (
+        {},
+        TARGET.replace("./kernel", "posx"),
+        "demo.yaml:4:5: error: unknown os 'posx'. Did you mean 'posix'?",
+    ),
+    "layer": (
+        {"component.yaml": PART.replace("layer: port", "layer: middleware")},
+        TARGET,
+        "is no part of a platform",
+    ),
+    "facts": (
+        {"os.yaml": "hosted: true\ntikc: f\n"},
+        TARGET,
+        "os.yaml:2:1: error: there is no key 'tikc' here",
+    ),
+    "provides": (
+        {},
+        f"{TARGET}provides: [tim]\n",
+        "demo.yaml:5:12: error: unknown capability 'tim'. Did you mean",
+    ),
+    "no image": (
+        {"os.yaml": "linker_script: kernel.ld\n", "cpu/component.yaml": PART},
+        f"{TARGET}cpu: ./kernel/cpu\n",
+        "has no start-up code for an image",
+    ),
+    "port": (
+        {},
+        TARGET.replace("os: ./kernel", "port: port_posx"),
+        "demo.yaml:4:7: error: unknown port 'port_posx'",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", ERRORS)
+def test_a_faulty_part_is_refused(case: str, demo: Path, run: Runner) -> None:
+    files, target, expected = ERRORS[case]
+    for name, text in files.items():
+        path = demo / "kernel" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    (demo / "demo.yaml").write_text(target)
+    done = run("generate", "-o", "out")
+    assert done.status == 2, done.err
+    assert expected in done.err.replace(f"{demo}/", "")
+
+
+def target_of(folder: Path, text: str) -> Target:
+    (folder / "t.yaml").write_text(text)
+    diagnostics = Diagnostics()
+    found = read_target("t.yaml", folder, None, diagnostics)
+    assert found is not None, [d.headline() for d in diagnostics]
+    return found.target
+
+
+@pytest.mark.parametrize(
+    ("port", "parts"),
+    [
+        ("port_posix", {"os": "port_posix", "network": "port_posix_sockets"}),
+        ("port_cortex_m", {"os": "port_bare", "cpu": "port_cortex_m"}),
+        ("port_riscv", {"os": "port_bare", "cpu": "port_riscv"}),
+    ],
+)
+def test_port_still_stands_for_processor_and_system(port: str, parts: dict[str, str], tmp_path: Path) -> None:
+    """Target files of 2026-11 and before."""
+    text = "target: t\nsummary: x\ncompilers: [cc]\narchivers: [ar]\npackage: gcc\n"
+    target = target_of(tmp_path, f"{text}port: {port}\n")
+    assert {part.kind: part.component.name for part in target.parts} == parts
+    assert target.hosted == (port == "port_posix")
+    nearer = target_of(tmp_path, f"target: t\nextends: riscv32\nport: {port}\n")
+    assert {**parts, "cpu": "x"} == {**{p.kind: p.component.name for p in nearer.parts}, "cpu": "x"}
+
+
+def test_a_fraction_is_rounded_to_the_bits_that_count() -> None:
+    nrf51 = Fraction(16_000_000, 32, 12)
+    assert [nrf51.register(baud) for baud in (1200, 9600, 115_200)] == [0x0004F000, 0x00275000, 0x01D7E000]
+
+
+def part(name: str, *provides: Provision) -> Component:
+    return Component(name, "", "port", True, provides=provides)
+
+
+def test_the_first_part_provides_and_brings_what_it_asks_for() -> None:
+    near = part("port_near", Provision("lock", (SourceFile("near.c"),), (Ask("idle"),)))
+    far = part(
+        "port_far",
+        Provision("lock", (SourceFile("far.c"),)),
+        Provision("idle", (SourceFile("idle.c"),)),
+        Provision("time", (SourceFile("time.c", (("fast", True),)),), always=True),
+        Provision("tcp", (SourceFile("tcp.c"),)),
+    )
+    asking = Component("x", "", "middleware", True, asks=(Ask("lock"), Ask("udp", (("fast", False),))))
+    found = provide(
+        (asking, far, near), ("port_near", "port_far"), (), lambda when: when != (("fast", False),)
+    )
+    assert [(r.capability.name, r.provider, r.asked_by) for r in found.rows] == [
+        ("time", "port_far", ()),
+        ("lock", "port_near", ("x",)),
+        ("idle", "port_far", ("port_near",)),
+    ]
+    assert set(found.files) == {("port_near", "near.c"), ("port_far", "idle.c"), ("port_far", "time.c")}
+    slow = provide((asking, far), ("port_far",), ("lock",), lambda when: when != (("fast", True),))
+    assert [(r.capability.name, r.provider) for r in slow.rows] == [("lock", APPLICATION), ("udp", "")]
+    assert slow.functions()[:2] == ("port_lock", "port_unlock")
+    both = part(
+        "port_both",
+        Provision("time", (SourceFile("a.c"),), always=True),
+        Provision("sleep", (SourceFile("a.c"),)),
+    )
+    clash = provide((both,), ("port_both",), ("sleep",), lambda _: True)
+    assert clash.clashes == ()  # nobody asks for sleep
+    sleeper = Component("y", "", "middleware", True, asks=(Ask("sleep"),))
+    clash = provide((sleeper, both), ("port_both",), ("sleep",), lambda _: True)
+    assert clash.clashes == (Clash("port_both", "a.c", "time", "sleep"),)
