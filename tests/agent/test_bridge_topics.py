@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 
 from microros_gen.agent.representation import Durability, Qos, Topic
-from microros_gen.agent.ros import raw_types
 from microros_gen.agent.ros.bridge import BridgeError, Reader
 from microros_gen.agent.wire.constants import Status
 from microros_gen.interfaces.type_hashes import type_hashes
+from microros_gen.ros import raw_types
 from tests.support.agent.bridging import Bridged, opened
 from tests.support.agent.observer import Observer, observing
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.agent.ros.libraries import INSTALL
+from microros_gen.ros.libraries import INSTALL
 from tests.support.agent import captured
 from tests.support.agent.client import XrceClient
 from tests.support.agent.command import DOMAIN, run

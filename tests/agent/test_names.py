@@ -9,6 +9,7 @@ from microros_gen.agent.representation import Service
 from microros_gen.agent.ros.bridge import BridgeError
 from microros_gen.agent.ros.names import ros_node, ros_service, ros_topic, ros_type
 from microros_gen.agent.wire.constants import Status
+from microros_gen.interfaces.dds_names import dds_type
 
 
 @pytest.mark.parametrize(
@@ -77,7 +78,7 @@ def test_types() -> None:
 )
 def test_types_of_services_and_actions(name: str, ros: str) -> None:
     assert str(ros_type(name)) == ros
-    assert ros_type(name).dds == name
+    assert dds_type(ros_type(name)) == name
 
 
 REQUEST, RESPONSE = "std_srvs::srv::dds_::SetBool_Request_", "std_srvs::srv::dds_::SetBool_Response_"
@@ -96,7 +97,7 @@ REQUEST, RESPONSE = "std_srvs::srv::dds_::SetBool_Request_", "std_srvs::srv::dds
 def test_services(service: Service, name: str) -> None:
     found = ros_service(service)
     assert str(found) == f"{name} [std_srvs/srv/SetBool]"
-    assert (found.request.dds, found.response.dds) == (REQUEST, RESPONSE)
+    assert (dds_type(found.request), dds_type(found.response)) == (REQUEST, RESPONSE)
     assert (found.request_topic, found.reply_topic) == (f"rq{name}Request", f"rr{name}Reply")
 
 

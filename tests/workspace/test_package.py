@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.agent.ros.libraries import INSTALL
+from microros_gen.ros.libraries import INSTALL
 from tests.support.environments import ROOT, clean_environ, install
 from tests.support.installed import Installed, environment_with_dependencies
 

@@ -12,10 +12,10 @@ from typing import Any
 
 from microros_gen.agent.ros.bridge import BridgeError, BusyError, GraphReport
 from microros_gen.agent.ros.graph import Endpoint, Events
-from microros_gen.agent.ros.layout import SerializedMessage
-from microros_gen.agent.ros.libraries import FAILURES, OK, SUBSCRIPTION_TAKE_FAILED, first_line, new_bytes
-from microros_gen.agent.ros.raw_types import RawTypes
 from microros_gen.agent.ros.wakeups import Notify, Wakeups
+from microros_gen.ros.layout import SerializedMessage
+from microros_gen.ros.libraries import FAILURES, OK, SUBSCRIPTION_TAKE_FAILED, first_line, new_bytes
+from microros_gen.ros.raw_types import RawTypes
 
 FULL_S, LONGEST_FULL_S = 0.002, 0.064
 """Seconds for which a writer that is full is not asked again, at first and at last: each time the agent waits a

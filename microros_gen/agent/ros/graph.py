@@ -20,9 +20,9 @@ from microros_gen.agent.ros.bridge import (
     Matched,
     TypeMismatch,
 )
-from microros_gen.agent.ros.libraries import FAILURES, OK, Libraries
 from microros_gen.agent.ros.wakeups import Wakeups, Watcher
 from microros_gen.agent.wire.constants import Status
+from microros_gen.ros.libraries import FAILURES, OK, Libraries
 
 LOOK_S, BETWEEN_S = 0.001, 0.02
 """Seconds for comparisons before it is others' turn, and until they go on."""

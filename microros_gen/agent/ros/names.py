@@ -14,7 +14,8 @@ import re
 from microros_gen.agent.representation.description import Service
 from microros_gen.agent.ros.bridge import BridgeError
 from microros_gen.agent.wire.constants import Status
-from microros_gen.records import dataclass
+from microros_gen.interfaces.types import TypeName
+from microros_gen.ros.names import ServiceName
 
 MAXIMUM_NAME = 255
 """Characters that ROS 2 allows in the name of a node."""
@@ -29,59 +30,6 @@ _REPLY = re.compile(f"rr{_NAME}Reply", re.ASCII)
 _SERVICE = re.compile(_NAME, re.ASCII)
 _TYPE = re.compile(r"([a-z][a-z0-9_]*)::(msg|srv|action)::dds_::([A-Z][A-Za-z0-9_]*)_", re.ASCII)
 _WRONG = re.compile(r"[^A-Za-z0-9_]", re.ASCII)
-
-
-@dataclass(frozen=True)
-class TypeName:
-    """A message or service type by its ROS names; `kind` is the folder of its interface file: msg, srv, action."""
-
-    package: str
-    name: str
-    kind: str = "msg"
-
-    def __str__(self) -> str:
-        return f"{self.package}/{self.kind}/{self.name}"
-
-    @property
-    def dds(self) -> str:
-        """The name in DDS."""
-        return f"{self.namespace}::dds_::{self.name}_"
-
-    @property
-    def namespace(self) -> str:
-        """The C++ namespace, as type supports have it."""
-        return f"{self.package}::{self.kind}"
-
-
-@dataclass(frozen=True)
-class ServiceName:
-    """A service by its ROS names."""
-
-    name: str
-    type: TypeName
-
-    @property
-    def request(self) -> TypeName:
-        """The message type of its requests."""
-        return TypeName(self.type.package, f"{self.type.name}_Request", self.type.kind)
-
-    @property
-    def response(self) -> TypeName:
-        """The message type of its responses."""
-        return TypeName(self.type.package, f"{self.type.name}_Response", self.type.kind)
-
-    def __str__(self) -> str:
-        return f"{self.name} [{self.type}]"
-
-    @property
-    def request_topic(self) -> str:
-        """The DDS topic of its requests."""
-        return f"rq{self.name}Request"
-
-    @property
-    def reply_topic(self) -> str:
-        """The DDS topic of its replies."""
-        return f"rr{self.name}Reply"
 
 
 def ros_topic(dds_name: str) -> str:
@@ -105,7 +53,7 @@ def ros_type(dds_name: str) -> TypeName:
         )
     if len(match[1]) + len(match[3]) > MAXIMUM_TYPE:
         raise BridgeError(f"the type name '{_short(dds_name)}' is too long", Status.INVALID_DATA)
-    return TypeName(match[1], match[3], match[2])
+    return TypeName(match[1], match[2], match[3])
 
 
 def ros_service(service: Service) -> ServiceName:
@@ -167,7 +115,7 @@ def _service_type(service: Service) -> TypeName:
         raise BridgeError(
             f"request type {request} and reply type {response} are not of one service", Status.INVALID_DATA
         )
-    return TypeName(request.package, name, request.kind)
+    return TypeName(request.package, request.kind, name)
 
 
 def _bounded(name: str, what: str) -> str:

@@ -4,18 +4,21 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, TypeVar
 
 from microros_gen.agent.representation.description import Durability, Qos, Service, Topic
 from microros_gen.agent.ros.bridge import BridgeError, HashOf, Reader, Replier, Requester, Writer
 from microros_gen.agent.ros.endpoints import RawReader, RawWriter, Ros
 from microros_gen.agent.ros.graph import Comparison, Endpoint, Events, TopicTypes
-from microros_gen.agent.ros.libraries import FAILURES, first_line
 from microros_gen.agent.ros.names import ros_service, ros_topic, ros_type
 from microros_gen.agent.ros.requesters import RawRequester
 from microros_gen.agent.ros.services import Patience, RawReplier
 from microros_gen.agent.wire.constants import Status
+from microros_gen.interfaces.dds_names import dds_type
+from microros_gen.ros.errors import RosError, TypeLimitError
+from microros_gen.ros.libraries import FAILURES, first_line
 
 Entity = TypeVar("Entity", RawWriter, RawReader, RawReplier, RawRequester)
 SERVICE_DEPTH = 1000
@@ -85,7 +88,8 @@ class RawNode:
     def _create_topic(self, kind: str, make: Any, topic: Topic, qos: Qos) -> tuple[Any, tuple[Endpoint, ...]]:
         name, type_name = ros_topic(topic.name), ros_type(topic.type_name)
         type_hash = self._hash_of(str(type_name))
-        message_class = self._ros.types.message_class(type_name, type_hash)
+        with _translated():
+            message_class = self._ros.types.message_class(type_name, type_hash)
         label = f"{name} [{type_name}]"
         endpoints = (Endpoint(self.label, kind, label, name, str(type_name), type_hash),)
         return self._create(make, message_class, name, _profile(qos), endpoints), endpoints
@@ -93,10 +97,13 @@ class RawNode:
     def _create_service(self, kind: str, make: Any, service: Service) -> tuple[Any, tuple[Endpoint, ...]]:
         name = ros_service(service)
         hashes = [self._hash_of(str(part)) for part in (name.type, name.request, name.response)]
-        service_class = self._ros.types.service_class(name, hashes[0], hashes[1], hashes[2])
+        with _translated():
+            service_class = self._ros.types.service_class(name, hashes[0], hashes[1], hashes[2])
         endpoints = (
-            Endpoint(self.label, kind, str(name), name.request_topic, name.request.dds, hashes[1], True),
-            Endpoint(self.label, kind, str(name), name.reply_topic, name.response.dds, hashes[2], True),
+            Endpoint(
+                self.label, kind, str(name), name.request_topic, dds_type(name.request), hashes[1], True
+            ),
+            Endpoint(self.label, kind, str(name), name.reply_topic, dds_type(name.response), hashes[2], True),
         )
         return self._create(make, service_class, name.name, _service_profile(), endpoints), endpoints
 
@@ -123,6 +130,19 @@ class RawNode:
             raise BridgeError(
                 f"{endpoints[0].kind} {endpoints[0].label}: {first_line(error)}", status
             ) from error
+
+
+@contextmanager
+def _translated() -> Iterator[None]:
+    """Give the client the error of a type that cannot be had."""
+    try:
+        yield
+    except TypeLimitError as error:
+        raise BridgeError(
+            f"{error.limit} types were used since the agent started: no further ones", Status.RESOURCES
+        ) from error
+    except RosError as error:
+        raise BridgeError(str(error)) from error
 
 
 def _profile(qos: Qos) -> Any:

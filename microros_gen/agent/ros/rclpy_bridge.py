@@ -27,14 +27,16 @@ from microros_gen.agent.ros.bridge import (
 )
 from microros_gen.agent.ros.endpoints import Ros
 from microros_gen.agent.ros.graph import Comparison, TopicTypes
-from microros_gen.agent.ros.libraries import FAILURES, INSTALL, first_line
 from microros_gen.agent.ros.names import ros_node
 from microros_gen.agent.ros.node import RawNode
-from microros_gen.agent.ros.raw_types import MAXIMUM_HANDLES, raw_types
 from microros_gen.agent.ros.services import Patience
 from microros_gen.agent.ros.wakeups import Watcher
 from microros_gen.agent.wire.constants import Status
 from microros_gen.diagnostics import Diagnostic, UserError
+from microros_gen.ros.errors import RosUnusableError
+from microros_gen.ros.libraries import FAILURES, first_line
+from microros_gen.ros.loading import load_rclpy
+from microros_gen.ros.raw_types import MAXIMUM_HANDLES, raw_types
 
 MAXIMUM_DOMAIN = 232
 """Largest ROS domain id: the ports of larger ones do not exist (RTPS 2.2, 9.6.1)."""
@@ -45,8 +47,6 @@ OWN_NODE = "_microros_agent"
 TRIM_AFTER, TRIM_EVERY_S = 64, 30.0
 """Nodes that have left since free memory was given back to the system, and the least time in between: it takes some
 milliseconds. What Fast DDS frees lies between what it has in use, and glibc keeps it."""
-RMW = "rmw_fastrtps_cpp"
-"""The one RMW implementation whose type supports are made here."""
 
 
 def open_bridge(
@@ -62,12 +62,11 @@ def open_bridge(
     without one for a type, its endpoints announce none. `report` is told what happens in the ROS graph. A request waits
     `request_wait_s` for its service.
     """
-    _check_implementation(
-        os.environ.get("RMW_IMPLEMENTATION") or RMW
-    )  # to load rclpy with a wrong one may exit
-    handles = _import_rclpy()
-    _check_implementation(handles.rclpy_get_rmw_implementation_identifier())
-    types = raw_types()
+    try:
+        handles = load_rclpy()
+        types = raw_types()
+    except RosUnusableError as error:
+        raise UserError([Diagnostic(f"the agent {error.reason}", hint=error.hint)]) from error
     types.libraries.hurry_writers()
     return RclpyBridge(
         handles, Ros(types, report or _ignore, request_wait_s), maximum_domains, domain, hash_of
@@ -76,28 +75,6 @@ def open_bridge(
 
 def _ignore(_report: GraphReport) -> None:
     pass
-
-
-def _check_implementation(implementation: str) -> None:
-    if implementation != RMW:
-        hint = (
-            f"Unset RMW_IMPLEMENTATION, or set it to {RMW}; nodes with another DDS are reached all the same"
-        )
-        reason = f"the agent needs {RMW}, but RMW_IMPLEMENTATION chooses {implementation}"
-        raise UserError([Diagnostic(reason, hint=hint)])
-
-
-def _import_rclpy() -> Any:
-    try:
-        importlib.import_module("rclpy")
-        return importlib.import_module("rclpy.impl.implementation_singleton").rclpy_implementation
-    except ImportError as error:
-        missing = isinstance(error, ModuleNotFoundError) and error.name == "rclpy"
-        reason = (
-            "rclpy (ROS 2) is not installed for this Python" if missing else f"rclpy does not load: {error}"
-        )
-        hint = f"Run: {INSTALL}, or source a ROS 2 installation"
-        raise UserError([Diagnostic(f"the agent needs ROS 2: {reason}", hint=hint)]) from error
 
 
 class RclpyBridge:

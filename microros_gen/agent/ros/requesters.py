@@ -11,8 +11,8 @@ from typing import Any
 from microros_gen.agent.ros.bridge import BridgeError, NoServer, ServerFound
 from microros_gen.agent.ros.endpoints import Ros
 from microros_gen.agent.ros.graph import Endpoint, Events
-from microros_gen.agent.ros.libraries import OK
 from microros_gen.agent.ros.services import Held, Patience, RawService, raw_message
+from microros_gen.ros.libraries import OK
 
 SETTLE_S = 0.1
 """From the discovery of a service to the first request: what is sent before the service has found its client too is

@@ -16,11 +16,11 @@ from typing import Any, Protocol
 from microros_gen.agent.ros.bridge import BridgeError, NoClient
 from microros_gen.agent.ros.endpoints import RawSource, Ros
 from microros_gen.agent.ros.graph import Endpoint, Events
-from microros_gen.agent.ros.layout import RawMessage, RequestId, ServiceInfo
-from microros_gen.agent.ros.libraries import CLIENT_TAKE_FAILED, OK, SERVICE_TAKE_FAILED, TIMEOUT
-from microros_gen.agent.ros.raw_types import ENCAPSULATION_BYTES
 from microros_gen.agent.ros.wakeups import Notify, Wakeups, Watcher
 from microros_gen.agent.wire.constants import Status
+from microros_gen.ros.layout import RawMessage, RequestId, ServiceInfo
+from microros_gen.ros.libraries import CLIENT_TAKE_FAILED, OK, SERVICE_TAKE_FAILED, TIMEOUT
+from microros_gen.ros.raw_types import ENCAPSULATION_BYTES
 
 IDENTITY_BYTES = 24
 """SampleIdentity of DDS-RPC: GUID, then the sequence number as signed high and unsigned low word."""

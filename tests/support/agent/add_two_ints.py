@@ -10,9 +10,10 @@ import struct
 from ctypes import c_bool, c_void_p, py_object
 from typing import Any
 
-from microros_gen.agent.ros.layout import RawMessage
-from microros_gen.agent.ros.names import ServiceName, TypeName
-from microros_gen.agent.ros.raw_types import raw_types
+from microros_gen.interfaces.types import TypeName
+from microros_gen.ros.layout import RawMessage
+from microros_gen.ros.names import ServiceName
+from microros_gen.ros.raw_types import raw_types
 
 _ENCAPSULATION = bytes((0, 1, 0, 0))
 """XCDR1, little endian (DDS-XTypes 1.3, 7.6.2.1.2)."""
@@ -71,7 +72,7 @@ def _capsule(function: Any) -> Any:
 
 _REQUEST, _RESPONSE = _Conversion("a", "b"), _Conversion("sum")
 _TYPE = raw_types().service_class(
-    ServiceName("add_two_ints", TypeName("example_interfaces", "AddTwoInts", "srv")), None, None, None
+    ServiceName("add_two_ints", TypeName("example_interfaces", "srv", "AddTwoInts")), None, None, None
 )
 AddTwoInts: Any = type(
     "Meta",

@@ -189,11 +189,11 @@ class _Peer:
     def subscribe_raw(self, topic: str, type: str, hash: str | None) -> bool:
         from rclpy.impl.implementation_singleton import rclpy_implementation
 
-        from microros_gen.agent.ros.names import TypeName
-        from microros_gen.agent.ros.raw_types import raw_types
+        from microros_gen.interfaces.types import TypeName
+        from microros_gen.ros.raw_types import raw_types
 
         package, kind, name = type.split("/")
-        message_class = raw_types().message_class(TypeName(package, name, kind), hash)
+        message_class = raw_types().message_class(TypeName(package, kind, name), hash)
         profile = _profile().get_c_qos_profile()
         handle = rclpy_implementation.Subscription(self._node.handle, message_class, topic, profile)
         self._raw.append((topic, handle))

@@ -2,8 +2,8 @@
 """Type supports for messages and services of any type, installed or not: their messages are CDR as it is on the wire.
 
 rmw_fastrtps_cpp asks a type support for the type's name, its hash and functions that turn a message into CDR and
-back. Here a message is a `RawMessage`, so these functions copy. They are Python (ctypes) and are only called where the
-bridge itself calls ROS 2: when an entity is created, for a request and for a reply. Samples of topics never pass them.
+back. Here a message is a `RawMessage`, so these functions copy. They are Python (ctypes) and are only called where this
+process itself calls ROS 2: when an entity is created, for a request and for a reply. Samples of topics never pass them.
 
 Handles are made once for each type name and hash and are kept for good, since Fast DDS registers types by name and its
 registry of type objects only grows; so their number is limited.
@@ -18,8 +18,9 @@ from collections.abc import Callable
 from ctypes import addressof, c_bool, c_char, c_char_p, c_size_t, c_uint32, c_void_p
 from typing import Any
 
-from microros_gen.agent.ros.bridge import BridgeError
-from microros_gen.agent.ros.layout import (
+from microros_gen.interfaces.types import TypeName
+from microros_gen.ros.errors import RosError, TypeLimitError
+from microros_gen.ros.layout import (
     HASH_RIHS01,
     MessageCallbacks,
     MessageMembers,
@@ -31,12 +32,11 @@ from microros_gen.agent.ros.layout import (
     TypeDescription,
     TypeHash,
 )
-from microros_gen.agent.ros.libraries import Libraries
-from microros_gen.agent.ros.names import ServiceName, TypeName
-from microros_gen.agent.wire.constants import Status
+from microros_gen.ros.libraries import Libraries
+from microros_gen.ros.names import ServiceName, cpp_namespace
 
 MAXIMUM_HANDLES = 4096
-"""Types (with their hashes) that one agent handles in its life; each takes some 5 KiB here and in Fast DDS."""
+"""Types (with their hashes) that one process handles in its life; each takes some 5 KiB here and in Fast DDS."""
 ENCAPSULATION_BYTES = 4
 _HASH = re.compile(r"RIHS01_([0-9a-f]{64})", re.ASCII)
 
@@ -77,7 +77,7 @@ class RawTypes:
     """Makes and keeps the handles. One for the process: Fast DDS may use them until it ends."""
 
     def __init__(self, libraries: Libraries) -> None:
-        """Use the type support identifiers of `libraries`; UserError when their layout is another one."""
+        """Use the type support identifiers of `libraries`; RosUnusableError when their layout is another one."""
         libraries.check_layout()
         self.libraries = libraries
         self._taken = b""
@@ -101,7 +101,7 @@ class RawTypes:
     def message_class(self, name: TypeName, type_hash: str | None) -> Any:
         """Return what rclpy's publishers and subscriptions take as message type; `type_hash` is RIHS01 or None.
 
-        BridgeError: the hash is none of REP-2011, or there are too many types.
+        RosError: the hash is none of REP-2011, or there are too many types (TypeLimitError).
         """
         return self._class(addressof(self._message(name, type_hash)))
 
@@ -133,13 +133,10 @@ class RawTypes:
 
     def _check_room(self) -> None:
         if len(self._messages) + len(self._services) >= MAXIMUM_HANDLES:
-            raise BridgeError(
-                f"{MAXIMUM_HANDLES} types were used since the agent started: no further ones",
-                Status.RESOURCES,
-            )
+            raise TypeLimitError(MAXIMUM_HANDLES)
 
     def _make_message(self, name: TypeName, type_hash: str | None) -> _Message:
-        namespace, text = name.namespace.encode(), name.name.encode()
+        namespace, text = cpp_namespace(name).encode(), name.name.encode()
         made = _Message(
             callbacks=MessageCallbacks(
                 namespace,
@@ -150,7 +147,7 @@ class RawTypes:
                 self._function("maximum_size"),
             ),
             # Fast DDS registers a type object for the type; nothing of it is sent (rmw_fastrtps turns that off).
-            members=MessageMembers(name.namespace.replace("::", "__").encode(), text),
+            members=MessageMembers(namespace.replace(b"::", b"__"), text),
             hash=_parse_hash(type_hash),
             description=self._description(str(name)),
         )
@@ -171,7 +168,7 @@ class RawTypes:
 
     def _make_service(self, name: TypeName, type_hash: str | None, request: int, response: int) -> _Service:
         made = _Service(
-            callbacks=ServiceCallbacks(name.namespace.encode(), name.name.encode(), request, response),
+            callbacks=ServiceCallbacks(cpp_namespace(name).encode(), name.name.encode(), request, response),
             hash=_parse_hash(type_hash),
             description=self._description(str(name)),
         )
@@ -188,7 +185,7 @@ class RawTypes:
         return made
 
     def _description(self, name: str) -> TypeDescription:
-        """Return a description without fields: rcl copies it; no node of the agent offers it to others."""
+        """Return a description without fields: rcl copies it; no node made here offers it to others."""
         text = ctypes.create_string_buffer(name.encode())
         self._kept.append(text)
         description = TypeDescription()
@@ -225,7 +222,7 @@ class RawTypes:
 
 @functools.cache
 def raw_types() -> RawTypes:
-    """Return the process's type supports; UserError when ROS 2 is not as expected. rclpy has been imported before."""
+    """Return those of the process; RosUnusableError when ROS 2 is not as expected. rclpy has been imported before."""
     return RawTypes(Libraries())
 
 
@@ -247,7 +244,7 @@ def _parse_hash(text: str | None) -> TypeHash:
         return TypeHash()
     match = _HASH.fullmatch(text)
     if not match:
-        raise BridgeError(f"'{text[:80]}' is no type hash: RIHS01_ and 64 hexadecimal digits are expected")
+        raise RosError(f"'{text[:80]}' is no type hash: RIHS01_ and 64 hexadecimal digits are expected")
     made = TypeHash(version=HASH_RIHS01)
     made.value[:] = bytes.fromhex(match[1])
     return made

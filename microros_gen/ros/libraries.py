@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The C libraries of ROS 2 Jazzy that the bridge calls by ctypes, beside rclpy, and a check of what they are.
+"""The C libraries of ROS 2 Jazzy that are called by ctypes, beside rclpy, and a check of what they are.
 
-The calls keep Python's lock (PyDLL): the agent has one thread, and ROS 2's own threads never need it.
+The calls keep Python's lock (PyDLL): who calls has one thread, and ROS 2's own threads never need it.
 """
 
 from __future__ import annotations
@@ -12,7 +12,8 @@ from collections.abc import Callable
 from ctypes import POINTER, byref, c_bool, c_char_p, c_int, c_int64, c_size_t, c_void_p
 from typing import Any
 
-from microros_gen.agent.ros.layout import (
+from microros_gen.ros.errors import RosUnusableError
+from microros_gen.ros.layout import (
     HASH_RIHS01,
     Allocator,
     ErrorString,
@@ -28,10 +29,9 @@ from microros_gen.agent.ros.layout import (
     TypeDescription,
     TypeHash,
 )
-from microros_gen.diagnostics import Diagnostic, UserError
 
 INSTALL = "pip install ros-jazzy-rclpy ros-jazzy-rmw-fastrtps-cpp ros-jazzy-common-interfaces"
-"""What the agent needs of ROS 2, where it is not sourced: the extra `ros` of pyproject.toml."""
+"""What is needed of ROS 2, where it is not sourced: the extra `ros` of pyproject.toml."""
 OK, TIMEOUT, BAD_ALLOC = 0, 2, 10
 """rcl_ret_t (rcl/types.h)."""
 SUBSCRIPTION_TAKE_FAILED, CLIENT_TAKE_FAILED, SERVICE_TAKE_FAILED = 401, 501, 601
@@ -73,7 +73,7 @@ class Libraries:
     INTROSPECTION = b"rosidl_typesupport_introspection_c"
 
     def __init__(self) -> None:
-        """Find everything; UserError when something is missing. rclpy has been imported before."""
+        """Find everything; RosUnusableError when something is missing. rclpy has been imported before."""
         try:
             self._load()
         except (OSError, AttributeError, ValueError) as error:
@@ -153,7 +153,7 @@ class Libraries:
         return new(address, None, None)
 
     def check_layout(self) -> None:
-        """Compare the structures with what is installed; UserError when they are not alike."""
+        """Compare the structures with what is installed; RosUnusableError when they are not alike."""
         try:
             self._check_messages()
             self._check_service()
@@ -261,6 +261,6 @@ def _expect(found: object, expected: object, what: str) -> None:
         raise LayoutError(f"{what}: {found!r} in place of {expected!r}")
 
 
-def _unsuitable(reason: str) -> UserError:
+def _unsuitable(reason: str) -> RosUnusableError:
     hint = f"Run: {INSTALL}, or source an installation of ROS 2 Jazzy"
-    return UserError([Diagnostic(f"the agent cannot use this ROS 2: {reason}", hint=hint)])
+    return RosUnusableError(f"cannot use this ROS 2: {reason}", hint)

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Finds rclpy with the RMW implementation that type supports are made for here."""
+
+from __future__ import annotations
+
+import importlib
+import os
+from typing import Any
+
+from microros_gen.ros.errors import RosUnusableError
+from microros_gen.ros.libraries import INSTALL
+
+RMW = "rmw_fastrtps_cpp"
+"""The one RMW implementation whose type supports are made here."""
+
+
+def load_rclpy() -> Any:
+    """Return rclpy's handles; RosUnusableError when it is missing, does not load, or is not the one that is needed."""
+    _check_implementation(
+        os.environ.get("RMW_IMPLEMENTATION") or RMW
+    )  # to load rclpy with a wrong one may exit
+    handles = import_rclpy()
+    _check_implementation(handles.rclpy_get_rmw_implementation_identifier())
+    return handles
+
+
+def import_rclpy() -> Any:
+    """Return rclpy's handles, whichever RMW implementation they use."""
+    try:
+        importlib.import_module("rclpy")
+        return importlib.import_module("rclpy.impl.implementation_singleton").rclpy_implementation
+    except ImportError as error:
+        missing = isinstance(error, ModuleNotFoundError) and error.name == "rclpy"
+        reason = (
+            "rclpy (ROS 2) is not installed for this Python" if missing else f"rclpy does not load: {error}"
+        )
+        raise RosUnusableError(
+            f"needs ROS 2: {reason}", f"Run: {INSTALL}, or source a ROS 2 installation"
+        ) from error
+
+
+def _check_implementation(implementation: str) -> None:
+    if implementation != RMW:
+        raise RosUnusableError(
+            f"needs {RMW}, but RMW_IMPLEMENTATION chooses {implementation}",
+            f"Unset RMW_IMPLEMENTATION, or set it to {RMW}; nodes with another DDS are reached all the same",
+        )
