@@ -47,7 +47,7 @@ def _command(command: click.Command, context: click.Context, level: int) -> Iter
 
 
 def _help(command: click.Command) -> Iterator[str]:
-    r"""Yield the paragraphs of a help text; those behind a \b keep their lines."""
+    r"""Yield the paragraphs of a help text; those after a \b keep their lines."""
     for paragraph in inspect.cleandoc(command.help or "").split("\n\n"):
         if paragraph.startswith("\b"):
             yield "```text\n" + paragraph.removeprefix("\b").strip("\n") + "\n```"

@@ -65,7 +65,7 @@ def _named(part: Schema) -> Iterator[tuple[str, Schema]]:
 
 
 def _resolved(schema: Schema, part: Schema) -> tuple[Schema, str]:
-    """Return a part behind its `$ref`, and the name of the definition."""
+    """Return a part after its `$ref`, and the name of the definition."""
     name = part.get("$ref", "").removeprefix("#/$defs/")
     return ({**schema["$defs"][name], **part} if name else part), name
 

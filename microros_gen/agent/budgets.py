@@ -12,7 +12,7 @@ from microros_gen.agent.wire.constants import ObjectKind
 from microros_gen.records import dataclass
 
 OBJECT_BYTES = 2_048
-"""What an object takes beside its representation and its side in ROS 2."""
+"""What an object takes besides its representation and its side in ROS 2."""
 ROS_BYTES = {
     ObjectKind.PARTICIPANT: 8_192,
     ObjectKind.DATAWRITER: 36_864,

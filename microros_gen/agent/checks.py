@@ -40,7 +40,7 @@ def part_ids(application: int, description: Application) -> tuple[int, ...]:
 def check_application(
     application: int, description: Application, taken: Collection[int], maximum: int, replace: bool
 ) -> None:
-    """Refuse an application whose parts cannot all be, beside what is `taken` of `maximum` ids (its own is not).
+    """Refuse an application whose parts cannot all be, besides what is `taken` of `maximum` ids (its own is not).
 
     RefusedError, or BridgeError for names that ROS 2 cannot have.
     """

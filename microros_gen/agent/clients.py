@@ -112,7 +112,7 @@ class Client:
         """Send the acknowledgements that are due, of what is done; what is not is still to be acknowledged."""
         undone = [
             ready[2] for ready in self.ready if not ready[3]
-        ]  # behind what fragments made stands their rest
+        ]  # after what fragments made stands their rest
         if self.more:
             undone.append(self.stream)
         for stream in self.unacknowledged:

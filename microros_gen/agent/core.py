@@ -12,6 +12,7 @@ from collections.abc import Callable, Hashable
 from functools import partial
 from pathlib import Path
 
+from microros_gen.agent.admission import Admission, Held
 from microros_gen.agent.budgets import Budgets
 from microros_gen.agent.clients import Client, ClientTable
 from microros_gen.agent.deliveries import Deliveries
@@ -20,7 +21,6 @@ from microros_gen.agent.graph_work import GraphWork
 from microros_gen.agent.input_pool import InputPool
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.liveliness import Verdict, ask, judge
-from microros_gen.agent.lobby import Held, Lobby
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.memory import MemoryGuard, Relief
@@ -84,13 +84,13 @@ class Agent:
         self._turns = Turns(clock, turn_s, fair, graph, self._inner_fault, processor or time.thread_time)
         self._deliveries = Deliveries(log, self._inner_fault, fair, clock)
         pool = pool or InputPool(limits.input_bytes, limits.clients)
-        self._lobby = Lobby(
+        self._admission = Admission(
             self.clients, bridge, log, limits, held, self._deliveries, pool, self._turns, budgets
         )
-        self._relief = Relief(memory, self.clients, self._lobby.gate, self._lobby.dismiss, log)
+        self._relief = Relief(memory, self.clients, self._admission.gate, self._admission.dismiss, log)
         self._operations = Operations(log, self._deliveries, self._turns)
         self._processor = Processor(
-            self.clients, limits, self._operations, self._lobby, self._turns, graph, self._refuse_of
+            self.clients, limits, self._operations, self._admission, self._turns, graph, self._refuse_of
         )
 
     @property
@@ -162,10 +162,10 @@ class Agent:
         self._turns.start(self._clock())
         if client.asleep:
             if silent > self._limits.sleep_timeout_s:
-                self._lobby.dismiss(client, "forgotten: it was not heard any more")
+                self._admission.dismiss(client, "forgotten: it was not heard any more")
             elif client.kept and silent > self._limits.keep_s:
                 client.kept = False
-                self._lobby.keeping.forget_old(client, now)
+                self._admission.keeping.forget_old(client, now)
             return
         for message in client.session.heartbeats(now):
             client.send(message)
@@ -174,7 +174,7 @@ class Agent:
         verdict = judge(client, now, self._patience_s())
         if verdict is Verdict.GONE:
             if self._graph.allows(client.account, now):
-                self._lobby.put_to_sleep(client)
+                self._admission.put_to_sleep(client)
         elif verdict is Verdict.ASK:
             ask(client, now)
 
@@ -185,7 +185,7 @@ class Agent:
     def close(self) -> None:
         """Take all clients and their entities out of the ROS graph. Never raises."""
         for client in self.clients:
-            self._guarded(partial(self._lobby.dismiss, client, "dropped: the agent stops"))
+            self._guarded(partial(self._admission.dismiss, client, "dropped: the agent stops"))
         self._guarded(self._turns.finish)
         self._guarded(self._bridge.close)
 
@@ -202,7 +202,7 @@ class Agent:
         client = self.clients.at(address) if start == 4 else self.clients.with_key(data[4:8])
         self._turns.start(now)
         if client is None or session_id != client.session.link.session:
-            client = self._lobby.visit(data, start, client, address, transport, now)
+            client = self._admission.visit(data, start, client, address, transport, now)
             if client is None:
                 return
         self._payer = client.account
@@ -215,12 +215,12 @@ class Agent:
             )
         client.heard = now
         if start == 8 and client.address != address:
-            self._lobby.move(client, transport, address, now)
+            self._admission.move(client, transport, address, now)
         if not client.claimed:
             client.claimed = True
             transport.claim(address, client.account)
         if client.asleep:
-            self._lobby.wake(client)
+            self._admission.wake(client)
         stream = data[1]
         if stream >= STREAM_RELIABLE and is_cut(data, start):
             raise MalformedError("cut_message", f"{len(data)} bytes are not the whole message")

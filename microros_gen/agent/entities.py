@@ -110,7 +110,7 @@ class Entity:
         return self.kind == ObjectKind.DATAREADER and isinstance(about, Endpoint) and about.qos.reliable
 
     def keep(self, samples: Sequence[bytes], shares: Shares, behind: bool = False) -> int:
-        """Keep samples, in order, before or behind what is kept; return how many there was no room for."""
+        """Keep samples, in order, before or after what is kept; return how many there was no room for."""
         taken = [sample for sample in samples if shares.history.take(len(sample))]
         lost = len(samples) - len(taken)
         taken.reverse()

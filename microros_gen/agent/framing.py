@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Messages on a stream of bytes, as XRCE clients frame them on serial lines and on TCP.
 
-On TCP each message stands behind its length (16 bits, little endian). On a serial line a frame is a flag (0x7E),
+On TCP each message follows its length (16 bits, little endian). On a serial line a frame is a flag (0x7E),
 then, stuffed: source address, destination address, length of the payload (16 bits, little endian), the payload, and
 its CRC-16/ARC (little endian). Stuffing writes 0x7E as 7D 5E and 0x7D as 7D 5D; so a flag always begins a frame, and
 there is none at its end. Addresses are bytes; an agent has address 0.
@@ -56,7 +56,7 @@ def encode_frame(payload: bytes, destination: int, source: int = AGENT_ADDRESS) 
 
 
 def encode_length(payload: bytes) -> bytes:
-    """Return `payload` (at most 65,535 bytes) behind its length, as it goes over TCP."""
+    """Return `payload` (at most 65,535 bytes) after its length, as it goes over TCP."""
     return len(payload).to_bytes(2, "little") + payload
 
 
@@ -107,7 +107,7 @@ class FrameDecoder:
         self._plain = bytearray()
         self._in_frame = False
         self._escaped = False  # an escape was the last byte
-        self._skipping = False  # behind a fault that was told: what follows up to the flag belongs to it
+        self._skipping = False  # after a fault that was told: what follows up to the flag belongs to it
 
     def reset(self) -> None:
         """Forget what was begun: the line was opened again."""
@@ -206,7 +206,7 @@ class FrameDecoder:
 
 
 def _wrong_escape(piece: bytes) -> int:
-    """Return where the first escape stands that is no pair with the byte behind it; there is one."""
+    """Return where the first escape stands that is not a pair with the byte after it; there is one."""
     at = piece.find(ESCAPE)
     while piece[at : at + 2] in (_ESCAPED_FLAG, _ESCAPED_ESCAPE):
         at = piece.find(ESCAPE, at + 2)

@@ -14,7 +14,7 @@ from microros_gen.agent.ros.bridge import BridgeError, BusyError, Writer
 from microros_gen.agent.wire.constants import Status
 
 CHANGE_BYTES = 512
-"""What a sample in a history takes beside its bytes."""
+"""What a sample in a history takes besides its bytes."""
 UNREAD_BYTES = 64
 """What is counted for each sample that a reader may have. Most are never there: what is, `memory` sees."""
 KEEP_ALL_DEPTH = 5_000

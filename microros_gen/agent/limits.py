@@ -19,7 +19,7 @@ class Limits:
     streams: int = 8
     """Streams of each kind (best effort, reliable) and each direction."""
     message_bytes: int = 262_144
-    """Largest message that comes in fragments; also what a stream holds behind a gap."""
+    """Largest message that comes in fragments; also what a stream holds after a gap."""
     memory_bytes: int = 268_435_456
     """Memory of the agent's process; near it nothing more is made, and beyond it the client that takes most is sent
     away. The pools below have to fit."""
@@ -37,7 +37,7 @@ class Limits:
     call_bytes: int = 8_388_608
     """What open requests of all clients together take, 256 bytes each."""
     input_bytes: int = 33_554_432
-    """What comes from all clients together and waits: pieces of messages, what is behind a gap or waits for DDS."""
+    """What comes from all clients together and waits: pieces of messages, what is after a gap or waits for DDS."""
     backlog_bytes: int = 65_536
     """What waits for a reliable stream to the client, beyond the window of 16 messages."""
     requests: int = 1_024

@@ -50,7 +50,7 @@ _SERVED = frozenset(
     )
 )
 LARGEST_REPRESENTATION = 65_000
-"""Bytes of a representation that an INFO has room for, beside what else it says; a longer one is not kept."""
+"""Bytes of a representation that an INFO has room for, besides what else it says; a longer one is not kept."""
 _CONTAINER = {
     ObjectKind.TOPIC: ObjectKind.PARTICIPANT,
     ObjectKind.PUBLISHER: ObjectKind.PARTICIPANT,

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from microros_gen.agent.admission import Admission
 from microros_gen.agent.clients import Client, ClientTable, Job
 from microros_gen.agent.cutting import TurnOverError
 from microros_gen.agent.graph_work import GraphWork
 from microros_gen.agent.limits import Limits
-from microros_gen.agent.lobby import Lobby
 from microros_gen.agent.operations import Operations
 from microros_gen.agent.ros.bridge import BridgeError, BusyError
 from microros_gen.agent.services import ENCAPSULATION
@@ -48,7 +48,7 @@ class Processor:
         clients: ClientTable,
         limits: Limits,
         operations: Operations,
-        lobby: Lobby,
+        admission: Admission,
         turns: Turns,
         graph: GraphWork,
         refuse: Refuse,
@@ -56,7 +56,7 @@ class Processor:
         self._clients = clients
         self._limits = limits
         self._operations = operations
-        self._lobby = lobby
+        self._admission = admission
         self._turns = turns
         self._graph = graph
         self._refuse = refuse
@@ -150,12 +150,12 @@ class Processor:
     ) -> bool:
         """Carry out a submessage that is no sample; False: the rest of the message is not to be processed now."""
         if identifier == SubmessageId.DELETE and _of_client(data, at, end):
-            self._lobby.leave(client, data, at)
+            self._admission.leave(client, data, at)
             self._to_acknowledge.discard(client)
             client.ready.clear()
             return False
         if client.adopted and identifier in (SubmessageId.GET_INFO, SubmessageId.CREATE):
-            self._lobby.send_away(client)
+            self._admission.send_away(client)
             self._to_acknowledge.discard(client)
             client.ready.clear()
             return False

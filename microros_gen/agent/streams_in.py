@@ -30,7 +30,7 @@ class BestEffortIn:
 
 
 class ReliableIn:
-    """Hands messages on in order and once each; holds those behind a gap, at most `hold_bytes` of them.
+    """Hands messages on in order and once each; holds those after a gap, at most `hold_bytes` of them.
 
     `holder` says whether there is room for them among all clients.
     """
@@ -52,7 +52,7 @@ class ReliableIn:
     def stop(self, followers: Sequence[bytes]) -> None:
         """Acknowledge no further: the caller could not finish a message, and gives back the `followers` of it.
 
-        Nothing is handed on until `go_on`; meanwhile what comes is held as behind a gap.
+        Nothing is handed on until `go_on`; meanwhile what comes is held as after a gap.
         """
         self._stopped = True
         given = (b"", *followers)  # the caller keeps the first
@@ -127,7 +127,7 @@ class ReliableIn:
         self._announced = max(0, self._announced - skip)
 
     def forget(self) -> None:
-        """Give up what is behind a gap: the client sends it again."""
+        """Give up what is after a gap: the client sends it again."""
         if not self._stopped:
             for data in self._held.values():
                 self._count(-len(data))

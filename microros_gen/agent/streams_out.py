@@ -81,7 +81,7 @@ class BestEffortOut:
 
 
 class ReliableOut:
-    """Window of unacknowledged messages, and behind it a backlog of at most `backlog_bytes`.
+    """Window of unacknowledged messages, and after it a backlog of at most `backlog_bytes`.
 
     A submessage of up to `largest` bytes is taken nevertheless when nothing waits.
     """

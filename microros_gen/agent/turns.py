@@ -58,7 +58,7 @@ class Turns:
         return self.clock() >= self.end
 
     def begin(self, client: Client, job: Job) -> bool:
-        """Do a job behind those that the client has, as far as its turn goes; return whether it is done."""
+        """Do a job after those that the client has, as far as its turn goes; return whether it is done."""
         client.work.append(job)
         if len(client.work) > 1:
             return False

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Names of ROS 2 nodes, namespaces, topics and services: their rules, and how they expand.
 
-Sources: the ROS 2 design page "Topic and Service name mapping to DDS"; the behaviour of
+Sources: the ROS 2 design page "Topic and Service name mapping to DDS"; the behavior of
 rcl/validate_topic_name.h, rcl/expand_topic_name.h and rmw/validate_{full_topic_name,namespace,node_name}.h of
 ROS 2 Jazzy.
 """
@@ -54,7 +54,7 @@ def topic_fault(name: str) -> NameFault | None:
     """Return what is wrong with the name of a topic or service as a user writes it, or None.
 
     Stricter than rcl in one point: `~x` is refused (rcl joins it to the node's name); `~` needs a slash
-    behind it.
+    after it.
     """
     if not name:
         return NameFault("is empty", 0, "Write a name such as imu/data")

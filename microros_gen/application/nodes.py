@@ -58,7 +58,7 @@ def parse_nodes(tree: YamlNode | None, diagnostics: Diagnostics) -> tuple[NodeDe
         full = expand_topic_name(node.name, node.name, node.namespace)
         first = seen.setdefault(full, node)
         if first is not node and first.name_span:
-            message = f"there are two nodes '{full}'; the first is in line {first.name_span.line}"
+            message = f"duplicate node '{full}'; the first is in line {first.name_span.line}"
             diagnostics.error(message, node.name_span, "Give each a name or a namespace of its own")
     return nodes
 
@@ -165,7 +165,7 @@ def _check_default(parameter: ParameterDecl, node: YamlNode | None, diagnostics:
     if wanted is None or value is None or node is None:
         return
     if not isinstance(value, wanted) or (isinstance(value, bool) and parameter.type != "bool"):
-        message = f"the default of the parameter '{parameter.name}' is no {parameter.type}"
+        message = f"the default of the parameter '{parameter.name}' is not of type {parameter.type}"
         hint = "Write true or false" if parameter.type == "bool" else "Change it, or the type"
         diagnostics.error(message, node.span, hint)
     elif isinstance(value, (int, float)) and parameter.minimum is not None and parameter.maximum is not None:
@@ -212,5 +212,5 @@ def check_unique(kind: str, named: list[tuple[str, Span | None]], diagnostics: D
         first = seen.get(name)
         if name in seen and name:
             where = f"; the first is in line {first.line}" if first else ""
-            diagnostics.error(f"there are two {kind}s '{name}'{where}", span, "Give each a name of its own")
+            diagnostics.error(f"duplicate {kind} '{name}'{where}", span, "Give each a name of its own")
         seen.setdefault(name, span)

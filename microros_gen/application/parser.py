@@ -197,7 +197,7 @@ def parse_agent_address(text: str, span: Span | None, diagnostics: Diagnostics) 
         return None
     host, separator, port = text.rpartition(":")
     if not separator:
-        diagnostics.error(f"the agent '{text}' lacks its port", span, f'Write "{text}:8888"')
+        diagnostics.error(f"missing port in the agent address '{text}'", span, f'Write "{text}:8888"')
         return None
     valid = _check_host(host, span, diagnostics)
     if not re.fullmatch(r"[0-9]{1,5}", port) or not 1 <= int(port) <= 65535:
@@ -216,7 +216,7 @@ def _check_host(host: str, span: Span | None, diagnostics: Diagnostics) -> bool:
         if re.fullmatch(r"[0-9.]*", host):
             reason = str(fault).split(" in ")[0]
             hint = f"Write four numbers from 0 to 255 without leading zeros ({reason})"
-            diagnostics.error(f"the agent's address '{host}' is no IPv4 address", span, hint)
+            diagnostics.error(f"the agent's address '{host}' is not an IPv4 address", span, hint)
         else:
             hint = "A device has no DNS to resolve it: write the IPv4 address"
             diagnostics.error(f"the agent's address '{host}' is a host name", span, hint)
@@ -229,7 +229,7 @@ def _check_ipv6(host: str, span: Span | None, diagnostics: Diagnostics) -> bool:
         zone = ipaddress.IPv6Address(host).scope_id
     except ValueError as fault:
         hint = f"Write up to eight groups of hexadecimal digits ({str(fault).split(' in ')[0]})"
-        diagnostics.error(f"the agent's address '{host}' is no IPv6 address", span, hint)
+        diagnostics.error(f"the agent's address '{host}' is not an IPv6 address", span, hint)
         return False
     if zone is not None:
         message = f"the agent's address '{host}' names the interface '{zone}' of one machine"

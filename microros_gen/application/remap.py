@@ -38,7 +38,7 @@ class _Rule:
 
 
 def rename_node(node: NodeDecl, tree: YamlNode | None, diagnostics: Diagnostics) -> NodeDecl:
-    """Return the node with the name and namespace of `__node` and `__ns`; what the source passes is kept beside."""
+    """Return the node with the name and namespace of `__node` and `__ns`; what the source passes is kept besides."""
     name, namespace = child(tree, NODE), child(tree, NAMESPACE)
     renamed = node
     if name is not None and report_name(name, "the node name", node_name_fault, diagnostics):

@@ -54,7 +54,7 @@ class _LazyGroup(click.Group):
     ) -> tuple[str | None, click.Command | None, list[str]]:
         if args and not args[0].startswith("-") and args[0] not in _COMMANDS:
             hint = nearest(args[0], _COMMANDS)
-            raise click.UsageError(f"there is no command '{args[0]}'. {hint or ''}".rstrip(), ctx)
+            raise click.UsageError(f"unknown command '{args[0]}'. {hint or ''}".rstrip(), ctx)
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:

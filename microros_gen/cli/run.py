@@ -196,7 +196,7 @@ def _image_of(located: Located, domain: int | None) -> _Image:
         name, target, transport = manifest["image"], manifest["target"], manifest["transport"]
         machine = Machine.of(manifest["emulator"]) if manifest["emulator"] else None
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        message = f"{out} is no output folder of microros-gen"
+        message = f"{out} is not an output folder of microros-gen"
         raise UserError([Diagnostic(message, hint="Give the folder that `build` wrote")]) from error
     path = located.image.image if located.image is not None else _example_of(located, name, target)
     if machine is None and target != "host":

@@ -27,7 +27,7 @@ def load_schema(path: Path) -> Schema:
 def validate(tree: YamlNode | None, source: Source, schema: Schema, diagnostics: Diagnostics) -> None:
     """Report each difference between `tree` and `schema` at its place, in the order of the text."""
     if tree is None:
-        diagnostics.error("the file says nothing", Span(source, 1, 1), "Write `key: value` lines")
+        diagnostics.error("the file is empty", Span(source, 1, 1), "Write `key: value` lines")
         return
     found = Diagnostics()
     for difference in differences(to_data(tree), schema):

@@ -31,10 +31,10 @@ def check_keys(
     for entry in node:
         if entry.key not in known:
             hint = nearest(entry.key, known) or f"Known are {', '.join(known)}"
-            diagnostics.error(f"there is no key '{entry.key}' here", entry.key_span, hint)
+            diagnostics.error(f"unknown key '{entry.key}'", entry.key_span, hint)
     for key in required:
         if key not in node.entries:
-            diagnostics.error(f"the key '{key}' is missing", node.span, f"Add `{key}: …`")
+            diagnostics.error(f"missing key '{key}'", node.span, f"Add `{key}: …`")
 
 
 def read_text(node: MappingNode, key: str, diagnostics: Diagnostics, default: str = "") -> str:
@@ -78,7 +78,9 @@ def read_names(
         if not isinstance(item, ScalarNode) or not isinstance(item.value, str):
             diagnostics.error(f"'{key}' must list names", item.span)
         elif known is not None and item.value not in known:
-            diagnostics.error(f"'{key}' does not know '{item.value}'", item.span, nearest(item.value, known))
+            diagnostics.error(
+                f"unknown value '{item.value}' in '{key}'", item.span, nearest(item.value, known)
+            )
         else:
             names.append(Named(item.value, item.span))
     return tuple(names)

@@ -104,5 +104,5 @@ def _unreadable(source: Source, error: yaml.reader.ReaderError) -> Diagnostic:
     line = before.count("\n") + 1
     column = len(before) - (before.rfind("\n") + 1) + 1
     code = error.character if isinstance(error.character, int) else ord(error.character)
-    message = f"not valid YAML: the character U+{code:04X} cannot stand in a text"
+    message = f"not valid YAML: the character U+{code:04X} is not allowed in a text"
     return Diagnostic(message, Span(source, line, column), 'Remove it, or write it as "\\x…" in quotes')

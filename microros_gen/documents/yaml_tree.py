@@ -211,7 +211,7 @@ class _Builder:
         elif key.value in entries:
             first = entries[key.value].key_span
             self._error(
-                key, f"the key '{key.value}' stands twice; first in line {first.line}", "Remove one of them"
+                key, f"the key '{key.value}' is there twice; first in line {first.line}", "Remove one of them"
             )
         else:
             entries[key.value] = Entry(key.value, self._span(key), value)

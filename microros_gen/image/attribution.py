@@ -125,7 +125,7 @@ def _no_map(folder: Folder) -> UserError:
 def attribute_library(folder: Folder) -> tuple[Piece, ...]:
     """Return the pieces of every object of the library: what there is before a linker drops what is not used.
 
-    Nothing has an address yet: the sections are laid one behind the other, so that each piece has its own.
+    Nothing has an address yet: the sections are laid one after the other, so that each piece has its own.
     """
     owners = Owners(folder, {})
     pieces: list[Piece] = []
@@ -260,7 +260,7 @@ def _by_symbol(piece: Piece, symbols: Sequence[Symbol]) -> Iterator[Piece]:
 def _by_text(piece: Piece, content: bytes, texts: Mapping[bytes, Piece]) -> Iterator[Piece]:
     """Split strings that the linker merged, each to the first source file that has it.
 
-    What is no string of any source (a rest that begins in a neighbouring section) stays with its section.
+    What is no string of any source (a rest that begins in a neighboring section) stays with its section.
     """
     at, end = piece.address, piece.address + piece.size
     for text in content.split(b"\0"):

@@ -170,7 +170,7 @@ def read_folder(path: Path, image: Path | None = None, linker_map: Path | None =
         sources = tuple(read_text(located.output / "sources.txt", follow=False).split("\n")[:-1])
         manifest["selection"]["reasons"], manifest["memory"], manifest["image"]
     except (OSError, ValueError, KeyError, TypeError) as error:
-        message = f"{located.output} is no output folder of microros-gen"
+        message = f"{located.output} is not an output folder of microros-gen"
         raise UserError([Diagnostic(message, hint="Give the folder that `build` wrote")]) from error
     return Folder(located.output, manifest, sources, _tools(located), located.image, located.library)
 

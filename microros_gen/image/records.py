@@ -15,7 +15,7 @@ from microros_gen.records import dataclass
 
 RECORDS = ".microros"
 VERSION = 1
-_NONE = "is no output folder of microros-gen, and no CMake build folder that has one"
+_NONE = "is not an output folder of microros-gen, and no CMake build folder that has one"
 _HINT = "Give the folder that `build` wrote, or a CMake build folder after it was configured"
 _ABOVE = 4
 """How many folders above an image object names of its map may begin in."""
@@ -98,7 +98,7 @@ def _given(
             known = record if linker_map is None else _unrecorded(image, linker_map, record)
             return Located(library.output, library, known)
     if len({r.output for r in libraries}) > 1:
-        message = f"{image} is no image of this build folder, which has several libraries"
+        message = f"{image} is not an image of this build folder, which has several libraries"
         raise UserError(
             [Diagnostic(message, hint=f"Give the output folder of its library: {_outputs(libraries)}")]
         )

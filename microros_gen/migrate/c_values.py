@@ -102,7 +102,7 @@ class Values:
         try:
             value = _evaluate(ast.parse(expanded.strip(), mode="eval").body)
         except (SyntaxError, ValueError, TypeError, ArithmeticError, RecursionError, MemoryError):
-            return Unknown(f"`{shown(tokens)}` is no number that can be worked out here")
+            return Unknown(f"`{shown(tokens)}` is not a number that can be worked out here")
         return value
 
     def type_support(self, tokens: Tokens, call: Call, depth: int = 0) -> TypeSupport | Unknown:
@@ -230,7 +230,7 @@ class Values:
             size = self.array_size(tokens[index + 2].text, call)
             return size if isinstance(size, Unknown) else str(size)
         if token.kind != "name":
-            return Unknown(f"`{token.text}` is no number")
+            return Unknown(f"`{token.text}` is not a number")
         known = (
             self._macros[token.text].body if token.text in self._macros else self._enumerators.get(token.text)
         )
@@ -242,7 +242,7 @@ class Values:
 
 
 def _is_worked_out(tokens: Tokens) -> bool:
-    """Whether an expression has a condition, an index that is no number, or a call."""
+    """Whether an expression has a condition, an index that is not a number, or a call."""
     pairs = list(pairwise(tokens))
     return (
         any(token.text == "?" for token in tokens)

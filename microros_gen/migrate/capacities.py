@@ -98,7 +98,7 @@ def _variables(tokens: Sequence[Token]) -> Iterator[tuple[str, TypeName]]:
 
 
 def _typed(target: str, variables: Mapping[str, TypeName]) -> tuple[TypeName, tuple[str, ...]] | None:
-    """Return the type of the variable in `a.b.c` that is a message, and the parts behind it."""
+    """Return the type of the variable in `a.b.c` that is a message, and the parts after it."""
     parts = target.split(".")
     for index, part in enumerate(parts):
         name = part.removesuffix("[]")

@@ -19,7 +19,7 @@ from microros_gen.documents.yaml_tree import (
 from microros_gen.records import dataclass
 
 _DEFINITION = re.compile(r"-D\s*(?P<name>[A-Za-z_][A-Za-z0-9_]*)(?::[A-Z]+)?=(?P<value>.*)", re.DOTALL)
-_TWICE = "stands twice"
+_TWICE = "is there twice"
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class MetaSetting:
 def read_settings(source: Source, diagnostics: Diagnostics) -> tuple[MetaSetting, ...]:
     """Return every argument of CMake that `source` gives, in its order.
 
-    Errors where it is no colcon.meta. A package that stands twice, which JSON allows, is read where it stands first;
+    Errors where it is no colcon.meta. A package that is there twice, which JSON allows, is read where it stands first;
     the other one is a warning.
     """
     found = Diagnostics()
@@ -47,7 +47,7 @@ def read_settings(source: Source, diagnostics: Diagnostics) -> tuple[MetaSetting
     for diagnostic in found:
         if _TWICE in diagnostic.message:
             diagnostics.warning(
-                diagnostic.message + "; it is read where it stands first", diagnostic.span, diagnostic.hint
+                diagnostic.message + "; the first one is used", diagnostic.span, diagnostic.hint
             )
         else:
             diagnostics.extend([diagnostic])
@@ -64,7 +64,7 @@ def read_settings(source: Source, diagnostics: Diagnostics) -> tuple[MetaSetting
     ]
     if not packages and not diagnostics.has_errors():
         diagnostics.error(
-            "there are no packages in this file", root.span, "A colcon.meta has a mapping `names` of them"
+            "no packages in this file", root.span, "A colcon.meta has a mapping `names` of them"
         )
     return tuple(setting for entry in packages for setting in _settings(entry, diagnostics))
 

@@ -76,7 +76,7 @@ class DraftNode:
 
 @dataclass(frozen=True)
 class DraftValue:
-    """A value and why it is so: `note` becomes a comment behind it."""
+    """A value and why it is so: `note` becomes a comment after it."""
 
     value: Setting
     note: str = ""

@@ -106,7 +106,7 @@ def _check_one(files: Iterable[CFile], diagnostics: Diagnostics) -> None:
     for start in starts[1:]:
         if start.name == starts[0].name:
             diagnostics.error(
-                f"there are several applications here: {start.name}() stands also in {place(starts[0].span)}",
+                f"there are several applications here: {start.name}() is also in {place(starts[0].span)}",
                 start.span,
                 "Give the folder or file of one of them",
             )

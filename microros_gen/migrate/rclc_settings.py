@@ -24,7 +24,7 @@ _MOST_ARENA = 1 << 20
 _ALLOCATES = {"allocate": 2, "zero_allocate": 3, "reallocate": 3}
 # What has storage from the limits, unless there is an arena and nothing is said of messages.
 _FROM_POOLS = re.compile(r"micro_ros_\w+|\w+__(create|assign\w*|copy|Sequence__init)")
-_BLOCK = 8  # the arena's unit: every piece is a multiple, behind one more for its head
+_BLOCK = 8  # the arena's unit: every piece is a multiple, after one more for its head
 
 
 def _arena(calls: Sequence[Call], values: Values, groups: _Groups, remarks: list[Remark]) -> None:

@@ -15,11 +15,11 @@ from microros_gen.output.tree import BUILD_FOLDERS, JOURNAL, MANIFEST
 def golden_differences(golden: Path, files: Mapping[str, bytes]) -> tuple[str, ...]:
     """Return one unified diff for each file that differs, is missing or is too many; empty when all agree.
 
-    The generator's version in the manifest is left out. Raises UserError when `golden` is no folder.
+    The generator's version in the manifest is left out. Raises UserError when `golden` is not a folder.
     """
     if not golden.is_dir():
         raise UserError(
-            [Diagnostic(f"there is no golden folder {golden}", hint="Write it with --update and commit it")]
+            [Diagnostic(f"no golden folder {golden}", hint="Write it with --update and commit it")]
         )
     held = dict(_golden_files(golden))
     diffs = []
@@ -33,7 +33,7 @@ def golden_differences(golden: Path, files: Mapping[str, bytes]) -> tuple[str, .
 
 
 def without_version(manifest: bytes | None) -> bytes | None:
-    """Return the manifest without the generator's version (unchanged where it is no manifest)."""
+    """Return the manifest without the generator's version (unchanged where it is not a manifest)."""
     if manifest is None:
         return None
     try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The C libraries of ROS 2 Jazzy that are called by ctypes, beside rclpy, and a check of what they are.
+"""The C libraries of ROS 2 Jazzy that are called by ctypes, besides rclpy, and a check of what they are.
 
 The calls keep Python's lock (PyDLL): who calls has one thread, and ROS 2's own threads never need it.
 """
@@ -162,7 +162,7 @@ class Libraries:
             raise _unsuitable(f"its type supports are not as in ROS 2 Jazzy: {error}") from error
 
     def _check_messages(self) -> None:
-        """The identifier comes first, by its address: what is behind other members is read only after it."""
+        """The identifier comes first, by its address: what is after other members is read only after it."""
         fast = self._sample(self.FASTRTPS)
         _expect(fast.identifier, self.fastrtps_identifier, "identifier")
         callbacks = MessageCallbacks.from_address(fast.data)

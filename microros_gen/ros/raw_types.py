@@ -48,7 +48,7 @@ _MAXIMUM_SIZE = ctypes.CFUNCTYPE(c_size_t, ctypes.POINTER(c_char))
 
 
 class _Message(ctypes.Structure):
-    """All that stands behind the handle of a message type; the handle is its first member."""
+    """All that follows the handle of a message type; the handle is its first member."""
 
     _fields_ = (
         ("support", MessageSupport),
@@ -205,7 +205,7 @@ class RawTypes:
         return handle + _Message.introspection.offset if identifier == self.libraries.INTROSPECTION else None
 
     def _serialize(self, message: int, cdr: int) -> bool:
-        """Copy a message behind the encapsulation header that is there already, and that header as well."""
+        """Copy a message after the encapsulation header that is there already, and that header as well."""
         raw = RawMessage.from_address(message)
         buffer = self.libraries.cdr_buffer(cdr)
         body = raw.size - ENCAPSULATION_BYTES
@@ -244,7 +244,7 @@ def _parse_hash(text: str | None) -> TypeHash:
         return TypeHash()
     match = _HASH.fullmatch(text)
     if not match:
-        raise RosError(f"'{text[:80]}' is no type hash: RIHS01_ and 64 hexadecimal digits are expected")
+        raise RosError(f"'{text[:80]}' is not a type hash: RIHS01_ and 64 hexadecimal digits are expected")
     made = TypeHash(version=HASH_RIHS01)
     made.value[:] = bytes.fromhex(match[1])
     return made

@@ -44,7 +44,7 @@ def choose_axes(
         own = said.get(axis)
         if own is not None and own.name not in values:
             hint = nearest(own.name, values) or f"There are {', '.join(values)}"
-            diagnostics.error(f"there is no {axis} '{own.name}'", own.span, hint)
+            diagnostics.error(f"unknown {axis} '{own.name}'", own.span, hint)
             own = None
         default = AxisChoice(axis, middleware.defaults[axis], "default")
         if axis == "transport" and target_transport is not None:

@@ -91,5 +91,5 @@ def _read(path: Path, root: Path, diagnostics: Diagnostics, prefix: str = "") ->
 def _check_needs(component: Component, found: dict[str, Component], diagnostics: Diagnostics) -> None:
     for name in component.needs:
         if name not in found:
-            message = f"the component '{component.name}' needs '{name}', which there is not"
+            message = f"the component '{component.name}' needs the unknown component '{name}'"
             diagnostics.error(message, None, nearest(name, found))

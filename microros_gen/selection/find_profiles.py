@@ -133,13 +133,13 @@ class _Reader:
         files = [p.stem for p in sorted(near.glob("*.yaml"))] if not _is_path(name.name) else []
         hint = nearest(name.name, [*self._builtin, *files])
         if _is_path(name.name):
-            self._diagnostics.error(f"there is no profile file '{name.name}' in '{near}'", name.span, hint)
+            self._diagnostics.error(f"profile file '{name.name}' not found in '{near}'", name.span, hint)
             return
         hint = (
             hint
             or f"Built in are {', '.join(self._builtin)}; a file {name.name}.yaml next to the application too"
         )
-        self._diagnostics.error(f"there is no profile '{name.name}'", name.span, hint)
+        self._diagnostics.error(f"unknown profile '{name.name}'", name.span, hint)
 
 
 def _is_path(name: str) -> bool:

@@ -129,7 +129,7 @@ class _Picker:
     def unknown(self, name: str, text: str, span: Span | None) -> None:
         """Report a component that there is not."""
         hint = nearest(name, self.catalogue) or f"There are {', '.join(MICRO_ROS_COMPONENTS)}"
-        self.diagnostics.error(f"there is no component '{name}' ({text})", span, hint)
+        self.diagnostics.error(f"unknown component '{name}' ({text})", span, hint)
 
     def close(self) -> None:
         """Add everything that the selected components need."""

@@ -22,10 +22,10 @@ LIBRARY = "lib/libmicroros.a"
 MAP = f"{OBJECTS}/image.map"
 TOOLS = f"{OBJECTS}/tools.json"
 SCRIPT_STAMP = f"{OBJECTS}/linker_script.sha256"
-# What programs that write flash take, beside the ELF file: endings and objcopy's names.
+# What programs that write flash take, next to the ELF file: endings and objcopy's names.
 _FLASH_FORMATS = {".hex": "ihex", ".bin": "binary"}
 _OVERFLOW = re.compile(r"region `?(\w+)'? overflowed by (\d+) bytes")
-# What gcc (10 and newer) says of each function: its frame, and whom it calls. Written beside the object, as .ci.
+# What gcc (10 and newer) says of each function: its frame, and whom it calls. Written next to the object, as .ci.
 CALL_GRAPH = "-fcallgraph-info=su"
 
 

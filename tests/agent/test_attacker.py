@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A client that does everything wrong, and one beside it that is served meanwhile.
+"""A client that does everything wrong, and one next to it that is served meanwhile.
 
 Whatever it says: nothing raises, it is answered as the standard says, the tables stay within their limits, and no
 single message takes long.

@@ -155,7 +155,7 @@ references: refs.xml
 @pytest.mark.parametrize(
     ("text", "wanted"),
     [
-        ("", "the file says nothing"),
+        ("", "the file is empty"),
         ("version: 1\n", "the agent has no transport. Name one"),
         ("version: 1\ntransports: []\n", "'transports' must be a list with at least one transport"),
         ("version: 1\ntransports: [udp4: {}]\n\tx: 1\n", "agent.yaml:3:"),
@@ -170,7 +170,7 @@ def test_files_that_do_not_hold(text: str, wanted: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("limit", "wanted"),
     [
-        ("client=3", "there is no limit 'client'. Did you mean 'clients'?"),
+        ("client=3", "unknown limit 'client'. Did you mean 'clients'?"),
         ("clients=0", "'limits.clients' must be a whole number between 1 and 65535; it is 0"),
         ("clients", "'limits.clients' must be a number. Write --limit clients=NUMBER"),
         ("clients=x", "'limits.clients' must be a whole number between 1 and 65535; it is the text 'x'"),
@@ -289,9 +289,9 @@ def test_manifests_that_do_not_hold(tmp_path: Path) -> None:
     told = [d.message.replace(f"{tmp_path}/", "") for d in diagnostics]
     assert told == [
         "b.json and a.json have different definitions of p/msg/A",
-        "c.json is no manifest of microros-gen",
+        "c.json is not a manifest of microros-gen",
         "e.json and d.json have different definitions of p/msg/A",
-        "no.json is no manifest of microros-gen",
+        "no.json is not a manifest of microros-gen",
         "missing.json cannot be read: No such file or directory",
     ]
 

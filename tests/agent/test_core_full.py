@@ -123,7 +123,7 @@ def test_what_waits_behind_a_gap_follows() -> None:
 
 
 def test_an_answer_does_not_acknowledge_what_comes_after_the_question() -> None:
-    """Answers go out with the acknowledgements that are due; samples behind the question are not done then."""
+    """Answers go out with the acknowledgements that are due; samples after the question are not done then."""
     bench = full()
     bench.bridge.room = None
     question = entities()[0]
@@ -163,7 +163,7 @@ def test_what_waits_is_bounded() -> None:
     bench = full(Limits(message_bytes=40))
     for sequence in range(40):
         assert acknacks(bench.say(write(sequence, sequence)))[0][0] == 0
-    assert drain(bench)[0][0] == 3  # 40 bytes: two more beside the one that stopped
+    assert drain(bench)[0][0] == 3  # 40 bytes: two more besides the one that stopped
     assert values(bench) == [0, 1, 2]
 
 

@@ -233,5 +233,5 @@ def test_two_agents_on_one_machine(asker: socket.socket) -> None:
 
 
 def test_serial_lines_cannot_be_told_of() -> None:
-    with pytest.raises(UserError, match="no UDP or TCP transport"):
+    with pytest.raises(UserError, match="needs a UDP or TCP transport"):
         Discovery([], Bench().log)

@@ -202,7 +202,7 @@ def datagrams(seed: int, rounds: int) -> None:
 
 @fuzzer
 def tcp_bytes(seed: int, rounds: int) -> None:
-    """Messages behind lengths that lie now and then, in any pieces; a connection with a lie in it is hung up."""
+    """Messages after lengths that lie now and then, in any pieces; a connection with a lie in it is hung up."""
     talk = Talk(random.Random(seed))
     decoder = LengthDecoder()
     for number in range(rounds):

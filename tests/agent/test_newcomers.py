@@ -69,7 +69,7 @@ def test_a_flood_of_forged_sessions_locks_nobody_out() -> None:
     for key in range(0x1000, 0x1000 + 2_000):
         bench.say(hello(key, timeout_ms=10_000_000), f"forged {key}")
     assert len(bench.agent.clients) == 1
-    assert len(bench.agent._lobby._newcomers) == 64
+    assert len(bench.agent._admission._newcomers) == 64
     assert connect(bench, 0x78, "new") == OK
     assert create(bench, "new")
     assert len(bench.agent.clients) == 2
@@ -80,7 +80,7 @@ def test_what_a_forged_session_leaves_is_small() -> None:
     bench = over_udp(Limits(newcomers=1_000, strangers_per_second=1_000_000))
     for key in range(1, 1_001):
         bench.say(hello(key), f"forged {key}")
-    newcomers = bench.agent._lobby._newcomers._by_address
+    newcomers = bench.agent._admission._newcomers._by_address
     each = next(iter(newcomers.values()))
     assert len(newcomers) == 1_000
     assert sys.getsizeof(newcomers) / 1_000 + sys.getsizeof(each.__dict__) + sys.getsizeof(each.link) < 1_000

@@ -67,16 +67,19 @@ def test_several_files_join() -> None:
 @pytest.mark.parametrize(
     ("text", "wanted"),
     [
-        ("", "refs0.xml:1:1: error: this is no XML: no element found"),
-        ("<profiles>\n  <topic></profiles>", "refs0.xml:2:12: error: this is no XML: mismatched tag"),
+        ("", "refs0.xml:1:1: error: not well-formed XML: no element found"),
+        ("<profiles>\n  <topic></profiles>", "refs0.xml:2:12: error: not well-formed XML: mismatched tag"),
         ("<profile/>", "refs0.xml:1:1: error: <profile> holds no references. The root"),
-        ("<dds>\n <topic/></dds>", "refs0.xml:2:2: error: <topic> cannot stand in <dds>. Put profiles into"),
+        (
+            "<dds>\n <topic/></dds>",
+            "refs0.xml:2:2: error: <topic> is not allowed in <dds>. Put profiles into",
+        ),
         ("<!DOCTYPE x>\n<profiles/>", "refs0.xml:1:1: error: document types and entities are not taken"),
         (
             PROFILES.replace("<topic prof", "<tpoic prof").replace(
                 "</dataType></topic>\n  <", "</dataType></tpoic>\n  <"
             ),
-            "refs0.xml:4:3: error: there are no profiles of kind 'tpoic'. Did you mean 'topic'?",
+            "refs0.xml:4:3: error: unknown kind of profile 'tpoic'. Did you mean 'topic'?",
         ),
         (
             PROFILES.replace(' profile_name="count__t"', ""),
@@ -150,7 +153,7 @@ def test_libraries_of_qualities_and_applications() -> None:
         (LIBRARIES.replace('name="Q"', ""), "refs0.xml:6:1: error: this qos_library has no name"),
         (
             LIBRARIES.replace(">9<", ">x<"),
-            "refs0.xml:8:3: error: qos_profile 'Deep': a history depth that is no number",
+            "refs0.xml:8:3: error: qos_profile 'Deep': a history depth that is not a number",
         ),
     ],
 )

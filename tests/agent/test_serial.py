@@ -28,7 +28,7 @@ INT32 = "std_msgs/msg/Int32"
 
 
 class Served:
-    """An agent with fakes behind real lines, in a thread."""
+    """An agent with fakes after real lines, in a thread."""
 
     def __init__(self, *lines: Line, bench: Bench | None = None) -> None:
         self.bench = bench or Bench()
@@ -227,9 +227,9 @@ def noise(chance: random.Random) -> bytes:
 @pytest.mark.parametrize(
     ("device", "baud", "wanted"),
     [
-        ("/dev/null", 115_200, "/dev/null is no serial device"),
+        ("/dev/null", 115_200, "/dev/null is not a serial device"),
         ("/dev/ttyUSB77", 115_201, "no serial speed of 115201 bit/s. The nearest is 115200"),
-        ("/", 115_200, "/ is no serial device"),
+        ("/", 115_200, "/ is not a serial device"),
     ],
 )
 def test_what_can_never_be_a_line(device: str, baud: int, wanted: str) -> None:

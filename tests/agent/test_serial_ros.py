@@ -141,7 +141,7 @@ def test_faults_of_both_files_in_one_run(tmp_path: Path) -> None:
 def test_a_path_that_is_no_device(tmp_path: Path) -> None:
     result = run("serial", "--dev", os.devnull, path=tmp_path)
     assert (result.returncode, result.stdout) == (2, "")
-    assert "/dev/null is no serial device. Give a terminal device" in result.stderr
+    assert "/dev/null is not a serial device. Give a terminal device" in result.stderr
 
 
 @pytest.mark.parametrize("name", ["udp4", "serial", "pty"])

@@ -45,7 +45,7 @@ def written(form: int, items: list[Sample], little: bool = True) -> bytes:
         (0x00, "19 00", [Sample(b"\x19\0")]),
         # B.3.3: with the time only
         (0x02, "00 02 00 00 e8 03 00 00 19 00", [Sample(b"\x19\0", SampleInfo(0, None, 1000))]),
-        # B.3.4: disposed, nothing beside the state
+        # B.3.4: disposed, nothing besides the state
         (0x02, "02 00 11 22 33 64 19 00", [Sample(bytes.fromhex("112233641900"), SampleInfo(2))]),
         # B.3.2: four Temperatures without lengths
         (0x08, "04 00 00 00 14 00 11 00 1a 00 24 00", [Sample(bytes((v, 0))) for v in (20, 17, 26, 36)]),

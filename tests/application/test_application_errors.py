@@ -75,7 +75,7 @@ ERRORS: dict[str, tuple[str, str]] = {
         f"{NODE}    timers: [{{name: t}}]\n",
         "f:3:14: error: 'nodes[0].timers[0]' lacks the key 'period'. Add `period: …`",
     ),
-    "empty file": ("# only a comment\n", "f:1:1: error: the file says nothing. Write `key: value` lines"),
+    "empty file": ("# only a comment\n", "f:1:1: error: the file is empty. Write `key: value` lines"),
     "not a mapping": (
         "- a\n- b\n",
         "f:1:1: error: the file must be a mapping of keys and values; it is a list",
@@ -176,12 +176,12 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "two nodes of one name": (
         "nodes:\n  - {name: a, namespace: b}\n  - {name: a, namespace: /b}\n",
-        "f:3:12: error: there are two nodes '/b/a'; the first is in line 2. "
+        "f:3:12: error: duplicate node '/b/a'; the first is in line 2. "
         "Give each a name or a namespace of its own",
     ),
     "two timers of one name": (
         f"{NODE}    timers:\n    - {{name: t, period: 1 s}}\n    - {{name: t, period: 2 s}}\n",
-        "f:5:7: error: there are two timers 't'; the first is in line 4. Give each a name of its own",
+        "f:5:7: error: duplicate timer 't'; the first is in line 4. Give each a name of its own",
     ),
     "a timer of no time": (
         f"{NODE}    timers: [{{name: t, period: 0 ms}}]\n",
@@ -189,15 +189,15 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "default of another type": (
         f"{NODE}    parameters: [{{name: p, type: bool, default: 1}}]\n",
-        "f:3:49: error: the default of the parameter 'p' is no bool. Write true or false",
+        "f:3:49: error: the default of the parameter 'p' is not of type bool. Write true or false",
     ),
     "integer default with a part": (
         f"{NODE}    parameters: [{{name: p, type: integer, default: 1.5}}]\n",
-        "f:3:52: error: the default of the parameter 'p' is no integer. Change it, or the type",
+        "f:3:52: error: the default of the parameter 'p' is not of type integer. Change it, or the type",
     ),
     "boolean default of a number": (
         f"{NODE}    parameters: [{{name: p, type: double, default: true}}]\n",
-        "f:3:51: error: the default of the parameter 'p' is no double. Change it, or the type",
+        "f:3:51: error: the default of the parameter 'p' is not of type double. Change it, or the type",
     ),
     "default outside the range": (
         f"{NODE}    parameters: [{{name: p, type: integer, default: 9, range: {{min: 1, max: 5}}}}]\n",
@@ -226,7 +226,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "no port": (
         'transport: {agent: "10.0.0.1"}\n',
-        "f:1:20: error: the agent '10.0.0.1' lacks its port. Write \"",
+        "f:1:20: error: missing port in the agent address '10.0.0.1'. Write \"",
     ),
     "port 0": (
         'transport: {agent: "10.0.0.1:0"}\n',
@@ -266,7 +266,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "IPv6 that is none": (
         'transport: {agent: "[fd00::12345]:8888"}\n',
-        "f:1:20: error: the agent's address 'fd00::12345' is no IPv6 address",
+        "f:1:20: error: the agent's address 'fd00::12345' is not an IPv6 address",
     ),
     "IPv6 with a zone": (
         'transport: {agent: "[fe80::1%eth0]:8888"}\n',

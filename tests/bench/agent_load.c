@@ -451,7 +451,7 @@ static unsigned long number_of(const char * text)
   unsigned long value = strtoul(text, &end, 0);
 
   if (end == text || *end != '\0') {
-    fprintf(stderr, "agent_load: '%s' is no number\n", text);
+    fprintf(stderr, "agent_load: '%s' is not a number\n", text);
     exit(2);
   }
   return value;

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`make bench`: generate and build, encode and decode beside Fast CDR, instructions, flash of types, firmware,
+"""`make bench`: generate and build, encode and decode besides Fast CDR, instructions, flash of types, firmware,
 whole images, the client, the agent, the agent under attack.
 
-Times depend on the machine; so each stands beside a peer that ran in the same minutes. Instruction counts come
+Times depend on the machine; so each stands besides a peer that ran in the same minutes. Instruction counts come
 from callgrind and repeat exactly with one compiler.
 """
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Encode and decode beside Fast CDR through the C type support of the ROS 2 wheels, in the same run.
+"""Encode and decode besides Fast CDR through the C type support of the ROS 2 wheels, in the same run.
 
 One program a side, from the same messages (codec_messages.c) and the same loops (codec_main.c), both -O2: this
 project's generated code in C, and the handles of rosidl_typesupport_fastrtps_c in the libraries of the wheels. Calls

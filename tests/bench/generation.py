@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Times of `generate` beside the pipeline of the installed ROS 2, and how they grow with the number of interfaces."""
+"""Times of `generate` besides the pipeline of the installed ROS 2, and how they grow with the number of interfaces."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ COMMON_INTERFACES = (
 
 @dataclass(frozen=True)
 class Case:
-    """What is generated: packages, where they are beside the environment, and how many files they have."""
+    """What is generated: packages, where they are besides the environment, and how many files they have."""
 
     label: str
     packages: Sequence[str]
@@ -139,7 +139,7 @@ def generate(out: Path, case: Case) -> list[str]:
 
 
 def synthetic(work: Path, count: int) -> Path:
-    """Write a package of `count` messages, each of its neighbour and of common types."""
+    """Write a package of `count` messages, each of its neighbor and of common types."""
     folder = work / f"synthetic_{count}" / "msg"
     folder.mkdir(parents=True, exist_ok=True)
     for i in range(count):

@@ -122,7 +122,7 @@ def test_a_mutated_text_never_ends_in_an_exception(kind: str) -> None:
         (f"version: 1\non_full: block {'9' * 5000} ms\n", "on_full"),
         ("version: 1\nx: " + "[" * 100_000, "nested too deeply"),
         ("- " * 100_000, "nested too deeply"),
-        (f"version: 1\nprofiles: [{'a' * 5000}]\n", "there is no profile 'aaa"),
+        (f"version: 1\nprofiles: [{'a' * 5000}]\n", "unknown profile 'aaa"),
         ('version: 1\nprofiles: ["a\\0.yaml"]\n', "a text with a NUL"),
         (f"version: 1\nprofiles: [pure_sender]\ntarget: {'a' * 5000}.yaml\n", "cannot read the target file"),
         ('version: 1\nprofiles: [pure_sender]\ntarget: "a\\0.yaml"\n', "a text with a NUL"),

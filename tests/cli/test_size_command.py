@@ -299,4 +299,4 @@ def test_a_folder_that_is_none(run: Runner, folder: Path) -> None:
     for command in (("size", "."), ("explain", ".", "main")):
         outcome = run(*command)
         assert outcome.status == 2
-        assert "no output folder of microros-gen" in outcome.err
+        assert "not an output folder of microros-gen" in outcome.err

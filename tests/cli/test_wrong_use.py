@@ -213,7 +213,7 @@ def test_an_unknown_command_names_the_nearest(run: Runner) -> None:
 
 def test_run_needs_a_built_folder(run: Runner, folder: Path) -> None:
     (folder / "empty").mkdir()
-    assert "is no output folder" in run("run", "empty").err
+    assert "is not an output folder" in run("run", "empty").err
     assert run("generate", "--profile", "pure_sender", "-o", "out").status == 0
     outcome = run("run", "out")
     assert outcome.status == 2

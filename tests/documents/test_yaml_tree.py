@@ -101,7 +101,7 @@ FAULTS = {
     ),
     "twice": (
         "a: 1\nb: 2\na: 3\n",
-        "f:3:1: error: the key 'a' stands twice; first in line 1. Remove one of them",
+        "f:3:1: error: the key 'a' is there twice; first in line 1. Remove one of them",
     ),
     "key": ("? [a]\n: 1\n", "f:1:3: error: a key must be a word. Write `key: value`"),
     "octal": (
@@ -124,7 +124,7 @@ FAULTS = {
     ),
     "control": (
         "a: 1\nb: \x01\n",
-        "f:2:4: error: not valid YAML: the character U+0001 cannot stand in a text.",
+        "f:2:4: error: not valid YAML: the character U+0001 is not allowed in a text.",
     ),
     "depth": ("[" * 70 + "]" * 70, "f:1:65: error: nested more than 64 levels deep. Flatten it"),
 }

@@ -94,7 +94,7 @@ def shared_agent(domain: int, images: Images, pool_image: Image) -> Iterator[Age
 
 @pytest.fixture
 def agent(shared_agent: AgentProcess, relay: Relay) -> AgentProcess:
-    """The same, behind the relay."""
+    """The same, after the relay."""
     relay.connect(shared_agent.port)
     return shared_agent
 

@@ -125,7 +125,7 @@ def test_printf_goes_where_the_target_file_says(tmp_path: Path, way: str) -> Non
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("flash: {origin: 0, size: 4 MiB, offset: 100}\n", "is no multiple of 128. Set flash.offset: 128"),
+        ("flash: {origin: 0, size: 4 MiB, offset: 100}\n", "is not a multiple of 128. Set flash.offset: 128"),
         ("stdio: {to: uart, driver: cmsdk, base: 0x40004000}\n", "'stdio' of mine prints to the UART of the agent"),
         ("port: port_riscv\nstdio: {to: none, floats: true}\n", "'stdio.floats' has no effect with port_riscv"),
         ("memories: {fast: {origin: 0x21000000, size: 1 KiB, holds: [stack]}}\n", "a stack of 2048 bytes leaves"),

@@ -137,7 +137,7 @@ def test_without_it_the_linker_says_what_is_missing(own_board: Built, tmp_path: 
 REFUSED = [
     ("session: {key: device}\n", "4:1", "session.key: device needs a number that no other device has"),
     ("memory: {stack: 5 MiB}\n", "4:", "a stack of 5242880 bytes leaves nothing of the 4194304 bytes of RAM"),
-    ("transport: {type: serial, baud: 3000000}\n", "4:", "3000000 baud cannot be had from 25000000 Hz"),
+    ("transport: {type: serial, baud: 3000000}\n", "4:", "3000000 baud is not possible with 25000000 Hz"),
 ]
 
 

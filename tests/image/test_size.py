@@ -450,7 +450,7 @@ def test_a_text_that_is_no_map_has_no_sections() -> None:
 
 
 def test_what_was_not_built_is_refused(probe_tree: Path, tmp_path: Path) -> None:
-    with pytest.raises(UserError, match="no output folder"):
+    with pytest.raises(UserError, match="not an output folder"):
         measure(tmp_path)
     out = tmp_path / "out"
     shutil.copytree(probe_tree, out)

@@ -25,7 +25,7 @@ HEAP_AND_STDIO = re.compile(
     r"|\w*printf(_chk)?|\w*scanf|f?put[cs]|putchar|f?puts|perror|f(open|close|read|write|flush)"
     r"|std(in|out|err)|abort|exit|atexit|__cxa_\w+|_Znw\w*|_ZdlPv)$"
 )
-# A freestanding C compiler may call these four whatever the source says (GCC manual, "Standards"); strlen beside.
+# A freestanding C compiler may call these four whatever the source says (GCC manual, "Standards"); strlen besides.
 LIBRARY_MAY_CALL = {"memcpy", "memmove", "memset", "memcmp", "strlen", "strcmp", "strncmp", "strcspn"}
 COMPILER_BRINGS = {"_GLOBAL_OFFSET_TABLE_"}
 PREFIXES = (

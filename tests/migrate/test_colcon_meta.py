@@ -176,14 +176,16 @@ def test_a_package_that_stands_twice_is_told(init: Init, tmp_path: Path) -> None
     one = '"rcutils": {"cmake-args": []}'
     (tmp_path / "a.meta").write_text(f'{{\n\t"names": {{\n\t\t{one},\n\t\t{one}\n\t}}\n}}\n')
     _, _, err = init("app", "--from-colcon-meta", "a.meta")
-    assert "a.meta:4:3: warning: the key 'rcutils' stands twice; first in line 3; it is read where" in err
+    assert (
+        "a.meta:4:3: warning: the key 'rcutils' is there twice; first in line 3; the first one is used" in err
+    )
 
 
 @pytest.mark.parametrize(
     ("text", "said"),
     [
         ("", "'a.meta' is empty. A colcon.meta has a mapping `names` of packages"),
-        ("{}", "a.meta:1:1: error: there are no packages in this file"),
+        ("{}", "a.meta:1:1: error: no packages in this file"),
         ('{"names": {"a": {"cmake-args": [["x"]]}}}', "a.meta:1:33: error: 'cmake-args' must list texts"),
         ('{"names": ["a"]}', "a.meta:1:11: error: 'names' must be a mapping"),
         ("names: {a: {", "a.meta:1:13: error: "),

@@ -222,7 +222,11 @@ def test_periods_of_timers(period: str, nanoseconds: int) -> None:
 
 @pytest.mark.parametrize(
     ("period", "reason"),
-    [("rate()", "`rate()` is worked out when the program runs"), ("1.5", "no number"), ("x ? 1 : 2", "runs")],
+    [
+        ("rate()", "`rate()` is worked out when the program runs"),
+        ("1.5", "is not a number"),
+        ("x ? 1 : 2", "runs"),
+    ],
 )
 def test_a_period_that_is_not_known_is_told(period: str, reason: str) -> None:
     text = program(f"rclc_timer_init_default(&t, &support, {period}, tick);")

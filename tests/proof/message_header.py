@@ -55,7 +55,7 @@ def stems(plans: tuple[TypePlan, ...], name: str) -> list[str]:
 
 
 def _parts(plan: TypePlan, known: dict[TypeName, TypePlan]) -> list[TypeName]:
-    """Return the types of `plan`, each behind those that it has."""
+    """Return the types of `plan`, each after those that it has."""
     found: dict[TypeName, None] = {}
     for field in plan.message.fields:
         kind = field.type.element if isinstance(field.type, (ArrayType, SequenceType)) else field.type

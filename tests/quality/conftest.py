@@ -19,7 +19,7 @@ def trees(tmp_path_factory: pytest.TempPathFactory) -> list[Tree]:
     params=[pytest.param(False, id="texts"), pytest.param(True, id="headers", marks=pytest.mark.long)],
 )
 def is_header_a_difference(request: pytest.FixtureRequest) -> bool:
-    """Whether a file is analysed with each set of headers that it includes, or once for each text that it has."""
+    """Whether a file is analyzed with each set of headers that it includes, or once for each text that it has."""
     return bool(request.param)
 
 

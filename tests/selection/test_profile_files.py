@@ -149,18 +149,18 @@ ERRORS = {
     ),
     "unknown base": (
         {"x": "profile: x\nextends: [pure_sendr]\n"},
-        "x.yaml:2:11: error: there is no profile 'pure_sendr'. Did you mean 'pure_sender'?",
+        "x.yaml:2:11: error: unknown profile 'pure_sendr'. Did you mean 'pure_sender'?",
     ),
     "missing file": (
         {"x": "profile: x\nextends: [own/base.yaml]\n"},
-        "x.yaml:2:11: error: there is no profile file 'own/base.yaml' in",
+        "x.yaml:2:11: error: profile file 'own/base.yaml' not found in",
     ),
     "name of a built-in profile": (
         {"x": "profile: pure_sender\n"},
         "x.yaml:1:10: error: the profile name 'pure_sender' is taken by the built-in pure_sender. "
         "Give it a name of its own",
     ),
-    "empty": ({"x": "# nothing\n"}, "x.yaml:1:1: error: the file says nothing. Write `key: value` lines"),
+    "empty": ({"x": "# nothing\n"}, "x.yaml:1:1: error: the file is empty. Write `key: value` lines"),
     "no name": (
         {"x": "summary: y\n"},
         "x.yaml:1:1: error: the file lacks the key 'profile'. Add `profile: …`",
@@ -202,10 +202,10 @@ def test_faulty_profiles_are_told_with_their_place(case: str, tmp_path: Path) ->
 def test_a_profile_that_there_is_not(tmp_path: Path) -> None:
     write(tmp_path, my_sender="profile: my_sender\n")
     assert fold(tmp_path, "pur_sender")[0] == [
-        "microros-gen: error: there is no profile 'pur_sender'. Did you mean 'pure_sender'?"
+        "microros-gen: error: unknown profile 'pur_sender'. Did you mean 'pure_sender'?"
     ]
     assert fold(tmp_path, "my_sendr")[0] == [
-        "microros-gen: error: there is no profile 'my_sendr'. Did you mean 'my_sender'?"
+        "microros-gen: error: unknown profile 'my_sendr'. Did you mean 'my_sender'?"
     ]
     assert "Built in are pure_sender, pure_reader," in fold(tmp_path, "qqq")[0][0]
 
@@ -246,7 +246,7 @@ def test_a_built_in_profile_is_named_as_its_file(tmp_path: Path) -> None:
         load_builtin_profiles(tmp_path)
     assert [d.headline() for d in caught.value.diagnostics] == [
         "profiles/x.yaml:1:10: error: 'x.yaml' describes 'y'. Rename one of them",
-        "profiles/z.yaml:1:1: error: the key 'profile' is missing. Add `profile: …`",
+        "profiles/z.yaml:1:1: error: missing key 'profile'. Add `profile: …`",
         "profiles/z.yaml:1:13: error: 'components' must be a list. Write `components: [a, b]`",
     ]
 
@@ -259,7 +259,7 @@ def test_a_faulty_middleware_table_is_refused(tmp_path: Path) -> None:
         ("all_but: [CREATE, INFO, WRITE_DATA", "all_but: [CREATE, INFOS, WRITE_DATA", "Did you mean 'INFO'"),
         ("  publish: [write]", "  publish: [writes]", "Did you mean 'write'"),
         ("default: ping", "default: pong", "Did you mean 'ping'"),
-        ("  complete:", "  completes:", "there is no key 'completes' here. Did you mean 'complete'"),
+        ("  complete:", "  completes:", "unknown key 'completes'. Did you mean 'complete'"),
     ):
         assert before in text
         said = Diagnostics()

@@ -164,12 +164,12 @@ ERRORS = {
     "nothing": ("components: [+tymers]\n", "microros-gen: error: nothing is selected. Add `profiles:"),
     "unknown component": (
         "profiles: [pure_sender]\ncomponents: [+tymers]\n",
-        "microros.yaml:2:14: error: there is no component 'tymers' (components: +tymers (microros.yaml:2)). "
+        "microros.yaml:2:14: error: unknown component 'tymers' (components: +tymers (microros.yaml:2)). "
         "Did you mean 'timers'?",
     ),
     "unknown drop": (
         "profiles: [pure_sender]\ncomponents: [-publihs]\n",
-        "microros.yaml:2:14: error: there is no component 'publihs' (components: -publihs). "
+        "microros.yaml:2:14: error: unknown component 'publihs' (components: -publihs). "
         "Did you mean 'publish'?",
     ),
     "add and drop": (

@@ -36,7 +36,7 @@ NEEDED = {
     "arm-linux-gnueabihf-ld": "binutils-arm-linux-gnueabihf",
     "/usr/arm-linux-gnueabihf/lib/libc.a": "libc6-dev-armhf-cross",
 }
-# What clang links for other targets. Debian's cross gcc itself must not be there beside gcc-multilib.
+# What clang links for other targets. Debian's cross gcc itself must not be there besides gcc-multilib.
 CROSS = {"powerpc-linux-gnu": "powerpc", "arm-linux-gnueabihf": "armhf"}
 MULTILIB = "gcc-multilib"
 

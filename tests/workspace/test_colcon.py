@@ -47,7 +47,7 @@ class Built:
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> Built:
-    """The workspace after `colcon build`, where the wheel of this project is beside ROS 2."""
+    """The workspace after `colcon build`, where the wheel of this project is besides ROS 2."""
     try:
         environment = ros_environment()
     except OSError as error:

@@ -133,7 +133,7 @@ def test_without_a_map_symbols_tell(project: Project) -> None:
 
 
 def test_an_image_of_somebody_elses_archive(project: Project, tmp_path: Path) -> None:
-    """No record, no names that are ours, another library beside it: members are known by what they define."""
+    """No record, no names that are ours, another library next to it: members are known by what they define."""
     objects = sorted(p for p in project.build_folder.rglob("robot.dir/**/*.o"))
     other = tmp_path / "xrce_session.c"
     other.write_text(
@@ -320,7 +320,7 @@ def plain_image_is_checked_by_the_command_of_the_page(project: Project, firmware
 
 @pytest.mark.skipif(shutil.which("arm-none-eabi-gcc") is None, reason="no arm-none-eabi-gcc")
 def test_of_a_processor_without_a_board_the_library_is_checked(tmp_path: Path) -> None:
-    """There is no image, so `build` bounds the library; so does the build that makes it."""
+    """There is not an image, so `build` bounds the library; so does the build that makes it."""
     project = Project(tmp_path / "a library")
     project.source.mkdir()
     (project.source / "CMakeLists.txt").write_text(
@@ -359,7 +359,7 @@ def test_a_board_has_a_bound_for_everything(board: Project) -> None:
 
 def test_what_is_not_there_is_said(project: Project, tmp_path: Path) -> None:
     said = tool(project, "size", tmp_path, status=2).stderr
-    assert "is no output folder of microros-gen, and no CMake build folder that has one" in said
+    assert "is not an output folder of microros-gen, and no CMake build folder that has one" in said
     image = project.build_folder / "app"
     hidden = image.rename(image.with_suffix(".hidden"))
     try:

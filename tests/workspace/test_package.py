@@ -68,7 +68,7 @@ def test_cmake_finds_it_where_its_program_is_on_the_path(installed: Installed, t
     done = subprocess.run(
         configure, cwd=tmp_path, env=environment, text=True, capture_output=True, check=False
     )
-    assert "there is no profile 'pure_sendr'" in done.stderr
+    assert "unknown profile 'pure_sendr'" in done.stderr
     cache = (tmp_path / "build/CMakeCache.txt").read_text()
     assert f"MICROROS_GEN_PROGRAM:FILEPATH={installed.program}\n" in cache
 

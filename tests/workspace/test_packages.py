@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The two ament packages without colcon and without ROS's other generators: built from a clone, used by CMake alone.
 
-What is in the run by default; the whole, with everything that ROS 2 generates beside it, is in test_colcon.py.
+What is in the run by default; the whole, with everything that ROS 2 generates next to it, is in test_colcon.py.
 """
 
 from __future__ import annotations

@@ -180,7 +180,7 @@ class _Objects:
         if kind is None:
             self._unsure = True
             if "kind" not in node.entries:
-                self._diagnostics.error("the key 'kind' is missing", node.span, 'Add "kind": …')
+                self._diagnostics.error("missing key 'kind'", node.span, 'Add "kind": …')
             return
         required, optional = _KEYS[kind.name]
         check_keys(node, (*required, *optional), required, self._diagnostics)

@@ -159,7 +159,7 @@ def _qos(element: Element | None, base: Qos, known: Known) -> Qos:
         base = (profile.writer if element.tag == "data_writer_qos" else profile.reader) or base
     depth = (element.findtext("history/depth") or str(base.depth)).strip()
     if not (depth.isascii() and depth.isdigit() and len(depth) < 6 and int(depth) <= 0xFFFF):
-        raise MalformedError("xml", "a history depth that is no number from 0 to 65535")
+        raise MalformedError("xml", "a history depth that is not a number from 0 to 65535")
     return Qos(
         _choice(element, "reliability", _RELIABILITY, base.reliable),
         _choice(element, "durability", _DURABILITY, base.durability),
@@ -239,5 +239,5 @@ def _name(element: Element) -> str:
 def _domain(element: Element) -> int:
     text = element.get("domain_id", "0")
     if not (text.isascii() and text.isdigit() and len(text) < 5):
-        raise MalformedError("xml", "a domain_id that is no number")
+        raise MalformedError("xml", "a domain_id that is not a number")
     return int(text)

@@ -28,7 +28,7 @@ class References:
     def find(self, kind: int, name: str, domain: int) -> Description:
         """Return what `name` stands for among objects of `kind`; UnknownReferenceError when there is nothing.
 
-        `domain` is what the client's CREATE says beside the name; a participant takes it from there.
+        `domain` is what the client's CREATE says besides the name; a participant takes it from there.
         """
         found = self.known.get((kind, name))
         if found is None:

@@ -83,12 +83,12 @@ class _Tree:
         self._doctypes: list[Span] = []
 
     def parse(self, diagnostics: Diagnostics) -> Element | None:
-        """Return the root; None and an error when the text is no XML."""
+        """Return the root; None and an error when the text is not well-formed XML."""
         try:
             self._parser.Parse(self._source.text.encode(), True)
         except expat.ExpatError as error:
             place = Span(self._source, error.lineno, error.offset + 1)
-            diagnostics.error(f"this is no XML: {expat.errors.messages[error.code]}", place)
+            diagnostics.error(f"not well-formed XML: {expat.errors.messages[error.code]}", place)
             return None
         for place in self._doctypes:
             hint = "Remove the <!DOCTYPE …>"
@@ -126,7 +126,7 @@ class _Gathered:
         if element.tag not in _SERVED:
             if element.tag not in _OTHERS:
                 hint = nearest(element.tag, _SERVED) or f"There are {', '.join(_SERVED)}"
-                self._diagnostics.error(f"there are no profiles of kind '{element.tag}'", place, hint)
+                self._diagnostics.error(f"unknown kind of profile '{element.tag}'", place, hint)
             return
         name = element.get("profile_name", "")
         if not name:
@@ -185,5 +185,5 @@ def _profiles(root: Element, tree: _Tree, diagnostics: Diagnostics) -> list[Elem
     for child in root:
         if child.tag not in ("profiles", *_BESIDE_PROFILES):
             hint = "Put profiles into <profiles>…</profiles>"
-            diagnostics.error(f"<{child.tag}> cannot stand in <dds>", tree.place(child), hint)
+            diagnostics.error(f"<{child.tag}> is not allowed in <dds>", tree.place(child), hint)
     return root.findall("profiles")

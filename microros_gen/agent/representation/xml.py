@@ -154,7 +154,7 @@ def _qos(element: Element, reliability: str, durability: Durability) -> Qos:
     if not (depth.isascii() and depth.isdigit() and len(depth) < 9 and int(depth) <= _MAXIMUM_DEPTH):
         place = element.find("topic/historyQos/depth")
         raise XmlError(
-            element if place is None else place, "a history depth that is no number from 0 to 65535"
+            element if place is None else place, "a history depth that is not a number from 0 to 65535"
         )
     return Qos(kind == "RELIABLE", Durability[lasting], history == "KEEP_LAST", int(depth))
 

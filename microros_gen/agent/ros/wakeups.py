@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How ROS 2's threads tell the agent's one thread that something has come, without Python.
+"""How ROS 2's threads tell the agent's one thread that something was received, without Python.
 
 Each thing that is waited for has an eventfd; ROS 2 calls `eventfd_write(descriptor, count)` of the C library, whose two
 arguments are those of ROS 2's callbacks. One epoll descriptor watches all of them for edges, so that nothing has

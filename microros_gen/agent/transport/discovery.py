@@ -55,7 +55,7 @@ class Discovery:
     ) -> None:
         """Tell of `transports`; UserError when there are none or the port cannot be had."""
         if not transports:
-            reason = "there is no UDP or TCP transport that discovery could tell of"
+            reason = "discovery needs a UDP or TCP transport"
             raise UserError([Diagnostic(reason, hint="Add one, as `udp4`, or leave --discovery out")])
         self._transports = sorted(transports, key=lambda t: t.protocol.stream)
         self._log = log

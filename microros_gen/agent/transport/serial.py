@@ -141,6 +141,6 @@ def _explain(error: OSError, device: str) -> Diagnostic:
         )
     if error.errno in (errno.ENOTTY, errno.EISDIR):
         return Diagnostic(
-            f"{device} is no serial device", hint="Give a terminal device, as /dev/ttyUSB0 or /dev/pts/3"
+            f"{device} is not a serial device", hint="Give a terminal device, as /dev/ttyUSB0 or /dev/pts/3"
         )
     return Diagnostic(f"{device} cannot be opened: {error.strerror or error}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TCP over IPv4 or IPv6: messages behind their length, many connections, none of which can hold up another.
+"""TCP over IPv4 or IPv6: messages after their length, many connections, none of which can hold up another.
 
 Each connection is an address of its own. What it may take is bounded: one unfinished message of at most 64 KiB in,
 `TcpLimits.output_bytes` out, a time for its first message, for a message that it began, and for reading what it is

@@ -32,7 +32,7 @@ class WriteData:
         return WriteData(reader.identifier(), reader.identifier(), reader.rest(), flags & DATA_FORMAT_MASK)
 
     def encode(self, writer: Writer) -> int:
-        """Write the payload; return the flags beside the byte order."""
+        """Write the payload; return the flags besides the byte order."""
         writer.identifier(self.request).identifier(self.object).raw(self.data)
         return self.format
 
@@ -53,7 +53,7 @@ class Data:
         return Data(reader.identifier(), reader.identifier(), reader.rest(), flags & DATA_FORMAT_MASK)
 
     def encode(self, writer: Writer) -> int:
-        """Write the payload; return the flags beside the byte order."""
+        """Write the payload; return the flags besides the byte order."""
         writer.identifier(self.request).identifier(self.object).raw(self.data)
         return self.format
 
@@ -100,7 +100,7 @@ class ReadData:
         return ReadData(*head, content_filter, reader.optional(lambda: DeliveryControl.read(reader)))
 
     def encode(self, writer: Writer) -> int:
-        """Write the payload; return the flags beside the byte order."""
+        """Write the payload; return the flags besides the byte order."""
         writer.identifier(self.request).identifier(self.object).u8(self.stream).u8(self.format)
         writer.optional(writer.string, self.content_filter)
         writer.optional(lambda delivery: delivery.write(writer), self.delivery)

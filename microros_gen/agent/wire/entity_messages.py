@@ -81,7 +81,7 @@ class Representation:
 
 @dataclass(frozen=True)
 class Create:
-    """CREATE: make an object; the members beside the ids and the creation mode are those of Representation."""
+    """CREATE: make an object; the members besides the ids and the creation mode are those of Representation."""
 
     ID: ClassVar = SubmessageId.CREATE
     request: int
@@ -111,7 +111,7 @@ class Create:
         )
 
     def encode(self, writer: Writer) -> int:
-        """Write the payload; return the flags beside the byte order."""
+        """Write the payload; return the flags besides the byte order."""
         writer.identifier(self.request).identifier(self.object)
         self.representation.write(writer)
         return (FLAG_REUSE if self.reuse else 0) | (FLAG_REPLACE if self.replace else 0)
@@ -131,7 +131,7 @@ class Delete:
         return Delete(reader.identifier(), reader.identifier())
 
     def encode(self, writer: Writer) -> int:
-        """Write the payload; return the flags beside the byte order."""
+        """Write the payload; return the flags besides the byte order."""
         writer.identifier(self.request).identifier(self.object)
         return 0
 
@@ -152,7 +152,7 @@ class StatusReply:
         return StatusReply(reader.identifier(), reader.identifier(), reader.u8(), reader.u8())
 
     def encode(self, writer: Writer) -> int:
-        """Write the payload; return the flags beside the byte order."""
+        """Write the payload; return the flags besides the byte order."""
         writer.identifier(self.request).identifier(self.object)
         writer.u8(self.status).u8(self.implementation_status)
         return 0
@@ -173,7 +173,7 @@ class Acknack:
         return Acknack(reader.u16(), reader.identifier(), reader.u8())
 
     def encode(self, writer: Writer) -> int:
-        """Write the payload; return the flags beside the byte order."""
+        """Write the payload; return the flags besides the byte order."""
         writer.u16(self.first).identifier(self.missing).u8(self.stream)
         return 0
 
@@ -193,7 +193,7 @@ class Heartbeat:
         return Heartbeat(reader.u16(), reader.u16(), reader.u8())
 
     def encode(self, writer: Writer) -> int:
-        """Write the payload; return the flags beside the byte order."""
+        """Write the payload; return the flags besides the byte order."""
         writer.u16(self.first).u16(self.last).u8(self.stream)
         return 0
 
@@ -210,7 +210,7 @@ class Reset:
         return Reset()
 
     def encode(self, writer: Writer) -> int:
-        """Write the payload; return the flags beside the byte order."""
+        """Write the payload; return the flags besides the byte order."""
         return 0
 
 
@@ -228,6 +228,6 @@ class Fragment:
         return Fragment(reader.rest(), bool(flags & FLAG_LAST_FRAGMENT))
 
     def encode(self, writer: Writer) -> int:
-        """Write the payload; return the flags beside the byte order."""
+        """Write the payload; return the flags besides the byte order."""
         writer.raw(self.piece)
         return FLAG_LAST_FRAGMENT if self.last else 0

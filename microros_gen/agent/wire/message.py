@@ -15,7 +15,7 @@ MOST_REQUESTS = 256
 SUBMESSAGE_HEADER = 4
 """Bytes of a submessage header."""
 Span = tuple[int, int, int, int]
-"""One submessage in a message: id, flags, offset of its payload, offset behind its payload."""
+"""One submessage in a message: id, flags, offset of its payload, offset after its payload."""
 
 
 @dataclass(frozen=True)

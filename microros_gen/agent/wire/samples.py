@@ -24,7 +24,7 @@ UNREGISTERED, DISPOSED, VIEW_NEW, READ = 1, 2, 4, 8
 LIFE_CYCLE = UNREGISTERED | DISPOSED
 """Either says that the sample ends an instance instead of being a value of it."""
 _SEQUENCE, _TIME = 1, 2
-"""SampleInfoFormat: what is there beside the state."""
+"""SampleInfoFormat: what is there besides the state."""
 MILLISECONDS_A_DECISECOND = 100
 _OVERHEAD = MappingProxyType(
     {  # a SampleInfo has 12 bytes, a count or a length 4, a SampleInfoDelta 4; up to 3 align a length
@@ -105,7 +105,7 @@ def packs(base: SampleInfo, info: SampleInfo) -> bool:
 
 
 def overhead(form: int) -> tuple[int, int]:
-    """Return what samples in layout `form` take at most beside their bodies, in bytes: all together, and each."""
+    """Return what samples in layout `form` take at most besides their bodies, in bytes: all together, and each."""
     return _OVERHEAD[DataFormat(form)]
 
 

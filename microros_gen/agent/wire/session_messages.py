@@ -48,7 +48,7 @@ class CreateClient:
         return CreateClient(key, session, reader.u16(), properties, cookie, version, vendor)
 
     def encode(self, writer: Writer) -> int:
-        """Write the payload; return the flags beside the byte order."""
+        """Write the payload; return the flags besides the byte order."""
         writer.raw(self.cookie).raw(self.version).raw(self.vendor).raw(self.key).u8(self.session)
         _write_properties(writer, self.properties)
         writer.u16(self.mtu)
@@ -90,7 +90,7 @@ class StatusAgent:
         return StatusAgent(reader.u8(), reader.u8(), AgentConfig.read(reader))
 
     def encode(self, writer: Writer) -> int:
-        """Write the payload; return the flags beside the byte order."""
+        """Write the payload; return the flags besides the byte order."""
         self.agent.write(writer.u8(self.status).u8(self.implementation_status))
         return 0
 
@@ -110,7 +110,7 @@ class GetInfo:
         return GetInfo(reader.identifier(), reader.identifier(), reader.u32())
 
     def encode(self, writer: Writer) -> int:
-        """Write the payload; return the flags beside the byte order."""
+        """Write the payload; return the flags besides the byte order."""
         writer.identifier(self.request).identifier(self.object).u32(self.mask)
         return 0
 
@@ -215,7 +215,7 @@ class Info:
         raise MalformedError("info_kind", f"kind {kind:#04x}")
 
     def encode(self, writer: Writer) -> int:
-        """Write the payload; return the flags beside the byte order."""
+        """Write the payload; return the flags besides the byte order."""
         writer.identifier(self.request).identifier(self.object)
         writer.u8(self.status).u8(self.implementation_status)
         writer.optional(partial(self._write_config, writer), self.config)
@@ -266,7 +266,7 @@ class Timestamp:
         return Timestamp(_read_time(reader))
 
     def encode(self, writer: Writer) -> int:
-        """Write the payload; return the flags beside the byte order."""
+        """Write the payload; return the flags besides the byte order."""
         _write_time(writer, self.transmit)
         return 0
 
@@ -286,7 +286,7 @@ class TimestampReply:
         return TimestampReply(_read_time(reader), _read_time(reader), _read_time(reader))
 
     def encode(self, writer: Writer) -> int:
-        """Write the payload; return the flags beside the byte order."""
+        """Write the payload; return the flags besides the byte order."""
         for moment in (self.transmit, self.receive, self.originate):
             _write_time(writer, moment)
         return 0

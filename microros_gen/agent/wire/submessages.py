@@ -39,7 +39,7 @@ class Submessage(Protocol):
         """The first byte on the wire."""
 
     def encode(self, writer: Writer) -> int:
-        """Write the payload; return the flags beside the byte order."""
+        """Write the payload; return the flags besides the byte order."""
 
 
 class _Decoder(Protocol):

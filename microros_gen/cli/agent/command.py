@@ -37,7 +37,7 @@ class _Transports(click.Group):
             ]
             found = f"Choose {' or '.join(both)}" if len(both) > 1 else nearest(args[0], self.commands)
             hint = found or f"There are {', '.join(self.commands)}"
-            raise click.UsageError(f"there is no transport '{args[0]}'. {hint}", ctx)
+            raise click.UsageError(f"unknown transport '{args[0]}'. {hint}", ctx)
         return super().resolve_command(ctx, args)
 
 
@@ -51,7 +51,7 @@ class _Transports(click.Group):
 def command(**common: Any) -> None:
     """Connect DDS-XRCE clients (this project's, micro-ROS's, any other) to ROS 2.
 
-    Name one transport or several; or none, with a --config that does. Every option below may stand behind a transport
+    Name one transport or several; or none, with a --config that does. Every option below may follow a transport
     as well, and holds for the whole agent. Needs ROS 2 Jazzy, sourced or in this Python: pip install
     ros-jazzy-rclpy ros-jazzy-rmw-fastrtps-cpp ros-jazzy-common-interfaces.
 
@@ -151,7 +151,7 @@ def serial(devices: tuple[str, ...], baud: int, **common: Any) -> _Part:
     A device that is not there yet, or is unplugged, is waited for; its clients go on when it is back. Each device is
     this process's alone. Several clients may share a line if each has a source address of its own in its
     frames. What is between frames (the messages of a boot loader) is counted and ignored.
-    Status 2: a path is no serial device, is in use, may not be opened, or has no such speed; or ROS 2 is missing.
+    Status 2: a path is not a serial device, is in use, may not be opened, or has no such speed; or ROS 2 is missing.
 
     \b
     microros-gen agent serial --device /dev/ttyUSB0

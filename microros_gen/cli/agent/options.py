@@ -258,7 +258,7 @@ def _limit(name: str, value: str, diagnostics: Diagnostics) -> float | None:
     names = [field.name for field in fields(Limits)]
     if name not in names:
         hint = nearest(name, names) or f"Known are {', '.join(names)}"
-        diagnostics.error(f"there is no limit '{name}'", hint=hint)
+        diagnostics.error(f"unknown limit '{name}'", hint=hint)
         return None
     if not _VALUE.fullmatch(value):
         diagnostics.error(f"'limits.{name}' must be a number", hint=f"Write --limit {name}=NUMBER")

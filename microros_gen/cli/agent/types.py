@@ -111,5 +111,7 @@ def _read(manifest: ManifestOf, diagnostics: Diagnostics) -> _Content:
         return _Content({}, [])
     except (ValueError, KeyError, TypeError, AttributeError):
         pass
-    diagnostics.error(f"{path} is no manifest of microros-gen", span, "Give OUT/manifest.json of the client")
+    diagnostics.error(
+        f"{path} is not a manifest of microros-gen", span, "Give OUT/manifest.json of the client"
+    )
     return _Content({}, [])

@@ -3,7 +3,7 @@
  * The measured program: opens a session, a node and a publisher of Int32 (BENCH_INIT is the function that opens it),
  * and publishes. mark() stands between the phases; the trace of the emulator counts what lies between two marks.
  *
- * The agent is inside the firmware, behind the UDP group of the port, and answers at once, so that what is counted is
+ * The agent is inside the firmware, after the UDP group of the port, and answers at once, so that what is counted is
  * the client's work alone. It grants sessions, creations and deletions, and acknowledges reliable messages.
  */
 #include <microros/port.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * A decoder, with the primitives that it calls: every body of FIRST to LAST bytes, in both byte orders. The body ends
- * where its array ends, so that a byte read behind it is an alarm.
+ * where its array ends, so that a byte read after it is an alarm.
  */
 #include "proof.h"
 #include "types.h"

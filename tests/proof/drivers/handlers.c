@@ -306,7 +306,7 @@ static void take_about_places(void)
   }
 }
 
-/* DATA: for each receiver, for what comes before and behind them, and for indices that no place has. */
+/* DATA: for each receiver, for what comes before and after them, and for indices that no place has. */
 static void take_about_receivers(void)
 {
   enum { BEGIN = MICROROS_PUBLISHERS_MAX * 16, END = BEGIN + XRCE_RECEIVERS * 16 };

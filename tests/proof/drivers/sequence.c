@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The primitives of sequences: from each position (of eight, as alignments go), with each number of bytes behind it up to
+ * The primitives of sequences: from each position (of eight, as alignments go), with each number of bytes after it up to
  * LAST, each length that these bytes may say, in both byte orders, and each capacity up to CAPACITY.
  */
 #include "proof.h"

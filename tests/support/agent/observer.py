@@ -149,7 +149,7 @@ def _filled(message: Any, value: dict[str, Any]) -> Any:
 
 
 class _Peer:
-    """What the observer does beside watching: publishes, serves, calls."""
+    """What the observer does besides watching: publishes, serves, calls."""
 
     def __init__(self, node: Any, arrived: list[tuple[str, Any]]) -> None:
         self._node = node
@@ -212,7 +212,7 @@ class _Peer:
         return True
 
     def feed(self) -> list[str]:
-        """Take what is there; return the bytes of the samples behind their encapsulation."""
+        """Take what is there; return the bytes of the samples after their encapsulation."""
         found = []
         while (taken := self._starved.take_message(None, True)) is not None:
             found.append(taken[0][4:].hex())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The agent with fakes behind real transports, its loop in a thread of this process."""
+"""The agent with fakes after real transports, its loop in a thread of this process."""
 
 from __future__ import annotations
 

@@ -244,7 +244,7 @@ class Place:
 
     def _hear(self, body: bytes) -> None:
         """Samples of ROS 2 come in order, whole, and without a gap unless the client slept."""
-        end = 3 + int.from_bytes(body[:4], "little")  # DDS fills up to a multiple of four behind it
+        end = 3 + int.from_bytes(body[:4], "little")  # DDS fills up to a multiple of four after it
         number, size, rest = body[4:end].decode().split(":", 2)
         assert rest == "x" * int(size)
         if self.heard is not None and int(number) != self.heard + 1:

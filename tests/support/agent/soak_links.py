@@ -24,7 +24,7 @@ class Link(Protocol):
         """Return a descriptor to watch, -1 when somebody else reads."""
 
     def read(self) -> None:
-        """Hand on what has come."""
+        """Hand on what was received."""
 
     def send(self, message: bytes) -> None:
         """Send one message."""

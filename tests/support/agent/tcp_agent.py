@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An agent behind a TCP port, in this process."""
+"""An agent after a TCP port, in this process."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def tcp(bench: Bench, protocol: Protocol = TCP4, **limits: float) -> Tcp:
 
 
 def _received(transport: Tcp) -> list[Connection]:
-    """Let `transport` take what has come; return the connections that messages came from."""
+    """Let `transport` take what was received; return the connections that messages came from."""
     found: list[Connection] = []
     end = time.monotonic() + 3
     while not found and time.monotonic() < end:

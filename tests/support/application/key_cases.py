@@ -56,7 +56,7 @@ def _endpoint_cases(
     def one(rest: str) -> str:
         return _in_node(f"{key}: [{{{rest}}}]")
 
-    start = 8 + len(key)  # column behind `    key: [{`
+    start = 8 + len(key)  # column after `    key: [{`
     path = f"nodes[].{key}[]"
     entry = f"{name_key}: a/b, type: {type_name}"
     cases = {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A UDP relay between images and their agent: it keeps the port that an image was built for, lets the agent
-behind it come and go, and loses, doubles, delays and cuts datagrams when told to.
+after it come and go, and loses, doubles, delays and cuts datagrams when told to.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The agent of tests/runtime, which can be told to refuse and to fall silent, behind a UDP port."""
+"""The agent of tests/runtime, which can be told to refuse and to fall silent, after a UDP port."""
 
 from __future__ import annotations
 

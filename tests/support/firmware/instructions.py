@@ -24,7 +24,7 @@ class Region:
 def trace_regions(
     command: Sequence[str], image: Path, left_out: Iterable[str], mark: str = "mark"
 ) -> tuple[Region, ...]:
-    """Run `image` in the emulator `command` and return one region for each pair of neighbouring marks.
+    """Run `image` in the emulator `command` and return one region for each pair of neighboring marks.
 
     One line of the trace is one instruction (one instruction a translation block). Functions in `left_out`, by the
     symbol that the emulator finds for an address, do not count. The program must end the emulator by itself.

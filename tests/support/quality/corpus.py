@@ -2,7 +2,7 @@
 """What the checks of this folder read: generated trees that together hold every C file and every template.
 
 A tree is the output folder of one application. A file that is the same in several trees, with all that it includes,
-is analysed once.
+is analyzed once.
 """
 
 from __future__ import annotations

@@ -82,7 +82,7 @@ def category(rule: str) -> str:
 
 
 def find_addon() -> Path | None:
-    """Return the addon's file beside the installed cppcheck."""
+    """Return the addon's file besides the installed cppcheck."""
     program = shutil.which("cppcheck")
     if program is None:
         return None

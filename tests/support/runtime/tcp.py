@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A fake agent behind a TCP port."""
+"""A fake agent after a TCP port."""
 
 from __future__ import annotations
 

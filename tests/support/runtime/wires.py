@@ -12,7 +12,7 @@ class Wire(Protocol):
     """What comes of a client, piece by piece, as messages; and messages as they go to it."""
 
     def begin(self) -> None:
-        """Forget what has come of a message: the transport is opened or closed."""
+        """Forget what was received of a message: the transport is opened or closed."""
 
     def messages(self, data: bytes) -> list[bytes]:
         """Take a piece; return the messages that it completes."""
@@ -61,7 +61,7 @@ class Lengths:
         return found
 
     def carried(self, message: bytes) -> bytes:
-        """Return the message behind its length."""
+        """Return the message after its length."""
         return len(message).to_bytes(2, "little") + message
 
 

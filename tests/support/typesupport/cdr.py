@@ -98,7 +98,7 @@ class RefusedError(Exception):
 
 
 def decode(messages: Mapping[TypeName, Message], name: TypeName, body: bytes, big: bool) -> dict[str, Any]:
-    """Return the contents; what is behind them is ignored. Raises RefusedError."""
+    """Return the contents; what is after them is ignored. Raises RefusedError."""
     return _Reader(messages, body, ">" if big else "<").message(name)
 
 

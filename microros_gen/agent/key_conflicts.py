@@ -16,7 +16,7 @@ IN_FLIGHT_S = 1.0
 Place = tuple[Transport, Hashable]
 
 
-class Rivals:
+class KeyConflicts:
     """Remembers from where keys came; at most `limit` places."""
 
     def __init__(self, log: EventLog, limit: int) -> None:

@@ -13,6 +13,7 @@ from microros_gen.agent.entities import Home
 from microros_gen.agent.fairness import Accounts
 from microros_gen.agent.input_pool import Holder, InputPool
 from microros_gen.agent.keeping import Keeping
+from microros_gen.agent.key_conflicts import KeyConflicts
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.manifests import Manifests
@@ -22,7 +23,6 @@ from microros_gen.agent.operations import agent_info, tell_outcome
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.rates import Rates
 from microros_gen.agent.representation import References
-from microros_gen.agent.rivals import Rivals
 from microros_gen.agent.ros.bridge import Bridge
 from microros_gen.agent.services import Calls
 from microros_gen.agent.session import Session
@@ -62,7 +62,7 @@ class Held:
     manifests: Manifests
 
 
-class Lobby:
+class Admission:
     """Lets clients in and out; keeps the client table."""
 
     def __init__(
@@ -90,7 +90,7 @@ class Lobby:
         self._budgets = budgets or Budgets(limits)
         self.gate = self._budgets.gate
         self._rates = Rates(limits.operations_per_second, limits.clients)
-        self._rivals = Rivals(log, limits.clients)
+        self._conflicts = KeyConflicts(log, limits.clients)
         self._newcomers = Newcomers(limits.newcomers)
         self._full_until = 0.0
         self._answered = 0
@@ -123,10 +123,10 @@ class Lobby:
             raise MalformedError("too_many_operations", "a client says too much outside of its session")
         # What is out of session may be another client's by now: systems give a port to one after another.
         left = client is None and header.session not in OUT_OF_SESSION
-        key = self._rivals.heard(transport, address, now) if left else None
+        key = self._conflicts.heard(transport, address, now) if left else None
         rival = self._clients.with_key(key) if key else None
         if rival is not None:
-            self._rivals.fight(rival, transport, address)
+            self._conflicts.fight(rival, transport, address)
         for identifier, flags, at, end in split(data, start)[:1]:
             submessage = decode(identifier, flags, data, at, end)
             if isinstance(submessage, WriteData | Heartbeat) and client is None:
@@ -150,7 +150,7 @@ class Lobby:
     def move(self, client: Client, transport: Transport, address: Hashable, now: float) -> None:
         """Note that `client` sends from another address now."""
         before = client.place
-        self._rivals.moved(client, transport, address, now)
+        self._conflicts.moved(client, transport, address, now)
         client.transport.release(client.address, moved=True)
         client.claimed = False
         evicted = self._clients.move(client, transport, address)
@@ -267,7 +267,7 @@ class Lobby:
             return Status.OK
         if client is not None:
             if client.address != address:
-                self._rivals.moved(client, transport, address, now)
+                self._conflicts.moved(client, transport, address, now)
             heritage = self.keeping.heritage(client, now)
             self.dismiss(client, "replaced: it came with another session id")
         new = self._add(link, address, transport, newcomer.timeout_s, now)
