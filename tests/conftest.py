@@ -17,6 +17,13 @@ settings.load_profile(
 )  # `default` draws new examples each time
 
 
+def pytest_configure() -> None:
+    """Let all tests and what they start share one cache of objects."""
+    from tests.support.objects.cache import put_into_path
+
+    put_into_path()
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Skip what needs ROS 2 where its wheels are not installed; `make test` always installs them."""
     if importlib.util.find_spec("rclpy") is not None:

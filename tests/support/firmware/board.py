@@ -150,7 +150,7 @@ def build(home: Path, name: str, application: str = "", *options: str) -> subpro
         (home / "microros.yaml").write_text(application)
     else:
         arguments += ["--profile", "pure_sender"]
-    environment = {**os.environ, "XDG_CACHE_HOME": str(home / "cache")}
+    environment = {**os.environ, "XDG_CACHE_HOME": str(home.parent / "cache")}
     command = [sys.executable, "-m", "microros_gen", "build", *arguments]
     return subprocess.run(command, cwd=home, env=environment, text=True, capture_output=True, check=False)
 

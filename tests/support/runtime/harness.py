@@ -3,17 +3,12 @@
 
 from __future__ import annotations
 
-import hashlib
-import os
 import shutil
 import subprocess
-import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from microros_gen.client.plan.provisions import holds
 from microros_gen.client.plan.runtime import RuntimePlan
@@ -23,7 +18,8 @@ from microros_gen.platform.provide import provide
 from microros_gen.selection.find_components import load_catalogue
 from microros_gen.selection.model import ChosenComponent, Selection
 from microros_gen.toolchain.toolchain import LIBRARY_FLAGS, WARNINGS
-from tests.support.paths import ROOT, TESTS
+from tests.support.objects.made import digest, headers_digest, made, version
+from tests.support.paths import TESTS
 
 FIXTURES = TESTS / "runtime" / "c"
 STRING = TypeName("std_msgs", "msg", "String")
@@ -123,85 +119,26 @@ def compilers() -> tuple[str, ...]:
     return tuple(name for name in ("gcc", "clang") if shutil.which(name))
 
 
-CACHE = ROOT / "build" / "runtime"
-"""Objects and programs by what they were made from: for both test processes, and for the next run."""
-_KEPT_DAYS = 3
-
-
-@cache
-def _cache() -> Path:
-    """Return the cache's folder, without what was not used for some days."""
-    CACHE.mkdir(parents=True, exist_ok=True)
-    oldest = time.time() - _KEPT_DAYS * 86400
-    for entry in CACHE.iterdir():
-        if entry.stat().st_mtime < oldest:
-            shutil.rmtree(entry, ignore_errors=True)
-    return CACHE
-
-
-@cache
-def _version(compiler: str) -> str:
-    return subprocess.run([compiler, "--version"], capture_output=True, text=True, check=True).stdout
-
-
-def _digest(*parts: object) -> str:
-    return hashlib.sha256(repr(parts).encode()).hexdigest()
-
-
-def _headers(*folders: Path) -> str:
-    """Return what stands for every header below `folders`."""
-    found = sorted((p.relative_to(folder).as_posix(), p) for folder in folders for p in folder.rglob("*.h"))
-    return _digest([(name, path.read_bytes()) for name, path in found])
-
-
-def _made(key: str, name: str, make: Callable[[Path], str]) -> tuple[Path, str]:
-    """Return the file `name` of the cache, and what `make` says when it could not make it."""
-    kept = _cache() / key / name
-    if kept.is_file():
-        os.utime(kept.parent)
-        return kept, ""
-    kept.parent.mkdir(exist_ok=True)
-    with TemporaryDirectory(dir=kept.parent) as folder:
-        fresh = Path(folder, name)
-        words = make(fresh)
-        if not words:
-            fresh.replace(kept)
-    return kept, words
-
-
 def compile_objects(
     tree: Tree, sources: Iterable[Path], compiler: str, flags: Sequence[str]
 ) -> tuple[Path, ...]:
     """Compile each source with the project's warnings as errors; raises with the compiler's words.
 
-    A file that is the same after the preprocessor as one before, by the same compiler and flags, is not compiled again;
-    with the same headers it is not preprocessed again either.
+    With the same source, headers and flags as before a file is not compiled again.
     """
     common = [*WARNINGS, *LIBRARY_FLAGS, *flags, f"-I{tree.include}", f"-I{FIXTURES}"]
-    made_with = (_version(compiler), *WARNINGS, *LIBRARY_FLAGS, *flags)
-
-    headers = _headers(tree.include, FIXTURES)
-
-    def preprocess(source: Path) -> str:
-        command = [compiler, *common, "-E", "-P", str(source)]
-        return _digest(subprocess.run(command, capture_output=True, check=False).stdout)
+    made_with = (version(compiler), *WARNINGS, *LIBRARY_FLAGS, *flags)
+    headers = headers_digest(tree.include, FIXTURES)
 
     def compile_one(source: Path) -> tuple[Path, str]:
-        # Warnings depend on what is a macro and what a comment says of a fall through: the text itself counts too.
-        own = (compiler, made_with, source.name, source.read_bytes())
-
-        def note(target: Path) -> str:
-            target.write_text(preprocess(source))
-            return ""
-
-        key = _digest(own, _made(_digest(own, headers), "preprocessed", note)[0].read_text())
+        key = digest(compiler, made_with, source.name, source.read_bytes(), headers)
 
         def make(target: Path) -> str:
             command = [compiler, *common, "-c", str(source), "-o", str(target)]
             done = subprocess.run(command, capture_output=True, text=True, check=False)
             return f"{compiler} {source}:\n{done.stderr}" if done.returncode else ""
 
-        return _made(key, f"{source.parent.name}_{source.stem}.o", make)
+        return made(key, f"{source.parent.name}_{source.stem}.o", make)
 
     with ThreadPoolExecutor(2) as pool:
         compiled = list(pool.map(compile_one, sources))
@@ -234,5 +171,5 @@ def build(
         link(objects, compiler, link_flags or flags, target)
         return ""
 
-    key = _digest(_version(compiler), flags, link_flags, objects)
-    return _made(key, f"{program}-{compiler}", make)[0]
+    key = digest(version(compiler), flags, link_flags, objects)
+    return made(key, f"{program}-{compiler}", make)[0]

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One cache of objects for all tests and workers: compilers in the PATH that do not compile the same text twice.
+
+An object is kept by the content of what it was made from (cached.c says exactly what), in build/objects. Tests and the
+tool that they run call compilers as always. `MICROROS_TEST_OBJECTS=off` leaves the PATH as it is.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import shutil
+import subprocess
+import time
+from pathlib import Path
+
+from tests.support.paths import ROOT
+
+CACHE = ROOT / "build" / "objects"
+SOURCE = Path(__file__).with_name("cached.c")
+COMPILERS = ("gcc", "cc", "g++", "c++", "clang", "clang++", "arm-none-eabi-gcc", "riscv64-unknown-elf-gcc")
+KEPT_DAYS = 3
+
+
+def put_into_path(cache: Path = CACHE) -> None:
+    """Let the PATH of this process and of those that it starts begin with the cache's compilers."""
+    folder = cache / "bin"
+    path = os.environ.get("PATH", os.defpath)
+    is_there = str(folder) in path.split(os.pathsep)
+    if is_there or os.environ.get("MICROROS_TEST_OBJECTS") == "off" or shutil.which("gcc") is None:
+        return
+    make(folder)
+    remove_old(cache)
+    os.environ["PATH"] = f"{folder}{os.pathsep}{path}"
+
+
+def make(folder: Path) -> None:
+    """Write the compilers of `folder`: links to one program, for each compiler that this machine has."""
+    folder.mkdir(parents=True, exist_ok=True)
+    program = folder / f"cached-{hashlib.sha256(SOURCE.read_bytes()).hexdigest()[:16]}"
+    if not program.is_file():
+        fresh = folder / f"{program.name}.{os.getpid()}"
+        flags = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wno-format-truncation")
+        subprocess.run(["gcc", *flags, str(SOURCE), "-o", str(fresh)], check=True)
+        fresh.replace(program)
+    for name in COMPILERS:
+        link = folder / name
+        if shutil.which(name) is None:
+            link.unlink(missing_ok=True)
+        elif not link.is_symlink() or link.readlink() != Path(program.name):
+            fresh = folder / f"{name}.{os.getpid()}"
+            fresh.symlink_to(program.name)
+            fresh.replace(link)
+
+
+def remove_old(cache: Path) -> None:
+    """Remove the entries that no test has used for some days."""
+    oldest = time.time() - KEPT_DAYS * 86400
+    for entry in cache.glob("??/*.err"):
+        if entry.stat().st_mtime < oldest:
+            for path in entry.parent.glob(f"{entry.stem}.*"):
+                path.unlink(missing_ok=True)
