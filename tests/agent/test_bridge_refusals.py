@@ -13,6 +13,7 @@ from microros_gen.agent.ros import rclpy_bridge
 from microros_gen.diagnostics import UserError
 from microros_gen.ros import loading
 from microros_gen.ros.errors import RosUnusableError
+from tests.support.patience import seconds
 
 pytestmark = pytest.mark.ros
 
@@ -24,7 +25,7 @@ def test_another_rmw_implementation_is_refused_before_it_ends_the_process() -> N
         env={**os.environ, "RMW_IMPLEMENTATION": "rmw_cyclonedds_cpp"},
         capture_output=True,
         text=True,
-        timeout=30,
+        timeout=seconds(30),
     )
     assert done.returncode == 2
     assert "needs rmw_fastrtps_cpp, but RMW_IMPLEMENTATION chooses rmw_cyclonedds_cpp" in done.stderr

@@ -17,6 +17,7 @@ from microros_gen.interfaces.type_hashes import type_hashes
 from microros_gen.ros import raw_types
 from tests.support.agent.bridging import Bridged, opened
 from tests.support.agent.observer import Observer, observing
+from tests.support.patience import deadline
 
 pytestmark = pytest.mark.ros
 
@@ -82,7 +83,7 @@ def test_a_source_is_named_again_for_what_is_new_only(bridged: Bridged, bridge_o
         bridge_observer.ask(do="publish", topic=topic, type=INT32, values=found, transient_local=True)
 
     def next_of(reader: Reader) -> bytes:
-        end = time.monotonic() + 15
+        end = deadline(15)
         while time.monotonic() < end:
             if reader in bridged.named(0.05) and (taken := reader.take()) is not None:
                 return taken

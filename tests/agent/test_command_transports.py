@@ -23,6 +23,7 @@ from tests.support.agent.process import READY, own_domain, running_agent
 from tests.support.agent.serial_link import SerialLink
 from tests.support.agent.tcp_link import TcpLink
 from tests.support.paths import ROOT
+from tests.support.patience import seconds
 
 DOMAIN = own_domain()
 INT32 = "std_msgs/msg/Int32"
@@ -78,7 +79,7 @@ def test_a_configuration_file(tmp_path: Path) -> None:
             assert other.connect() == 0x87  # RESOURCES: the file allows one
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asker:
             asker.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton("127.0.0.1"))
-            asker.settimeout(3)
+            asker.settimeout(seconds(3))
             asker.sendto(bytes.fromhex("80000000020108000009fffd03000000"), (GROUP, port))
             assert agent.port.to_bytes(2, "little") in asker.recv(1000)
         assert agent.stop() == 0
@@ -184,14 +185,22 @@ def test_the_unit_of_systemd_is_sound(tmp_path: Path) -> None:
     unit = tmp_path / UNIT.name
     unit.write_text(text)
     done = subprocess.run(
-        ["systemd-analyze", "verify", str(unit)], capture_output=True, text=True, check=False, timeout=30
+        ["systemd-analyze", "verify", str(unit)],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=seconds(30),
     )
     complaints = [line for line in done.stderr.splitlines() if UNIT.name in line]
     assert (done.returncode, complaints) == (0, []), done.stderr
     broken = tmp_path / "broken.service"
     broken.write_text(text.replace("ProtectSystem=strict", "ProtectSystem=tight"))
     other = subprocess.run(
-        ["systemd-analyze", "verify", str(broken)], capture_output=True, text=True, check=False, timeout=30
+        ["systemd-analyze", "verify", str(broken)],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=seconds(30),
     )
     assert "protect system" in other.stderr
 

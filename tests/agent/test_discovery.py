@@ -19,6 +19,7 @@ from microros_gen.agent.transport.udp import Udp
 from microros_gen.diagnostics import UserError
 from tests.support.agent.fakes import Bench
 from tests.support.agent.served import Served
+from tests.support.patience import seconds
 
 QUESTION = bytes.fromhex("80000000020108000009fffd03000000")
 """GET_INFO as the public client sends it to the group."""
@@ -38,7 +39,7 @@ def asker() -> Iterator[socket.socket]:
     """A client that asks on the loopback interface."""
     made = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     made.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton("127.0.0.1"))
-    made.settimeout(3)
+    made.settimeout(seconds(3))
     yield made
     made.close()
 

@@ -27,6 +27,7 @@ from microros_gen.agent.wire.submessages import encode
 from microros_gen.diagnostics import UserError
 from tests.support.agent.captured import CREATE_CLIENT_KEYED
 from tests.support.agent.fakes import Bench
+from tests.support.patience import deadline, seconds
 
 # Order
 
@@ -253,7 +254,7 @@ def test_what_was_refused_before_does_not_take_the_next_datagram_along(udp: Udp)
     udp.send(b"nobody", (udp, place))
     again = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     again.bind(place)
-    again.settimeout(5)
+    again.settimeout(seconds(5))
     udp.send(b"somebody", (udp, place))
     assert again.recv(100) == b"somebody"
 
@@ -271,7 +272,7 @@ def test_of_connections_the_one_that_cost_least_is_read_first() -> None:
 
     for number, connection in enumerate(made):
         say(number, connection)
-    end = time.monotonic() + 10
+    end = deadline(10)
     while len(got) < 3 and time.monotonic() < end:
         transport.pump(take)
     by_number = dict(got)

@@ -24,6 +24,7 @@ from tests.support.agent.client import BEST_EFFORT, XrceClient, dds_type, int32_
 from tests.support.agent.dialogue import entities
 from tests.support.agent.fakes import Bench
 from tests.support.agent.process import AgentProcess, own_domain, running_agent
+from tests.support.patience import deadline
 
 MIB = 1 << 20
 
@@ -181,7 +182,7 @@ def test_histories_stay_below_the_limit_that_was_said_and_come_back() -> None:
             assert most - before > 8, "samples were kept"
             assert most < said["limit"]
             assert client.leave() == OK
-            end = time.monotonic() + 60
+            end = deadline(60)
             while (left := rss_mib(agent.process.pid)) > before + 8 and time.monotonic() < end:
                 time.sleep(0.1)
             print(f"RSS {before:.0f} MiB before, {most:.0f} at most, {left:.0f} after it left")
@@ -209,7 +210,7 @@ def test_objects_stay_below_the_limit_and_come_back() -> None:
         assert made * 60_000 / MIB < most - before < Limits().object_bytes / MIB + 8
         for client in clients:
             assert client.leave() == OK
-        end = time.monotonic() + 20
+        end = deadline(20)
         while (left := rss_mib(agent.process.pid)) > before + 8 and time.monotonic() < end:
             time.sleep(0.1)
         print(f"RSS {before:.0f} MiB before, {most:.0f} with {made} objects, {left:.0f} after they left")

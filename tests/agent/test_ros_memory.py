@@ -34,6 +34,7 @@ from tests.support.agent.client import (
 )
 from tests.support.agent.fakes import FakeTransport
 from tests.support.agent.process import own_domain
+from tests.support.patience import deadline, seconds
 
 pytestmark = pytest.mark.ros
 
@@ -97,7 +98,7 @@ def live(agent: Agent, domain: int, transport: FakeTransport) -> None:
 
 def _until(agent: Agent, done: Callable[[], bool]) -> None:
     """Let the agent go on: who creates and leaves all the time has to wait now and then."""
-    end = time.monotonic() + 60
+    end = deadline(60)
     while not done():
         assert time.monotonic() < end
         time.sleep(0.001)
@@ -141,7 +142,7 @@ def _lives(core: Agent, bridged: Bridged, transport: FakeTransport) -> tuple[int
 def test_a_life_leaves_nothing() -> None:
     """In a process of its own: another test's node in this one would keep what it has seen of the graph."""
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
-        python, heap = pool.submit(measured).result(timeout=120)
+        python, heap = pool.submit(measured).result(timeout=seconds(120))
     print(f"each life leaves {python:.0f} B in Python and {heap:.0f} B on the heap")
     assert python < PYTHON_BYTES
     assert heap < HEAP_BYTES

@@ -22,6 +22,7 @@ from tests.support.agent.client import dds_type, int32_body, participant_blob, t
 from tests.support.agent.fakes import FakeTransport
 from tests.support.agent.observer import Observer
 from tests.support.agent.stream_messages import acknacks
+from tests.support.patience import deadline
 
 pytestmark = pytest.mark.ros
 
@@ -96,7 +97,7 @@ def test_nothing_is_lost_to_a_reader_that_takes_nothing_for_long(
     while other.acknowledged < 5:  # who has no such reader is not held back
         other.write()
     taken: list[str] = []
-    end = time.monotonic() + 60
+    end = deadline(60)
     while len(taken) < MESSAGES * EACH and time.monotonic() < end:
         sender.write()
         taken += bridge_observer.ask(do="feed")

@@ -23,6 +23,7 @@ from tests.support.agent.captured_frames import CREATE_CLIENT_FRAME, STATUS_AGEN
 from tests.support.agent.client import XrceClient, int32_body
 from tests.support.agent.fakes import Bench
 from tests.support.agent.serial_link import SerialLink, frame
+from tests.support.patience import deadline
 
 INT32 = "std_msgs/msg/Int32"
 
@@ -48,14 +49,14 @@ class Served:
         self._thread.join()
 
     def wait_for(self, text: str, count: int = 1) -> None:
-        end = time.monotonic() + 5
+        end = deadline(5)
         while self.bench.text.getvalue().count(text) < count:
             assert time.monotonic() < end, f"no '{text}' in:\n{self.bench.text.getvalue()}"
             time.sleep(0.01)
 
 
 def wait_until(done, what: str) -> None:  # type: ignore[no-untyped-def]
-    end = time.monotonic() + 5
+    end = deadline(5)
     while not done():
         assert time.monotonic() < end, what
         time.sleep(0.01)

@@ -22,6 +22,7 @@ from tests.support.agent.process import environment, own_domain, running_agent
 from tests.support.agent.references import PROFILES
 from tests.support.agent.ros_client import INT32, gone, matched
 from tests.support.agent.serial_link import SerialLink
+from tests.support.patience import seconds
 
 pytestmark = pytest.mark.ros
 
@@ -119,7 +120,7 @@ def run(*arguments: str, path: Path) -> subprocess.CompletedProcess[str]:
         env=environment(own_domain()),
         text=True,
         capture_output=True,
-        timeout=20,
+        timeout=seconds(20),
         check=False,
         cwd=path,
     )

@@ -12,6 +12,7 @@ import pytest
 from tests.support.agent.process import own_domain
 from tests.support.agent.soak import Place, World
 from tests.support.agent.soak_processes import Peer, agent_process
+from tests.support.patience import deadline
 
 pytestmark = pytest.mark.ros
 
@@ -35,7 +36,7 @@ def soak(
         world = World(agent, domain, seconds, min(seconds / 2, 10), sleeping)
         try:
             world.run([Place(number, world) for number in range(places)])
-            end = time.monotonic() + 60 + timeout_s
+            end = deadline(60) + timeout_s
             while nodes := [name for name in peer.nodes() if name.startswith("/soak/node_")]:
                 assert time.monotonic() < end, f"still in the graph: {nodes}"
                 time.sleep(0.2)
@@ -49,7 +50,7 @@ def soak(
             )
             peer.close()
         agent.process.terminate()
-        assert agent.process.wait(timeout=60) == 0
+        assert agent.process.wait(timeout=patience.seconds(60)) == 0
         events = agent.events()
     (stopped,) = (event for event in events if event["event"] == "stopped")
     for event in events:

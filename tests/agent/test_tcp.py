@@ -26,6 +26,7 @@ from tests.support.agent.fakes import Bench
 from tests.support.agent.served import Served, wait_until
 from tests.support.agent.tcp_agent import _received, tcp
 from tests.support.agent.tcp_link import TcpLink
+from tests.support.patience import seconds
 
 CREATE_CLIENT = bytes.fromhex(captured.CREATE_CLIENT)
 STATUS_AGENT = bytes.fromhex("81000000 04010b00 0000 58524345 0100 010f 00".replace(" ", ""))
@@ -133,7 +134,7 @@ def test_a_slow_reader_holds_up_nobody() -> None:
         slow = TcpLink("127.0.0.1", transport.port)
         slow.send(CREATE_CLIENT)
         ping = bytes.fromhex("8100000002010800000afffd02000000")
-        slow.socket.settimeout(20)
+        slow.socket.settimeout(seconds(20))
         batch = (len(ping).to_bytes(2, "little") + ping) * 500
 
         def too_much() -> bool:
@@ -258,7 +259,9 @@ def test_a_flood_of_connections() -> None:
 
 def from_host(host: str, transport: Tcp) -> socket.socket:
     """Return a connection from an address of this machine."""
-    return socket.create_connection(("127.0.0.1", transport.port), timeout=10, source_address=(host, 0))
+    return socket.create_connection(
+        ("127.0.0.1", transport.port), timeout=seconds(10), source_address=(host, 0)
+    )
 
 
 def test_half_open_connections_keep_nobody_waiting() -> None:

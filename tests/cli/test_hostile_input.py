@@ -31,6 +31,7 @@ from microros_gen.selection.component_file import parse_component
 from microros_gen.selection.profile_file import parse_profile
 from tests.support.command_line import Runner
 from tests.support.paths import ROOT
+from tests.support.patience import seconds
 
 MUTATIONS = int(os.environ.get("MUTATIONS", "60"))  # of each seed; thousands by hand
 
@@ -167,7 +168,9 @@ def test_only_regular_files_of_a_bounded_size_are_read(folder: Path, aim: str, p
     else:
         (folder / place).symlink_to(aim)
     command = [sys.executable, "-m", "microros_gen", "generate", "--interface-path", "p", "-o", "out"]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run(
+        command, cwd=folder, capture_output=True, text=True, timeout=seconds(60), check=False
+    )
     if place == "p/package.xml":  # its folder's name is taken then
         assert done.returncode == 0, done.stderr
     else:

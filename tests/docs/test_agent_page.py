@@ -29,6 +29,7 @@ from microros_gen.agent.transport.tcp import TcpLimits
 from microros_gen.cli.agent.command import command
 from microros_gen.diagnostics import Diagnostics, Source
 from tests.support.paths import ROOT
+from tests.support.patience import seconds
 
 PAGE = (ROOT / "docs/howto/agent.md").read_text(encoding="utf-8")
 AGENT = ROOT / "microros_gen/agent"
@@ -78,7 +79,7 @@ def test_the_commands_run(line: str, tmp_path: Path) -> None:
     first = agent.stdout.readline()
     time.sleep(0.3)
     agent.terminate()
-    out, errors = agent.communicate(timeout=15)
+    out, errors = agent.communicate(timeout=seconds(15))
     assert agent.returncode == 0, errors
     assert "ready" in first + out
     assert "agent stopped" in errors

@@ -24,6 +24,7 @@ from microros_gen.platform.find import read_target
 from tests.support.agent.observer import Observer, observing
 from tests.support.agent.process import own_domain, running_agent
 from tests.support.console import ROOT
+from tests.support.patience import deadline
 
 BOARDS = ROOT / "examples" / "boards"
 STAND_INS = Path(__file__).parent / "stand_ins"
@@ -102,7 +103,7 @@ def test_the_library_compiles_for_the_processor(board: str, tmp_path: Path) -> N
 def counts(observer: Observer) -> None:
     """Wait until six samples came, each one more than the one before."""
     seen: list[int] = []
-    end = time.monotonic() + 60
+    end = deadline(60)
     while len(seen) < 6:
         assert time.monotonic() < end, seen
         seen += [value["data"] for topic, value in observer.ask(do="samples") if topic == "/count"]

@@ -17,6 +17,7 @@ from tests.support.e2e.images import Image, Images, run
 from tests.support.e2e.live import Live, Sample
 from tests.support.e2e.relay import Relay, rough
 from tests.support.e2e.udp_agent import serving
+from tests.support.patience import deadline, seconds
 from tests.support.runtime.fake_agent import FakeAgent
 
 # What a publish that waits for nothing takes, microseconds: nearly always, and when the machine is busy.
@@ -137,7 +138,7 @@ def test_an_agent_without_room(images: Images, pool_image: Image, domain: int) -
             f"the agent at 127.0.0.1:{agent.port} refuses the session: RESOURCES",
         )
         first.ok("close")
-        end = time.monotonic() + 10  # what a client had is taken down in turns, and its place with it
+        end = deadline(10)  # what a client had is taken down in turns, and its place with it
         while (answer := second.call(f"open 2 {agent.port}")).code != 0 and time.monotonic() < end:
             assert "RESOURCES" in answer.text
         assert answer.code == 0, answer.text
@@ -261,7 +262,7 @@ def test_a_rough_network(
 
 def live_until_heard(live: Live, observer: Observer, topic: str) -> None:
     """Publish -1 until the subscription is there, and take away what came."""
-    end = time.monotonic() + 15
+    end = deadline(15)
     while not any(name == topic for name, _ in observer.ask(do="samples")):
         assert time.monotonic() < end, f"the subscription on {topic} gets nothing"
         live.call("publish 0 -1")  # the stream may be full while the agent is busy
@@ -273,7 +274,7 @@ def live_until_heard(live: Live, observer: Observer, topic: str) -> None:
 
 def publish_all(live: Live, values: range) -> list[int]:
     """Publish each value, again while the stream is full; return them."""
-    end = time.monotonic() + 10
+    end = deadline(10)
     for value in values:
         while live.call(f"publish 0 {value}").code != 0:
             assert time.monotonic() < end, f"the stream stays full at {value}"
@@ -283,7 +284,7 @@ def publish_all(live: Live, values: range) -> list[int]:
 def collect(observer: Observer, topic: str, last: int, timeout_s: float = 15.0) -> dict[str, list[int]]:
     """Take samples until `last` comes on `topic`, and what comes within a moment after; values by topic."""
     found: dict[str, list[int]] = {topic: []}
-    end = time.monotonic() + timeout_s
+    end = deadline(timeout_s)
     while last not in found[topic]:
         assert time.monotonic() < end, f"{last} does not come on {topic}: {found[topic][-3:]}"
         for name, value in observer.ask(do="samples"):
@@ -354,7 +355,7 @@ def test_a_killed_agent_comes_back(
             live.ok(f"publisher 1 0 Int32 {topic} best_effort")
             live_until_heard(live, observer, topic)
             agent.process.send_signal(signal.SIGKILL)
-            agent.process.wait(timeout=10)
+            agent.process.wait(timeout=seconds(10))
         live.begin("burst 1 1000 100 5")  # nobody listens
         with running_agent(domain, "--domain", str(domain)) as agent:
             relay.connect(agent.port)
@@ -381,7 +382,7 @@ def stays_lost(live: Live) -> None:
 
 def comes_back(live: Live, observer: Observer, topic: str, timeout_s: float = 15.0) -> None:
     """Publish until samples arrive again."""
-    end = time.monotonic() + timeout_s
+    end = deadline(timeout_s)
     value = 5000
     while not any(v["data"] >= 5000 for name, v in observer.ask(do="samples") if name == topic):
         assert time.monotonic() < end, f"no sample arrives: {live.statistics()}"

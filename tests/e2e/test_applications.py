@@ -18,6 +18,7 @@ from tests.support.e2e.images import C_FILES, Image, Images, started
 from tests.support.e2e.live import Live
 from tests.support.e2e.relay import Relay
 from tests.support.e2e.udp_agent import serving
+from tests.support.patience import seconds
 from tests.support.runtime.fake_agent import FakeAgent
 
 STRICT_CPP = ("-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Werror")
@@ -246,10 +247,10 @@ def test_the_usual_reconnecting_sender(
                 assert values == sorted(set(values))  # DDS may lose one on a busy machine: best effort
                 last = values[-1]
                 agent.process.send_signal(signal.SIGKILL)
-                agent.process.wait(timeout=10)
+                agent.process.wait(timeout=seconds(10))
             time.sleep(0.7)
             observer.ask(do="samples")  # the last of the killed agent
         process.kill()
-        out, errors = process.communicate(timeout=10)
+        out, errors = process.communicate(timeout=seconds(10))
     assert out.split()[:3] == ["connected", "disconnected", "connected"]
     assert errors == ""

@@ -17,6 +17,7 @@ from tests.support.agent.observer import Observer
 from tests.support.agent.process import AgentProcess
 from tests.support.e2e.images import C_FILES, Images, ends_well, started
 from tests.support.e2e.relay import Relay
+from tests.support.patience import deadline
 
 pytestmark = pytest.mark.ros
 
@@ -82,7 +83,7 @@ def simulation(observer: Observer, program: Path) -> Iterator[tuple[Simulation, 
     with started(program, str(END_S)) as process:
         simulated = Simulation(observer, process)
         simulated.heard("now 0")
-        end = time.monotonic() + 15
+        end = deadline(15)
         while not observer.ask(do="matched", topic="/clock"):
             assert time.monotonic() < end, "nobody subscribes to /clock"
             time.sleep(0.05)

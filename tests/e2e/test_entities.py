@@ -16,6 +16,7 @@ from tests.support.agent.process import running_agent
 from tests.support.e2e.images import QUICK, Image, Images, ends_well, kill, started
 from tests.support.e2e.programs import run_to, until
 from tests.support.e2e.relay import Relay
+from tests.support.patience import deadline
 
 pytestmark = pytest.mark.ros
 
@@ -86,7 +87,7 @@ def is_there(graph: dict[str, Any], name: str) -> bool:
 def takes_samples(observer: Observer, topics: list[str], timeout_s: float = 25.0) -> dict[str, list[int]]:
     """Return the next samples, at least five of each topic."""
     found: dict[str, list[int]] = {topic: [] for topic in topics}
-    end = time.monotonic() + timeout_s
+    end = deadline(timeout_s)
     while min(map(len, found.values())) < 5:
         assert time.monotonic() < end, found
         for name, value in observer.ask(do="samples"):

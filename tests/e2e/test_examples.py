@@ -15,6 +15,7 @@ from tests.support.agent.observer import Observer
 from tests.support.agent.process import AgentProcess, running_agent
 from tests.support.e2e.examples import NAMES, PAGE, Example, Examples, commands
 from tests.support.e2e.relay import Relay
+from tests.support.patience import deadline, seconds
 
 pytestmark = pytest.mark.ros
 
@@ -40,7 +41,7 @@ def fresh(observer: Observer) -> Iterator[Observer]:
 
 def collect(observer: Observer, found: Samples, wanted: Mapping[str, int]) -> None:
     """Add samples to `found` until each topic of `wanted` has as many."""
-    end = time.monotonic() + 30
+    end = deadline(30)
     while any(len(found.setdefault(topic, [])) < count for topic, count in wanted.items()):
         assert time.monotonic() < end, f"of {wanted}: { {t: len(v) for t, v in found.items()} }"
         for topic, value in observer.ask(do="samples"):
@@ -65,7 +66,7 @@ def say(observer: Observer, topic: str, type_name: str, *values: Mapping[str, An
 
 def meet(observer: Observer, heard: Mapping[str, int], node: str, *topics: str) -> None:
     """Wait until as many subscriptions as in `heard` are there, and the publishers of `node` on `topics`."""
-    end = time.monotonic() + 30
+    end = deadline(30)
     while any(observer.ask(do="matched", topic=topic) < count for topic, count in heard.items()):
         assert time.monotonic() < end, f"nobody subscribes to one of {list(heard)}"
         time.sleep(0.05)
@@ -197,7 +198,7 @@ def test_services(examples: Examples, agent: AgentProcess, observer: Observer) -
         observer.ask(do="ask_sums", service="/add_two_ints", pairs=pairs)
         for _ in pairs:
             server.wait_for("=")
-        end = time.monotonic() + 30
+        end = deadline(30)
         while None in (sums := observer.ask(do="sums")):
             assert time.monotonic() < end, sums
             time.sleep(0.02)
@@ -205,7 +206,7 @@ def test_services(examples: Examples, agent: AgentProcess, observer: Observer) -
     assert server.log == [f"{a} + {b} = {a + b}" for a, b in pairs]
     observer.ask(do="add", service="/add_two_ints")
     with examples.running("add_two_ints_client") as (client,):
-        client.process.wait(timeout=30)
+        client.process.wait(timeout=seconds(30))
     observer.ask(do="add", service="/add_two_ints", ends=True)
     assert sorted(client.log) == ["1 + 10 = 11", "2 + 20 = 22", "3 + 30 = 33"]
 

@@ -12,6 +12,7 @@ from tests.support.agent.observer import Observer
 from tests.support.agent.process import AgentProcess
 from tests.support.e2e.images import SANITIZE, Images, started
 from tests.support.e2e.relay import Relay
+from tests.support.patience import deadline, seconds
 
 pytestmark = pytest.mark.ros
 
@@ -43,7 +44,7 @@ def test_declared_timers_publish_and_callbacks_take(
     image = images.build(image_port.port, APPLICATION, "gcc", (*SANITIZE, *WARNINGS))
     observer.subscribe(COUNT, "std_msgs/msg/UInt32")
     observer.ask(do="publish", topic=ORDER, type="std_msgs/msg/Int32", values=[])
-    end = time.monotonic() + 40
+    end = deadline(40)
     wanted = {"order: 7", "request of power", "reply of power"}
     with started(image.out / "bin" / "pure_sender+pure_reader") as process:
         while not observer.ask(do="matched", topic=ORDER):
@@ -58,6 +59,6 @@ def test_declared_timers_publish_and_callbacks_take(
                 break
             assert time.monotonic() < end, f"not seen: {wanted}"
         process.terminate()
-        _, errors = process.communicate(timeout=15)
+        _, errors = process.communicate(timeout=seconds(15))
     assert (wanted, errors) == (set(), "")
     assert all(former < later for former, later in pairwise(counts))

@@ -13,6 +13,7 @@ from tests.support.agent.observer import Observer
 from tests.support.agent.process import AgentProcess
 from tests.support.e2e.images import C_FILES, SANITIZE, Images
 from tests.support.e2e.relay import Fault, Relay, no_fault
+from tests.support.patience import deadline, seconds
 
 pytestmark = pytest.mark.ros
 
@@ -77,12 +78,12 @@ def test_large_messages_arrive_whole(
     )
     assert running.stdin is not None
     found: list[str] = []
-    end = time.monotonic() + 30
+    end = deadline(30)
     while len(found) < SAMPLES and time.monotonic() < end and running.poll() is None:
         found += [value["data"] for topic, value in observer.ask(do="samples") if topic == f"/{name}/blob"]
         time.sleep(0.02)
     relay.fault = no_fault
-    out, errors = running.communicate("\n", timeout=30)
+    out, errors = running.communicate("\n", timeout=seconds(30))
     assert (running.returncode, errors) == (0, "")
     assert found == [text(i) for i in range(SAMPLES)]
     sent, resent = map(int, out.split())

@@ -16,6 +16,7 @@ from tests.support.agent.process import AgentProcess, running_agent
 from tests.support.e2e.images import C_FILES, QUICK, Images, started
 from tests.support.e2e.line_relay import LineRelay
 from tests.support.e2e.relay import Relay, cutting, lossy
+from tests.support.patience import deadline, seconds
 
 pytestmark = pytest.mark.ros
 
@@ -42,7 +43,7 @@ def begin(observer: Observer) -> None:
     if not any(end["kind"] == "SUBSCRIPTION" for end in observer.ask(do="endpoints", topic="/echo_out")):
         observer.subscribe("/echo_out", "std_msgs/msg/Int32")
     observer.ask(do="publish", topic="/echo_in", type="std_msgs/msg/Int32", values=[])
-    end = time.monotonic() + 30
+    end = deadline(30)
     while observer.ask(do="matched", topic="/echo_in"):
         assert time.monotonic() < end, "another device is still there"
         time.sleep(0.1)
@@ -53,7 +54,7 @@ def echo(observer: Observer, program: Path, count: int, timeout_s: float) -> dic
     """Send `count` samples through the device; return what it counted. AssertionError unless all come back in order."""
     begin(observer)
     came: list[int] = []
-    sent, end, began = 0, time.monotonic() + timeout_s, time.monotonic()
+    sent, end, began = 0, deadline(timeout_s), time.monotonic()
     with started(program, str(count - 1)) as process:
         while not observer.ask(do="matched", topic="/echo_in"):
             assert time.monotonic() < end, "the device has not come"
@@ -71,7 +72,7 @@ def echo(observer: Observer, program: Path, count: int, timeout_s: float) -> dic
             came += [value["data"] for topic, value in observer.ask(do="samples") if topic == "/echo_out"]
             assert came == list(range(len(came))), f"after {time.monotonic() - began:.0f} s: {came[-20:]}"
             assert time.monotonic() < end, f"{len(came)} of {count} after {timeout_s} s"
-        out, errors = process.communicate(timeout=60)
+        out, errors = process.communicate(timeout=seconds(60))
     assert (process.returncode, errors) == (0, "")
     counted = {key: int(value) for key, value in (pair.split("=") for pair in out.split())}
     print(f"{count} samples in {time.monotonic() - began:.0f} s: {counted}")

@@ -12,6 +12,7 @@ from tests.support.agent.observer import Observer
 from tests.support.agent.process import AgentProcess
 from tests.support.e2e.images import C_FILES, SANITIZE, Images, ends_well, started
 from tests.support.e2e.relay import Relay
+from tests.support.patience import deadline
 
 pytestmark = pytest.mark.ros
 
@@ -98,7 +99,7 @@ def test_strings_of_services_reach_rclpy_and_come_from_it(
         assert process.stdout.readline() == "reply: ONE  A NAME OF 17 BYTE\n", process.communicate()
         observer.ask(do="call_names", service="/names", prefixes=["x", "", "seventeen letters", "last"])
         ends_well(process)
-    end = time.monotonic() + 15
+    end = deadline(15)
     while (found := observer.ask(do="names")) is None:
         assert time.monotonic() < end, "no reply"
         time.sleep(0.02)

@@ -10,6 +10,7 @@ import pytest
 from tests.support.agent.observer import Observer
 from tests.support.agent.process import AgentProcess
 from tests.support.e2e.images import QUICK, Images, started
+from tests.support.patience import deadline
 
 pytestmark = pytest.mark.ros
 
@@ -32,7 +33,7 @@ FOREVER = 2**63 - 1
 
 def endpoint(observer: Observer, topic: str) -> tuple[object, ...]:
     """Return what ROS 2 says of the one endpoint of a topic, as soon as there is one."""
-    end = time.monotonic() + 15
+    end = deadline(15)
     while not (found := observer.ask(do="endpoints", topic=topic)):
         assert time.monotonic() < end, f"nothing on {topic}"
         time.sleep(0.05)

@@ -21,6 +21,7 @@ from tests.support.agent.process import environment
 from tests.support.e2e.images import QUICK, Image, Images, run
 from tests.support.e2e.relay import Relay
 from tests.support.paths import ROOT
+from tests.support.patience import seconds
 
 RUN = [sys.executable, "-m", "microros_gen", "run"]
 DECLARED = """\
@@ -69,7 +70,7 @@ def running(domain: int, *arguments: str) -> Iterator[subprocess.Popen[str]]:
     finally:
         if process.poll() is None:
             os.killpg(process.pid, signal.SIGKILL)
-        process.communicate(timeout=10)
+        process.communicate(timeout=seconds(10))
 
 
 def is_free(port: int) -> bool:
@@ -100,7 +101,7 @@ def test_run_ends_with_a_signal(image: Image, port: int, domain: int, way: str) 
             os.killpg(process.pid, signal.SIGINT)
         else:
             process.send_signal(signal.SIGTERM)
-        out, rest = process.communicate(timeout=15)
+        out, rest = process.communicate(timeout=seconds(15))
         assert process.returncode == 0, rest
         assert out == f"agent ready: udp4 127.0.0.1:{port}\n"
         assert "Traceback" not in rest
@@ -115,7 +116,7 @@ def test_run_ends_with_a_signal_while_it_starts(image: Image, port: int, domain:
     with running(domain, str(image.out)) as process:
         time.sleep(delay_s)
         process.send_signal(signal.SIGTERM)
-        _, errors = process.communicate(timeout=15)
+        _, errors = process.communicate(timeout=seconds(15))
         assert process.returncode in (0, -signal.SIGTERM), errors  # the latter: Python had not begun yet
         assert "Traceback" not in errors
         assert group_is_gone(process.pid)
@@ -125,7 +126,7 @@ def test_run_ends_with_a_signal_while_it_starts(image: Image, port: int, domain:
 @pytest.mark.ros
 def test_run_has_the_status_of_the_image(short_image: Image, domain: int) -> None:
     with running(domain, str(short_image.out)) as process:
-        _, errors = process.communicate(timeout=20)
+        _, errors = process.communicate(timeout=seconds(20))
         assert process.returncode == 0, errors
         assert "agent stopped: 5 samples" in errors
     alone = run([*RUN, "--no-agent", str(short_image.out)], env=environment(domain))

@@ -13,6 +13,7 @@ from tests.support.agent.observer import Observer
 from tests.support.agent.process import AgentProcess
 from tests.support.e2e.images import C_FILES, SANITIZE, Images, started
 from tests.support.e2e.relay import Relay
+from tests.support.patience import deadline, seconds
 
 pytestmark = pytest.mark.ros
 
@@ -35,7 +36,7 @@ def publish(observer: Observer, topic: str, type_name: str, *values: object) -> 
 
 
 def await_match(observer: Observer, topic: str) -> None:
-    end = time.monotonic() + 15
+    end = deadline(15)
     while not observer.ask(do="matched", topic=topic):
         assert time.monotonic() < end, f"nobody subscribes to {topic}"
         time.sleep(0.05)
@@ -63,7 +64,7 @@ def test_rclpy_publishes_and_the_client_takes(
         time.sleep(0.3)
         for value in range(0, LAST + 1, 50):
             publish(observer, "/numbers", "std_msgs/msg/Int32", *range(value, min(value + 50, LAST + 1)))
-        out, errors = process.communicate(timeout=30)
+        out, errors = process.communicate(timeout=seconds(30))
     assert (process.returncode, errors) == (0, "")
     lines = out.splitlines()
     assert [line for line in lines if line.startswith("number")] == [f"number {i}" for i in range(LAST + 1)]

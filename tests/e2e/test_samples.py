@@ -16,6 +16,7 @@ from tests.support.agent.process import AgentProcess
 from tests.support.e2e.images import DECLARED, SANITIZE, Image, Images, ends_well, kill, started
 from tests.support.e2e.programs import run_to, until
 from tests.support.e2e.relay import Relay
+from tests.support.patience import seconds
 
 pytestmark = pytest.mark.ros
 
@@ -77,7 +78,7 @@ def test_what_every_compiler_makes(
         found = until(observer, [*(f"/{name}/count" for name in built)], SAMPLES - 1)
         for process in processes[1:]:
             ends_well(process)
-        _, refused = processes[0].communicate(timeout=15)
+        _, refused = processes[0].communicate(timeout=seconds(15))
     for topic, value in observer.ask(do="samples"):
         found.setdefault(topic, []).append(value)
     assert graph["nodes"].count("/pure_sender") == 1

@@ -16,6 +16,7 @@ from tests.support.agent.process import AgentProcess, running_agent
 from tests.support.e2e.images import C_FILES, QUICK, SANITIZE, Images, started
 from tests.support.e2e.relay import Relay
 from tests.support.e2e.serving import await_line, await_replies
+from tests.support.patience import seconds
 
 pytestmark = pytest.mark.ros
 
@@ -56,7 +57,7 @@ def call(program: Path, observer: Observer) -> None:
         assert "names[]: 13, capacity for 8" in refused
         observer.ask(do="call", service="/arm/lengths", type=TYPE, names=[["short"]])
         assert await_replies(observer) == [[5]]
-        out, errors = process.communicate(timeout=15)
+        out, errors = process.communicate(timeout=seconds(15))
     assert (process.returncode, errors) == (0, ""), out
 
 
@@ -68,7 +69,7 @@ def answer(program: Path, observer: Observer) -> None:
         try:
             await_line(process, "ready")
             time.sleep(1)  # services are not among the topics of the graph: discovery has had a second
-            out, errors = process.communicate("\n", timeout=20)
+            out, errors = process.communicate("\n", timeout=seconds(20))
         finally:
             process.kill()
             observer.ask(do="stop_serving")

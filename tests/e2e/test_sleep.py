@@ -12,6 +12,7 @@ from tests.support.agent.observer import Observer
 from tests.support.agent.process import running_agent
 from tests.support.e2e.images import C_FILES, SANITIZE, Images, run
 from tests.support.e2e.relay import Relay
+from tests.support.patience import deadline
 
 pytestmark = pytest.mark.ros
 
@@ -42,7 +43,7 @@ def test_samples_go_on_over_sleeps(
         relay.connect(agent.port)
         first = run([str(program), str(memory), "0", "0", "0"])
         assert (first.returncode, first.stdout.split()) == (0, ["cold", "ready"]), first.stderr
-        end = time.monotonic() + 20
+        end = deadline(20)
         while not observer.ask(do="matched", topic="/sleep_in"):
             assert time.monotonic() < end
             time.sleep(0.05)

@@ -17,6 +17,7 @@ from tests.support.e2e.images import C_FILES, QUICK, Images, started
 from tests.support.e2e.line_relay import LineRelay
 from tests.support.e2e.relay import Relay
 from tests.support.e2e.serving import await_line
+from tests.support.patience import deadline, seconds
 
 pytestmark = pytest.mark.ros
 
@@ -55,13 +56,13 @@ def exchange(observer: Observer, program: Path, timeout_s: float, how: str) -> d
         values = [{"data": value} for value in SAMPLES]
         observer.ask(do="publish", topic="/slow_in", type="std_msgs/msg/Int32", values=values)
         observer.ask(do="ask_sums", service="/slow_sum", pairs=SUMS)
-        out, errors = process.communicate(timeout=timeout_s)
+        out, errors = process.communicate(timeout=seconds(timeout_s))
     assert (process.returncode, errors) == (0, ""), out
     *replies, counted = out.splitlines()
     print(f"{time.monotonic() - began:.0f} s: {counted}")
     assert replies == ["sum 11", "sum 22"], "what rclpy answered"
     came: list[int] = []
-    end = time.monotonic() + 20
+    end = deadline(20)
     while len(came) < len(SAMPLES) or None in observer.ask(do="sums"):
         assert time.monotonic() < end, (came, observer.ask(do="sums"))
         came += [value["data"] for topic, value in observer.ask(do="samples") if topic == "/slow_out"]

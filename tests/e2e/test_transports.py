@@ -13,6 +13,7 @@ from tests.support.agent.observer import Observer
 from tests.support.agent.process import running_agent
 from tests.support.e2e.images import QUICK, Images, ends_well, started
 from tests.support.e2e.programs import run_to, until
+from tests.support.patience import seconds
 
 pytestmark = pytest.mark.ros
 
@@ -53,7 +54,7 @@ def test_functions_of_an_application(
         observer.subscribe(f"/custom_{way}", "std_msgs/msg/Int32")
         with started(program, way, str(agent.port) if way == "udp" else agent.device) as running:
             samples = until(observer, [f"/custom_{way}"], LAST)
-            running.communicate(timeout=15)
+            running.communicate(timeout=seconds(15))
             assert running.returncode == 0
     run_to(LAST, [sample["data"] for sample in samples[f"/custom_{way}"]])
 
@@ -81,7 +82,7 @@ def test_tcp_and_an_agent_that_starts_anew(images: Images, observer: Observer, d
         agent.stop()
         with running_agent(domain, "--domain", str(domain), transport=where):
             samples = until(observer, ["/tcp"], 4 * LAST - 1)
-            running.communicate(timeout=15)
+            running.communicate(timeout=seconds(15))
     values = [sample["data"] for sample in samples["/tcp"]]
     assert values == sorted(values)
     shutil.rmtree(image.out.parent)  # its port is this test's
@@ -104,7 +105,7 @@ def test_an_agent_that_is_searched_for(images: Images, observer: Observer, domai
         agent.stop()
         with running_agent(domain, *options):
             samples = until(observer, ["/found"], 4 * LAST - 1)
-            running.communicate(timeout=15)
+            running.communicate(timeout=seconds(15))
     values = [sample["data"] for sample in samples["/found"]]
     assert values == sorted(values)
     shutil.rmtree(image.out.parent)  # its port is this test's

@@ -10,6 +10,7 @@ import pytest
 
 from tests.support.firmware.board import BOARDS, Builds, board, report
 from tests.support.firmware.line import Relay, noisy, open_raw, scripted_agent
+from tests.support.patience import seconds
 from tests.support.runtime.fake_agent import FakeAgent
 
 FAULTS = {
@@ -100,7 +101,7 @@ def test_a_main_that_returns_restarts_the_board_until_there_is_an_agent(builds: 
             running.wait_for(lambda: agent.values())
     with board(built) as running:
         running.go_on()
-        assert running.process.wait(timeout=20) == 0
+        assert running.process.wait(timeout=seconds(20)) == 0
 
 
 @pytest.mark.parametrize("loop", ["keeps the session", "begins anew"])

@@ -13,6 +13,7 @@ from tests.support.e2e.serving import await_replies
 from tests.support.firmware.board import Builds, board, need
 from tests.support.firmware.everything import APPLICATION
 from tests.support.firmware.running import BOARD, started
+from tests.support.patience import deadline
 
 TYPE = "rcl_interfaces/srv/GetParameterTypes"
 TOPICS = ("/ticks", "/seen")
@@ -90,7 +91,7 @@ def _ticks(observer: Observer) -> list[int]:
 def _until(observer: Observer, ros_time: RosTime, last: int) -> dict[str, list[int]]:
     """Return what comes on both topics while time goes on, until `last` has been seen."""
     found: dict[str, list[int]] = {topic: [] for topic in TOPICS}
-    end = time.monotonic() + 30
+    end = deadline(30)
     while last not in found["/seen"]:
         assert time.monotonic() < end, found
         for topic, value in observer.ask(do="samples"):
@@ -105,7 +106,7 @@ def _publish_when_heard(observer: Observer) -> None:
     """Publish VALUES on /set when the board's subscription is there."""
     where = {"topic": "/set", "type": "std_msgs/msg/Int32"}
     observer.ask(do="publish", values=[], **where)
-    end = time.monotonic() + 15
+    end = deadline(15)
     while not observer.ask(do="matched", topic="/set"):
         assert time.monotonic() < end, "nobody hears /set"
         time.sleep(0.02)

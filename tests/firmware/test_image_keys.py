@@ -15,6 +15,7 @@ from microros_gen.platform.find import read_target
 from tests.support.firmware.board import C_FILES, Built, board, build, check, need
 from tests.support.firmware.line import scripted_agent
 from tests.support.firmware.unneeded import NOT_NEEDED
+from tests.support.patience import deadline
 from tests.support.runtime.fake_agent import FakeAgent
 
 DMA, FAST, OFFSET = 0x21800000, 0x21000000, 0x10000
@@ -112,7 +113,7 @@ def test_printf_goes_where_the_target_file_says(tmp_path: Path, way: str) -> Non
             [emulator.program, *fixed, "-kernel", str(image)], stdout=file, stderr=subprocess.STDOUT
         )
         try:
-            end = time.monotonic() + (1.5 if way == "none" else 30)
+            end = time.monotonic() + 1.5 if way == "none" else deadline(30)
             found = uart if way == "uart" else printed
             while time.monotonic() < end and (not found.exists() or len(found.read_text()) < len(expected)):
                 time.sleep(0.05)

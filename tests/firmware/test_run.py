@@ -15,6 +15,7 @@ from tests.support.agent.observer import Observer
 from tests.support.firmware.board import Builds, board, build, need, report
 from tests.support.firmware.line import Relay, noisy
 from tests.support.firmware.running import BOARD, program, started
+from tests.support.patience import seconds
 
 
 def children(process: subprocess.Popen[str]) -> dict[str, int]:
@@ -138,7 +139,12 @@ def test_an_agent_that_cannot_start_ends_the_run(builds: Builds, tmp_path: Path)
     (tmp_path / "rclpy.py").write_text("raise ImportError('none here')\n")
     env = {**os.environ, "PYTHONPATH": str(tmp_path)}
     done = subprocess.run(
-        program("run", str(built.out)), env=env, text=True, capture_output=True, check=False, timeout=30
+        program("run", str(built.out)),
+        env=env,
+        text=True,
+        capture_output=True,
+        check=False,
+        timeout=seconds(30),
     )
     assert done.returncode == 1
     assert "the agent did not start" in done.stderr

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.patience import seconds
 from tests.support.plans import EXECUTOR, changed
 from tests.support.runtime.harness import build, components, render
 from tests.support.runtime.reading_agent import ReadingAgent
@@ -57,7 +58,7 @@ def test_calls_without_a_time_out(read_polls: bool, framing: str, tmp_path: Path
     program = build(tree, ["types_read.c", "custom_wait.c"], "custom_wait")
     with serving(ReadingAgent()) as (served, _):
         command = [program, str(served.getsockname()[1]), "polls"]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=seconds(60), check=True)
     reads, longest_ms, acknowledged = map(int, done.stdout.split())
     assert acknowledged == 1
     assert longest_ms == (0 if read_polls else 1), "1: functions for micro-ROS may wait for ever with 0"
@@ -83,7 +84,7 @@ def test_the_processor_rests(framing: str, tmp_path: Path) -> None:
         for answer in agent.numbers(plan.entities.publisher_places, 7):
             served.sendto(answer, peers[-1])
         came = float(process.stdout.readline())
-        assert process.wait(timeout=20) == 0
+        assert process.wait(timeout=seconds(20)) == 0
     assert took_ms >= 999
     assert reads <= 250, "two for each rest of 10 ms"
     assert busy_ms < took_ms / 3

@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from microros_gen.client.plan.slices import DISCOVERY_GROUP
+from tests.support.patience import seconds
 from tests.support.plans import POOL, changed
 from tests.support.runtime.discovery import info, locator
 from tests.support.runtime.harness import build, components, render
@@ -43,7 +44,7 @@ class Group(threading.Thread):
         self.socket.bind((DISCOVERY_GROUP, 0))
         member = socket.inet_aton(DISCOVERY_GROUP) + socket.inet_aton("127.0.0.1")
         self.socket.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, member)
-        self.socket.settimeout(20.0)
+        self.socket.settimeout(seconds(20.0))
         self.port: int = self.socket.getsockname()[1]
 
     def run(self) -> None:
@@ -72,7 +73,7 @@ def answering(answers: Answers) -> Iterator[Group]:
 def run(group: Group, folder: Path, **changes: object) -> subprocess.CompletedProcess[str]:
     plan = changed(PLAN, transport__agent_port=group.port, transport__discovery_port=group.port, **changes)
     program = build(render(folder, plan, components(plan)), ["types.c", "udp.c"], "udp")
-    return subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+    return subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
 
 
 def udp_agent() -> UdpAgent:

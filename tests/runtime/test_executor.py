@@ -10,6 +10,7 @@ import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan, TimerPlan
+from tests.support.patience import seconds
 from tests.support.plans import EXECUTOR, ROS_TIME, changed
 from tests.support.runtime.harness import SANITIZE, Tree, build, compilers, components, render
 
@@ -62,7 +63,7 @@ def _run(unit: str, plan: RuntimePlan, compiler: str, flags: tuple[str, ...], tm
     tree = render(tmp_path, plan, names)
     fixtures = ["port_agent.c", "types_read.c", *(["types_clock.c"] if plan.clock.has_ros_time else []), unit]
     program = build(tree, fixtures, "unit", compiler, flags)
-    done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
     assert done.returncode == 0, done.stderr
 
 
@@ -71,5 +72,5 @@ def test_waiting_of_the_posix_port(tmp_path: Path) -> None:
     wanted = ("port_posix_wait.c", "port_posix_steady.c", "port_posix_timer.c")
     alone = Tree(tree.folder, tuple(s for s in tree.sources if s.name in wanted))
     program = build(alone, ["unit_wait.c"], "unit")
-    done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
     assert done.returncode == 0, done.stderr

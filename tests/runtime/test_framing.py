@@ -13,6 +13,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from microros_gen.selection.find_components import components_folder
+from tests.support.patience import seconds
 from tests.support.plans import POOL, changed
 from tests.support.runtime.frames import CLIENT, Event, crc16, events, frame, stuffed
 from tests.support.runtime.harness import FIXTURES, SANITIZE, Tree, compile_objects, components, link, render
@@ -58,7 +59,7 @@ class Framing:
         return word == "sent", bytes.fromhex(line)
 
     def end(self) -> None:
-        _, errors = self._process.communicate(timeout=20)
+        _, errors = self._process.communicate(timeout=seconds(20))
         assert (self._process.returncode, errors) == (0, "")
 
     def _say(self, line: str) -> None:

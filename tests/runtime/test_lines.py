@@ -17,6 +17,7 @@ import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import NodePlan, PublisherPlan
+from tests.support.patience import deadline, seconds
 from tests.support.plans import INT32, POOL, changed
 from tests.support.runtime.fake_agent import FakeAgent
 from tests.support.runtime.frames import AGENT, CLIENT, events, frame
@@ -76,7 +77,9 @@ def _program(tmp_path: Path, plan: RuntimePlan, source: str) -> Path:
 
 
 def _run(program: Path, arguments: Sequence[str] = ()) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([program, *arguments], capture_output=True, text=True, timeout=60, check=False)
+    return subprocess.run(
+        [program, *arguments], capture_output=True, text=True, timeout=seconds(60), check=False
+    )
 
 
 def _noise(seed: int) -> Callable[[bytes], bytes]:
@@ -195,7 +198,7 @@ def test_closing_lets_what_waits_for_the_line_leave(entities: str, goes_on: str,
 
 
 def _eventually(condition: Callable[[], bool]) -> None:
-    end = time.monotonic() + 20
+    end = deadline(20)
     while not condition():
         assert time.monotonic() < end
         time.sleep(0.01)

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
+from tests.support.patience import seconds
 from tests.support.plans import POOL, changed
 from tests.support.runtime.harness import build, components, render
 from tests.support.runtime.tcp import Sender, TcpAgent, framed, serving, together
@@ -41,7 +42,7 @@ def with_rubbish(peer: socket.socket, answers: list[bytes]) -> None:
 def run(plan: RuntimePlan, folder: Path) -> subprocess.CompletedProcess[str]:
     """Run c/udp.c, which publishes 0 to 99 over whatever transport there is, with sanitizers."""
     program = build(render(folder, plan, components(plan)), ["types.c", "udp.c"], "udp")
-    return subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+    return subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
 
 
 @pytest.mark.parametrize(
@@ -68,7 +69,7 @@ def test_a_closed_connection_is_opened_again(
         plan = changed(plan, transport__agent_port=agent.port)
         tree = render(tmp_path, plan, components(plan, liveliness))
         program = build(tree, ["types.c", "udp.c"], "udp")
-        done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+        done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
     assert (done.returncode, done.stderr) == (0, ""), done.stdout
     assert agent.connections == 1 + len(close_at)
     values = agent.agent.values()
@@ -83,7 +84,7 @@ def test_a_connection_that_breaks_is_told_as_such(tmp_path: Path) -> None:
         plan = changed(plan, transport__agent_port=agent.port)
         tree = render(tmp_path, plan, components(plan))
         program = build(tree, ["types.c", "watched.c"], "watched")
-        done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+        done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
     assert (done.returncode, done.stderr) == (0, "")
     connecting, connected, lost, reconnecting, closed = "1 0", "2 0", "3 4", "4 0", "0 0"
     assert done.stdout.splitlines() == [connecting, connected, lost, reconnecting, connected, closed]

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from microros_gen.client.plan.runtime_entities import QueuePlan
+from tests.support.patience import seconds
 from tests.support.plans import EXECUTOR, changed
 from tests.support.runtime.harness import build, components, render
 from tests.support.runtime.reading_agent import ReadingAgent
@@ -59,7 +60,7 @@ def test_nothing_is_lost_and_nothing_races(tmp_path: Path, queue: QueuePlan) -> 
         plan = changed(PLAN, transport__agent_port=served.getsockname()[1], input__queues=(queue,))
         tree = render(tmp_path, plan, components(plan))
         program = build(tree, ["types_read.c", "threads.c"], "threads", "gcc", THREAD_SANITIZER)
-        done = subprocess.run([program], capture_output=True, text=True, timeout=120, check=False)
+        done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(120), check=False)
     assert (done.returncode, done.stderr) == (0, "")
     for task in range(TASKS):
         values = agent.values(task if task < PUBLISHERS else 0)
@@ -71,5 +72,5 @@ def test_two_tasks_that_ask_for_agents_do_not_share_what_came(tmp_path: Path) ->
     plan = changed(EXECUTOR, session__multithread=True, transport__kind="custom", transport__framing="on")
     tree = render(tmp_path, plan, components(plan))
     program = build(tree, ["unit_inquiry.c"], "unit", "gcc", THREAD_SANITIZER)
-    done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
     assert (done.returncode, done.stderr) == (0, "")

@@ -13,6 +13,7 @@ import pytest
 from microros_gen.application.model import SessionTimes
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.session_times import plan_times
+from tests.support.patience import seconds
 from tests.support.plans import EXECUTOR, POOL, READER, changed
 from tests.support.runtime.bench import Bench
 from tests.support.runtime.driver import Client
@@ -193,7 +194,7 @@ def hour(plan: RuntimePlan, liveliness: str, folder: Path) -> tuple[int, int, li
     """Return how often a quiet node woke in an hour, then with the agent gone, and when it looked for the agent."""
     names = [name for name in components(plan, liveliness) if name != "port_posix"]
     program = build(render(folder, plan, names), ["port_agent.c", "types_read.c", "unit_wakes.c"], "wakes")
-    done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
     assert done.returncode == 0, done.stderr
     words = [line.split() for line in done.stdout.splitlines()]
     woke = [int(number) for word, number in words if word == "woke"]
@@ -235,5 +236,5 @@ def test_tasks_that_share_the_library_look_once_a_second(tmp_path: Path) -> None
     program = build(
         render(tmp_path, plan, names), ["port_agent.c", "types_read.c", "unit_wakes.c", "no_lock.c"], "w"
     )
-    done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
     assert int(done.stdout.split()[1]) <= 3601, done.stderr

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.patience import seconds
 from tests.support.plans import INT32, POOL, changed
 from tests.support.runtime.harness import build, components, render
 from tests.support.runtime.udp import UdpAgent
@@ -29,7 +30,7 @@ def test_publishes_over_a_real_socket(restarts: bool, tmp_path: Path) -> None:
         agent.before = lambda count: agent.agent.restart() if count == 12 else None
     agent.start()
     done = subprocess.run(
-        [_program(tmp_path, agent.port)], capture_output=True, text=True, timeout=60, check=False
+        [_program(tmp_path, agent.port)], capture_output=True, text=True, timeout=seconds(60), check=False
     )
     agent.socket.close()
     assert done.returncode == 0, done.stdout + done.stderr
@@ -46,7 +47,7 @@ def test_nobody_listens(tmp_path: Path) -> None:
         taken.bind(("127.0.0.1", 0))
         port = taken.getsockname()[1]
     done = subprocess.run(
-        [_program(tmp_path, port, 200)], capture_output=True, text=True, timeout=60, check=False
+        [_program(tmp_path, port, 200)], capture_output=True, text=True, timeout=seconds(60), check=False
     )
     assert done.returncode == 2
     assert done.stdout == f"no agent answers at 127.0.0.1:{port} within 200 ms\n"
@@ -63,7 +64,7 @@ def test_two_programs_on_one_machine_have_two_keys(tmp_path: Path) -> None:
     keys = []
     for _ in range(3):
         agent.agent.log.clear()
-        done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+        done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
         assert done.returncode == 0, done.stdout + done.stderr
         keys.append({datagram[16:20] for datagram in agent.agent.log if datagram[4] == 0})
     agent.socket.close()

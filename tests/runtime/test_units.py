@@ -11,6 +11,7 @@ import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.selection.find_components import parts_folder
+from tests.support.patience import seconds
 from tests.support.plans import POOL, changed
 from tests.support.runtime.harness import SANITIZE, Tree, build, compilers, components, render
 
@@ -32,7 +33,7 @@ def test_unit(unit: str, plan: RuntimePlan, flags: tuple[str, ...], tmp_path: Pa
     names = [name for name in components(plan) if name != "port_posix"]
     tree = render(tmp_path, plan, names)
     program = build(tree, ["port_fake.c", unit], "unit", flags=flags)
-    done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
     assert done.returncode == 0, done.stderr
 
 
@@ -61,7 +62,7 @@ def test_messages_that_the_line_does_not_copy(tmp_path: Path) -> None:
     shutil.copy(bare / "src" / "port_bare_serial.c", tree.include)
     (tree.include / "microros" / "port_board.h").write_text(BOARD)
     program = build(tree, ["port_fake.c", "unit_kept.c"], "unit")
-    done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
     assert done.returncode == 0, done.stderr
 
 
@@ -83,5 +84,5 @@ def test_reliable_input(slots: int, compiler: str, flags: tuple[str, ...], tmp_p
     tree = render(tmp_path, plan, components(plan))
     alone = Tree(tree.folder, tuple(s for s in tree.sources if s.parent.name == "stream_reliable_input"))
     program = build(alone, ["unit_input.c"], "unit", compiler, flags)
-    done = subprocess.run([program], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
     assert done.returncode == 0, done.stderr

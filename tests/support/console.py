@@ -25,6 +25,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tests.support.paths import ROOT
+from tests.support.patience import deadline, seconds
 
 SHELL = ("console", "sh")
 """Languages of blocks with commands; no other name for them is taken."""
@@ -145,7 +146,7 @@ class Terminal:
             capture_output=True,
             text=True,
             check=False,
-            timeout=300,
+            timeout=seconds(300),
         )
         fails = any("error: " in line for line in shown)
         assert (done.returncode != 0) is fails, f"$ {command}\n{done.stdout}{done.stderr}{self._others()}"
@@ -167,7 +168,7 @@ class Terminal:
         said: list[str] = []
         self._running.append((command, process, said))
         threading.Thread(target=_collect, args=(process, said), daemon=True).start()
-        end = time.monotonic() + _WAIT_S
+        end = deadline(_WAIT_S)
         while not shows(self._unmoved("".join(said)), shown, begun=True):
             assert time.monotonic() < end, f"$ {command} &\n{''.join(said)}"
             assert process.poll() is None, f"$ {command} & ended with {process.returncode}\n{''.join(said)}"

@@ -16,6 +16,7 @@ from microros_gen.agent.representation import Service
 from microros_gen.agent.ros.bridge import Bridge, GraphReport, HashOf, Source
 from microros_gen.agent.ros.rclpy_bridge import open_bridge
 from tests.support.agent.process import environment
+from tests.support.patience import deadline
 
 GET_TYPES = "rcl_interfaces/srv/GetParameterTypes"
 """A service that every rclpy has: a list of names, answered by as many bytes."""
@@ -42,7 +43,7 @@ class Bridged:
         timeout_s: float = 15.0,
     ) -> None:
         """Serve `sources` until `done`; only what the bridge names is looked at."""
-        end = time.monotonic() + timeout_s
+        end = deadline(timeout_s)
         while not done():
             assert time.monotonic() < end, f"not seen; reports: {[str(r) for r in self.reports]}"
             for source in self.named(0.05):

@@ -18,6 +18,7 @@ from microros_gen.agent.wire.message import Header, header_size, join, split
 from microros_gen.agent.wire.session_messages import CreateClient, GetInfo, Info, StatusAgent
 from microros_gen.agent.wire.submessages import Submessage, decode, encode
 from tests.support.agent.serial_link import SerialLink
+from tests.support.patience import deadline
 
 RELIABLE = 0x80
 BEST_EFFORT = 0x01
@@ -176,7 +177,7 @@ class XrceClient:
 
     def wait_until_subscribed(self, writer: int, body: bytes, observer: Subscriber, topic: str) -> None:
         """Send `body` until the observer's subscription gets it: discovery takes a moment."""
-        end = time.monotonic() + 15
+        end = deadline(15)
         while not any(name == topic for name, _ in observer.ask(do="samples")):
             assert time.monotonic() < end, f"the subscription on {topic} gets nothing"
             self.write(writer, body)
@@ -237,7 +238,7 @@ class XrceClient:
                 self.socket.send(message)
 
     def _wait_for(self, done, what: str, timeout_s: float | None = None) -> None:  # type: ignore[no-untyped-def]
-        end = time.monotonic() + (self.timeout_s if timeout_s is None else timeout_s)
+        end = deadline(self.timeout_s if timeout_s is None else timeout_s)
         beat = time.monotonic() + 0.1
         while not done():
             left = end - time.monotonic()

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 from tests.support.agent.process import environment, own_domain
+from tests.support.patience import seconds
 
 DOMAIN = own_domain()
 
@@ -19,7 +20,7 @@ def run(*arguments: str, code: str = "", path: Path | None = None) -> subprocess
         env=environment(DOMAIN),
         text=True,
         capture_output=True,
-        timeout=20,
+        timeout=seconds(20),
         check=False,
         cwd=path,
     )

@@ -38,6 +38,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from tests.support.agent.process import environment
+from tests.support.patience import deadline
 
 
 class Observer:
@@ -59,7 +60,7 @@ class Observer:
 
     def see(self, seen: Callable[[dict[str, Any]], object], timeout_s: float = 15.0) -> dict[str, Any]:
         """Wait until `seen` is true of the graph; return the graph."""
-        end = time.monotonic() + timeout_s
+        end = deadline(timeout_s)
         while True:
             graph: dict[str, Any] = self.ask(do="graph")
             if seen(graph):
@@ -69,7 +70,7 @@ class Observer:
 
     def got(self, count: int, timeout_s: float = 15.0) -> list[tuple[str, Any]]:
         """Wait for `count` samples; return them."""
-        end = time.monotonic() + timeout_s
+        end = deadline(timeout_s)
         found: list[tuple[str, Any]] = []
         while len(found) < count:
             found += [(topic, value) for topic, value in self.ask(do="samples")]

@@ -13,6 +13,8 @@ import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
+from tests.support.patience import deadline, seconds
+
 READY = "agent ready: "
 
 
@@ -35,7 +37,7 @@ class AgentProcess:
 
     def wait_for(self, part: str, timeout_s: float = 15.0) -> str:
         """Return the next line of the log that contains `part`."""
-        end = time.monotonic() + timeout_s
+        end = deadline(timeout_s)
         while True:
             try:
                 line = self._lines.get(timeout=max(0.0, end - time.monotonic()))
@@ -50,7 +52,7 @@ class AgentProcess:
     def stop(self, number: int = signal.SIGTERM) -> int:
         """Send a signal; return the exit status."""
         self.process.send_signal(number)
-        return self.process.wait(timeout=15)
+        return self.process.wait(timeout=seconds(15))
 
 
 def own_domain() -> int:
@@ -95,7 +97,7 @@ def running_agent(
         if process.poll() is None:
             process.terminate()
         try:
-            process.wait(timeout=10)
+            process.wait(timeout=seconds(10))
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()

@@ -19,6 +19,7 @@ from tests.support.agent.client import (
     service_blob,
     topic_blob,
 )
+from tests.support.patience import deadline
 
 INT32 = "std_msgs/msg/Int32"
 LITTLE = b"\0\1\0\0"
@@ -56,7 +57,7 @@ def ask_for_all(client: XrceClient, object_id: int) -> None:
 
 
 def until(done: Callable[[], object], timeout_s: float = 15.0) -> None:
-    end = time.monotonic() + timeout_s
+    end = deadline(timeout_s)
     while not done():
         assert time.monotonic() < end
         time.sleep(0.02)

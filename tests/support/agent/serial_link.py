@@ -8,6 +8,8 @@ import select
 import time
 import tty
 
+from tests.support.patience import deadline
+
 
 def crc_arc(data: bytes) -> int:
     """Return the CRC-16/ARC of `data`, a bit at a time."""
@@ -86,7 +88,7 @@ class SerialLink:
 
     def recv(self, _size: int) -> bytes:
         """Return the next message; TimeoutError when there is none in time."""
-        end = time.monotonic() + self._timeout_s
+        end = deadline(self._timeout_s)
         while True:
             for at, byte in enumerate(self._pending):
                 payload = self._frames.take(byte)

@@ -11,6 +11,7 @@ from microros_gen.agent.server import Server
 from microros_gen.agent.transport.base import Transport
 from tests.support.agent.client import XrceClient, int32_body
 from tests.support.agent.fakes import Bench
+from tests.support.patience import deadline
 
 INT32 = "std_msgs/msg/Int32"
 
@@ -53,7 +54,7 @@ class Served:
 
 def wait_until(done: Callable[[], bool], what: str, timeout_s: float = 15.0) -> None:
     """Return when `done` is true."""
-    end = time.monotonic() + timeout_s
+    end = deadline(timeout_s)
     while not done():
         assert time.monotonic() < end, what
         time.sleep(0.005)

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from microros_gen.agent.framing import FrameDecoder, encode_frame
+from tests.support.patience import seconds
 
 Take = Callable[[bytes], None]
 """Takes one message from the agent."""
@@ -66,7 +67,7 @@ class TcpStream:
     def __init__(self, port: int, take: Take) -> None:
         self._take = take
         self._rest = b""
-        self._socket = socket.create_connection(("127.0.0.1", port), timeout=10)
+        self._socket = socket.create_connection(("127.0.0.1", port), timeout=seconds(10))
         self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, RESET_AT_ONCE)
         self._socket.setblocking(False)
 

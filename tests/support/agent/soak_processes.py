@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tests.support.agent.process import environment
+from tests.support.patience import seconds
 
 
 @dataclass
@@ -56,7 +57,7 @@ def agent_process(folder: Path, domain: int, timeout_s: float, forget_s: float) 
     finally:
         if process.poll() is None:
             process.terminate()
-        process.wait(timeout=60)
+        process.wait(timeout=seconds(60))
         process.stdout.close()
 
 
@@ -90,5 +91,5 @@ class Peer:
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         self._process.stdin.close()
-        self._process.wait(timeout=60)
+        self._process.wait(timeout=seconds(60))
         self._process.stdout.close()

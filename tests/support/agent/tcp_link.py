@@ -5,12 +5,14 @@ from __future__ import annotations
 
 import socket
 
+from tests.support.patience import seconds
+
 
 class TcpLink:
     """What `XrceClient` needs of a socket, over TCP."""
 
     def __init__(self, host: str, port: int) -> None:
-        self.socket = socket.create_connection((host, port), timeout=5)
+        self.socket = socket.create_connection((host, port), timeout=seconds(5))
         self._bytes = b""
 
     def settimeout(self, seconds: float) -> None:

@@ -19,6 +19,7 @@ from pathlib import Path
 
 from tests.support.e2e.images import BUILD_S, SANITIZE, run
 from tests.support.paths import ROOT
+from tests.support.patience import deadline, seconds
 
 EXAMPLES = ROOT / "examples"
 NAMES = tuple(sorted(path.parent.name for path in EXAMPLES.glob("*/main.c")))
@@ -107,7 +108,7 @@ class Example:
 
     def wait_for(self, part: str, timeout_s: float = 30.0) -> str:
         """Return the next line that contains `part`."""
-        end = time.monotonic() + timeout_s
+        end = deadline(timeout_s)
         while time.monotonic() < end:
             try:
                 line = self._lines.get(timeout=max(0.0, end - time.monotonic()))
@@ -122,7 +123,7 @@ class Example:
 
     def ends_well(self) -> None:
         """Ask it to end where it does not do so by itself; each call until its end has succeeded."""
-        status = self.process.wait(timeout=30)
+        status = self.process.wait(timeout=seconds(30))
         self._reader.join(10)
         self.log += list(iter(self._lines.get, None))
         assert status == 0, self.log

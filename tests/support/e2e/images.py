@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tests.support.paths import TESTS
+from tests.support.patience import seconds
 
 C_FILES = TESTS / "e2e" / "c"
 SANITIZE = ("-O1", "-g0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
@@ -144,7 +145,13 @@ def run(
 ) -> subprocess.CompletedProcess[str]:
     """Run a command to its end, at most a minute unless told otherwise."""
     return subprocess.run(
-        list(command), cwd=cwd, env=env, text=True, capture_output=True, timeout=timeout_s, check=False
+        list(command),
+        cwd=cwd,
+        env=env,
+        text=True,
+        capture_output=True,
+        timeout=seconds(timeout_s),
+        check=False,
     )
 
 
@@ -159,16 +166,16 @@ def started(program: Path, *arguments: str) -> Iterator[subprocess.Popen[str]]:
     finally:
         if process.poll() is None:
             process.kill()
-        process.communicate(timeout=10)
+        process.communicate(timeout=seconds(10))
 
 
 def ends_well(process: subprocess.Popen[str], timeout_s: float = 15.0) -> None:
     """Wait for the end of a program that has nothing to report: neither itself nor its sanitizers."""
-    out, errors = process.communicate(timeout=timeout_s)
+    out, errors = process.communicate(timeout=seconds(timeout_s))
     assert (process.returncode, errors) == (0, ""), out + errors
 
 
 def kill(process: subprocess.Popen[str]) -> None:
     """End a process at once, as a power cut does."""
     process.send_signal(signal.SIGKILL)
-    process.wait(timeout=10)
+    process.wait(timeout=seconds(10))

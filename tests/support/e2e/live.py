@@ -9,6 +9,7 @@ from pathlib import Path
 from types import TracebackType
 
 from tests.support.e2e.images import kill
+from tests.support.patience import seconds
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,7 @@ class Live:
         killed = self.process.poll() is not None
         if kind is not None and not killed:
             self.process.kill()
-        _, errors = self.process.communicate(timeout=20)
+        _, errors = self.process.communicate(timeout=seconds(20))
         if kind is None and not killed:
             assert (self.process.returncode, errors) == (0, ""), errors
 

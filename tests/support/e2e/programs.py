@@ -7,12 +7,13 @@ import time
 from typing import Any
 
 from tests.support.agent.observer import Observer
+from tests.support.patience import deadline
 
 
 def until(observer: Observer, topics: list[str], last: int, timeout_s: float = 20.0) -> dict[str, list[Any]]:
     """Take samples until each of `topics` has the value `last`; return all samples by topic."""
     found: dict[str, list[Any]] = {}
-    end = time.monotonic() + timeout_s
+    end = deadline(timeout_s)
     missing = set(topics)
     while missing:
         assert time.monotonic() < end, f"{last} does not come on {missing}: {found.keys()}"

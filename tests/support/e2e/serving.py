@@ -7,6 +7,7 @@ import subprocess
 import time
 
 from tests.support.agent.observer import Observer
+from tests.support.patience import deadline
 
 
 def await_line(process: subprocess.Popen[str], beginning: str) -> str:
@@ -17,7 +18,7 @@ def await_line(process: subprocess.Popen[str], beginning: str) -> str:
 
 
 def await_replies(observer: Observer) -> list[list[int]]:
-    end = time.monotonic() + 15
+    end = deadline(15)
     while None in (replies := observer.ask(do="replies")):
         assert time.monotonic() < end, replies
         time.sleep(0.02)

@@ -8,6 +8,7 @@ import socket
 import subprocess
 from pathlib import Path
 
+from tests.support.patience import seconds
 from tests.support.runtime.serving_agent import ServingAgent, identity
 from tests.support.runtime.wires import Datagrams, Frames, Lengths, Wire
 
@@ -108,6 +109,6 @@ def record(image: Path, still_time: Path, transport: str, duration_ms: int, agen
                 stream.writelines(f"R {now} {answer.hex()}\n" for answer in answers)
                 stream.write(f". {now}\n" if not answers else ".\n")
                 stream.flush()
-        _, errors = process.communicate(timeout=60)
+        _, errors = process.communicate(timeout=seconds(60))
     assert process.returncode == 0, errors
     return peer.lines

@@ -26,6 +26,7 @@ from microros_gen.platform.target import Target
 from microros_gen.toolchain.compile import CALL_GRAPH
 from microros_gen.toolchain.emulator import Emulator, Machine
 from tests.support.paths import TESTS
+from tests.support.patience import deadline, seconds
 
 C_FILES = TESTS / "firmware" / "c"
 BOARDS = tuple(name for name in builtin_targets() if name.startswith("qemu-"))
@@ -158,7 +159,7 @@ def build(home: Path, name: str, application: str = "", *options: str) -> subpro
 def check(command: list[str]) -> str:
     """Run a command; return what it printed, and fail with it when its status is not 0."""
     result = subprocess.run(
-        command, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, timeout=60
+        command, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, timeout=seconds(60)
     )
     assert result.returncode == 0, f"{' '.join(command)}\n{result.stdout}"
     return result.stdout
@@ -194,7 +195,7 @@ class Board:
 
     def wait_for(self, seen: Callable[[], object], timeout_s: float = 20.0) -> None:
         """Wait until `seen` is true."""
-        end = time.monotonic() + timeout_s
+        end = deadline(timeout_s)
         while not seen():
             assert time.monotonic() < end, "it did not happen in time"
             assert self.process.poll() is None, "the emulator ended"
@@ -203,7 +204,7 @@ class Board:
     def end(self) -> None:
         if self.process.poll() is None:
             self.process.kill()
-        self.process.communicate(timeout=10)
+        self.process.communicate(timeout=seconds(10))
 
 
 @contextmanager

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from tests.support.agent.process import AgentProcess, environment
+from tests.support.patience import seconds
 
 BOARD = "qemu-mps2-an386"
 
@@ -33,7 +34,7 @@ def started(*arguments: str, domain: int = 0) -> Iterator[AgentProcess]:
         if process.poll() is None:
             process.terminate()
         try:
-            process.wait(timeout=15)
+            process.wait(timeout=seconds(15))
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()

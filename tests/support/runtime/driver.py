@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 
+from tests.support.patience import seconds
 from tests.support.runtime.fake_agent import FakeAgent
 from tests.support.runtime.wires import Datagrams, Wire
 
@@ -59,7 +60,7 @@ class Client:
         if kind is not None:
             self._process.kill()
         self._say("quit")
-        _, errors = self._process.communicate(timeout=20)
+        _, errors = self._process.communicate(timeout=seconds(20))
         if kind is None:
             assert self._process.returncode == 0, errors
 

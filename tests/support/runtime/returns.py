@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from tests.support.paths import TESTS
+from tests.support.patience import seconds
 
 FOLDER = TESTS / "runtime" / "c" / "api"
 FLAGS = (
@@ -25,7 +26,9 @@ def said(folder: Path, *command: str | Path, **environment: str) -> list[tuple[s
     """Return what a program of c/ tells, in its order."""
     told = folder / "told.txt"
     known = {**os.environ, **environment, "TELL": str(told)}
-    done = subprocess.run(command, env=known, capture_output=True, text=True, check=False, timeout=60)
+    done = subprocess.run(
+        command, env=known, capture_output=True, text=True, check=False, timeout=seconds(60)
+    )
     lines = told.read_text(encoding="utf-8").splitlines()
     assert done.returncode == 0, (lines[-1], done.stderr[-2000:])
     return returned(lines)

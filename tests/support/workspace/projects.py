@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tests.support.environments import ROOT, clean_environ
+from tests.support.patience import seconds
 
 EXAMPLE = ROOT / "examples" / "cmake_app"
 BOARD = "qemu-mps2-an386"
@@ -26,7 +27,9 @@ IDLE = {"ninja": "ninja: no work to do.", "make": "Built target app"}
 def run(*command: str | Path, cwd: Path, env: Mapping[str, str]) -> subprocess.CompletedProcess[str]:
     """Run a command to its end, with its two outputs apart."""
     words = [str(word) for word in command]
-    return subprocess.run(words, cwd=cwd, env=env, text=True, capture_output=True, timeout=300, check=False)
+    return subprocess.run(
+        words, cwd=cwd, env=env, text=True, capture_output=True, timeout=seconds(300), check=False
+    )
 
 
 def copy_of_tool(folder: Path) -> Path:

@@ -15,6 +15,7 @@ from pathlib import Path
 
 from tests.support.environments import ENVIRONMENTS, ROOT, clean_environ, dependencies
 from tests.support.paths import TESTS
+from tests.support.patience import seconds
 
 WORKSPACE = TESTS / "workspace" / "colcon"
 PAGE = ROOT / "docs" / "howto" / "ros_build.md"
@@ -71,7 +72,7 @@ def shell(folder: Path, environment: Mapping[str, str], script: str) -> subproce
         env=environment,
         text=True,
         capture_output=True,
-        timeout=600,
+        timeout=seconds(600),
         check=False,
     )
 
