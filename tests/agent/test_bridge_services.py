@@ -5,6 +5,9 @@ from __future__ import annotations
 
 import io
 import time
+from collections.abc import Callable
+from functools import partial
+from typing import Any
 
 import pytest
 
@@ -46,6 +49,11 @@ def test_twenty_slow_requests_are_all_answered_each_with_its_own(
     node.destroy()
 
 
+def found(requester: Any) -> bool:
+    """Whether the bridge's requester has discovered its server."""
+    return bool(requester.find_server())
+
+
 def test_twenty_requests_of_a_client_get_their_own_replies(
     bridged: Bridged, bridge_observer: Observer
 ) -> None:
@@ -53,7 +61,7 @@ def test_twenty_requests_of_a_client_get_their_own_replies(
     node = bridged.bridge.create_node("asker", bridged.domain)
     requester = node.create_requester(get_types("held"))
     numbers = {requester.request(names_body(["z"])): 1}  # waits until the service is discovered
-    bridged.wait(lambda: requester.find_server())
+    bridged.wait(lambda: found(requester))
     numbers |= {requester.request(names_body(["z" * i])): i for i in range(2, 21)}
     assert len(numbers) == 20
     replies = bridged.take(requester, 20)
@@ -70,7 +78,11 @@ def test_replies_to_others_do_not_hide_ones_own(bridged: Bridged, bridge_observe
         (i, r.request(names_body(["n" * (i + 1)] * k))): k for k in (1, 2) for i, r in enumerate(requesters)
     }
     got: dict[tuple[int, int], bytes] = {}
-    sinks = {r: lambda reply, i=i: got.update({(i, reply[0]): reply[1]}) for i, r in enumerate(requesters)}
+
+    def sink(asker: int, reply: tuple[int, bytes]) -> None:
+        got[asker, reply[0]] = reply[1]
+
+    sinks: dict[Any, Callable[[Any], object]] = {r: partial(sink, i) for i, r in enumerate(requesters)}
     bridged.wait(lambda: len(got) == 6, sinks)
     assert {key: read_types(value) for key, value in got.items()} == {
         (i, number): [i + 1] * k for (i, number), k in asked.items()
@@ -138,7 +150,7 @@ def test_a_service_that_goes_and_comes_again(bridged: Bridged, bridge_observer: 
     [(number, reply)] = bridged.take(requester, 1)
     assert (number, read_types(reply)) == (second, [4])
     bridge_observer.ask(do="stop_serving")
-    bridged.wait(lambda: not requester.find_server())
+    bridged.wait(lambda: not found(requester))
     requester._wait_s = 0.05  # type: ignore[attr-defined]
     requester.request(names_body(["lost"]))
     bridged.wait(lambda: len(lost(bridged, "/patient")) == 2)
@@ -148,7 +160,7 @@ def test_a_service_that_goes_and_comes_again(bridged: Bridged, bridge_observer: 
     [(number, reply)] = bridged.take(requester, 1)
     assert (number, read_types(reply)) == (third, [5])
     bridge_observer.ask(do="stop_serving")
-    bridged.wait(lambda: not requester.find_server())
+    bridged.wait(lambda: not found(requester))
     requester.request(names_body(["its client leaves"]))
     node.destroy()
     label = f"/absent [{GET_TYPES}]"
@@ -202,7 +214,7 @@ def test_a_client_that_vanished_holds_nobody_up(bridged: Bridged, monkeypatch: p
     requester = asker.create_requester(get_types("forsaken"))
     for _ in range(5):
         requester.request(names_body(["a"]))
-    bridged.wait(requester.find_server)
+    bridged.wait(lambda: found(requester))
     asker.destroy()
     bridged.wait_for(0.2)
     identities = [identity for identity, _ in iter(replier.take, None)]

@@ -6,7 +6,9 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -195,6 +197,10 @@ def _target(descriptor: Path) -> str:
         return ""
 
 
+def _has_node(name: str, graph: dict[str, Any]) -> bool:
+    return name in graph["nodes"]
+
+
 def test_domains_are_apart(bridged: Bridged, bridge_observer: Observer) -> None:
     other = bridged.domain + 1
     with observing(other) as there:
@@ -202,7 +208,7 @@ def test_domains_are_apart(bridged: Bridged, bridge_observer: Observer) -> None:
         for node in nodes:
             node.create_writer(Topic("rt/apart", DDS_INT32), Qos())
         here_seen, there_seen = (
-            watching.see(lambda g, name=name: name in g["nodes"])["nodes"]
+            watching.see(partial(_has_node, name))["nodes"]
             for watching, name in ((bridge_observer, f"/in_{bridged.domain}"), (there, f"/in_{other}"))
         )
         assert f"/in_{other}" not in here_seen

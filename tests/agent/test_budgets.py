@@ -10,6 +10,7 @@ import pytest
 from microros_gen.agent.budgets import CALL_BYTES, ROS_BYTES, Shares, cost_of
 from microros_gen.agent.history import CHANGE_BYTES
 from microros_gen.agent.limits import Limits
+from microros_gen.agent.streams_out import ReliableOut
 from microros_gen.agent.wire.constants import Format, ObjectKind
 from microros_gen.agent.wire.data_messages import ReadData, WriteData
 from microros_gen.agent.wire.entity_messages import Acknack, Create, Delete
@@ -237,10 +238,10 @@ def test_output_of_all_clients_is_bounded_and_nothing_of_it_lost() -> None:
     assert left > 0
     client = bench.agent.clients.at(places[6])
     assert client is not None
+    output = client.session.output(0x80)
+    assert isinstance(output, ReliableOut)
     for _ in range(3_000):
-        bench.say(
-            message(Acknack(client.session.output(0x80).probe().last + 1, 0, 0x80), stream=0), places[6]
-        )
+        bench.say(message(Acknack(output.probe().last + 1, 0, 0x80), stream=0), places[6])
         if not source.waiting:
             break
     assert not source.waiting

@@ -229,8 +229,10 @@ def test_two_agents_on_one_machine(asker: socket.socket) -> None:
         discovery.pump(lambda *_: None)
     answered = {struct.unpack("<H", asker.recv(1000)[-2:])[0] for _ in both}
     assert answered == {transport.port for transport in transports}
-    for each in (*both, *transports):
-        each.close()
+    for discovery in both:
+        discovery.close()
+    for transport in transports:
+        transport.close()
 
 
 def test_serial_lines_cannot_be_told_of() -> None:

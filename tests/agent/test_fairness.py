@@ -70,7 +70,7 @@ def costly(limits: Limits = LIMITS, change_s: float = CHANGE_S) -> Bench:
         turns(bench)
     bench.say(message(ReadData(7, 0x36, 1, delivery=FOREVER), stream=0), "b")
     bench.say(captured.CREATE_CLIENT)
-    bench.bridge.graph.changes = 0  # type: ignore[attr-defined]
+    bench.bridge.graph.changes = 0
     return bench
 
 

@@ -12,6 +12,7 @@ from functools import partial
 import pytest
 
 from microros_gen.agent.limits import Limits
+from microros_gen.agent.streams_out import ReliableOut
 from microros_gen.agent.wire.constants import INFO_ACTIVITY, OBJECT_AGENT, DataFormat, Format
 from microros_gen.agent.wire.data_messages import Data, ReadData
 from microros_gen.agent.wire.entity_messages import Acknack, Create
@@ -41,8 +42,10 @@ def rest_of(bench: Bench, listener: Listener) -> list[int]:
     """Acknowledge what comes until nothing does; return the values."""
     (client,) = bench.agent.clients
     found: list[int] = []
+    output = client.session.output(0x80)
+    assert isinstance(output, ReliableOut)
     while True:
-        acknack = Acknack(client.session.output(0x80).probe().last + 1, 0, 0x80)
+        acknack = Acknack(output.probe().last + 1, 0, 0x80)
         more = values(listener.say(acknack, stream=0))
         if not more:
             return found

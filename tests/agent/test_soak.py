@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support import patience
 from tests.support.agent.process import own_domain
 from tests.support.agent.soak import Place, World
 from tests.support.agent.soak_processes import Peer, agent_process

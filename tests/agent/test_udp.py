@@ -32,6 +32,7 @@ def test_a_client(protocol: Protocol) -> None:
         served.publish(client, range(100))
         (known,) = bench.agent.clients
         host = "127.0.0.1" if protocol is UDP4 else "[::1]"
+        assert isinstance(client.socket, socket.socket)
         assert known.place == f"{host}:{client.socket.getsockname()[1]}"
         assert client.leave() == 0
         assert served.ready == [f"{protocol.name} {host}:{transport.port}"]

@@ -312,7 +312,8 @@ def lossy(port: int, _tcp: int, domain: int, seconds: float) -> None:
             elif client in made and client.acknowledged:
                 client.ask(lambda request: WriteData(request, 0x15, int32_body(1)))
             client.tick(now)
-        readable, _, _ = select.select([client.link for client in clients], [], [], 0.01)
+        links = [client.link for client in clients if client.link is not None]
+        readable, _, _ = select.select(links, [], [], 0.01)
         for link in readable:
             with contextlib.suppress(AssertionError):  # refused: it tries again
                 link.read()

@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from tests.support.command_line import Outcome, Runner
-from tests.tools.update_golden import GOLDEN, ROOT, SHIPPED, check_arguments
+from tests.support.paths import ROOT
+from tests.tools.update_golden import GOLDEN, SHIPPED, check_arguments
 
 A_SOURCE = "src/std_msgs/int32__functions.c"
 

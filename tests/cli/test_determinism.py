@@ -14,7 +14,8 @@ from pathlib import Path
 import pytest
 
 from tests.support.command_line import Runner
-from tests.support.environments import ROOT, clean_environ, interpreters, with_dependencies
+from tests.support.environments import clean_environ, interpreters, with_dependencies
+from tests.support.paths import ROOT
 
 APPLICATION = """\
 version: 1

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.console import ROOT
+from tests.support.paths import ROOT
 
 sys.path.insert(0, str(ROOT / "docs"))  # as mkdocs does for docs/hooks.py
 

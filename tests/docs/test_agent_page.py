@@ -158,7 +158,7 @@ def test_every_kind_of_fault_is_there() -> None:
             found.add(str(node.args[-1].value))
         if name == "_fail" and len(node.args) > 1:
             found |= {
-                n.value
+                str(n.value)
                 for n in ast.walk(node.args[1])
                 if isinstance(n, ast.Constant) and str(n.value)[:4] == "tcp_"
             }

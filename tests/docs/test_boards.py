@@ -23,7 +23,7 @@ from microros_gen.diagnostics import Diagnostics
 from microros_gen.platform.find import read_target
 from tests.support.agent.observer import Observer, observing
 from tests.support.agent.process import own_domain, running_agent
-from tests.support.console import ROOT
+from tests.support.paths import ROOT
 from tests.support.patience import deadline
 
 BOARDS = ROOT / "examples" / "boards"

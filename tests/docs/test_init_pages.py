@@ -10,7 +10,8 @@ import pytest
 import yaml
 
 from microros_gen.cli import main as cli
-from tests.support.console import ROOT, blocks
+from tests.support.console import blocks
+from tests.support.paths import ROOT
 
 PAGES = {
     name: (ROOT / f"docs/howto/{name}.md").read_text(encoding="utf-8") for name in ("init", "check", "idl")

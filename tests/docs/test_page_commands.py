@@ -11,7 +11,8 @@ from typing import Any
 
 import pytest
 
-from tests.support.console import ROOT, SHELL, Terminal, blocks, shows, steps
+from tests.support.console import SHELL, Terminal, blocks, shows, steps
+from tests.support.paths import ROOT
 
 PAGES = {str(path.relative_to(ROOT / "docs")): path for path in sorted((ROOT / "docs").rglob("*.md"))}
 ELSEWHERE = {

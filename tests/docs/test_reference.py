@@ -22,7 +22,7 @@ from hooks import SCHEMA_FILES, generated
 from microros_gen import compiler
 from microros_gen.cli.main import cli
 from microros_gen.documents.schema import load_schema
-from tests.support.console import ROOT
+from tests.support.paths import ROOT
 
 SURFACE = yaml.safe_load((ROOT / "tests/runtime/surface.yaml").read_text(encoding="utf-8"))
 SCHEMAS = ("application", "profile", "target", "agent")

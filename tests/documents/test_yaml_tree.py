@@ -12,7 +12,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.documents import yaml_tree
 from microros_gen.documents.yaml_tree import MappingNode, ScalarNode, parse_yaml, to_data
 
 LOADERS = [True, False]
@@ -181,7 +180,7 @@ def test_a_byte_order_mark_is_skipped() -> None:
 
 
 def test_without_libyaml_the_loader_in_python_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delattr(yaml_tree.yaml, "CBaseLoader", raising=False)
+    monkeypatch.delattr(yaml, "CBaseLoader", raising=False)
     assert read("a: [1, x]\n") == ({"a": [1, "x"]}, [])
 
 

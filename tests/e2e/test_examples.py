@@ -6,6 +6,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Mapping
 from datetime import datetime, timezone
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -64,6 +65,10 @@ def say(observer: Observer, topic: str, type_name: str, *values: Mapping[str, An
     observer.ask(do="publish", topic=topic, type=type_name, values=list(values))
 
 
+def _publishes(node: str, topic: str, graph: dict[str, Any]) -> bool:
+    return any(name == node for name, *_ in graph["publishers"].get(topic, []))
+
+
 def meet(observer: Observer, heard: Mapping[str, int], node: str, *topics: str) -> None:
     """Wait until as many subscriptions as in `heard` are there, and the publishers of `node` on `topics`."""
     end = deadline(30)
@@ -71,10 +76,7 @@ def meet(observer: Observer, heard: Mapping[str, int], node: str, *topics: str) 
         assert time.monotonic() < end, f"nobody subscribes to one of {list(heard)}"
         time.sleep(0.05)
     for topic in topics:
-        observer.see(
-            lambda graph, topic=topic: any(name == node for name, *_ in graph["publishers"].get(topic, [])),
-            30,
-        )
+        observer.see(partial(_publishes, node, topic), 30)
 
 
 def numbers(*values: int) -> list[dict[str, int]]:

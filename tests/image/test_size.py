@@ -424,7 +424,7 @@ def test_an_image_of_an_application(probe_tree: Path, tmp_path: Path) -> None:
     source.write_text(CALLBACKS, encoding="utf-8")
     flags = ["-g", "-ffunction-sections", CALL_GRAPH, f"-I{probe_tree / 'include'}"]
     tool("gcc", *flags, "-c", source, "-o", tmp_path / "robot.o")
-    linked = [tmp_path / "robot.o", probe_tree / "lib/libmicroros.a", "-o", image]
+    linked: list[str | Path] = [tmp_path / "robot.o", probe_tree / "lib/libmicroros.a", "-o", image]
     tool("gcc", "-Wl,--gc-sections", *linked)
     unmapped = measure(probe_tree, image)
     assert (unmapped.mapped, unmapped.totals) == (False, berkeley("size", image))

@@ -84,7 +84,7 @@ def test_values_have_the_type_of_their_field() -> None:
 def test_places_of_declarations() -> None:
     message, _ = read("\n\nint32 speed 5 # x\nint32   MAX=7")
     assert message is not None
-    spans = [e.span for e in [*message.fields, *message.constants]]
+    spans = [e.span for e in message.fields] + [e.span for e in message.constants]
     assert [(s.line, s.column, s.end_column) for s in spans if s] == [(3, 1, 12), (4, 1, 12)]
 
 

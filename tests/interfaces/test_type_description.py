@@ -18,6 +18,7 @@ from microros_gen.interfaces.type_description import type_description, type_hash
 from microros_gen.interfaces.types import (
     ArrayType,
     Constant,
+    ElementType,
     Field,
     Message,
     NamedType,
@@ -106,7 +107,7 @@ def test_numbers_of_types_are_those_of_field_type() -> None:
     finder = InterfaceFinder.from_environment(environ={}, prefix=Path("/nowhere"))
     interfaces = resolve_interfaces((Named("type_description_interfaces/FieldType"),), finder, Diagnostics())
     numbers = {c.name: c.value for c in interfaces.message(interfaces.roots[0]).constants}
-    names = {
+    names: dict[str, ElementType] = {
         "NESTED_TYPE": NamedType(TypeName("a", "msg", "B")),
         "STRING": StringType(),
         "WSTRING": StringType(wide=True),

@@ -11,9 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.environments import ROOT, clean_environ
+from tests.support.environments import clean_environ
 from tests.support.migrate.profiles import READY
 from tests.support.migrate.proposals import Init
+from tests.support.paths import ROOT
 
 pytestmark = pytest.mark.long
 BOARDS = ("qemu-microbit", "qemu-mps2-an386", "qemu-riscv32-virt")

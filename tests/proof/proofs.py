@@ -14,6 +14,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import yaml
 
@@ -21,8 +22,9 @@ from microros_gen import compiler
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.typesupport.plan.types import TypePlan
 from tests.proof.message_header import header, stems
+from tests.support.paths import ROOT
 from tests.support.quality import corpus
-from tests.support.quality.corpus import INTERFACES, ROOT, tree_key
+from tests.support.quality.corpus import INTERFACES, tree_key
 
 FOLDER = Path(__file__).resolve().parent
 DRIVERS = FOLDER / "drivers"
@@ -90,8 +92,8 @@ def load(path: Path = FOLDER / "proofs.yaml") -> tuple[Proof, ...]:
     return tuple(_proof(entry) for entry in yaml.safe_load(path.read_text(encoding="utf-8")))
 
 
-def _proof(entry: Mapping[str, object]) -> Proof:
-    values: dict[str, object] = {"before": {}, "options": "", "variants": [{}], "slice": [], "unreached": {}}
+def _proof(entry: Mapping[str, Any]) -> Proof:
+    values: dict[str, Any] = {"before": {}, "options": "", "variants": [{}], "slice": [], "unreached": {}}
     values |= {"machdeps": list(MACHDEPS)} | dict(entry)
     variants = tuple({k: str(v) for k, v in variant.items()} for variant in values["variants"])
     values |= {"options": tuple(str(values["options"]).split()), "variants": variants}

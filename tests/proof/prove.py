@@ -27,7 +27,7 @@ def main(names: Sequence[str]) -> int:
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(WORKERS) as pool:
         for proof in proofs.load():
             proofs.tree(proof.application, Path(folder))
-        every = list(pool.map(lambda job: _run(*job, Path(folder)), _chosen(names)))
+        every = list(pool.map(lambda job: _run(job[0], job[1], job[2], Path(folder)), _chosen(names)))
     problems = [text for run in every for text in report.problems(run)]
     if not names:
         problems += report.unexplained(every)

@@ -12,7 +12,7 @@ from functools import cache
 import yaml
 
 from tests.proof.proofs import FOLDER, Alarm, Proof, Run, load, reached_by
-from tests.support.quality.corpus import ROOT
+from tests.support.paths import ROOT
 
 PAGE = ROOT / "docs" / "verification" / "proof.md"
 BEGIN, END = "<!-- proof: begin -->\n", "<!-- proof: end -->\n"

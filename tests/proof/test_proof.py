@@ -11,7 +11,7 @@ import pytest
 
 from tests.proof import proofs, report
 from tests.proof.proofs import Proof, Tree
-from tests.support.quality.corpus import ROOT
+from tests.support.paths import ROOT
 
 needs_frama_c = pytest.mark.skipif(not proofs.is_installed(), reason="no frama-c (Debian: frama-c-base)")
 SLICE = [(proof, number) for proof in proofs.load() for number in proof.slice]

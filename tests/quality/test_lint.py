@@ -33,7 +33,7 @@ def test_ruff_format() -> None:
 
 
 def test_mypy_strict() -> None:
-    run(sys.executable, "-m", "mypy", "-p", "microros_gen")
+    run(sys.executable, "-m", "mypy")
 
 
 def test_clang_format() -> None:

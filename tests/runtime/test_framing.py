@@ -82,7 +82,7 @@ def _sources(folder: Path, sends: str) -> tuple[Tree, list[Path]]:
     return tree, [own / name for name in ("xrce_framing.c", "xrce_framing_arrived.c", sends)]
 
 
-@pytest.fixture(scope="module", params=VARIANTS.values(), ids=VARIANTS.keys())
+@pytest.fixture(scope="module", params=list(VARIANTS.values()), ids=list(VARIANTS))
 def framing(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Framing]:
     compiler, flags, sends = request.param
     tree, sources = _sources(tmp_path_factory.mktemp("framing"), sends)

@@ -43,10 +43,11 @@ def resolve(catalogue: Catalogue, middleware: Middleware) -> Callable[..., Outco
         *profiles: str, text: str = "", folder: Path = Path(), parts: tuple[str, ...] | None = None
     ) -> Outcome:
         said = Diagnostics()
-        application: Application | None = Application()
+        application = Application()
         if text:
-            application = parse_application(Source("microros.yaml", text), said)
-            assert application is not None, [d.headline() for d in said]
+            parsed = parse_application(Source("microros.yaml", text), said)
+            assert parsed is not None, [d.headline() for d in said]
+            application = parsed
         names = [Named(name) for name in profiles] or list(application.profiles)
         resolved = resolve_profiles(load_profiles(names, folder, said), said)
         below = parts_of(application) if parts is None else parts

@@ -9,7 +9,8 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.support.environments import ROOT, clean_environ, install, with_dependencies
+from tests.support.environments import clean_environ, install, with_dependencies
+from tests.support.paths import ROOT
 
 # What the wheel is made from, and what a fresh clone has; folders that git does not know are not in it.
 SOURCES = ("pyproject.toml", "README.md", "LICENSE", "microros_gen", "profiles", "cmake")

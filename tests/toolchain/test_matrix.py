@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 from microros_gen.toolchain.toolchain import WARNINGS
-from tests.support.matrix import ALSO, ROOT, VARIANTS, Tree, check, compile_tree, has
+from tests.support.matrix import ALSO, VARIANTS, Tree, check, compile_tree, has
+from tests.support.paths import ROOT
 
 TreeOf = Callable[[str], Tree]
 

@@ -106,7 +106,10 @@ def test_huge_sizes_are_shown_saturated(limits_case: Generated, library: ctypes.
     structs = CStructs(limits_case.messages)
     plan = limits_case.plan("std_msgs/msg/String")
     value = structs.fill(plan.name, {"data": "x"})
-    value_limit = plan.limits.fields[0].string
+    assert plan.limits is not None
+    limits = plan.limits.fields[0]
+    assert limits is not None
+    value_limit = limits.string
     value.data.size = 2**40
     assert Encoder(library, plan.c_name).refusal(value)[:3] == ("data", 2**32 - 1, value_limit)
 

@@ -89,7 +89,7 @@ def test_other_targets_read_the_same(
     program = write_program(everything, "replay.c", REPLAY)
     made = objects(everything, f"replay_{target}", command, program)
     start = [library / "crt1.o", library / "crti.o", compiler[-1] / "crtbegin.o"]
-    end = [
+    end: list[str | Path] = [
         "--start-group",
         "-lc",
         "-lgcc",
@@ -99,7 +99,16 @@ def test_other_targets_read_the_same(
         library / "crtn.o",
     ]
     output = everything.folder / f"replay_{target}"
-    link = [f"{target}-ld", "-static", "--gc-sections", "--no-warn-rwx-segments", "-o", output, *start, *made]
+    link: list[str | Path] = [
+        f"{target}-ld",
+        "-static",
+        "--gc-sections",
+        "--no-warn-rwx-segments",
+        "-o",
+        str(output),
+        *start,
+        *made,
+    ]
     run([*link, f"-L{library}", f"-L{compiler[-1]}", *end])
     replay(everything, replayed, [emulator, output])
 
@@ -117,7 +126,7 @@ def fuzzer(everything: Generated) -> Path:
 
 def fuzz(program: Path, corpus: Path, *options: str) -> None:
     environment = {k: v for k, v in os.environ.items() if k != "LD_PRELOAD"}
-    command = [program, "-max_len=4096", "-print_final_stats=1", *options, corpus]
+    command: list[str | Path] = [program, "-max_len=4096", "-print_final_stats=1", *options, corpus]
     result = subprocess.run(command, capture_output=True, text=True, env=environment, cwd=corpus, check=False)
     assert result.returncode == 0, result.stderr[-4000:]
     print(*(line for line in result.stderr.splitlines() if line.startswith("stat::")), sep="\n")

@@ -195,7 +195,7 @@ def test_messages_are_read_and_refused_with_a_reason(tmp_path: Path) -> None:
     assert {"rmw_deserialize", "cdr_get_string", "sensor_msgs__msg__JointState__decode"} <= symbols(out)
     source, program = tmp_path / "main.c", tmp_path / "main"
     source.write_text(PROGRAM)
-    command = ["gcc", "-std=c99", "-Wall", "-Wextra", "-Werror", f"-I{out}/include", source]
+    command = ["gcc", "-std=c99", "-Wall", "-Wextra", "-Werror", f"-I{out}/include", str(source)]
     subprocess.run([*command, out / "lib" / "libmicroros.a", "-o", program], check=True)
     printed = subprocess.run([program], capture_output=True, text=True, check=True)
     assert printed.stdout.replace(" in microros.yaml", "") == EXPECTED

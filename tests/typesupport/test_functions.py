@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 
@@ -36,7 +37,7 @@ class Functions:
         self._library = library
         self._name = plan.c_name
 
-    def __call__(self, function: str, *arguments: object, result: object = ctypes.c_bool) -> object:
+    def __call__(self, function: str, *arguments: object, result: Any = ctypes.c_bool) -> Any:
         symbol = self._library[f"{self._name}__{function}"]
         symbol.restype = result
         return symbol(*(ctypes.byref(a) if isinstance(a, ctypes.Structure) else a for a in arguments))
@@ -100,7 +101,7 @@ def test_each_failing_allocation_leaves_nothing(
             memory.left = allowed
             message = call("create", result=ctypes.c_void_p)
             if message:
-                call("destroy", ctypes.c_void_p(message), result=None)  # type: ignore[arg-type]
+                call("destroy", ctypes.c_void_p(message), result=None)
             assert not memory.live, (name, allowed)
             if message:
                 break
@@ -138,7 +139,7 @@ def test_sequences_grow_and_compare(
         assert (copy.data, copy.size, copy.capacity) == (None, 0, 0)
         made = call("Sequence__create", ctypes.c_size_t(2), result=ctypes.c_void_p)
         assert made
-        call("Sequence__destroy", ctypes.c_void_p(made), result=None)  # type: ignore[arg-type]
+        call("Sequence__destroy", ctypes.c_void_p(made), result=None)
         assert not memory.live, plan.name
 
 

@@ -165,11 +165,11 @@ def test_defaults_copies_and_equality(
 def change(name: str, message: ctypes.Structure) -> None:
     """Change one character."""
     if name == "Words":
-        message.pairs[2].first = 1  # type: ignore[attr-defined]
+        message.pairs[2].first = 1
     elif name == "Letters":
-        message.last = 1  # type: ignore[attr-defined]
+        message.last = 1
     else:
-        message.second = -1  # type: ignore[attr-defined]
+        message.second = -1
 
 
 def function(library: ctypes.CDLL, plan: TypePlan, name: str) -> ctypes._NamedFuncPointer:

@@ -137,10 +137,10 @@ def test_an_image_has_the_blocks_of_what_it_calls_alone(out: Path) -> None:
             "-",
             "-x",
             "none",
-            *library,
+            *map(str, library),
             "-Wl,--gc-sections",
             "-o",
-            out.parent / "image",
+            str(out.parent / "image"),
         ]
         subprocess.run(link, input=program, text=True, check=True)
         names = subprocess.run(

@@ -14,8 +14,9 @@ from pathlib import Path
 import pytest
 import yaml
 
-from tests.support.environments import ROOT, clean_environ
+from tests.support.environments import clean_environ
 from tests.support.installed import Installed, environment_with_dependencies
+from tests.support.paths import ROOT
 from tests.support.workflow import defaults_of, run_step, run_steps, steps_of
 
 WORKFLOW = ".github/workflows/microros.yml"
@@ -140,7 +141,8 @@ def test_the_hook_is_one(application: Path, installed: Installed) -> None:
         assert re.search(hook["files"], path), path
     for path in ("main.c", "README.md", "src/golden.c"):
         assert not re.search(hook["files"], path), path
-    program, *arguments = [*hook["entry"].split(), *hook["args"]]
+    words: list[str] = [*hook["entry"].split(), *hook["args"]]
+    program, *arguments = words
     assert program == "microros-gen"
     assert installed.run(*arguments, folder=application).returncode == 0
     (application / "golden/sources.txt").unlink()

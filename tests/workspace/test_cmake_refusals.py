@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from microros_gen import __version__
-from tests.support.environments import ROOT, dependencies
+from tests.support.environments import dependencies
+from tests.support.paths import ROOT
 from tests.support.workspace.projects import EXAMPLE, Project, run
 
 BEGIN = "cmake_minimum_required(VERSION 3.16)\nproject(wrong NONE)\n"

@@ -14,7 +14,8 @@ from pathlib import Path
 import pytest
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-from tests.support.environments import ROOT, clean_environ, install
+from tests.support.environments import clean_environ, install
+from tests.support.paths import ROOT
 from tests.support.workspace.projects import replace
 from tests.support.workspace.ros_environments import (
     COMMANDS,

@@ -13,7 +13,8 @@ import pytest
 from tests.support.agent.observer import observing
 from tests.support.agent.process import own_domain, running_agent
 from tests.support.e2e.relay import Relay
-from tests.support.workspace.projects import BOARD, EXAMPLE, PAGE, ROOT, Project, follow_page, run
+from tests.support.paths import ROOT
+from tests.support.workspace.projects import BOARD, EXAMPLE, PAGE, Project, follow_page, run
 
 TOOLCHAIN = EXAMPLE / f"{BOARD}.cmake"
 

@@ -19,7 +19,8 @@ import pytest
 from tests.support.agent.observer import observing
 from tests.support.agent.process import own_domain, running_agent
 from tests.support.e2e.relay import Relay
-from tests.support.workspace.projects import BOARD, EXAMPLE, PAGE, ROOT, Project, run
+from tests.support.paths import ROOT
+from tests.support.workspace.projects import BOARD, EXAMPLE, PAGE, Project, run
 
 SCHEMA = json.loads((ROOT / "microros_gen/cli/size/size.schema.json").read_text(encoding="utf-8"))
 EXCEEDED = re.compile(r"microros\.yaml(:\d+:\d+): error: (.*?): \d+ bytes, and (memory\.\w+ is \d+)")

@@ -17,7 +17,8 @@ from pathlib import Path
 import pytest
 
 from microros_gen import __version__
-from tests.support.environments import ROOT, clean_environ
+from tests.support.environments import clean_environ
+from tests.support.paths import ROOT
 from tests.support.workspace.ros_environments import WORKSPACE
 
 AMENT = ROOT / "cmake" / "ament"
@@ -80,7 +81,9 @@ def test_the_wheel_brings_what_a_workspace_would_install(name: str) -> None:
     prefix = AMENT / "prefix"
     index = prefix / "ament_index/resource_index"
     assert (index / "packages" / name).read_bytes() == b""
-    needed = sorted({element.text for tag in ("buildtool_export_depend",) for element in manifest.iter(tag)})
+    needed = sorted(
+        {str(element.text) for tag in ("buildtool_export_depend",) for element in manifest.iter(tag)}
+    )
     assert (index / "package_run_dependencies" / name).read_text().split(";") == needed
     groups = [path.parent.name for path in index.glob(f"*_packages/{name}")]
     assert groups == [element.text for element in manifest.iter("member_of_group")]

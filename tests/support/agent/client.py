@@ -76,20 +76,23 @@ class XrceClient:
         self._reset_streams()
         head = Header(self.session & 0x80, 0, 0, self._key(self.session))
         message = join(head, [encode(CreateClient(self.key, self.session, self.mtu))])
-        return self._ask(message, StatusAgent).status  # type: ignore[attr-defined]
+        status: int = self._ask(message, StatusAgent).status  # type: ignore[attr-defined]
+        return status
 
     def ping(self, in_session: bool = True) -> int:
         """Return the implementation status of the agent's answer: 1 in session, 0 outside."""
         session = self.session if in_session else self.session & 0x80
         head = Header(session, 0, 0, self._key(session))
         message = join(head, [encode(GetInfo(self._next_request(), OBJECT_AGENT, 2))])
-        return self._ask(message, Info).implementation_status  # type: ignore[attr-defined]
+        status: int = self._ask(message, Info).implementation_status  # type: ignore[attr-defined]
+        return status
 
     def leave(self) -> int:
         """Delete the client; return the status."""
         request = Delete(self._next_request(), OBJECT_CLIENT)
         message = join(self._head(0, 0), [encode(request)])
-        return self._ask(message, StatusReply).status  # type: ignore[attr-defined]
+        status: int = self._ask(message, StatusReply).status  # type: ignore[attr-defined]
+        return status
 
     # Entities
 

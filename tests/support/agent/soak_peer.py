@@ -105,9 +105,12 @@ def main() -> None:
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     lines: queue.Queue[str] = queue.Queue()
-    threading.Thread(
-        target=lambda: [lines.put(line) for line in itertools.chain(sys.stdin, [""])], daemon=True
-    ).start()
+
+    def listen() -> None:
+        for line in itertools.chain(sys.stdin, [""]):
+            lines.put(line)
+
+    threading.Thread(target=listen, daemon=True).start()
     print("[]", flush=True)
     while True:
         executor.spin_once(timeout_sec=0.02)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from microros_gen.application.model import Application, LimitRule, ParameterDecl, TimerDecl
@@ -28,6 +29,22 @@ def _node(app: Application) -> Any:
 
 def _endpoint(app: Application) -> Any:
     return app.nodes[0].endpoints[0]
+
+
+def _qos(key: str, app: Application) -> Any:
+    return getattr(_endpoint(app).qos, key)
+
+
+def _time(key: str, app: Application) -> Any:
+    return getattr(app.times, key)
+
+
+def _pool(key: str, app: Application) -> Any:
+    return app.pools[key]
+
+
+def _named(value: Any) -> Any:
+    return value.name
 
 
 def _names(items: Any) -> list[str]:
@@ -127,7 +144,7 @@ def _endpoint_cases(
         ):
             cases[f"{path}.qos.{qos}"] = KeyCase(
                 one(f"{entry}, qos: {{{qos}: {value}}}"),
-                lambda a, q=qos: getattr(_endpoint(a).qos, q),
+                partial(_qos, qos),
                 value,
                 one(f"topic: a, type: {type_name}, qos: {{{qos}: {wrong}}}"),
                 f"3:{start + 27 + len(type_name) + len(qos)}",
@@ -136,7 +153,7 @@ def _endpoint_cases(
         for time in ("deadline", "lifespan"):
             cases[f"{path}.qos.{time}"] = KeyCase(
                 one(f"{entry}, qos: {{{time}: 1.5 s}}"),
-                lambda a, q=time: getattr(_endpoint(a).qos, f"{q}_ms"),
+                partial(_qos, f"{time}_ms"),
                 1500,
                 one(f"topic: a, type: {type_name}, qos: {{{time}: 5}}"),
                 f"3:{start + 35 + len(type_name)}",
@@ -187,7 +204,7 @@ _TOP = {
     ),
     "creation": KeyCase(
         "creation: reliable",
-        lambda a: a.creation.name,
+        lambda a: _named(a.creation),
         "reliable",
         "creation: realiable",
         "1:11",
@@ -195,7 +212,7 @@ _TOP = {
     ),
     "entities": KeyCase(
         "entities: xml",
-        lambda a: a.entities.name,
+        lambda a: _named(a.entities),
         "xml",
         "entities: XML",
         "1:11",
@@ -203,14 +220,14 @@ _TOP = {
     ),
     "liveliness": KeyCase(
         "liveliness: none",
-        lambda a: a.liveliness.name,
+        lambda a: _named(a.liveliness),
         "none",
         "liveliness: null",
         "1:13",
         "'liveliness' must be ping, acknack or none; it is empty",
     ),
     "clock": KeyCase(
-        "clock: ros", lambda a: a.clock.name, "ros", "clock: sim", "1:8", "'clock' must be steady or ros"
+        "clock: ros", lambda a: _named(a.clock), "ros", "clock: sim", "1:8", "'clock' must be steady or ros"
     ),
     "transport": KeyCase(
         "transport: {type: tcp}",
@@ -238,7 +255,7 @@ _TOP = {
     ),
     "transport.mtu": KeyCase(
         "transport: {mtu: 0x200}",
-        lambda a: (a.transport.mtu, a.transport.mtu_span.column),
+        lambda a: (a.transport.mtu, a.transport.mtu_span and a.transport.mtu_span.column),
         (512, 18),
         "transport: {mtu: 63}",
         "1:18",
@@ -303,7 +320,7 @@ _TOP = {
     **{
         f"session.{name}": KeyCase(
             f"session: {{{name}: 2 s}}",
-            lambda a, n=name: getattr(a.times, n),
+            partial(_time, name),
             2000,
             f"session: {{{name}: 2}}",
             f"1:{13 + len(name)}",
@@ -379,7 +396,7 @@ _TOP = {
     **{
         f"pools.{name}": KeyCase(
             f"pools: {{{name}: 9}}",
-            lambda a, n=name: a.pools[n],
+            partial(_pool, name),
             9,
             f"pools: {{{name}: {wrong}}}",
             f"1:{11 + len(name)}",
@@ -708,7 +725,7 @@ _NODES = {
     ),
 }
 
-_EXECUTORS = {}
+_EXECUTORS: dict[str, KeyCase] = {}
 
 RESERVED = {
     "tasks": (

@@ -72,7 +72,7 @@ class Built:
     @property
     def image(self) -> Path:
         """The example, linked."""
-        return self.out / "bin" / json.loads((self.out / "manifest.json").read_text())["image"]
+        return self.out / "bin" / str(json.loads((self.out / "manifest.json").read_text())["image"])
 
     def tool(self, name: str) -> str:
         """Return a program of the tool chain: `nm`."""

@@ -61,8 +61,7 @@ def scalars(kind: Primitive | StringType) -> st.SearchStrategy[bool | int | floa
         return st.booleans()
     if kind in RANGES:
         return st.integers(*RANGES[kind])
-    width = 32 if kind is Primitive.FLOAT32 else 64
-    return st.floats(allow_nan=False, allow_infinity=False, width=width)
+    return st.floats(allow_nan=False, allow_infinity=False, width=32 if kind is Primitive.FLOAT32 else 64)
 
 
 ELEMENTS: st.SearchStrategy[ElementType] = st.one_of(

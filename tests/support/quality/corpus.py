@@ -291,7 +291,7 @@ def units(trees: Sequence[Tree], is_header_a_difference: bool = True) -> list[Un
         names = errors.read_text(encoding="utf-8") if errors.is_file() else ""
         for source in tree.sources:
             same = (source, names, (tree.out / source).read_text(encoding="utf-8"))
-            identity = (*same, tree.name) if Path(source).name in rendered else same
+            identity: tuple[str, ...] = (*same, tree.name) if Path(source).name in rendered else same
             if not is_header_a_difference:
                 identity = (source, same[-1])
             first.setdefault(identity, (tree, source))

@@ -19,8 +19,8 @@ from pathlib import Path
 
 import yaml
 
-from tests.support.paths import TESTS
-from tests.support.quality.corpus import ROOT, Tree, Unit, analyse, run
+from tests.support.paths import ROOT, TESTS
+from tests.support.quality.corpus import Tree, Unit, analyse, run
 
 DEVIATIONS = TESTS / "quality" / "misra-deviations.yaml"
 PAGE = ROOT / "docs" / "verification" / "quality.md"

@@ -5,13 +5,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import Any
 
 from microros_gen.selection.component import Catalogue, Component
 from microros_gen.selection.model import Selection
 
 
 def _component(name: str, layer: str = "middleware", **rest: object) -> Component:
-    lists = {key: tuple(str(value).split()) for key, value in rest.items() if key != "ready"}
+    lists: dict[str, Any] = {key: tuple(str(value).split()) for key, value in rest.items() if key != "ready"}
     return Component(name, f"The {name}", layer, bool(rest.get("ready", True)), **lists)
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import ctypes
+from typing import Any
 
 from microros_gen.typesupport.plan.types import TypePlan
 from tests.support.typesupport.build import Generated
@@ -56,7 +57,8 @@ def message_type(library: ctypes.CDLL, c_name: str) -> MessageType:
     get.restype = ctypes.POINTER(Handle)
     handle = get().contents
     assert handle.identifier == b"rosidl_typesupport_microros_c"
-    return handle.data.contents
+    contents: MessageType = handle.data.contents
+    return contents
 
 
 class Encoder:
@@ -65,7 +67,7 @@ class Encoder:
     def __init__(self, library: ctypes.CDLL, c_name: str) -> None:
         self.type = message_type(library, c_name)
 
-    def encode(self, value: ctypes.Structure) -> bytes:
+    def encode(self, value: ctypes.Structure | ctypes.Array[Any]) -> bytes:
         fault = Fault()
         size = self.type.encoded_size(ctypes.addressof(value), fault)
         assert size, (fault.field, fault.found, fault.fits)

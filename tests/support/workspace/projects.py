@@ -13,7 +13,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tests.support.environments import ROOT, clean_environ
+from tests.support.environments import clean_environ
+from tests.support.paths import ROOT
 from tests.support.patience import seconds
 
 EXAMPLE = ROOT / "examples" / "cmake_app"
@@ -81,13 +82,13 @@ class Project:
 
     def configure(self, *options: str) -> subprocess.CompletedProcess[str]:
         generator = ("-G", GENERATORS[self.generator])
-        folders = ("-S", self.source, "-B", self.build_folder)
+        folders = ("-S", str(self.source), "-B", str(self.build_folder))
         return run(
             "cmake", *folders, *generator, *self.found, *options, cwd=self.source, env=self.environment
         )
 
     def build(self, *options: str) -> subprocess.CompletedProcess[str]:
-        command = ("cmake", "--build", self.build_folder, "-j2", *options)
+        command = ("cmake", "--build", str(self.build_folder), "-j2", *options)
         return run(*command, cwd=self.source, env=self.environment)
 
     def rebuilt(self) -> frozenset[str]:
@@ -131,7 +132,9 @@ class Project:
         found = []
         for path in self.build_folder.rglob("*.o.d"):
             words = path.read_text().replace("\\\n", " ").replace("\\ ", "\0").split(": ", 1)[1].split()
-            found.append((self._name(path.with_suffix("")), self._real(w.replace("\0", " ") for w in words)))
+            found.append(
+                (self._name(path.with_suffix("")), self._real([w.replace("\0", " ") for w in words]))
+            )
         return found
 
     def _real(self, names: list[str]) -> set[str]:

@@ -13,8 +13,8 @@ import sys
 from collections.abc import Mapping
 from pathlib import Path
 
-from tests.support.environments import ENVIRONMENTS, ROOT, clean_environ, dependencies
-from tests.support.paths import TESTS
+from tests.support.environments import ENVIRONMENTS, clean_environ, dependencies
+from tests.support.paths import ROOT, TESTS
 from tests.support.patience import seconds
 
 WORKSPACE = TESTS / "workspace" / "colcon"
