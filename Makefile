@@ -1,22 +1,29 @@
 # SPDX-License-Identifier: Apache-2.0
-# make demo | test | lint | misra | proof | bench | golden | footprint | docs. Each sets up its own virtual environment in .venv first.
+# make demo | test | quick | system | lint | misra | proof | bench | golden | footprint | docs. Each sets up its own virtual environment in .venv first.
 
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint misra proof bench golden footprint docs clean
+.PHONY: demo test quick system lint misra proof bench golden footprint docs clean
 
 demo: $(VENV)/ros.stamp
 	@$(BIN)/python examples/demo/demo.py
 
 test: $(VENV)/dev.stamp
 	@$(PYTHON) tests/tools/system_packages.py
-	@$(BIN)/python -m tests.tools.run_suite
+	@$(BIN)/python -m tests.tools.run_suite test
+
+quick: $(VENV)/dev.stamp
+	@$(BIN)/python -m tests.tools.run_suite quick
+
+system: $(VENV)/dev.stamp
+	@$(PYTHON) tests/tools/system_packages.py
+	@$(BIN)/python -m tests.tools.run_suite system
 
 lint: $(VENV)/dev.stamp
 	@$(PYTHON) tests/tools/system_packages.py
-	@$(BIN)/python -m tests.tools.run_suite -m "lint and not long"
+	@$(BIN)/python -m tests.tools.run_suite lint
 
 misra: $(VENV)/dev.stamp
 	@$(BIN)/python -m tests.tools.misra

@@ -14,7 +14,7 @@ from tests.bench.agent_rates import Case, client_to_dds, dds_to_client, loopback
 from tests.bench.agent_sides import BEST_EFFORT, RELIABLE, Programs, Target, build_programs, own_agent
 from tests.support.agent.process import own_domain
 
-pytestmark = pytest.mark.ros
+pytestmark = [pytest.mark.ros, pytest.mark.builds]
 COUNT = 2_000
 
 

@@ -16,6 +16,8 @@ from tests.support.agent.client import XrceClient
 from tests.support.agent.command import DOMAIN, run
 from tests.support.agent.process import running_agent
 
+pytestmark = pytest.mark.builds
+
 
 @pytest.mark.ros
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

@@ -25,6 +25,8 @@ from tests.support.agent.tcp_link import TcpLink
 from tests.support.paths import ROOT
 from tests.support.patience import seconds
 
+pytestmark = pytest.mark.builds
+
 DOMAIN = own_domain()
 INT32 = "std_msgs/msg/Int32"
 ALL = ("udp4", "--port", "0", "udp6", "--port", "0", "tcp4", "--port", "0", "tcp6", "--port", "0", "pty")

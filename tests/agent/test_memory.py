@@ -26,6 +26,8 @@ from tests.support.agent.fakes import Bench
 from tests.support.agent.process import AgentProcess, own_domain, running_agent
 from tests.support.patience import deadline
 
+pytestmark = pytest.mark.builds
+
 MIB = 1 << 20
 
 

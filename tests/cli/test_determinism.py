@@ -17,6 +17,8 @@ from tests.support.command_line import Runner
 from tests.support.environments import clean_environ, interpreters, with_dependencies
 from tests.support.paths import ROOT
 
+pytestmark = pytest.mark.builds
+
 APPLICATION = """\
 version: 1
 profiles: [pure_sender]

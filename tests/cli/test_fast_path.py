@@ -20,6 +20,8 @@ from microros_gen.interfaces.find import shipped_folder
 from microros_gen.output import runs
 from tests.support.command_line import Outcome, Runner
 
+pytestmark = pytest.mark.builds
+
 APPLICATION = """\
 version: 1
 profiles: [pure_sender]

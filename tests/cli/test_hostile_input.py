@@ -33,6 +33,8 @@ from tests.support.command_line import Runner
 from tests.support.paths import ROOT
 from tests.support.patience import seconds
 
+pytestmark = pytest.mark.builds
+
 MUTATIONS = int(os.environ.get("MUTATIONS", "60"))  # of each seed; thousands by hand
 
 APPLICATION = """version: 1

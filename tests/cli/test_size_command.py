@@ -19,7 +19,7 @@ from microros_gen.cli import main as cli
 from microros_gen.cli.size.html import HEIGHT, WIDTH, treemap
 from tests.support.command_line import Runner
 
-pytestmark = pytest.mark.skipif(not shutil.which("gcc"), reason="no gcc")
+pytestmark = [pytest.mark.skipif(not shutil.which("gcc"), reason="no gcc"), pytest.mark.builds]
 SCHEMA = json.loads(
     (Path(microros_gen.__file__).parent / "cli" / "size" / "size.schema.json").read_text(encoding="utf-8")
 )

@@ -11,6 +11,8 @@ import pytest
 
 from tests.support.command_line import Runner
 
+pytestmark = pytest.mark.builds
+
 APPLICATION = """\
 version: 1
 profiles: [pure_sender]

@@ -11,6 +11,8 @@ import pytest
 
 from tests.support.command_line import Outcome, Runner
 
+pytestmark = pytest.mark.builds
+
 HEAD = """version: 1
 profiles: [pure_sender, pure_reader]
 nodes:

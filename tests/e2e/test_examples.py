@@ -18,7 +18,7 @@ from tests.support.e2e.examples import NAMES, PAGE, Example, Examples, commands
 from tests.support.e2e.relay import Relay
 from tests.support.patience import deadline, seconds
 
-pytestmark = pytest.mark.ros
+pytestmark = [pytest.mark.ros, pytest.mark.system]
 
 INT32, HEADER, JOINTS = "std_msgs/msg/Int32", "std_msgs/msg/Header", "sensor_msgs/msg/JointState"
 SLACK_S = 1.0

@@ -23,6 +23,8 @@ from tests.support.e2e.relay import Relay
 from tests.support.paths import ROOT
 from tests.support.patience import seconds
 
+pytestmark = pytest.mark.system
+
 RUN = [sys.executable, "-m", "microros_gen", "run"]
 DECLARED = """\
 version: 1

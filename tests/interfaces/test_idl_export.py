@@ -18,6 +18,8 @@ from microros_gen.diagnostics import UserError
 from tests.support.interfaces.idl_compiler import IdlCompiler, idl_compiler
 from tests.support.interfaces.rosidl_idl_pipeline import RosIdl, ros_idl
 
+pytestmark = pytest.mark.builds
+
 SHARE = Path(sys.prefix) / "share"
 KINDS = ("msg", "srv", "action")
 FIRST_FORMS = sorted(p for kind in KINDS for p in SHARE.glob(f"*/{kind}/*.{kind}"))

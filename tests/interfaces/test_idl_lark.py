@@ -5,8 +5,12 @@ from __future__ import annotations
 
 import subprocess
 
+import pytest
+
 from tests.support.interfaces.idl_corpus import BAD, GOOD
 from tests.support.paths import ROOT
+
+pytestmark = pytest.mark.builds
 
 SCRIPT = """
 import sys

@@ -41,7 +41,7 @@ from tests.support.interfaces.rosidl_idl_pipeline import (
     ros_makes_python,
 )
 
-pytestmark = pytest.mark.ros
+pytestmark = [pytest.mark.ros, pytest.mark.builds]
 
 
 def read(text: str, kind: str = "msg") -> IdlFile:

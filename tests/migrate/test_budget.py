@@ -7,9 +7,13 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from tests.support.environments import clean_environ
 from tests.support.migrate.proposals import Init
 from tests.support.paths import ROOT
+
+pytestmark = pytest.mark.builds
 
 
 def test_a_budget_is_checked_when_the_image_is_linked(init: Init, tmp_path: Path) -> None:

@@ -16,7 +16,7 @@ from tests.support.migrate.profiles import READY
 from tests.support.migrate.proposals import Init
 from tests.support.paths import ROOT
 
-pytestmark = pytest.mark.long
+pytestmark = [pytest.mark.long, pytest.mark.builds]
 BOARDS = ("qemu-microbit", "qemu-mps2-an386", "qemu-riscv32-virt")
 
 

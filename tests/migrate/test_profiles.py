@@ -16,6 +16,8 @@ from microros_gen.toolchain.toolchain import WARNINGS
 from tests.support.migrate.profiles import READY
 from tests.support.migrate.proposals import Init, application_in, entities_of
 
+pytestmark = pytest.mark.builds
+
 PLANNED = ("configurable_sender_with_diagnostics", "managed_service")
 FILES = {
     "microros.yaml",

@@ -25,6 +25,8 @@ from tests.support.quality.corpus import (
     width_flags,
 )
 
+pytestmark = pytest.mark.builds
+
 SUPPRESSIONS = ROOT / "tests" / "quality" / "cppcheck-suppressions.txt"
 TIDY = ROOT / ".clang-tidy"
 COMMON = ("-std=c99", "-Iinclude", "-fsyntax-only")

@@ -10,6 +10,8 @@ import pytest
 
 from tests.support.paths import ROOT
 
+pytestmark = pytest.mark.builds
+
 PYTHON_FOLDERS = ["microros_gen", "tests", "examples", "docs"]
 SUPPRESSIONS = ROOT / "tests" / "quality" / "cppcheck-suppressions.txt"
 

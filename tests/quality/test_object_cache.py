@@ -11,6 +11,8 @@ import pytest
 
 from tests.support.objects.cache import make
 
+pytestmark = pytest.mark.builds
+
 HEADER = "#define A 1\n#define B 2\n"
 SOURCE = '#include "x.h"\nint f(int a)\n{\n  int unused;\n  return a + A;\n}\n'
 

@@ -1,22 +1,61 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`make test`: the suite but its long runs and `make lint`, side by side: one process more than there are cores."""
+"""`make test`, `make quick`, `make system`, `make lint`: which tests each of them runs, side by side.
+
+python -m tests.tools.run_suite [test | quick | system | lint] [options of pytest]
+"""
 
 from __future__ import annotations
 
 import os
 import subprocess
 import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
-from tests.support.paths import ROOT
+from tests.support.paths import ROOT, TESTS
+
+# Units in Python: what a developer runs after each change.
+UNITS = (
+    *("diagnostics", "documents", "interfaces", "application", "selection", "typesupport", "platform"),
+    *("client", "output", "toolchain", "image", "compiler", "migrate", "agent", "cli", "ros", "quality"),
+)
 
 
-def main() -> int:
-    """Run pytest; its exit status is ours."""
-    workers = str(1 + max(1, os.cpu_count() or 1))  # many tests wait for an agent most of the time
-    command = [sys.executable, "-m", "pytest", "-n", workers, "--dist", "worksteal", "-q", "--durations=10"]
-    command += ["-m", "not long and not lint", *sys.argv[1:]]
-    return subprocess.run(command, cwd=ROOT, check=False).returncode
+@dataclass(frozen=True)
+class Run:
+    """What pytest is told: the expression of markers, and folders below tests/ (none: all)."""
+
+    markers: str
+    folders: tuple[str, ...] = ()
+
+
+RUNS: Mapping[str, Run] = {
+    "test": Run("not long and not lint and not system"),
+    "quick": Run("not long and not lint and not system and not ros and not builds", UNITS),
+    "system": Run("system and not long"),
+    "lint": Run("lint and not long"),
+}
+NO_TESTS = 5
+"""The exit status of pytest that found none."""
+
+
+def command(name: str, options: Sequence[str]) -> list[str]:
+    """Return the call of pytest: one process more than there are cores, many tests wait for an agent."""
+    run = RUNS[name]
+    workers = str(1 + max(1, os.cpu_count() or 1))
+    call = [sys.executable, "-m", "pytest", "-n", workers, "--dist", "worksteal", "-q", "--durations=10"]
+    folders = [f"tests/{folder}" for folder in run.folders if (TESTS / folder).is_dir()]
+    return [*call, "-m", run.markers, *folders, *options]
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run pytest; its exit status is ours, but a run that has no tests yet is well."""
+    name, options = ("test", arguments)
+    if arguments and arguments[0] in RUNS:
+        name, options = arguments[0], arguments[1:]
+    status = subprocess.run(command(name, options), cwd=ROOT, check=False).returncode
+    return 0 if name == "system" and status == NO_TESTS else status
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:]))

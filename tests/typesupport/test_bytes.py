@@ -16,7 +16,7 @@ from tests.support.typesupport.encoder import (
 from tests.support.typesupport.padding import padding
 from tests.support.typesupport.values import CStructs, Randomizer, to_ros
 
-pytestmark = pytest.mark.ros
+pytestmark = [pytest.mark.ros, pytest.mark.builds]
 
 rclpy_serialization = pytest.importorskip("rclpy.serialization")
 

@@ -13,7 +13,7 @@ import pytest
 from tests.support.typesupport.build import DECODING, WARNINGS, Generated, run, unity
 from tests.support.typesupport.selfcheck import write_selfcheck
 
-pytestmark = pytest.mark.ros
+pytestmark = [pytest.mark.ros, pytest.mark.builds]
 
 COMPILED = ("__type_support.c", "__storage.c", "__functions.c", "__decode.c")
 DECODERS = "".join(f'#include "{source}"\n' for source in DECODING)

@@ -21,7 +21,7 @@ from tests.support.typesupport.decoder import BOUND, CAPACITY, END, VALUE, Decod
 from tests.support.typesupport.encoder import names_member, with_python
 from tests.support.typesupport.values import Randomizer, from_ros, ros_class, to_ros
 
-pytestmark = pytest.mark.ros
+pytestmark = [pytest.mark.ros, pytest.mark.builds]
 
 rclpy_serialization = pytest.importorskip("rclpy.serialization")
 RMWError = importlib.import_module("rclpy.impl.implementation_singleton").rclpy_implementation.RMWError

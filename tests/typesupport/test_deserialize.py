@@ -12,9 +12,10 @@ import pytest
 from microros_gen.cli import main as cli
 from microros_gen.interfaces.find import shipped_folder
 
-pytestmark = pytest.mark.skipif(
-    shutil.which("gcc") is None or shutil.which("nm") is None, reason="no gcc or no nm"
-)
+pytestmark = [
+    pytest.mark.skipif(shutil.which("gcc") is None or shutil.which("nm") is None, reason="no gcc or no nm"),
+    pytest.mark.builds,
+]
 
 APPLICATION = """\
 version: 1

@@ -16,7 +16,7 @@ from microros_gen.cli import main as cli
 from microros_gen.interfaces.find import shipped_folder
 from tests.support.typesupport.build import WARNINGS, run
 
-pytestmark = pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
+pytestmark = [pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc"), pytest.mark.builds]
 
 APPLICATION = """\
 version: 1

@@ -17,7 +17,7 @@ from tests.support.typesupport.memory import (
 )
 from tests.support.typesupport.values import CString, CStructs, Randomizer, from_ros, ros_class
 
-pytestmark = pytest.mark.ros
+pytestmark = [pytest.mark.ros, pytest.mark.builds]
 pytest.importorskip("rclpy")
 
 

@@ -32,7 +32,7 @@ from tests.support.typesupport.memory import Memory
 from tests.support.typesupport.rosidl import RosPackage, make_ros_package
 from tests.support.typesupport.values import Randomizer
 
-pytestmark = pytest.mark.ros
+pytestmark = [pytest.mark.ros, pytest.mark.builds]
 pytest.importorskip("rosidl_typesupport_fastrtps_c")
 
 PACKAGE = {

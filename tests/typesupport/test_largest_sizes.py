@@ -17,6 +17,8 @@ from microros_gen.application.model import LimitRule
 from microros_gen.interfaces.find import shipped_folder
 from tests.support.typesupport.build import COMPONENTS, WARNINGS, Generated, generate, run
 
+pytestmark = pytest.mark.builds
+
 TYPES = (
     "std_msgs/msg/Int32",
     "sensor_msgs/msg/JointState",

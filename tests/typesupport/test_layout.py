@@ -14,7 +14,7 @@ from microros_gen.typesupport.plan.layout import LP64, StructLayouts
 from tests.support.typesupport.build import Generated, run
 from tests.support.typesupport.layout import facts, facts_program
 
-pytestmark = pytest.mark.ros
+pytestmark = [pytest.mark.ros, pytest.mark.builds]
 
 PREFIX = Path(sys.prefix)
 

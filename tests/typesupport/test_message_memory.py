@@ -17,6 +17,8 @@ from microros_gen.cli import main as cli
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.typesupport.plan.message_pools import BlockSize, block_sizes
 
+pytestmark = pytest.mark.builds
+
 PROGRAM = Path(__file__).parent / "message_memory.c"
 PACKAGE = {
     "msg/Pair.msg": "string brief\nstring text\n",

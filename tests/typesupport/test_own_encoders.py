@@ -15,6 +15,8 @@ from microros_gen import compiler
 from microros_gen.interfaces.find import shipped_folder
 from tests.support.typesupport.build import WARNINGS, run
 
+pytestmark = pytest.mark.builds
+
 APPLICATION = """\
 version: 1
 profiles: [pure_sender]

@@ -18,6 +18,8 @@ from microros_gen.typesupport.plan.types import LARGEST_BODY
 from microros_gen.typesupport.views.struct import declaration
 from tests.support.typesupport.build import COMPONENTS, generate
 
+pytestmark = pytest.mark.builds
+
 ROOT = COMPONENTS.parents[1]
 PAGE = (ROOT / "docs" / "explanation" / "typesupport.md").read_text(encoding="utf-8")
 NAME = TypeName("pkg", "msg", "Type")

@@ -18,7 +18,7 @@ from tests.support.typesupport.values import CStructs, Randomizer
 if TYPE_CHECKING:
     from tests.support.typesupport.rosbags import Oracle
 
-pytestmark = pytest.mark.ros
+pytestmark = [pytest.mark.ros, pytest.mark.builds]
 
 ENCAPSULATION = {True: b"\0\0\0\0", False: b"\0\1\0\0"}
 SAMPLES = ("empty", "full", "random", "random")

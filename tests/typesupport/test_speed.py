@@ -10,7 +10,7 @@ import pytest
 
 from tests.bench import codec
 
-pytestmark = pytest.mark.ros
+pytestmark = [pytest.mark.ros, pytest.mark.builds]
 
 # The goals of verification/figures.md: a third where all behind the header's string has a fixed layout, else not more.
 MOST = {"Int32": 1 / 3, "Imu": 1 / 3, "TwistStamped": 1 / 3}

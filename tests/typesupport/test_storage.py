@@ -13,7 +13,7 @@ from microros_gen.typesupport.plan.size import TypeLimits
 from tests.support.typesupport.build import Generated
 from tests.support.typesupport.values import CStructs, from_ros, ros_class
 
-pytestmark = pytest.mark.ros
+pytestmark = [pytest.mark.ros, pytest.mark.builds]
 pytest.importorskip("rclpy")
 
 

@@ -19,6 +19,8 @@ from microros_gen.typesupport.views.text import comment_lines, number, string
 from microros_gen.typesupport.views.types import render_types
 from tests.support.typesupport.build import TEST_RULES, WARNINGS, Generated, generate, run
 
+pytestmark = pytest.mark.builds
+
 NASTY = """# Speed [m/s] */ int injected; /* and more
 # trigraph ??/
 # ends with a backslash \\

@@ -21,9 +21,10 @@ from microros_gen.interfaces.find import shipped_folder
 from tests.support.typesupport.build import WARNINGS, run
 from tests.support.typesupport.utilities import APPLICATION, CASES, PACKAGE, PROGRAM, SMALL
 
-pytestmark = pytest.mark.skipif(
-    shutil.which("gcc") is None or shutil.which("nm") is None, reason="no gcc or no nm"
-)
+pytestmark = [
+    pytest.mark.skipif(shutil.which("gcc") is None or shutil.which("nm") is None, reason="no gcc or no nm"),
+    pytest.mark.builds,
+]
 
 SANITIZE = "-fsanitize=address,undefined"
 VARIANTS: Mapping[str, tuple[str, ...]] = {
