@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 import microros_gen
-from microros_gen.compiler import api
+from microros_gen.compiler import api, request
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.output import runs
 from tests.support.command_line import Outcome, Runner
@@ -70,7 +70,7 @@ def generate(run: Runner) -> Runner:
 def settled(application: Path, generate: Runner, monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The application was generated, and a second run came from the record. Returns a log of full runs."""
     log: list[str] = []
-    original = api.read_request
+    original = request.read_request
 
     def logged(*arguments: object) -> object:
         log.append("full run")

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -20,7 +21,7 @@ OPTIONS = compiler.Options(profiles=("pure_sender",), interface_paths=SHIPPED)
 @pytest.fixture(autouse=True)
 def _nothing_is_printed(
     capfd: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+) -> Iterator[None]:
     monkeypatch.chdir(tmp_path)
     yield
     assert capfd.readouterr() == ("", "")
