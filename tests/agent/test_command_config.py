@@ -263,7 +263,7 @@ def test_a_manifest_is_of_its_nodes_or_of_a_key(tmp_path: Path) -> None:
 
 
 def test_hashes_of_a_real_manifest_are_those_of_the_shipped_files() -> None:
-    golden = Path(__file__).resolve().parents[1] / "golden/static_configured_sender/manifest.json"
+    golden = Path(__file__).resolve().parents[1] / "golden/preconfigured/manifest.json"
     diagnostics = Diagnostics()
     clients = read_manifests([ManifestOf(golden)], diagnostics)
     diagnostics.check()

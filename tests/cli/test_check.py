@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`check`, and the golden copies of this repository."""
+"""`check`: the users' comparison with a golden copy of their own."""
 
 from __future__ import annotations
 
@@ -9,49 +9,52 @@ from pathlib import Path
 
 import pytest
 
+from microros_gen.cli import main as cli
+from microros_gen.interfaces.find import shipped_folder
 from tests.support.command_line import Outcome, Runner
-from tests.support.paths import ROOT
-from tests.tools.update_golden import GOLDEN, SHIPPED, check_arguments
 
 A_SOURCE = "src/std_msgs/int32__functions.c"
 
 
-def ready_profiles(run: Runner) -> list[str]:
-    listed = json.loads(run("profiles", "--format", "json").out)
-    return [entry["name"] for entry in listed if entry["status"] == "ready"]
+def check_arguments(golden: Path) -> list[str]:
+    """Return the call that compares a golden copy of the smallest profile."""
+    return [
+        "check",
+        "--profile",
+        "pure_sender",
+        "--interface-path",
+        str(shipped_folder()),
+        "--golden",
+        str(golden),
+    ]
 
 
-def test_each_profile_that_is_ready_has_a_golden_copy_and_no_other(run: Runner) -> None:
-    assert "pure_sender" in ready_profiles(run)
-    assert sorted(path.name for path in GOLDEN.iterdir() if path.is_dir()) == sorted(ready_profiles(run))
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A golden copy, written once."""
+    golden = tmp_path_factory.mktemp("golden") / "pure_sender"
+    with pytest.raises(SystemExit) as end:
+        cli.main([*check_arguments(golden), "--update"])
+    assert end.value.code == 0
+    return golden
 
 
-@pytest.mark.parametrize("profile", sorted(path.name for path in GOLDEN.iterdir() if path.is_dir()))
-def test_what_is_generated_is_what_the_golden_copy_holds(run: Runner, profile: str) -> None:
-    """After an intended change: `make golden`, and read the difference before it is committed."""
-    outcome = run(*check_arguments(profile))
-    assert outcome.out == ""
-    assert outcome.err == ""
-    assert outcome.status == 0
-
-
-def test_a_golden_copy_holds_sources_only(folder: Path) -> None:
-    found = {path.name for path in (GOLDEN / "pure_sender").iterdir()}
-    assert found == {
+def test_a_golden_copy_holds_sources_only(written: Path) -> None:
+    assert {path.name for path in written.iterdir()} == {
         "CMakeLists.txt", "README.md", "examples", "include", "manifest.json", "microros_image.cmake",
         "sources.txt", "src",
     }  # fmt: skip
 
 
 @pytest.fixture
-def copy(folder: Path) -> Path:
+def copy(folder: Path, written: Path) -> Path:
     """A golden copy of the test's own, in the current folder."""
-    shutil.copytree(GOLDEN / "pure_sender", folder / "golden" / "pure_sender")
+    shutil.copytree(written, folder / "golden" / "pure_sender")
     return folder / "golden" / "pure_sender"
 
 
 def check(run: Runner, *more: str) -> Outcome:
-    return run(*check_arguments("pure_sender", Path("golden")), *more)
+    return run(*check_arguments(Path("golden/pure_sender")), *more)
 
 
 def test_a_changed_file_is_shown_as_a_unified_diff(run: Runner, copy: Path) -> None:
@@ -130,7 +133,7 @@ def test_what_a_build_adds_is_left_out(run: Runner, copy: Path) -> None:
     assert check(run).status == 0
 
 
-def test_update_rewrites_what_differs_and_no_more(run: Runner, copy: Path) -> None:
+def test_update_rewrites_what_differs_and_no_more(run: Runner, copy: Path, written: Path) -> None:
     kept = copy / "sources.txt"
     before = kept.stat().st_mtime_ns
     (copy / A_SOURCE).write_text("")
@@ -140,9 +143,8 @@ def test_update_rewrites_what_differs_and_no_more(run: Runner, copy: Path) -> No
     assert "2 written" in updated.out
     assert kept.stat().st_mtime_ns == before
     assert check(run).status == 0
-    same = GOLDEN / "pure_sender"
     held = {p.relative_to(copy) for p in copy.rglob("*")}
-    assert held == {p.relative_to(same) for p in same.rglob("*")}
+    assert held == {p.relative_to(written) for p in written.rglob("*")}
 
 
 def test_update_writes_a_copy_where_none_is(run: Runner, folder: Path) -> None:
@@ -173,8 +175,3 @@ def test_a_folder_of_others_is_not_overwritten(run: Runner, folder: Path) -> Non
     outcome = check(run, "--update")
     assert outcome.status == 2
     assert [p.name for p in (folder / "golden" / "pure_sender").iterdir()] == ["thesis.txt"]
-
-
-def test_the_golden_copies_come_from_this_checkout() -> None:
-    assert SHIPPED == ROOT / "microros_gen" / "idl"
-    assert (SHIPPED / "std_msgs" / "msg" / "Int32.msg").is_file()

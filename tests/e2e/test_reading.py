@@ -103,7 +103,7 @@ def test_samples_of_any_size_share_the_bytes_of_a_queue(
             block = zip(letters[first : first + 40], sizes[first : first + 40], strict=True)
             publish(observer, "/words", "std_msgs/msg/String", *(letter * size for letter, size in block))
         publish(observer, "/words", "std_msgs/msg/String", "end")
-        out, errors = process.communicate(timeout=60)
+        out, errors = process.communicate(timeout=seconds(60))
     assert (process.returncode, errors) == (0, "")
     expected = [f"{letter} {size} whole" for letter, size in zip(letters, sizes, strict=True)]
     assert out.splitlines() == [*expected, "e 3 -", "dropped 0 refused 0"]

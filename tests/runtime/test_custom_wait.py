@@ -57,7 +57,7 @@ def test_calls_without_a_time_out(read_polls: bool, framing: str, tmp_path: Path
     tree = render(tmp_path, plan, components(plan))
     program = build(tree, ["types_read.c", "custom_wait.c"], "custom_wait")
     with serving(ReadingAgent()) as (served, _):
-        command = [program, str(served.getsockname()[1]), "polls"]
+        command = [str(program), str(served.getsockname()[1]), "polls"]
         done = subprocess.run(command, capture_output=True, text=True, timeout=seconds(60), check=True)
     reads, longest_ms, acknowledged = map(int, done.stdout.split())
     assert acknowledged == 1

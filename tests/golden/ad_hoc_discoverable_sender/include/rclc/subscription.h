@@ -1,1 +1,0 @@
-#error "The component 'subscribe' is not selected: add `components: [+subscribe]` to microros.yaml and generate again"

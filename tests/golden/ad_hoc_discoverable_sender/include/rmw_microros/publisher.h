@@ -1,1 +1,0 @@
-#error "The component 'publish_statistics' is not selected: add `components: [+publish_statistics]` to microros.yaml and generate again"

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "rcl/node.h"
+
+#include "microros/error.h"
+#include "microros/rcl_names.h"
+#include "microros/rcl_node_open.h"
+#include "microros/rmw_node.h"
+#include "microros/xrce_client.h"
+
+#include <stddef.h>
+
+rcl_node_t rcl_get_zero_initialized_node(void)
+{
+  const rcl_node_t node = {NULL, NULL};
+
+  return node;
+}
+
+static rcl_ret_t node_check_names(const char * name, const char * namespace_)
+{
+  const char * fault = rcl_names_check_node(name);
+
+  if (fault != NULL) {
+    microros_error_set(microros_error_name, name, fault, 0, 0);
+    return RCL_RET_NODE_INVALID_NAME;
+  }
+  fault = rcl_names_check_namespace(namespace_);
+  if (fault != NULL) {
+    microros_error_set(microros_error_name, namespace_, fault, 0, 0);
+    return RCL_RET_NODE_INVALID_NAMESPACE;
+  }
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_node_open(
+  rcl_node_t * node, const char * name, const char * namespace_, rcl_context_t * context)
+{
+  rcl_ret_t result;
+
+  if (node == NULL || name == NULL || namespace_ == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "node or its name");
+  }
+  if (!rcl_context_is_valid(context)) {
+    return microros_error_refuse(RCL_RET_NOT_INIT, "context");
+  }
+  result = node_check_names(name, namespace_);
+  if (result == RCL_RET_OK) {
+    result = rmw_node_open(context->impl, name, namespace_, &node->impl);
+  }
+  if (result == RCL_RET_OK) {
+    node->context = context;
+  }
+  return result;
+}
+
+rcl_ret_t rcl_node_init(
+  rcl_node_t * node, const char * name, const char * namespace_, rcl_context_t * context,
+  const rcl_node_options_t * options)
+{
+  if (context == NULL || options == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "context or options");
+  }
+  if (node != NULL && node->impl != NULL) {
+    return microros_error_named(RCL_RET_ALREADY_INIT, microros_error_node_open, name);
+  }
+  return rcl_node_open(node, name, namespace_, context);
+}
+
+rcl_ret_t rcl_node_fini(rcl_node_t * node)
+{
+  if (node == NULL) {
+    return microros_error_refuse(RCL_RET_NODE_INVALID, "node");
+  }
+  if (rcl_node_is_valid(node)) {
+    rmw_node_close(node->impl);
+  }
+  node->impl = NULL;
+  node->context = NULL;
+  return RCL_RET_OK;
+}
+
+bool rcl_node_is_valid_except_context(const rcl_node_t * node)
+{
+  return node != NULL && node->impl != NULL;
+}
+
+bool rcl_node_is_valid(const rcl_node_t * node)
+{
+  return node != NULL && rmw_node_is_open(node->impl); /* which needs the session, and so the context */
+}
+
+const char * rcl_node_get_name(const rcl_node_t * node)
+{
+  return rcl_node_is_valid_except_context(node) ? node->impl->name : NULL;
+}
+
+const char * rcl_node_get_namespace(const rcl_node_t * node)
+{
+  return rcl_node_is_valid_except_context(node) ? node->impl->namespace_ : NULL;
+}
+
+const char * rcl_node_get_logger_name(const rcl_node_t * node)
+{
+  return rcl_node_get_name(node);
+}
+
+rcl_ret_t rcl_node_get_domain_id(const rcl_node_t * node, size_t * domain_id)
+{
+  const xrce_participant_t * participant;
+
+  if (!rcl_node_is_valid(node)) {
+    return microros_error_refuse(RCL_RET_NODE_INVALID, "node");
+  }
+  if (domain_id == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "domain_id");
+  }
+  participant = node->impl->data;
+  *domain_id = participant->domain_id;
+  return RCL_RET_OK;
+}
+
+rmw_node_t * rcl_node_get_rmw_handle(const rcl_node_t * node)
+{
+  return rcl_node_is_valid_except_context(node) ? node->impl : NULL;
+}

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/xrce_liveliness_acknack.h"
+
+#include "microros/xrce_client.h"
+#include "microros/xrce_wire.h"
+
+void xrce_liveliness_acknack_reset(xrce_liveliness_acknack_t * liveliness, uint32_t now)
+{
+  liveliness->since_ms = now;
+  liveliness->first = 0;
+}
+
+/* Whether there is nothing to acknowledge, or something was. A message that is dropped for a newer one moves
+ * the stream on as well, but nobody is heard then. */
+static bool liveliness_is_fine(const xrce_client_t * client)
+{
+  const xrce_stream_reliable_t * stream = &client->reliable;
+
+  const bool waits = stream->count != 0u && !stream->held;
+
+  if (client->session.state != XRCE_READY || !waits) {
+    return true;
+  }
+  return stream->first != client->liveliness.first && client->session.heard_ms != client->liveliness.heard_ms;
+}
+
+void xrce_liveliness_acknack_step(xrce_client_t * client, uint32_t now)
+{
+  xrce_liveliness_acknack_t * liveliness = &client->liveliness;
+
+  if (liveliness_is_fine(client)) {
+    liveliness->since_ms = now;
+    liveliness->first = client->reliable.first;
+    liveliness->heard_ms = client->session.heard_ms;
+  } else if (xrce_is_due(now, xrce_liveliness_acknack_due(liveliness))) {
+    xrce_session_lose(client, now);
+  }
+}

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/xrce_routes.h"
+
+#include "microros/xrce_client.h"
+#include "microros/xrce_wire.h"
+
+bool xrce_route_message(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
+{
+  return xrce_session_take_submessages(client, message, size, now);
+}
+
+void xrce_route_submessage(
+  xrce_client_t * client, uint8_t id, uint8_t flags, const uint8_t * payload, size_t size, bool in_session,
+  uint32_t now)
+{
+  (void)flags;
+  switch (id) {
+    case XRCE_STATUS_AGENT:
+      xrce_session_on_status_agent(client, payload, size, now);
+      break;
+    case XRCE_STATUS:
+      xrce_session_leave_on_status(client, payload, size);
+      xrce_entities_on_status(client, payload, size, now);
+      break;
+    case XRCE_ACKNACK:
+      if (!xrce_stream_reliable_on_acknack(&client->reliable, &client->session, payload, size, flags, now)) {
+        ++client->session.statistics.malformed;
+      }
+      break;
+    default:
+      break;
+  }
+  (void)in_session;
+}
+
+void xrce_route_step(xrce_client_t * client, uint32_t now)
+{
+  xrce_liveliness_acknack_step(client, now);
+  xrce_session_step(client, now);
+  xrce_entities_step(client, now);
+  xrce_stream_reliable_step(&client->reliable, &client->session, xrce_route_settled(client), now);
+}
+
+void xrce_route_connected(xrce_client_t * client, uint32_t now)
+{
+  xrce_stream_best_effort_reset(&client->best_effort);
+  xrce_stream_reliable_hold(&client->reliable, now);
+  xrce_entities_renew(client);
+  xrce_liveliness_acknack_reset(&client->liveliness, now);
+}
+
+void xrce_route_close(xrce_client_t * client)
+{
+  xrce_session_leave(client, client->close_timeout_ms); /* whose answer comes behind all that was sent */
+  xrce_session_close(client);
+}
+
+uint8_t * xrce_route_reserve(xrce_client_t * client, bool reliable)
+{
+  return reliable ? xrce_stream_reliable_reserve(&client->reliable, &client->session)
+                  : xrce_stream_best_effort_reserve(&client->best_effort);
+}
+
+bool xrce_route_commit(xrce_client_t * client, bool reliable, size_t size)
+{
+  if (reliable) {
+    xrce_stream_reliable_commit(&client->reliable, &client->session, size, client->session.now_ms);
+    return true;
+  }
+  return xrce_stream_best_effort_commit(&client->best_effort, &client->session, size);
+}
+
+size_t xrce_route_capacity(bool reliable)
+{
+  return reliable ? MICROROS_RELIABLE_SLOT_SIZE - MICROROS_RELIABLE_FRONT - XRCE_WRITE_PREFIX
+                  : MICROROS_BEST_EFFORT_SIZE - XRCE_MESSAGE_HEADER - XRCE_WRITE_PREFIX;
+}
+
+const uint8_t * xrce_route_drop_oldest(xrce_client_t * client)
+{
+  return xrce_stream_reliable_drop_oldest(&client->reliable, &client->session, client->session.now_ms);
+}
+
+uint16_t xrce_route_unacknowledged(const xrce_client_t * client)
+{
+  return client->reliable.count;
+}
+
+bool xrce_route_settled(const xrce_client_t * client)
+{
+  return xrce_entities_settled(client);
+}

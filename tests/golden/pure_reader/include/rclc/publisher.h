@@ -1,1 +1,0 @@
-#error "The component 'publish' is not selected: add `components: [+publish]` to microros.yaml and generate again"

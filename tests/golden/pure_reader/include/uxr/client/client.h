@@ -1,9 +1,0 @@
-/* SPDX-License-Identifier: Apache-2.0 */
-/* What applications take from this header of the public XRCE client. Sessions are those of rmw_microros/session.h. */
-#ifndef MICROROS_UXR_CLIENT_CLIENT_H
-#define MICROROS_UXR_CLIENT_CLIENT_H
-
-#include "uxr/client/config.h"
-#include "uxr/client/util/time.h"
-
-#endif /* MICROROS_UXR_CLIENT_CLIENT_H */

@@ -1,1 +1,0 @@
-#error "The component 'lifecycle' is not in this version yet"

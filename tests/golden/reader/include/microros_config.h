@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The plan as constants. Sizes are bytes, times are milliseconds. Written by microros-gen: change the application file
+ * (microros.yaml) instead.
+ */
+#ifndef MICROROS_CONFIG_H
+#define MICROROS_CONFIG_H
+
+/* An application that was compiled against another plan does not link. */
+#define MICROROS_PLAN_ID "288a05dbb4480930"
+#define rcl_init rcl_init__plan_288a05dbb4480930
+#define rclc_support_init rclc_support_init__plan_288a05dbb4480930
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_288a05dbb4480930
+
+/* errors: text */
+#define MICROROS_ERROR_TEXT_SIZE 160u
+
+/* transport */
+#define RMW_UXRCE_TRANSPORT_UDP
+#define MICROROS_AGENT_HOST "127.0.0.1"
+#define MICROROS_AGENT_PORT 8888u
+#define MICROROS_MTU 71u
+
+/* session */
+#define MICROROS_CLIENT_KEY port_unique_id()
+#define MICROROS_CONNECT_TIMEOUT_MS 1000u
+#define MICROROS_CREATE_TIMEOUT_MS 1000u
+#define MICROROS_CLOSE_TIMEOUT_MS 300u
+#define MICROROS_RETRY_FIRST_MS 100u /* of pauses between attempts, which grow */
+#define MICROROS_RETRY_MOST_MS 4000u
+#define MICROROS_LIVELINESS_PERIOD_MS 1000u
+#define MICROROS_LIVELINESS_WAIT_MS 1000u /* for each answer */
+#define MICROROS_LIVELINESS_ATTEMPTS 3u
+
+/* streams */
+#define MICROROS_INPUT_SIZE 1472u
+#define MICROROS_INPUT_BUFFER_SIZE 1472u
+#define MICROROS_BEST_EFFORT_SIZE 71u
+#define MICROROS_RELIABLE_INPUT_SLOTS 2u
+#define MICROROS_RELIABLE_INPUT_SLOT_SIZE 1472u
+#define MICROROS_QUEUE_SLOTS 6u
+#define MICROROS_QUEUES_SIZE 6032u
+#define MICROROS_PRECONFIGURED 0u
+
+/* places */
+#define MICROROS_NODES_MAX 1u
+#define MICROROS_PUBLISHERS_MAX 0u
+#define MICROROS_SUBSCRIPTIONS_MAX 2u
+#define MICROROS_SERVICES_MAX 0u
+#define MICROROS_CLIENTS_MAX 0u
+#define MICROROS_TASKS_SHARE 0u /* several tasks may call the library */
+#define MICROROS_EXECUTORS_MAX 1u
+#define MICROROS_HANDLES_MAX 2u /* of each executor */
+#define MICROROS_GUARD_CONDITIONS_MAX 0u
+#define MICROROS_WAIT_SETS_MAX 1u
+
+/* memory */
+#define MICROROS_ARENA_SIZE 0u
+
+#endif /* MICROROS_CONFIG_H */

@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The queues: rings of slots, each of one size. */
+#include "microros/xrce_client.h"
+#include "microros/xrce_read.h"
+
+#include <string.h>
+
+static xrce_receiver_t * queue_of(const xrce_endpoint_t * endpoint)
+{
+  return &endpoint->client->receivers[endpoint->index - MICROROS_PUBLISHERS_MAX];
+}
+
+/* Returns which slot of the ring the i-th sample has. */
+static uint8_t queue_slot(const xrce_receiver_t * receiver, const xrce_queue_t * queue, uint8_t i)
+{
+  const uint32_t slot = (uint32_t)receiver->head + i;
+
+  return (uint8_t)(slot < queue->slots ? slot : slot - queue->slots);
+}
+
+static void queue_drop_oldest(xrce_receiver_t * receiver, const xrce_queue_t * queue)
+{
+  receiver->head = queue_slot(receiver, queue, 1);
+  --receiver->count;
+}
+
+static uint8_t * queue_bytes(xrce_client_t * client, const xrce_queue_t * queue, uint8_t slot)
+{
+  return &client->queues[queue->offset + (uint32_t)slot * queue->slot_size];
+}
+
+bool xrce_read_has_room(const xrce_client_t * client, const xrce_receiver_t * receiver)
+{
+  const xrce_queue_t * queue = xrce_read_queue(client, receiver);
+
+  return receiver->count < queue->slots;
+}
+
+uint8_t * xrce_read_free_slot(xrce_client_t * client, const xrce_receiver_t * receiver)
+{
+  const xrce_queue_t * queue = xrce_read_queue(client, receiver);
+
+  return queue_bytes(client, queue, queue_slot(receiver, queue, receiver->count));
+}
+
+void xrce_read_fill(xrce_client_t * client, xrce_receiver_t * receiver, const xrce_sample_t * sample)
+{
+  const xrce_queue_t * queue = xrce_read_queue(client, receiver);
+  xrce_slot_t * slot = &client->slots[queue->first + queue_slot(receiver, queue, receiver->count)];
+
+  slot->arrived_ms = sample->arrived_ms;
+  slot->size = sample->size;
+  slot->big_endian = sample->big_endian;
+  ++receiver->count;
+}
+
+void xrce_read_keep(
+  xrce_client_t * client, xrce_receiver_t * receiver, const xrce_sample_t * sample, bool reliable)
+{
+  const xrce_queue_t * queue = xrce_read_queue(client, receiver);
+
+  if (receiver->arriving) { /* nobody asked for this one: it takes the place */
+    receiver->arriving = false;
+    xrce_read_drop(client, receiver);
+  }
+  if (receiver->count == queue->slots) {
+    xrce_read_drop(client, receiver);
+    if (reliable) {
+      return;
+    }
+    queue_drop_oldest(receiver, queue);
+  }
+  (void)memcpy(xrce_read_free_slot(client, receiver), sample->data, sample->size);
+  xrce_read_fill(client, receiver, sample);
+}
+
+bool xrce_read_peek(const xrce_endpoint_t * endpoint, xrce_sample_t * sample)
+{
+  xrce_client_t * client = endpoint->client;
+  const xrce_receiver_t * receiver = queue_of(endpoint);
+  const xrce_queue_t * queue = xrce_read_queue(client, receiver);
+  const xrce_slot_t * slot = &client->slots[queue->first + receiver->head];
+
+  if (receiver->count == 0u) {
+    return false;
+  }
+  sample->data = queue_bytes(client, queue, receiver->head);
+  sample->arrived_ms = slot->arrived_ms;
+  sample->size = slot->size;
+  sample->big_endian = slot->big_endian;
+  return true;
+}
+
+void xrce_read_pop(const xrce_endpoint_t * endpoint, bool refused)
+{
+  xrce_receiver_t * receiver = queue_of(endpoint);
+
+  if (refused) {
+    ++receiver->refused;
+    ++endpoint->client->session.statistics.dropped;
+  }
+  queue_drop_oldest(receiver, xrce_read_queue(endpoint->client, receiver));
+}

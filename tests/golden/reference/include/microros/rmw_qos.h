@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* QoS on its way to the agent. Internal. */
+#ifndef MICROROS_RMW_QOS_H
+#define MICROROS_RMW_QOS_H
+
+#include <stdint.h>
+
+#include "microros/xrce_objects.h"
+#include "rmw/qos_profiles.h"
+#include "rmw/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Gives the flags and depth that XRCE carries for `qos`; returns NULL, or the name of a policy that it cannot
+ * carry. */
+const char * rmw_qos_to_xrce(const rmw_qos_profile_t * qos, uint8_t * flags, uint16_t * depth);
+
+/* The same for the times of an endpoint: this plan has none. */
+static inline void rmw_qos_add_times(const rmw_qos_profile_t * qos, const xrce_endpoint_t * endpoint)
+{
+  (void)qos;
+  (void)endpoint;
+}
+
+/* Gives what the endpoint has, with every default put in; for those who ask. */
+void rmw_qos_actual(const xrce_endpoint_t * endpoint, rmw_qos_profile_t * qos);
+
+/* Returns rmw_qos_profile_default, of which each file that includes rmw/qos_profiles.h would have its own. */
+const rmw_qos_profile_t * rmw_qos_default(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RMW_QOS_H */

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The entities of a client: what the application wants, and what the agent has of it. They stay in these
+ * tables over a lost session, so that creating them again is the code that created them first.
+ */
+#ifndef MICROROS_XRCE_OBJECTS_H
+#define MICROROS_XRCE_OBJECTS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "microros/message_type.h"
+#include "microros/xrce_forward.h"
+#include "microros_config.h"
+
+/*
+ * Places: the nodes first, then their endpoints by kind. Who receives comes last, so that what belongs to receiving alone
+ * has a table of its own that begins there.
+ */
+enum {
+  XRCE_WRITERS_AT = MICROROS_NODES_MAX,
+  XRCE_READERS_AT = XRCE_WRITERS_AT + MICROROS_PUBLISHERS_MAX,
+  XRCE_REPLIERS_AT = XRCE_READERS_AT + MICROROS_SUBSCRIPTIONS_MAX,
+  XRCE_REQUESTERS_AT = XRCE_REPLIERS_AT + MICROROS_SERVICES_MAX,
+  XRCE_PLACES = XRCE_REQUESTERS_AT + MICROROS_CLIENTS_MAX
+};
+
+enum {
+  XRCE_ENDPOINTS = XRCE_PLACES - MICROROS_NODES_MAX,
+  XRCE_RECEIVERS = XRCE_PLACES - XRCE_READERS_AT,
+  XRCE_SERVICES = XRCE_PLACES - XRCE_REPLIERS_AT /* and their clients */
+};
+
+/* Levels of a participant, of a writer or reader with its topic, and of a replier or requester. */
+enum { XRCE_PARTICIPANT_COMPLETE = 1, XRCE_ENDPOINT_COMPLETE = 3, XRCE_SERVICE_COMPLETE = 1 };
+
+/* `level` counts the objects that exist at the agent, in the order of their creation. */
+typedef struct xrce_object_state_t {
+  uint8_t level;
+  bool wanted; /* the application has it open */
+  bool stale;  /* what is at the agent belongs to a former owner of this place: delete it first */
+  bool kept;   /* the agent has it from before a sleep, and the application has not opened it again */
+} xrce_object_state_t;
+
+/* A node's participant. The strings live as long as the place is taken. */
+typedef struct xrce_participant_t {
+  const char * name;
+  const char * namespace_; /* "/" or "/a/b" */
+  uint16_t domain_id;
+} xrce_participant_t;
+
+/* What a node writes or receives: a topic with publisher and data writer or with subscriber and data reader, a replier or
+ * a requester. */
+typedef struct xrce_endpoint_t {
+  xrce_client_t * client;
+  const microros_message_type_t * type;
+  const char * name; /* fully qualified, "/chatter" */
+  uint16_t depth;
+  uint16_t index;       /* among the endpoints, and so of its objects: its place without the nodes */
+  uint16_t participant; /* its node's place */
+  uint8_t qos;          /* XRCE_QOS_ */
+} xrce_endpoint_t;
+
+/* Whether the application can open a place. */
+static inline bool xrce_place_is_free(const xrce_object_state_t * state)
+{
+  return !state->wanted || state->kept;
+}
+
+/* Whether a place is a participant's, a data reader's, or one of a service. */
+static inline bool xrce_place_is_participant(uint16_t place)
+{
+  return place < MICROROS_NODES_MAX;
+}
+
+static inline bool xrce_place_is_reader(uint16_t place)
+{
+  /* cppcheck-suppress incorrectLogicOperator ; a plan without subscriptions has none */
+  return MICROROS_SUBSCRIPTIONS_MAX != 0u && place >= XRCE_READERS_AT && place < XRCE_REPLIERS_AT;
+}
+
+static inline bool xrce_place_is_service(uint16_t place)
+{
+  return XRCE_SERVICES != 0 && place >= XRCE_REPLIERS_AT;
+}
+
+/* Returns how many objects a place has at the agent when it is complete. */
+static inline uint8_t xrce_place_complete(uint16_t place)
+{
+  if (xrce_place_is_service(place)) {
+    return XRCE_SERVICE_COMPLETE;
+  }
+  return place < MICROROS_NODES_MAX ? (uint8_t)XRCE_PARTICIPANT_COMPLETE : (uint8_t)XRCE_ENDPOINT_COMPLETE;
+}
+
+#endif /* MICROROS_XRCE_OBJECTS_H */

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/rmw_inquiry.h"
+
+#include "microros/lock.h"
+#include "microros/port.h"
+#include "microros/rmw_client.h"
+#include "microros/xrce_client.h"
+#include "microros/xrce_wire.h"
+
+/* The agents' INFO has 36 bytes; what is longer than this is none. */
+enum { INPUT_SIZE = 40 };
+
+/* A session that is open keeps part of a message in its own input. */
+static uint8_t inquiry_input[INPUT_SIZE];
+
+/* Without a session nobody has anything to do but to open one, maybe over this line: that waits. */
+static void inquiry_rest(void)
+{
+  if (rmw_client_instance()->session.state == (uint8_t)XRCE_CLOSED) {
+    port_sleep_ms(1);
+  } else {
+    microros_pause();
+  }
+}
+
+/* Whether `message` begins with an INFO. */
+static bool inquiry_is_info(const uint8_t * message, int32_t size)
+{
+  return size > XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER && message[XRCE_MESSAGE_HEADER] == XRCE_INFO;
+}
+
+static void inquiry_send(xrce_transport_t * transport)
+{
+  uint8_t message[XRCE_GET_INFO_SIZE];
+
+  xrce_put_get_info(message, XRCE_SESSION_NONE);
+  (void)xrce_transport_send(transport, message, sizeof(message)); /* a loss is no answer */
+}
+
+static bool inquiry_once(xrce_transport_t * transport, uint32_t timeout_ms)
+{
+  const uint32_t start = port_time_ms();
+  uint8_t * input = inquiry_input;
+
+  inquiry_send(transport);
+  for (;;) {
+    const int32_t size = xrce_transport_receive(transport, input, INPUT_SIZE);
+
+    if (inquiry_is_info(input, size)) {
+      return true;
+    }
+    if (port_time_ms() - start >= timeout_ms) {
+      return false;
+    }
+    if (size == 0) {
+      inquiry_rest();
+    }
+  }
+}
+
+/* Asks over an open transport. */
+static bool inquiry_try(xrce_transport_t * transport, uint32_t timeout_ms, uint8_t attempts)
+{
+  bool answered = false;
+
+  for (uint8_t i = 0; i < attempts && !answered; ++i) {
+    answered = inquiry_once(transport, timeout_ms);
+  }
+  xrce_transport_close(transport);
+  return answered;
+}
+
+bool rmw_inquiry_ask(xrce_transport_t * transport, uint32_t timeout_ms, uint8_t attempts)
+{
+  return xrce_transport_open(transport) && inquiry_try(transport, timeout_ms, attempts);
+}

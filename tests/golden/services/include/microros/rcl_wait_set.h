@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What a wait set has; internal. */
+#ifndef MICROROS_RCL_WAIT_SET_H
+#define MICROROS_RCL_WAIT_SET_H
+
+#include "microros_config.h"
+#include "rcl/wait.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The arrays, and how many entities were added to each. */
+struct rcl_wait_set_impl_s {
+  const rcl_client_t * clients[MICROROS_CLIENTS_MAX];
+  size_t client_count;
+  const rcl_service_t * services[MICROROS_SERVICES_MAX];
+  size_t service_count;
+  bool taken;
+};
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RCL_WAIT_SET_H */

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * A client: the parts that are selected, side by side, with the storage that the plan gives them. One session with one
+ * agent; the only state of the library besides the nodes and publishers that were handed out.
+ */
+#ifndef MICROROS_XRCE_CLIENT_H
+#define MICROROS_XRCE_CLIENT_H
+
+#include "microros/xrce_creation.h"
+#include "microros/xrce_fragments.h"
+#include "microros/xrce_objects.h"
+#include "microros/xrce_ping.h"
+#include "microros/xrce_read.h"
+#include "microros/xrce_services.h"
+#include "microros/xrce_session.h"
+#include "microros/xrce_session_close.h"
+#include "microros/xrce_stream_best_effort.h"
+#include "microros/xrce_stream_reliable.h"
+#include "microros/xrce_stream_reliable_input.h"
+#include "microros_config.h"
+
+#include <stdint.h>
+
+struct xrce_client_t {
+  xrce_session_t session;
+  xrce_stream_best_effort_t best_effort;
+  xrce_stream_reliable_t reliable;
+  xrce_stream_reliable_input_t reliable_input;
+  xrce_fragments_t fragments;
+  xrce_entities_t entities;
+  xrce_ping_t ping;
+  uint8_t owed; /* slots of the reliable stream that are kept back for replies */
+  uint32_t create_timeout_ms;
+  uint32_t close_timeout_ms;
+  xrce_object_state_t states[XRCE_PLACES];
+  xrce_participant_t participants[MICROROS_NODES_MAX];
+  xrce_endpoint_t endpoints[XRCE_ENDPOINTS];
+  xrce_reading_t reading;
+  xrce_receiver_t receivers[XRCE_RECEIVERS];
+  xrce_slot_t slots[MICROROS_QUEUE_SLOTS];
+  uint8_t queues[MICROROS_QUEUES_SIZE];
+  xrce_service_t services[XRCE_SERVICES];
+  xrce_requester_t requesters[MICROROS_CLIENTS_MAX];
+  xrce_request_t requests[MICROROS_REQUESTS_MAX];
+  uint8_t input[MICROROS_INPUT_BUFFER_SIZE]; /* last: nothing of it outlives a pump */
+};
+
+#endif /* MICROROS_XRCE_CLIENT_H */

@@ -1,1 +1,0 @@
-#error "The component 'timers' is not selected: add `components: [+timers]` to microros.yaml and generate again"

@@ -1,1 +1,0 @@
-#error "The component 'parameters' is not in this version yet"

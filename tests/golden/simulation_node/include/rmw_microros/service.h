@@ -1,1 +1,0 @@
-#error "The component 'services' is not selected: add `components: [+services]` to microros.yaml and generate again"

@@ -1,1 +1,0 @@
-#error "The component 'logging_rosout' is not in this version yet"

@@ -1,1 +1,0 @@
-#error "The component 'logging' is not in this version yet"

@@ -1,1 +1,0 @@
-#error "The component 'sleep_cycles' is not selected: add `components: [+sleep_cycles]` to microros.yaml and generate again"

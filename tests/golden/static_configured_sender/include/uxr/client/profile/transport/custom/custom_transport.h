@@ -1,1 +1,0 @@
-#error "The component 'transport_custom' is not selected: add `transport: {type: custom}` to microros.yaml and generate again"

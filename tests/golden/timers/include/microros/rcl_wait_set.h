@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What a wait set has; internal. */
+#ifndef MICROROS_RCL_WAIT_SET_H
+#define MICROROS_RCL_WAIT_SET_H
+
+#include "microros_config.h"
+#include "rcl/wait.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The arrays, and how many entities were added to each. */
+struct rcl_wait_set_impl_s {
+  const rcl_timer_t * timers[MICROROS_TIMERS_MAX];
+  size_t timer_count;
+  bool taken;
+};
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RCL_WAIT_SET_H */

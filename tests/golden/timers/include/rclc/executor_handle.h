@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What an executor knows of each entity that it runs; trigger functions look at it. */
+#ifndef MICROROS_RCLC_EXECUTOR_HANDLE_H
+#define MICROROS_RCLC_EXECUTOR_HANDLE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "rcl/guard_condition.h"
+#include "rcl/types.h"
+#include "rcl/wait.h"
+#include "rclc/visibility_control.h"
+#include "rmw/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum {
+  RCLC_SUBSCRIPTION,
+  RCLC_SUBSCRIPTION_WITH_CONTEXT,
+  RCLC_TIMER,
+  RCLC_CLIENT,
+  RCLC_CLIENT_WITH_REQUEST_ID,
+  RCLC_SERVICE,
+  RCLC_SERVICE_WITH_REQUEST_ID,
+  RCLC_SERVICE_WITH_CONTEXT,
+  RCLC_ACTION_CLIENT,
+  RCLC_ACTION_SERVER,
+  RCLC_GUARD_CONDITION,
+  RCLC_NONE
+} rclc_executor_handle_type_t;
+
+/* When a callback is called in a round: when there is something for it, or always; it then gets NULL for no message. */
+typedef enum { ON_NEW_DATA, ALWAYS } rclc_executor_handle_invocation_t;
+
+typedef void (*rclc_subscription_callback_t)(const void * message);
+typedef rclc_subscription_callback_t rclc_callback_t;
+typedef void (*rclc_subscription_callback_with_context_t)(const void * message, void * context);
+typedef void (*rclc_service_callback_t)(const void * request, void * response);
+typedef void (*rclc_service_callback_with_request_id_t)(
+  const void * request, rmw_request_id_t * request_id, void * response);
+typedef void (*rclc_service_callback_with_context_t)(const void * request, void * response, void * context);
+typedef void (*rclc_client_callback_t)(const void * response);
+typedef void (*rclc_client_callback_with_request_id_t)(const void * response, rmw_request_id_t * request_id);
+typedef void (*rclc_gc_callback_t)(void);
+
+struct rclc_handle_kind_s; /* microros/executor_handles.h */
+
+/* One of the pointers is set, by `type`; those of components that are not selected are not there. */
+typedef struct {
+  rclc_executor_handle_type_t type;
+  rclc_executor_handle_invocation_t invocation;
+  rcl_timer_t * timer;
+  rcl_guard_condition_t * gc;
+  const struct rclc_handle_kind_s * kind;
+  union {
+    rclc_gc_callback_t gc;
+  } callback;
+  size_t index;
+  bool initialized;
+  bool data_available; /* there is something for the callback */
+  bool has_turn;       /* in the round that is under way */
+} rclc_executor_handle_t;
+
+typedef struct {
+  size_t number_of_subscriptions;
+  size_t number_of_timers;
+  size_t number_of_clients;
+  size_t number_of_services;
+  size_t number_of_action_clients;
+  size_t number_of_action_servers;
+  size_t number_of_guard_conditions;
+  size_t number_of_events;
+} rclc_executor_handle_counters_t;
+
+rcl_ret_t rclc_executor_handle_counters_zero_init(rclc_executor_handle_counters_t * handle_counters);
+
+/* Makes it a handle of nothing, whose index is `max_handles`. */
+rcl_ret_t rclc_executor_handle_init(rclc_executor_handle_t * handle, size_t max_handles);
+
+rcl_ret_t rclc_executor_handle_clear(rclc_executor_handle_t * handle, size_t max_handles);
+
+/* Prints nothing: there is no output below the library. */
+rcl_ret_t rclc_executor_handle_print(rclc_executor_handle_t * handle);
+
+/* Returns the entity: an rcl_subscription_t, rcl_timer_t, … *; NULL for a handle of nothing. */
+void * rclc_executor_handle_get_ptr(rclc_executor_handle_t * handle);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RCLC_EXECUTOR_HANDLE_H */

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/error.h"
+#include "microros/rcl_guard_condition.h"
+#include "microros/rcl_timer.h"
+#include "microros/rcl_wait_set.h"
+#include "microros/rcl_waiting.h"
+
+/* What is waited for; `settle`: what is not ready shall be NULL. */
+typedef struct wait_look_t {
+  int64_t look_again_ns;
+  bool settle;
+  bool any;
+} wait_look_t;
+
+static void look_at_guard_conditions(const rcl_wait_set_t * wait_set, wait_look_t * look)
+{
+  for (size_t i = 0; i < wait_set->size_of_guard_conditions; ++i) {
+    const rcl_guard_condition_t ** guard_condition = &wait_set->guard_conditions[i];
+
+    if (rcl_guard_condition_is_valid(*guard_condition) && rcl_guard_condition_is_ready(*guard_condition)) {
+      look->any = true;
+      if (look->settle) {
+        rcl_guard_condition_see(*guard_condition);
+      }
+    } else if (look->settle) {
+      *guard_condition = NULL;
+    }
+  }
+}
+
+static rcl_ret_t look_at_timers(const rcl_wait_set_t * wait_set, wait_look_t * look)
+{
+  for (size_t i = 0; i < wait_set->size_of_timers; ++i) {
+    bool is_ready = false;
+    int64_t look_again_ns = INT64_MAX;
+
+    if (wait_set->timers[i] != NULL) {
+      const rcl_ret_t result = rcl_timer_look(wait_set->timers[i], &is_ready, &look_again_ns);
+
+      if (result != RCL_RET_OK) {
+        return result;
+      }
+    }
+    look->any = look->any || is_ready;
+    look->look_again_ns = look_again_ns < look->look_again_ns ? look_again_ns : look->look_again_ns;
+    if (look->settle && !is_ready) {
+      wait_set->timers[i] = NULL;
+    }
+  }
+  return RCL_RET_OK;
+}
+
+static rcl_ret_t wait_look(const rcl_wait_set_t * wait_set, wait_look_t * look)
+{
+  look->any = false;
+  look->look_again_ns = INT64_MAX;
+  look_at_guard_conditions(wait_set, look);
+  return look_at_timers(wait_set, look);
+}
+
+rcl_ret_t rcl_wait(rcl_wait_set_t * wait_set, int64_t timeout)
+{
+  const rcl_waiting_t waiting = rcl_waiting_begin(timeout);
+  wait_look_t look = {0, false, false};
+  rcl_ret_t result;
+
+  if (wait_set == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "wait_set");
+  }
+  if (wait_set->impl == NULL) {
+    return microros_error_refuse(RCL_RET_WAIT_SET_INVALID, "wait_set");
+  }
+  if (
+    wait_set->size_of_subscriptions + wait_set->size_of_guard_conditions + wait_set->size_of_timers +
+      wait_set->size_of_clients + wait_set->size_of_services ==
+    0u) {
+    return microros_error_named(RCL_RET_WAIT_SET_EMPTY, microros_error_executor, "the wait set is empty");
+  }
+  for (;;) {
+    rcl_waiting_receive();
+    result = wait_look(wait_set, &look);
+    if (result != RCL_RET_OK) {
+      return result;
+    }
+    if (look.any || rcl_waiting_is_over(&waiting)) {
+      break;
+    }
+    rcl_waiting_rest(&waiting, look.look_again_ns);
+  }
+  look.settle = true;
+  result = wait_look(wait_set, &look);
+  if (result != RCL_RET_OK) {
+    return result;
+  }
+  return look.any ? RCL_RET_OK : RCL_RET_TIMEOUT;
+}

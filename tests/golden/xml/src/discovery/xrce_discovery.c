@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/xrce_discovery.h"
+
+#include "microros/xrce_client.h"
+#include "microros/xrce_wire.h"
+
+#include <string.h>
+
+/* A place has so long to open the session; answers come within so long after a question, and are looked for so often; one
+ * look takes so many. */
+enum {
+  TRY_MS = 3 * MICROROS_RETRY_FIRST_MS,
+  ANSWERS_MS = 2 * MICROROS_RETRY_FIRST_MS,
+  LOOK_MS = 20,
+  ANSWERS_PER_LOOK = 8
+};
+
+/* What of an answer is read: the first three places. */
+enum { ANSWER_SIZE = 60 };
+
+static char * discovery_put_number(char * at, uint8_t number)
+{
+  if (number >= 100u) {
+    *at++ = (char)('0' + (char)(number / 100u));
+  }
+  if (number >= 10u) {
+    *at++ = (char)('0' + (char)(number / 10u % 10u));
+  }
+  *at++ = (char)('0' + (char)(number % 10u));
+  return at;
+}
+
+uint16_t xrce_discovery_take(xrce_discovery_t * discovery)
+{
+  const xrce_place_t * place = &discovery->places[discovery->next];
+  char * at = discovery->host;
+
+  for (size_t i = 0; i < PORT_MULTICAST_ADDRESS; ++i) {
+    if (i != 0u) {
+      *at++ = '.';
+    }
+    at = discovery_put_number(at, place->address[i]);
+  }
+  *at = '\0';
+  ++discovery->next;
+  return place->port;
+}
+
+void xrce_discovery_end(xrce_discovery_t * discovery)
+{
+  if (discovery->open) {
+    port_multicast_close(&discovery->group);
+    discovery->open = false;
+  }
+  discovery->searching = false;
+  discovery->count = 0;
+  discovery->next = 0;
+}
+
+static void discovery_ask(xrce_discovery_t * discovery, uint32_t now)
+{
+  if (!discovery->searching) {
+    discovery->searching = true;
+    discovery->since_ms = now;
+  } else if (!xrce_is_due(now, discovery->due_ms)) {
+    return;
+  }
+  discovery->open = discovery->open || port_multicast_open(&discovery->group);
+  if (discovery->open) {
+    uint8_t question[XRCE_DISCOVERY_QUESTION];
+
+    xrce_discovery_write_question(question);
+    (void)port_multicast_send(
+      &discovery->group, XRCE_DISCOVERY_GROUP, MICROROS_DISCOVERY_PORT, question, sizeof(question));
+  }
+  discovery->asked_ms = now;
+  discovery->due_ms = now + xrce_session_pause(now - discovery->since_ms);
+}
+
+bool xrce_discovery_search(xrce_client_t * client, xrce_discovery_t * discovery, uint32_t now)
+{
+  uint8_t * answer = client->input; /* nobody has anything in it now */
+  uint8_t sender[PORT_MULTICAST_ADDRESS];
+
+  if (discovery->next == discovery->count) {
+    discovery->next = 0;
+    discovery->count = 0;
+    discovery_ask(discovery, now);
+  }
+  for (uint8_t i = 0; i < ANSWERS_PER_LOOK && discovery->open; ++i) {
+    const size_t size = port_multicast_receive(&discovery->group, answer, ANSWER_SIZE, sender);
+
+    if (size == 0u) {
+      break;
+    }
+    xrce_discovery_on_info(discovery, answer, size, sender);
+  }
+  return discovery->next != discovery->count;
+}
+
+/* Lets the session connect to the next place. */
+static void discovery_try(xrce_client_t * client, uint32_t now)
+{
+  xrce_discovery_t * discovery = &client->discovery;
+  xrce_transport_t * transport = &client->session.transport;
+
+  xrce_session_lose(client, now); /* begins to connect anew */
+  transport->port = xrce_discovery_take(discovery);
+  transport->host = discovery->host;
+  discovery->trying = true;
+  discovery->due_ms = now + TRY_MS;
+}
+
+bool xrce_discovery_step(xrce_client_t * client, uint32_t now)
+{
+  xrce_discovery_t * discovery = &client->discovery;
+  xrce_session_t * session = &client->session;
+
+  if (!discovery->wanted) {
+    discovery->wanted = strcmp(xrce_transport_name(&session->transport), XRCE_DISCOVERY_GROUP) == 0;
+  }
+  if (!discovery->wanted) {
+    return true;
+  }
+  if (session->state != XRCE_CONNECTING) {
+    xrce_discovery_end(discovery);
+    discovery->due_ms = now + TRY_MS; /* after a loss the known place has this long */
+    return true;
+  }
+  if (discovery->trying && !xrce_is_due(now, discovery->due_ms)) {
+    return true;
+  }
+  if (discovery->trying) {
+    discovery->trying = false;
+    discovery->due_ms = now;
+  }
+  if (xrce_discovery_search(client, discovery, now)) {
+    discovery_try(client, now);
+    return true;
+  }
+  session->due_ms = now - discovery->asked_ms < (uint32_t)ANSWERS_MS ? now + LOOK_MS : discovery->due_ms;
+  return false;
+}
