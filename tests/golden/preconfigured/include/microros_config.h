@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "131caf9d5734585e"
-#define rcl_init rcl_init__plan_131caf9d5734585e
-#define rclc_support_init rclc_support_init__plan_131caf9d5734585e
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_131caf9d5734585e
+#define MICROROS_PLAN_ID "52e1f18268736ee6"
+#define rcl_init rcl_init__plan_52e1f18268736ee6
+#define rclc_support_init rclc_support_init__plan_52e1f18268736ee6
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_52e1f18268736ee6
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

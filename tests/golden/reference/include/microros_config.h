@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "18e13d16beda1429"
-#define rcl_init rcl_init__plan_18e13d16beda1429
-#define rclc_support_init rclc_support_init__plan_18e13d16beda1429
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_18e13d16beda1429
+#define MICROROS_PLAN_ID "18b0b6e068de5a60"
+#define rcl_init rcl_init__plan_18b0b6e068de5a60
+#define rclc_support_init rclc_support_init__plan_18b0b6e068de5a60
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_18b0b6e068de5a60
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u
