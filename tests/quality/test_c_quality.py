@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from microros_gen.selection.find_components import load_catalogue
+from tests.support.paths import ROOT
 from tests.support.quality import misra
 from tests.support.quality.corpus import (
-    ROOT,
     Tree,
     Unit,
     analyse,

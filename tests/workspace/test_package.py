@@ -12,9 +12,12 @@ from pathlib import Path
 
 import pytest
 
+from microros_gen import compiler
+from microros_gen.interfaces.find import shipped_folder
 from microros_gen.ros.libraries import INSTALL
-from tests.support.environments import ROOT, clean_environ, install
+from tests.support.environments import clean_environ, install
 from tests.support.installed import Installed, environment_with_dependencies
+from tests.support.paths import ROOT
 
 COMMANDS = (
     "build",
@@ -55,8 +58,10 @@ def test_it_builds_from_another_folder_without_ros(installed: Installed, tmp_pat
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "build/pure_sender/lib/libmicroros.a").is_file()
     assert (tmp_path / "build/pure_sender/bin/pure_sender").is_file()
-    golden = ["check", "--profile", "pure_sender", "--golden", str(ROOT / "tests/golden/pure_sender")]
-    compared = installed.run(*golden, folder=tmp_path)
+    golden = tmp_path / "golden"
+    options = compiler.Options(profiles=("pure_sender",), interface_paths=(shipped_folder(),))
+    compiler.generate(options, golden)  # by this checkout
+    compared = installed.run("check", "--profile", "pure_sender", "--golden", str(golden), folder=tmp_path)
     assert compared.returncode == 0, compared.stdout[:2000] + compared.stderr
 
 

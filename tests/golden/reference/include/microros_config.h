@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "18b0b6e068de5a60"
-#define rcl_init rcl_init__plan_18b0b6e068de5a60
-#define rclc_support_init rclc_support_init__plan_18b0b6e068de5a60
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_18b0b6e068de5a60
+#define MICROROS_PLAN_ID "a5be67372099dee4"
+#define rcl_init rcl_init__plan_a5be67372099dee4
+#define rclc_support_init rclc_support_init__plan_a5be67372099dee4
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_a5be67372099dee4
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "235ff3e2aefe9551"
-#define rcl_init rcl_init__plan_235ff3e2aefe9551
-#define rclc_support_init rclc_support_init__plan_235ff3e2aefe9551
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_235ff3e2aefe9551
+#define MICROROS_PLAN_ID "32971d2697910a4f"
+#define rcl_init rcl_init__plan_32971d2697910a4f
+#define rclc_support_init rclc_support_init__plan_32971d2697910a4f
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_32971d2697910a4f
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

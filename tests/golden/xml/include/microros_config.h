@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "983521d2841b1a2e"
-#define rcl_init rcl_init__plan_983521d2841b1a2e
-#define rclc_support_init rclc_support_init__plan_983521d2841b1a2e
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_983521d2841b1a2e
+#define MICROROS_PLAN_ID "247ad6dbee899edf"
+#define rcl_init rcl_init__plan_247ad6dbee899edf
+#define rclc_support_init rclc_support_init__plan_247ad6dbee899edf
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_247ad6dbee899edf
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Between the serial line of microros/port.h and the driver of a UART. What the receive interrupt takes in waits in one ring
+ * until the task reads it; what the task writes waits in another until the transmit interrupt, or a DMA controller, has
+ * sent it. The ends of a ring belong to one of the two each, so nothing is locked.
+ *
+ * A driver of yours: three functions, and an interrupt that calls the others. `uart: {driver: application}` of the target
+ * file leaves them to the application (docs/howto/port.md).
+ */
+#ifndef MICROROS_PORT_UART_H
+#define MICROROS_PORT_UART_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Of the driver: turns the UART on at PORT_BOARD_UART_BAUD, 8 bits, no parity, one stop bit, and lets its interrupts
+ * through. */
+void port_uart_start(void);
+
+/* Of the driver: turns it off. Nothing of the ring is read after that. */
+void port_uart_stop(void);
+
+/* Of the driver: there is something to send. Lets the transmit interrupt come, or starts a DMA transfer unless one is under
+ * way; does not wait. */
+void port_uart_send(void);
+
+/* For the driver's interrupt: takes the next byte to send out of the ring. False: there is none. */
+bool port_uart_next(uint8_t * byte);
+
+/* The same for DMA. The first says where the next bytes to send are, and returns how many lie side by side, 0 when there
+ * are none: all of them are one transfer. They stay where they are until the second, called by the interrupt at its end, frees
+ * the room of these `count`. */
+uint32_t port_uart_unsent(const volatile uint8_t ** bytes);
+void port_uart_sent(uint32_t count);
+
+/* For the driver's interrupt: a byte has come; a full ring counts it as lost. One byte an interrupt: between two of them
+ * others have their turn, however fast the line is. */
+void port_uart_received(uint8_t byte);
+
+/* For the driver's interrupt: the hardware lost a byte. */
+void port_uart_lost(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_PORT_UART_H */

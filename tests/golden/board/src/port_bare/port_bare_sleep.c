@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/port.h"
+#include "microros/port_bare.h"
+#include "microros/port_board.h"
+
+/* The tick that is under way counts for nothing, so that the time is never too short. The timer wakes the processor each
+ * millisecond, so an interrupt between the question and the wait costs a millisecond at most. */
+void port_sleep_ms(uint32_t duration_ms)
+{
+  const uint32_t start = port_time_ms();
+
+  while (duration_ms != 0u && port_time_ms() - start <= duration_ms) {
+    port_board_watchdog();
+    port_bare_wait();
+  }
+}

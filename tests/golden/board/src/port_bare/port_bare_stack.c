@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/port_bare.h"
+
+/* Of the linker script. The first steps after a reset fill it with this word; it grows downwards. */
+extern const uint32_t port_stack_low[];
+extern const uint32_t port_stack_high[];
+
+static const uint32_t paint = 0xc5c5c5c5u;
+
+uint32_t port_bare_stack_peak(void)
+{
+  const volatile uint32_t * at = port_stack_low;
+  uint32_t untouched = 0;
+
+  while (at != port_stack_high && *at == paint) {
+    ++at;
+    untouched += (uint32_t)sizeof(*at);
+  }
+  return (uint32_t)((uintptr_t)port_stack_high - (uintptr_t)port_stack_low) - untouched;
+}

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/port.h"
+
+/* Of one task. The milliseconds begin again at 0 after 49 days; it has to be asked once in these. */
+int64_t port_time_steady_ns(void)
+{
+  static const int64_t ns_per_ms = 1000000;
+  static int64_t steady_ms;
+  const uint32_t passed_ms = port_time_ms() - (uint32_t)((uint64_t)steady_ms & UINT32_MAX);
+
+  steady_ms += (int64_t)passed_ms;
+  return steady_ms * ns_per_ms;
+}

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Between the serial line of this port and who waits for it; internal to it. */
+#ifndef MICROROS_PORT_POSIX_SERIAL_H
+#define MICROROS_PORT_POSIX_SERIAL_H
+
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Returns whether the system has to make room for output of this line: then a wait ends when it has. */
+bool port_posix_serial_waits(int handle);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_PORT_POSIX_SERIAL_H */
