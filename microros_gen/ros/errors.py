@@ -25,10 +25,6 @@ class TypeLimitError(RosError):
         self.limit = limit
 
 
-class RosTimeoutError(RosError):
-    """Nobody answered in time."""
-
-
 class CodecError(Exception):
     """A message that is none of its type; `path` is the member: `header.stamp.sec`, `points[3].x`."""
 

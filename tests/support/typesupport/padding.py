@@ -51,7 +51,7 @@ class _Walk:
             self.message(element.name, value)
         elif isinstance(element, StringType):
             self._value(4, 4)
-            self.position += 4 * len(value) if element.wide else len(value.encode()) + 1
+            self.position += 2 * len(value.encode("utf-16-le")) if element.wide else len(value.encode()) + 1
         else:
             assert isinstance(element, Primitive)
             self._value(element.size, element.size)

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""CDR of any message from its interface file, without ROS 2 and without generated code.
+
+A message is a dict of its members: numbers (`char` and `wchar` of .idl files too, by their code), bool, str, nested
+dicts. Arrays and sequences are lists, those of `byte`, `char` and `uint8` are bytes. A member that is missing has its
+default of the interface file, else zero, False or nothing. What does not fit the interface is refused, both ways.
+
+Written is XCDR1, little endian, behind the encapsulation header of four bytes; read are both byte orders. Bytes
+behind the message are passed over, as ROS 2 does. docs/explanation/typesupport.md has what ROS 2 adds to the standard.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from microros_gen.interfaces.interface_set import InterfaceSet
+from microros_gen.interfaces.types import Message, TypeName
+from microros_gen.ros.errors import CodecError
+from microros_gen.ros.program import Program, compile_program
+
+ENCAPSULATION_BYTES = 4
+_LITTLE_ENDIAN = b"\0\1\0\0"
+_ORDERS = {b"\0\0": ">", b"\0\1": "<"}
+"""Byte orders by the representation identifier: CDR_BE and CDR_LE (RTPS 2.2, 10.2); options say nothing here."""
+
+
+class Codec:
+    """Compiles a type when it is first used."""
+
+    def __init__(self, interfaces: InterfaceSet | Mapping[TypeName, Message]) -> None:
+        """`interfaces` has what is encoded, and everything that it is made of."""
+        self._messages = interfaces.messages if isinstance(interfaces, InterfaceSet) else interfaces
+        self._programs: dict[TypeName, Program] = {}
+        self._by_text: dict[str, Program] = {}
+
+    def encode(self, type_name: TypeName | str, value: Mapping[str, Any]) -> bytes:
+        """Return encapsulation header and CDR body; CodecError names the member that does not fit."""
+        out = bytearray()
+        try:
+            self._program(type_name).write(value, out)
+        except CodecError as error:
+            raise error.of_type(type_name) from None
+        return _LITTLE_ENDIAN + out
+
+    def decode(self, type_name: TypeName | str, data: bytes) -> dict[str, Any]:
+        """Return the message with all its members; CodecError where `data` is none of this type."""
+        try:
+            program = self._program(type_name)
+            order = _ORDERS.get(bytes(data[:2]))
+            if order is None or len(data) < ENCAPSULATION_BYTES:
+                raise CodecError(f"'{bytes(data[:4]).hex(' ')}' is no encapsulation header of plain CDR")
+            return program.read(memoryview(data)[ENCAPSULATION_BYTES:], 0, order)[0]
+        except CodecError as error:
+            raise error.of_type(type_name) from None
+
+    def _program(self, type_name: TypeName | str) -> Program:
+        program = self._by_text.get(str(type_name))
+        if program is None:
+            parts = str(type_name).split("/")
+            name = TypeName(*parts) if len(parts) == 3 else None
+            if name is None or name not in self._messages:
+                raise CodecError("is no message of these interfaces")
+            program = self._by_text[str(type_name)] = compile_program(name, self._messages, self._programs)
+        return program

@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a peer has: publishers, subscriptions, service clients and services of any type, with dicts as messages."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable, Mapping
+from ctypes import byref, c_char_p, c_int64, c_void_p
+from typing import Any
+
+from microros_gen.ros.errors import RosError
+from microros_gen.ros.known_types import KnownType
+from microros_gen.ros.layout import RawMessage, ServiceInfo
+from microros_gen.ros.libraries import CLIENT_TAKE_FAILED, FAILURES, OK, SERVICE_TAKE_FAILED, first_line
+from microros_gen.ros.names import ServiceName
+from microros_gen.ros.raw_types import RawTypes
+
+Value = dict[str, Any]
+Spin = Callable[[Callable[[], object], float], bool]
+"""Spins until something is true, at most so many seconds; returns whether it is."""
+SETTLE_S = 0.1
+"""From the discovery of a service to the first request: what is sent before the service has found its client too is
+delivered only with the writer's next heartbeat, 3 s later."""
+
+
+class Publisher:
+    """Publishes dicts."""
+
+    def __init__(self, handle: Any, known: KnownType) -> None:
+        self._handle = handle
+        self._known = known
+
+    def publish(self, value: Mapping[str, Any]) -> None:
+        """Publish a message; CodecError when it does not fit its type."""
+        data = self._known.codec.encode(self._known.name, value)
+        try:
+            self._handle.publish_raw(data)
+        except FAILURES as error:
+            raise RosError(f"publish: {first_line(error)}") from error
+
+    def subscriptions(self) -> int:
+        """Return how many subscriptions it is connected with."""
+        return int(self._handle.get_subscription_count())
+
+
+class Subscription:
+    """Calls back with dicts."""
+
+    kind = "subscription"
+
+    def __init__(self, handle: Any, known: KnownType, callback: Callable[[Value], object]) -> None:
+        self.handle = handle
+        self._known = known
+        self._callback = callback
+
+    def publishers(self) -> int:
+        """Return how many publishers it is connected with."""
+        return int(self.handle.get_publisher_count())
+
+    def look(self) -> None:
+        """Take one message, if there is one. CodecError: a publisher has another type under this name."""
+        taken = self.handle.take_message(None, True)
+        if taken is not None:
+            self._callback(self._known.codec.decode(self._known.name, taken[0]))
+
+
+class _ServiceEnd:
+    """Takes and sends the messages of a service."""
+
+    def __init__(self, handle: Any, known: KnownType, name: ServiceName, types: RawTypes) -> None:
+        self.handle = handle
+        self.name = name
+        self._codec = known.codec
+        self._types = types
+        self._libraries = types.libraries
+        self._info = ServiceInfo()
+        self._ignored = RawMessage()
+
+    def _take(self, take: Callable[..., int]) -> bytes | None:
+        result = take(self.handle.pointer, byref(self._info), byref(self._ignored))
+        if result == OK:
+            return self._types.taken()
+        if result in (SERVICE_TAKE_FAILED, CLIENT_TAKE_FAILED):
+            return None
+        raise RosError(f"take on {self.name}: {self._libraries.error()}")
+
+    def _check(self, result: int, doing: str) -> None:
+        if result != OK:
+            raise RosError(f"{doing} on {self.name}: {self._libraries.error()}")
+
+
+class Client(_ServiceEnd):
+    """Calls a service."""
+
+    kind = "client"
+
+    def __init__(self, handle: Any, known: KnownType, name: ServiceName, types: RawTypes, spin: Spin) -> None:
+        super().__init__(handle, known, name, types)
+        self._spin = spin
+        self._waiting: dict[int, Callable[[Value], object]] = {}
+        self._settled = False
+
+    def available(self) -> bool:
+        """Return whether somebody serves it."""
+        return bool(self.handle.service_server_is_available())
+
+    def wait(self, timeout_s: float) -> bool:
+        """Spin until somebody serves it; return whether somebody does."""
+        if not self._spin(self.available, timeout_s):
+            self._settled = False
+            return False
+        if not self._settled:
+            self._spin(lambda: False, SETTLE_S)
+            self._settled = True
+        return True
+
+    def send(self, request: Mapping[str, Any], done: Callable[[Value], object]) -> int:
+        """Send a request now; `done` gets the response within a later `spin_once`. Return its number."""
+        number = c_int64()
+        data = self._codec.encode(self.name.request, request)
+        result = self._libraries.send_request(self.handle.pointer, byref(_raw(data)), byref(number))
+        self._check(result, "request")
+        self._waiting[number.value] = done
+        return number.value
+
+    def forget(self, number: int) -> None:
+        """Ignore the response to a request, when it comes."""
+        self._waiting.pop(number, None)
+
+    def call(self, request: Mapping[str, Any], timeout_s: float = 5.0) -> Value | None:
+        """Wait for the service, send a request and spin until its response is there; None when time is over.
+
+        Other callbacks of the peer run meanwhile. Not for callbacks themselves: these use `send`.
+        """
+        responses: list[Value] = []
+        if not self.wait(timeout_s):
+            return None
+        number = self.send(request, responses.append)
+        try:
+            self._spin(lambda: responses, timeout_s)
+        finally:
+            self.forget(number)
+        return responses[0] if responses else None
+
+    def look(self) -> None:
+        """Take one response, if there is one that is for this client."""
+        data = self._take(self._libraries.take_response)
+        done = None if data is None else self._waiting.pop(self._info.request.number, None)
+        if data is not None and done is not None:
+            done(self._codec.decode(self.name.response, data))
+
+
+class Server(_ServiceEnd):
+    """Answers requests with what a function makes of them."""
+
+    kind = "service"
+
+    def __init__(
+        self,
+        handle: Any,
+        known: KnownType,
+        name: ServiceName,
+        types: RawTypes,
+        answer: Callable[[Value], Mapping[str, Any]],
+    ) -> None:
+        super().__init__(handle, known, name, types)
+        self._answer = answer
+
+    def look(self) -> None:
+        """Take one request, if there is one, and answer it; RosError where its client cannot be reached."""
+        data = self._take(self._libraries.take_request)
+        if data is None:
+            return
+        request = self._info.request
+        response = self._answer(self._codec.decode(self.name.request, data))
+        sent = _raw(self._codec.encode(self.name.response, response))
+        self._check(
+            self._libraries.send_response(self.handle.pointer, byref(request), byref(sent)), "response"
+        )
+
+
+Waited = Subscription | Client | Server
+"""What a peer waits for."""
+
+
+def _raw(data: bytes) -> RawMessage:
+    """Return a message that borrows `data`; ctypes keeps it as long as the message."""
+    return RawMessage(ctypes.cast(c_char_p(data), c_void_p), len(data))

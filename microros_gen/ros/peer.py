@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A node of ROS 2 for any type that has an interface file, installed or not: messages are dicts (see `codec`).
+
+    with Peer("watcher", interface_paths=[Path("my_msgs")]) as peer:
+        peer.subscribe("/state", "my_msgs/msg/State", print)
+        while True:
+            peer.spin_once(1.0)
+
+It has no thread: everything happens in calls of the one thread that uses it. Type hashes are those of the interface
+files, as installed nodes announce them. The node shows nothing but what was made of it: no parameters, no /rosout.
+"""
+
+from __future__ import annotations
+
+import importlib
+import time
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from microros_gen.ros.endpoints import Client, Publisher, Server, Subscription, Value, Waited
+from microros_gen.ros.errors import RosError
+from microros_gen.ros.known_types import KnownType, KnownTypes
+from microros_gen.ros.libraries import FAILURES, first_line
+from microros_gen.ros.loading import load_rclpy
+from microros_gen.ros.names import ServiceName
+from microros_gen.ros.qos import Qos, c_profile
+from microros_gen.ros.raw_types import raw_types
+
+_SLICE_S = 0.1
+"""How long one wait is: Python sees a signal (Ctrl-C) after it."""
+
+
+class Peer:
+    """A node with its own context. `with` closes it."""
+
+    def __init__(
+        self,
+        name: str,
+        namespace: str = "/",
+        domain: int | None = None,
+        interface_paths: Iterable[Path] = (),
+    ) -> None:
+        """Join `domain` (default: ROS_DOMAIN_ID). RosUnusableError: no ROS 2 Jazzy; UserError: a wrong path."""
+        self._types = KnownTypes(interface_paths)
+        self._handles = load_rclpy()
+        self._raw = raw_types()
+        self._context = importlib.import_module("rclpy.context").Context()
+        self._entities: list[Any] = []
+        self._waited: list[Waited] = []
+        self._spinning = self._closed = False
+        self._node: Any = None
+        try:
+            self._context.init(args=[], domain_id=domain, initialize_logging=False)
+            self._node = self._handles.Node(name, namespace, self._context.handle, None, False, False)
+        except FAILURES as error:
+            self.close()
+            raise RosError(f"node '{name}': {first_line(error)}") from error
+
+    def __enter__(self) -> Peer:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    @property
+    def name(self) -> str:
+        """The fully qualified name of the node."""
+        return str(self._node.get_fully_qualified_name())
+
+    def publisher(self, topic: str, type_name: str, qos: Qos | None = None) -> Publisher:
+        """Return a publisher; topics are absolute (`/a/b`) or in the namespace of the node."""
+        known = self._types.message(type_name)
+        handle = self._topic(self._handles.Publisher, topic, known, qos)
+        return Publisher(handle, known)
+
+    def subscribe(
+        self, topic: str, type_name: str, callback: Callable[[Value], object], qos: Qos | None = None
+    ) -> Subscription:
+        """Call `callback` with each message of a topic, from within `spin_once`."""
+        known = self._types.message(type_name)
+        made = Subscription(self._topic(self._handles.Subscription, topic, known, qos), known, callback)
+        self._waited.append(made)
+        return made
+
+    def client(self, service: str, type_name: str) -> Client:
+        """Return a client of a service."""
+        known = self._types.service(type_name)
+        name = ServiceName(service, known.name)
+        made = Client(self._service(self._handles.Client, name, known), known, name, self._raw, self.spin)
+        self._waited.append(made)
+        return made
+
+    def serve(self, service: str, type_name: str, answer: Callable[[Value], Mapping[str, Any]]) -> Server:
+        """Answer each request of a service with what `answer` returns, from within `spin_once`."""
+        known = self._types.service(type_name)
+        name = ServiceName(service, known.name)
+        made = Server(self._service(self._handles.Service, name, known), known, name, self._raw, answer)
+        self._waited.append(made)
+        return made
+
+    def spin_once(self, timeout_s: float = 0.0) -> bool:
+        """Wait until something is there, at most so long, and call back; return whether something was.
+
+        What a callback raises comes out here, CodecError for a message that is none of its type; it is taken then.
+        """
+        if self._spinning:
+            raise RosError("a callback cannot spin: use `send` there")
+        self._spinning = True
+        try:
+            ready = self._ready(timeout_s)
+            for one in ready:
+                one.look()
+            return bool(ready)
+        finally:
+            self._spinning = False
+
+    def spin(self, done: Callable[[], object], timeout_s: float) -> bool:
+        """Spin until `done` returns something true, at most so long; return whether it does."""
+        end = time.monotonic() + timeout_s
+        while not done():
+            left = end - time.monotonic()
+            if left <= 0:
+                return False
+            self.spin_once(min(left, _SLICE_S))
+        return True
+
+    def close(self) -> None:
+        """Leave the graph. Nothing of the peer can be used afterwards; closing it again does nothing."""
+        self._waited.clear()
+        while self._entities:
+            self._entities.pop().destroy_when_not_in_use()
+        if self._node is not None:
+            self._node.destroy_when_not_in_use()
+            self._node = None
+        if not self._closed:
+            self._closed = True
+            self._context.try_shutdown()
+            self._context.destroy()
+
+    def _ready(self, timeout_s: float) -> list[Waited]:
+        """Return what has something, after at most this time."""
+        end = time.monotonic() + timeout_s
+        kinds = [one.kind for one in self._waited]
+        counts = (kinds.count("subscription"), 0, 0, kinds.count("client"), kinds.count("service"), 0)
+        waits = self._handles.WaitSet(*counts, self._context.handle)
+        try:
+            while True:
+                waits.clear_entities()
+                places = [getattr(waits, f"add_{one.kind}")(one.handle) for one in self._waited]
+                left = max(0.0, min(_SLICE_S, end - time.monotonic()))
+                if places:
+                    waits.wait(int(left * 1e9))
+                else:
+                    time.sleep(left)
+                ready = [
+                    one
+                    for one, place in zip(self._waited, places, strict=True)
+                    if waits.is_ready(one.kind, place)
+                ]
+                if ready or time.monotonic() >= end:
+                    return ready
+        finally:
+            waits.destroy_when_not_in_use()
+
+    def _topic(self, make: Any, topic: str, known: KnownType, qos: Qos | None) -> Any:
+        raw = self._raw.message_class(known.name, known.type_hash(known.name))
+        return self._made(make, raw, topic, c_profile(qos or Qos()))
+
+    def _service(self, make: Any, name: ServiceName, known: KnownType) -> Any:
+        hashes = [known.type_hash(part) for part in (name.type, name.request, name.response)]
+        raw = self._raw.service_class(name, hashes[0], hashes[1], hashes[2])
+        return self._made(make, raw, name.name, c_profile(Qos()))
+
+    def _made(self, make: Any, raw: Any, name: str, profile: Any) -> Any:
+        try:
+            handle = make(self._node, raw, name, profile)
+        except FAILURES as error:
+            raise RosError(f"{name}: {first_line(error)}") from error
+        self._entities.append(handle)
+        return handle

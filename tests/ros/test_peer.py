@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A peer beside rclpy's own nodes with installed types, and two peers with a type that no installation has."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from microros_gen.interfaces.type_hashes import type_hashes
+from microros_gen.ros.errors import CodecError, RosError
+from microros_gen.ros.peer import Peer
+from microros_gen.ros.qos import Qos
+from tests.support.agent.process import environment, own_domain
+from tests.support.patience import seconds
+
+pytestmark = pytest.mark.ros
+PATIENCE_S = seconds(15)
+GET_TYPES = "rcl_interfaces/srv/GetParameterTypes"
+
+
+@pytest.fixture(scope="module")
+def on_this_machine() -> Iterator[None]:
+    with pytest.MonkeyPatch.context() as patch:
+        for name, value in environment(own_domain()).items():
+            patch.setenv(name, value)
+        yield
+
+
+@pytest.fixture
+def peer(on_this_machine: None, own_folder: Path) -> Iterator[Peer]:
+    with Peer("peer", "/bench", own_domain(), [own_folder]) as made:
+        yield made
+
+
+@pytest.fixture
+def other(on_this_machine: None, own_folder: Path) -> Iterator[Peer]:
+    with Peer("other", domain=own_domain(), interface_paths=[own_folder]) as made:
+        yield made
+
+
+class Node:
+    """rclpy's own node, in the thread of the test."""
+
+    def __init__(self) -> None:
+        from rclpy.context import Context
+        from rclpy.executors import SingleThreadedExecutor
+        from rclpy.node import Node as RosNode
+
+        self.context = Context()
+        self.context.init(args=[], domain_id=own_domain())
+        self.node: Any = RosNode("installed", context=self.context)
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.executor.add_node(self.node)
+
+    def spin(self) -> None:
+        self.executor.spin_once(0)
+
+    def close(self) -> None:
+        self.executor.shutdown()
+        self.node.destroy_node()
+        self.context.try_shutdown()
+
+
+@pytest.fixture
+def installed_node(on_this_machine: None) -> Iterator[Node]:
+    made = Node()
+    yield made
+    made.close()
+
+
+def spin_both(peer: Peer, beside: Node, done: Any) -> None:
+    def look() -> Any:
+        beside.spin()
+        return done()
+
+    assert peer.spin(look, PATIENCE_S), "not seen"
+
+
+def test_topics_of_installed_types_both_ways(peer: Peer, installed_node: Node) -> None:
+    from sensor_msgs.msg import JointState
+
+    heard: list[Any] = []
+    said: list[Any] = []
+    node: Any = installed_node.node
+    node.create_subscription(JointState, "/bench/out", heard.append, 10)
+    there: Any = node.create_publisher(JointState, "/bench/in", 10)
+    publisher = peer.publisher("out", "sensor_msgs/msg/JointState")
+    subscription = peer.subscribe("/bench/in", "sensor_msgs/JointState", said.append)
+
+    def connected() -> bool:
+        ends = (publisher.subscriptions(), subscription.publishers(), there.get_subscription_count())
+        return all(ends)
+
+    spin_both(peer, installed_node, connected)
+    publisher.publish({"header": {"frame_id": "base"}, "name": ["a", "b"], "position": [1.0, -2.5]})
+    there.publish(JointState(name=["é"], effort=[0.5]))
+    spin_both(peer, installed_node, lambda: heard and said)
+    assert (heard[0].header.frame_id, heard[0].name, list(heard[0].position)) == (
+        "base",
+        ["a", "b"],
+        [1.0, -2.5],
+    )
+    assert said[0]["name"] == ["é"]
+    assert (said[0]["effort"], said[0]["velocity"]) == ([0.5], [])
+    found: list[Any] = []
+
+    def named() -> bool:
+        found[:] = node.get_publishers_info_by_topic("/bench/out")
+        return bool(found) and (found[0].node_name, found[0].node_namespace) == ("peer", "/bench")
+
+    spin_both(peer, installed_node, named)
+    announced, own = found[0], node.get_publishers_info_by_topic("/bench/in")[0]
+    assert str(announced.topic_type_hash) == str(own.topic_type_hash)
+    assert (type_hashes()("sensor_msgs/msg/JointState") or "?") in str(own.topic_type_hash)
+
+
+def test_services_of_installed_types_both_ways(peer: Peer, installed_node: Node) -> None:
+    service: Any = importlib.import_module("rcl_interfaces.srv").GetParameterTypes
+
+    def lengths(request: Any, response: Any) -> Any:
+        response.types = bytes(len(name) for name in request.names)
+        return response
+
+    node: Any = installed_node.node
+    node.create_service(service, "/bench/theirs", lengths)
+    client = peer.client("theirs", GET_TYPES)
+    spin_both(peer, installed_node, client.available)
+    answers: list[Any] = []
+    client.send({"names": ["a", "bcd"]}, answers.append)
+    spin_both(peer, installed_node, lambda: answers)
+    assert answers == [{"types": b"\1\3"}]
+
+    peer.serve("ours", GET_TYPES, lambda request: {"types": [len(request["names"])]})
+    asking = node.create_client(service, "/bench/ours")
+    spin_both(peer, installed_node, asking.service_is_ready)
+    future = asking.call_async(service.Request(names=["x", "y", "z"]))
+    spin_both(peer, installed_node, future.done)
+    assert list(future.result().types) == [3]
+
+
+def test_a_type_that_is_not_installed(peer: Peer, other: Peer) -> None:
+    heard: list[Any] = []
+    lasting = Qos(transient_local=True, depth=1)
+    peer.publisher("/state", "own_msgs/msg/Report", lasting).publish({"here": {"x": 2.0}, "wide": "ß"})
+    other.subscribe("/state", "own_msgs/Report", heard.append, lasting)
+    assert other.spin(lambda: heard, PATIENCE_S)
+    assert heard[0]["here"] == {"x": 2.0, "y": -7}
+    assert (heard[0]["wide"], heard[0]["count"]) == ("ß", 9)
+
+
+def test_a_service_that_is_not_installed(peer: Peer, other: Peer) -> None:
+    def add(request: dict[str, Any]) -> dict[str, Any]:
+        return {"sum": request["a"] + request["b"], "notes": ["done"]}
+
+    other.serve("/add", "own_msgs/srv/Add", add)
+    client = peer.client("/add", "own_msgs/srv/Add")
+    assert peer.spin(client.available, PATIENCE_S)
+    answers: list[Any] = []
+    client.send({"a": 40, "b": 2}, answers.append)
+
+    def answered() -> Any:
+        other.spin_once(0.01)
+        return answers
+
+    assert peer.spin(answered, PATIENCE_S)
+    assert answers == [{"sum": 42, "notes": ["done"]}]
+    assert client.call({"a": 1}, timeout_s=0.3) is None  # nobody spins the server
+
+
+def test_a_call_waits_for_its_response(peer: Peer) -> None:
+    """Client and server of one peer: calling spins both."""
+    peer.serve("/own", "own_msgs/srv/Add", lambda request: {"sum": -request["a"]})
+    client = peer.client("/own", "own_msgs/srv/Add")
+    assert client.call({"a": 5}, PATIENCE_S) == {"sum": -5, "notes": []}
+    assert peer.client("/nobody", "own_msgs/srv/Add").call({}, timeout_s=0.2) is None
+
+
+def test_what_is_refused(peer: Peer) -> None:
+    publisher = peer.publisher("/state", "own_msgs/msg/Report")
+    with pytest.raises(CodecError, match="own_msgs/msg/Report: count: -1 is no uint16"):
+        publisher.publish({"count": -1})
+    with pytest.raises(RosError, match="own_msgs/srv/Add is no message"):
+        peer.publisher("/state", "own_msgs/srv/Add")
+    with pytest.raises(RosError, match="own_msgs/msg/Report is no service"):
+        peer.client("/state", "own_msgs/msg/Report")
+    with pytest.raises(RosError, match="no topic"):
+        peer.subscribe("/no topic", "own_msgs/msg/Report", print)
+    peer.serve("/spins", "own_msgs/srv/Add", lambda _: {"sum": int(peer.spin_once())})
+    with pytest.raises(RosError, match="a callback cannot spin"):
+        peer.client("/spins", "own_msgs/srv/Add").call({}, PATIENCE_S)
+    peer.close()
+    peer.close()
