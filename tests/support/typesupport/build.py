@@ -104,7 +104,9 @@ def generate(
 def no_pools() -> bytes:
     """Return the header of the pools of an application that sends nothing."""
     template = shared_environment().get_template("memory/include/microros/message_pools.h.j2")
-    return template.render(plan={"message_pools": (), "pool_pointers": pool_pointers(())}).encode()
+    return template.render(
+        plan={"memory": {"message_pools": (), "pool_pointers": pool_pointers(())}}
+    ).encode()
 
 
 def differing_rules(found: InterfaceSet) -> tuple[LimitRule, ...]:
