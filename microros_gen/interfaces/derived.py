@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What ROS 2 derives from a service or an action: messages, services and the structures that hashes are made of.
 
-Source: the behaviour of rosidl_parser (services and actions), REP-2011 (type hashes) and REP-2012 (service
+Source: the behavior of rosidl_parser (services and actions), REP-2011 (type hashes) and REP-2012 (service
 events) as ROS 2 Jazzy installs them. An .srv or .action file and an .idl file of the same content give the
 same result, since both come through here.
 """

@@ -27,7 +27,7 @@ SUFFIXES_OF_KIND: Mapping[str, tuple[str, ...]] = MappingProxyType(
 )
 """The interface files that are read: kind, which is also the folder that holds them → suffixes, best first.
 
-ROS 2 installs an .idl file beside what it is made from; an .idl file alone is an interface that was written so.
+ROS 2 installs an .idl file besides what it is made from; an .idl file alone is an interface that was written so.
 """
 
 KINDS = tuple(SUFFIXES_OF_KIND)
@@ -143,7 +143,7 @@ class InterfaceFinder:
         return found
 
     def check_paths(self, diagnostics: Diagnostics, spans: Mapping[Path, Span | None] | None = None) -> None:
-        """Report each of the user's paths that is no folder, cannot be read or holds no interface package.
+        """Report each of the user's paths that is not a folder, cannot be read or holds no interface package.
 
         `spans` has the places of those that a file names.
         """

@@ -56,7 +56,7 @@ class _Reader:
         builtin = name in known or (near == TARGETS and (TARGETS / f"{name}.yaml").is_file())
         if not builtin and not name.endswith((".yaml", ".yml")):
             hint = nearest(name, known) or f"There are: {', '.join(known)}; or give the path of a target file"
-            self._diagnostics.error(f"there is no target '{name}'", span, hint)
+            self._diagnostics.error(f"unknown target '{name}'", span, hint)
             return None
         path = TARGETS / f"{name}.yaml" if builtin else near / name
         if path.resolve() in self._way:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parts of a platform: processor, operating system, network, board. Each is a component, and facts beside it."""
+"""The parts of a platform: processor, operating system, network, board. Each is a component, and facts next to it."""
 
 from __future__ import annotations
 

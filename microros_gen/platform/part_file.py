@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A part's folder → Part: its component.yaml, and cpu.yaml or os.yaml beside it."""
+"""A part's folder → Part: its component.yaml, and cpu.yaml or os.yaml next to it."""
 
 from __future__ import annotations
 

@@ -5,8 +5,8 @@ A message is a dict of its members: numbers (`char` and `wchar` of .idl files to
 dicts. Arrays and sequences are lists, those of `byte`, `char` and `uint8` are bytes. A member that is missing has its
 default of the interface file, else zero, False or nothing. What does not fit the interface is refused, both ways.
 
-Written is XCDR1, little endian, behind the encapsulation header of four bytes; read are both byte orders. Bytes
-behind the message are passed over, as ROS 2 does. docs/explanation/typesupport.md has what ROS 2 adds to the standard.
+Written is XCDR1, little endian, after the encapsulation header of four bytes; read are both byte orders. Bytes
+after the message are passed over, as ROS 2 does. docs/explanation/typesupport.md has what ROS 2 adds to the standard.
 """
 
 from __future__ import annotations
@@ -60,6 +60,6 @@ class Codec:
             parts = str(type_name).split("/")
             name = TypeName(*parts) if len(parts) == 3 else None
             if name is None or name not in self._messages:
-                raise CodecError("is no message of these interfaces")
+                raise CodecError("is not a message of these interfaces")
             program = self._by_text[str(type_name)] = compile_program(name, self._messages, self._programs)
         return program

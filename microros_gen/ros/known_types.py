@@ -42,7 +42,7 @@ class KnownTypes:
         """Return a message: `pkg/msg/Type`, `pkg/Type` or a derived one. UserError: there is no such file."""
         known = self._find(text, "msg")
         if known.name not in known.interfaces.messages:
-            raise RosError(f"{known.name} is no message")
+            raise RosError(f"{known.name} is not a message")
         return known
 
     def service(self, text: str) -> KnownType:

@@ -68,7 +68,7 @@ class Program:
 
     def _checked(self, number: int, value: Any) -> Mapping[str, Any]:
         if not isinstance(value, Mapping):
-            raise CodecError(f"{value!r:.60} is no message: a dict is expected", self._paths[number])
+            raise CodecError(f"{value!r:.60} is not a message: a dict is expected", self._paths[number])
         names = self._names[number]
         if not value.keys() <= names.keys():
             wrong = next(name for name in value if name not in names)

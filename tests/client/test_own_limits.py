@@ -135,7 +135,7 @@ def application(folder: Path, small: int, large: int, mtu: int = 256) -> compile
 def test_each_stream_is_sized_for_those_that_write_to_it(
     tmp_path: Path, small: int, large: int, best_effort: int, reliable: int
 ) -> None:
-    """A body of `limit` + 5 bytes behind 12, rounded up to four."""
+    """A body of `limit` + 5 bytes after 12, rounded up to four."""
     runtime = application(tmp_path, small, large).project.runtime
     assert (runtime.streams.best_effort_size, runtime.streams.reliable_slot_size) == (best_effort, reliable)
     assert [bool(p.limited) for p in runtime.entities.publishers.declared] == [small < large, large < small]

@@ -29,7 +29,7 @@ def generate(run: Runner, folder: Path, text: str) -> Outcome:
 
 
 def proposed_block(err: str) -> str:
-    """Return the lines behind `Or for each of them`."""
+    """Return the lines after `Or for each of them`."""
     return err.split("Or for each of them", 1)[1].split("\n", 1)[1]
 
 

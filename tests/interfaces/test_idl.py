@@ -113,7 +113,7 @@ def test_services_and_actions_have_what_ros_derives() -> None:
         (default("float", "1"), "6:23: error: ROS 2 Jazzy makes C of a whole number that does not compile. Write 1.0"),
         (msg("Colour a;", "typedef int32 Color;"), "Did you mean 'Color'?"),
         (msg("Bar a;"), "Another interface is written 'pkg_a::msg::Bar'"),
-        (msg("unknown_type a;"), "error: 'unknown_type' is no type and no typedef of this file. Write a type of IDL"),
+        (msg("unknown_type a;"), "error: 'unknown_type' is not a type and no typedef of this file."),
         (msg("float64 a;"), "Write double"),
         (msg("long double a;"), "cannot describe a long double"),
         (msg("int32 a;", "union U { };"), "ROS 2 has no unions"),

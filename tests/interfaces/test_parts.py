@@ -97,10 +97,14 @@ def test_parts_may_be_empty(end: str) -> None:
             "action",
             ["3:1: error: '---' number 3: an", "4:1: error: '---' number 4: an"],
         ),
-        ("int8 a\n--- \nint8 b", "srv", ["2:1: error: '---' is no separator. ROS 2 takes a line of exactly"]),
-        ("--- # response\n", "srv", ["1:1: error: '--- # response' is no separator."]),
-        ("----\n", "srv", ["1:1: error: '----' is no separator."]),
-        (" ---\nint8 b\n", "srv", ["1:1: error: '---' is no separator."]),
+        (
+            "int8 a\n--- \nint8 b",
+            "srv",
+            ["2:1: error: '---' is not a separator. ROS 2 takes a line of exactly"],
+        ),
+        ("--- # response\n", "srv", ["1:1: error: '--- # response' is not a separator."]),
+        ("----\n", "srv", ["1:1: error: '----' is not a separator."]),
+        (" ---\nint8 b\n", "srv", ["1:1: error: '---' is not a separator."]),
     ],
 )
 def test_separators(text: str, kind: str, said: list[str]) -> None:

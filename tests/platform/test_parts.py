@@ -188,7 +188,7 @@ ERRORS = {
     "facts": (
         {"os.yaml": "hosted: true\ntikc: f\n"},
         TARGET,
-        "os.yaml:2:1: error: there is no key 'tikc' here",
+        "os.yaml:2:1: error: unknown key 'tikc'",
     ),
     "provides": (
         {},

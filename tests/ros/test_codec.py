@@ -85,8 +85,8 @@ def test_missing_members_have_their_defaults(own: InterfaceSet) -> None:
     [
         ({"heer": {}}, "", "there is no member 'heer'. Did you mean 'here'?"),
         ({"here": {"z": 1}}, "here", "there is no member 'z'"),
-        ({"here": 3}, "here", "3 is no message"),
-        ({"here": None}, "here", "None is no message"),
+        ({"here": 3}, "here", "3 is not a message"),
+        ({"here": None}, "here", "None is not a message"),
         ({"here": {"y": 32768}}, "here.y", "32768 is no int16 (-32768 to 32767)"),
         ({"here": {"y": 1.0}}, "here.y", "1.0 is no int16"),
         ({"here": {"x": "1"}}, "here.x", "'1' is no float64"),
@@ -96,7 +96,7 @@ def test_missing_members_have_their_defaults(own: InterfaceSet) -> None:
         ({"trace": 4}, "trace", "4 is no list"),
         ({"trace": [{}, {"y": "a"}]}, "trace[1].y", "'a' is no int16"),
         ({"trace": [{}, {"why": 1}]}, "trace[1]", "there is no member 'why'"),
-        ({"trace": ["a"]}, "trace[0]", "'a' is no message"),
+        ({"trace": ["a"]}, "trace[0]", "'a' is not a message"),
         ({"corners": [{}]}, "corners", "1 elements are not 2"),
         ({"flags": [True, 1, True]}, "flags[1]", "1 is no True or False"),
         ({"flags": [True]}, "flags", "1 elements are not 3"),
@@ -175,7 +175,7 @@ def test_other_encapsulations_are_refused(own: InterfaceSet, header: bytes) -> N
 
 def test_types_that_are_not_there(own: InterfaceSet) -> None:
     for text in ("own_msgs/msg/Other", "own_msgs/Report", "", "own_msgs/srv/Add"):
-        with pytest.raises(CodecError, match="is no message of these interfaces"):
+        with pytest.raises(CodecError, match="is not a message of these interfaces"):
             Codec(own).encode(text, {})
     name = TypeName("own_msgs", "msg", "Report")
     with pytest.raises(CodecError, match="here: its type own_msgs/msg/Point is not among"):

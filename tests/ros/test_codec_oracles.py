@@ -30,7 +30,7 @@ def check_with_rclpy(interfaces: InterfaceSet, codec: Codec, name: TypeName, sou
     message = to_ros(interfaces.messages, name, value)
     encoded, theirs = codec.encode(name, value), bytes(serialize_message(message))
     length, gaps = padding(interfaces.messages, name, value)
-    expected = bytearray(theirs[: 4 + length])  # behind it is a surplus
+    expected = bytearray(theirs[: 4 + length])  # after it is a surplus
     for gap in gaps:
         expected[4 + gap] = 0  # ROS 2 leaves there what was
     assert encoded == expected, (name, value)

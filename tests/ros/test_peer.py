@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A peer beside rclpy's own nodes with installed types, and two peers with a type that no installation has."""
+"""A peer besides rclpy's own nodes with installed types, and two peers with a type that no installation has."""
 
 from __future__ import annotations
 
@@ -183,7 +183,7 @@ def test_what_is_refused(peer: Peer) -> None:
     publisher = peer.publisher("/state", "own_msgs/msg/Report")
     with pytest.raises(CodecError, match="own_msgs/msg/Report: count: -1 is no uint16"):
         publisher.publish({"count": -1})
-    with pytest.raises(RosError, match="own_msgs/srv/Add is no message"):
+    with pytest.raises(RosError, match="own_msgs/srv/Add is not a message"):
         peer.publisher("/state", "own_msgs/srv/Add")
     with pytest.raises(RosError, match="own_msgs/msg/Report is no service"):
         peer.client("/state", "own_msgs/msg/Report")

@@ -193,7 +193,7 @@ def test_a_message_on_its_way_is_not_given_up(bench: Bench) -> None:
 
 @dataclass
 class RoughAgent(FakeAgent):
-    """An agent behind a network that loses, doubles and reorders, in both directions, while `rough`."""
+    """An agent after a network that loses, doubles and reorders, in both directions, while `rough`."""
 
     chance: random.Random = field(default_factory=lambda: random.Random(0))
     rough: bool = False

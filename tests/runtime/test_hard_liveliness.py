@@ -14,7 +14,7 @@ PLAN = changed(POOL, session__hard_liveliness_ms=2000)
 CAPTURED = bytes.fromhex(
     "58524345 0100 010f a1b2c3d4 81 01 0000 01000000 07000000 7578725f686c00 00 07000000 30303230303000"
 )
-"""What the public client says for 2,000 ms, with another key; behind it a byte of padding and the MTU."""
+"""What the public client says for 2,000 ms, with another key; after it a byte of padding and the MTU."""
 
 
 def connected(bench: Bench, liveliness: str) -> Client:

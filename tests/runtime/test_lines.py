@@ -61,7 +61,7 @@ class LineAgent(threading.Thread):
                         for answer in self.agent.receive(event.message):
                             os.write(self._master, self._spoil(frame(answer)))
                 known = len(found)
-                if stream.rfind(b"\x7e") > 2000:  # what is behind the last flag is still to come
+                if stream.rfind(b"\x7e") > 2000:  # what is after the last flag is still to come
                     stream = stream[stream.rfind(b"\x7e") :]
                     known = len(events(stream, source=CLIENT, destination=AGENT))
 

@@ -97,7 +97,7 @@ def test_every_call_returns_what_librcl_returns(tmp_path: Path) -> None:
 
 @pytest.fixture(scope="module")
 def tree(tmp_path_factory: pytest.TempPathFactory) -> Tree:
-    """Return a library without a port: the tests bring one, with an agent behind it."""
+    """Return a library without a port: the tests bring one, with an agent after it."""
     whole = write_application(tmp_path_factory.mktemp("states") / "ours", STATES)
     return Tree(whole.folder, tuple(s for s in whole.sources if not s.parent.name.startswith("port_posix")))
 

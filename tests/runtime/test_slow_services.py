@@ -42,7 +42,7 @@ LINKS = {
 
 
 def opened(bench: Bench, link: Link) -> tuple[Client, ServingAgent]:
-    """Return a client with a publisher, a service and a client, and its agent behind the link."""
+    """Return a client with a publisher, a service and a client, and its agent after the link."""
     agent = ServingAgent()
     client = bench.start(with_times(SERVER, link.times, link.baud), agent=agent)
     client.round_trip_ms, client.byte_ms = link.round_trip_ms, link.byte_ms

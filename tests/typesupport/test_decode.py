@@ -253,7 +253,7 @@ def test_a_wide_character_above_16_bits_is_refused(
 def test_bounds_of_the_interface_hold_for_larger_capacities(
     everything: Generated, functions_library: ctypes.CDLL
 ) -> None:
-    """The application may give more room than the bound; the message is no valid one all the same."""
+    """The application may give more room than the bound; the message is not a valid one all the same."""
     decoder = one(everything, functions_library, "test_msgs/msg/BoundedSequences")
     message = decoder.bind()
     room = (ctypes.c_bool * 8)()

@@ -12,7 +12,7 @@ from tests.bench import codec
 
 pytestmark = [pytest.mark.ros, pytest.mark.builds]
 
-# The goals of verification/figures.md: a third where all behind the header's string has a fixed layout, else not more.
+# The goals of verification/figures.md: a third where all after the header's string has a fixed layout, else not more.
 MOST = {"Int32": 1 / 3, "Imu": 1 / 3, "TwistStamped": 1 / 3}
 
 

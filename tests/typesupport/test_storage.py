@@ -51,7 +51,7 @@ def check_capacities(
     value: ctypes.Structure,
     storage: range,
 ) -> None:
-    """Every string and sequence, elements behind `size` too, has the capacity of its limit."""
+    """Every string and sequence, elements after `size` too, has the capacity of its limit."""
     for field, entry in zip(generated.messages[name].fields, limits.fields, strict=True):
         if entry is None:
             continue

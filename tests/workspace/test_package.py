@@ -47,8 +47,12 @@ def test_the_wheel_holds_every_file_of_data(installed: Installed) -> None:
     prefix = ROOT / "cmake" / "ament" / "prefix"
     ament = {path.relative_to(prefix).as_posix() for path in prefix.glob("*/cmake/*.cmake")}
     assert ament | {name.replace("Config.", "-extras.") for name in ament} <= shared
-    for name in ("application.schema.json", "profile.schema.json", "msg.lark"):
-        assert f"microros_gen/parse/{name}" in there
+    for name in (
+        "application/application.schema.json",
+        "selection/profile.schema.json",
+        "interfaces/msg/msg.lark",
+    ):
+        assert f"microros_gen/{name}" in there
     assert not [name for name in there if name.startswith(("tests/", "examples/", "docs/"))]
     assert any(name.endswith("licenses/LICENSE") for name in there)
 

@@ -193,7 +193,8 @@ def _check_vectors(
     elif flash.first % alignment:
         upwards = (flash.first + alignment - 1) // alignment * alignment - flash.origin
         diagnostics.error(
-            f"the vector table of {target.name} would begin at {flash.first:#x}, which is no multiple of {alignment}",
+            f"the vector table of {target.name} would begin at {flash.first:#x}, which is not a multiple of"
+            f" {alignment}",
             application.target.span,
             f"Set flash.offset: {upwards}",
         )
@@ -223,7 +224,7 @@ def _stdio_divisor(
     found = _nearest_divisor(driver.baud, clock_hz or target.clock_hz, stdio.baud)
     if found.error > _FREQUENCY_TOLERANCE:
         diagnostics.error(
-            f"{stdio.baud} baud cannot be had from {clock_hz or target.clock_hz} Hz by the UART of 'stdio'",
+            f"{stdio.baud} baud is not possible with {clock_hz or target.clock_hz} Hz by the UART of 'stdio'",
             application.target.span,
             f"The nearest rate is {found.nearest}: `stdio: {{baud: {found.nearest}}}`",
         )
@@ -255,7 +256,7 @@ def _divisor(uart: Uart, target: Target, application: Application, diagnostics: 
     found = _nearest_divisor(driver.baud, clock, baud)
     if found.error > _FREQUENCY_TOLERANCE:
         diagnostics.error(
-            f"{baud} baud cannot be had from {clock} Hz by the UART of {target.name}",
+            f"{baud} baud is not possible with {clock} Hz by the UART of {target.name}",
             application.transport.span or application.target.span,
             f"The nearest rate is {found.nearest}: `transport: {{baud: {found.nearest}}}`",
         )

@@ -29,7 +29,7 @@ _Record = dict[str, Any]
 
 
 def plan_id(runtime: RuntimePlan, components: Iterable[str], types: Iterable[TypePlan]) -> str:
-    """Return 16 hexadecimal digits that change whenever the library's layout or behaviour does."""
+    """Return 16 hexadecimal digits that change whenever the library's layout or behavior does."""
     record = plan_record(runtime, components, types)
     text = json.dumps(record, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()[:16]

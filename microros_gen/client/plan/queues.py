@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Queues of received samples whose bytes the application file bounds (`queue_bytes`).
 
-Samples of such a queue lie one behind the other and each takes its own size, so as many fit as their sizes add up to.
+Samples of such a queue lie one after the other and each takes its own size, so as many fit as their sizes add up to.
 """
 
 from __future__ import annotations

@@ -136,7 +136,7 @@ def _pooled(
     places: int,
     diagnostics: Diagnostics,
 ) -> Receiving:
-    """Return `places` for the application's subscriptions, behind those of the library itself."""
+    """Return `places` for the application's subscriptions, after those of the library itself."""
     slots = application.pools.get("queue", LARGEST_DEFAULT_QUEUE)
     largest = max(roots, key=lambda root: types[root].max_encoded_size, default=None)
     slot_size = slot_of(types[largest].max_encoded_size if largest else 0)

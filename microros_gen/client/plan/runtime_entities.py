@@ -97,7 +97,7 @@ class QueuePlan:
     """What waits for the application to take it: `slots` samples, of at most `slot_size` bytes each.
 
     `asked`: they share so many bytes, each takes what it has; None: each has `slot_size`. A sample is what DATA carries
-    behind the object's id: the CDR body, for a service behind 24 bytes (who asks), for a client behind 4 (which
+    after the object's id: the CDR body, for a service after 24 bytes (who asks), for a client after 4 (which
     request).
     """
 

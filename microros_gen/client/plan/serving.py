@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Services and clients: their places, their queues, and what they send and receive.
 
-Sources: OMG DDS-XRCE 1.0, 7.7.14 (a request comes behind its SampleIdentity); a reply comes behind request and object
+Sources: OMG DDS-XRCE 1.0, 7.7.14 (a request comes after its SampleIdentity); a reply comes after request and object
 id of its request, as the public agent sends it.
 """
 

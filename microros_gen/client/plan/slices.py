@@ -77,8 +77,8 @@ class TransportPlan:
     def input_is_free(self) -> bool:
         """Whether the input buffer is free between two looks at the line, for what is asked over another one.
 
-        A session keeps the part of a message there that has come over a line of bytes. A board has one such line, and
-        nothing else is asked while it is a session's.
+        A session keeps the part of a message there that was received over a line of bytes. A board has one such
+        line, and nothing else is asked while it is a session's.
         """
         lines_of_bytes = self.kind == "tcp" or bool(self.device)
         return not lines_of_bytes and (self.kind != "custom" or self.framing == "off")

@@ -43,7 +43,7 @@ LEAST_PIECE = 256
 LEAST_LENT = 256
 # A message that the line's interrupt takes from its stream has to save so many bytes, for the same reason.
 LEAST_KEPT = 128
-# In front of a message that goes in fragments: FRAGMENT's header, beside that of the message.
+# In front of a message that goes in fragments: FRAGMENT's header, besides that of the message.
 FRAGMENT_HEADER = 4
 # The length of a submessage has 16 bits (OMG DDS-XRCE 1.0, 8.3.4); the whole submessage is counted in as many here.
 LARGEST_BODY = 0xFFFF - SUBMESSAGE_HEADER - OBJECT_PREFIX
@@ -63,7 +63,7 @@ class Written:
 
 @dataclass(frozen=True)
 class Received:
-    """What an endpoint receives: where it was declared, the largest DATA behind the object's id, on which streams.
+    """What an endpoint receives: where it was declared, the largest DATA after the object's id, on which streams.
 
     `alone`: its queue has one place. Then memory counts more than the number of messages that a sample takes.
     """

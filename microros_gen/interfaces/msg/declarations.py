@@ -67,7 +67,7 @@ class SyntaxNode(Protocol):
 
 @dataclass(frozen=True)
 class Line:
-    """One declaration as text; `commented` says whether a comment stands behind it."""
+    """One declaration as text; `commented` says whether a comment follows it."""
 
     source: Source
     number: int
@@ -227,7 +227,7 @@ def _type_name(parts: list[Token], line: Line, package: str) -> TypeName:
         raise _DeclarationError(span, f"'{written}' is not a type", f"Write '{parts[0]}/{parts[-1]}'")
     if written in _ONCE_PRIMITIVE:
         raise _DeclarationError(
-            span, f"'{written}' is no type of ROS 2", f"Write '{_ONCE_PRIMITIVE[written]}'"
+            span, f"'{written}' is not a type of ROS 2", f"Write '{_ONCE_PRIMITIVE[written]}'"
         )
     if len(parts) == 2:
         fault = msg_names.package_name_fault(str(first))
@@ -286,7 +286,7 @@ def _check_no_equal(line: Line) -> None:
 def _scalar(
     kind: Primitive | StringType, node: Token | None, line: Line, diagnostics: Diagnostics
 ) -> ScalarValue:
-    """Return the value of a constant or default; `node` is None where nothing stands behind the `=`."""
+    """Return the value of a constant or default; `node` is None where nothing follows the `=`."""
     if node is None:
         if isinstance(kind, StringType):
             return ""

@@ -78,7 +78,7 @@ def _borders(
             near.append(index)
     for index in near:
         diagnostics.error(
-            f"'{lines[index].strip()}' is no separator",
+            f"'{lines[index].strip()}' is not a separator",
             Span(source, index + 1, 1, len(lines[index]) + 1),
             "ROS 2 takes a line of exactly three hyphens, without spaces or a comment",
         )

@@ -84,7 +84,7 @@ def string_elements(kind: StringType, texts: list[str]) -> tuple[str, ...]:
         literal = literal.encode("latin-1").decode("utf-8")
     except UnicodeError:
         raise InvalidValueError(
-            "letters beyond ASCII cannot stand in the default of a string array",
+            "letters beyond ASCII is not allowed in the default of a string array",
             "ROS 2 Jazzy refuses it too; set the value in the program",
         ) from None
     try:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Annotations of .idl files (OMG IDL 4.2, 7.4.15.4.2): documentation, units and defaults.
 
-Ranges stand in the C beside them. All others are read and mean nothing to ROS 2 Jazzy, which keeps none of them in C.
+Ranges stand in the C next to them. All others are read and mean nothing to ROS 2 Jazzy, which keeps none of them in C.
 """
 
 from __future__ import annotations
@@ -120,7 +120,7 @@ def _default_value(values: Mapping[str, ScalarValue | None], span: Span) -> Scal
 
 
 def _with_unit(comment: Sequence[str], units: Sequence[str]) -> tuple[str, ...]:
-    """Return the lines with the unit in brackets behind the last one, unless a line has it already.
+    """Return the lines with the unit in brackets after the last one, unless a line has it already.
 
     In a .msg file a unit stands somewhere in the comment; rosidl_adapter takes it out of its line.
     """

@@ -229,7 +229,7 @@ def _warn_of_value(kind: FieldType, value: Value, span: Span, scope: Scope) -> N
 
 
 def _warn_of_size(declarator: SyntaxNode, size: int, scope: Scope) -> None:
-    """Say what rosidl_parser does: behind a declarator with a size, all others of the line have it too."""
+    """Say what rosidl_parser does: after a declarator with a size, all others of the line have it too."""
     scope.diagnostics.warning(
         f"ROS 2 Jazzy makes an array of {size} of '{declarator.children[0]}' too",
         span_of(declarator, scope.source),

@@ -94,7 +94,7 @@ def _checked_source(source: Source, package: str, kind: str, diagnostics: Diagno
         diagnostics.error(fault, Span(source, 1, 1), hint)
     if kind not in KINDS:
         diagnostics.error(
-            f"'{kind}' is no folder of interfaces", Span(source, 1, 1), "They are msg, srv and action"
+            f"'{kind}' is not a folder of interfaces", Span(source, 1, 1), "They are msg, srv and action"
         )
     return source
 
@@ -125,7 +125,7 @@ def _declaration(name: TypeName, messages: Sequence[Message], source: Source) ->
 
 
 def _check_surroundings(contents: Contents, scope: Scope) -> None:
-    """Check the modules of each struct, its name, and what stands in the file beside."""
+    """Check the modules of each struct, its name, and what stands in the file besides."""
     source, diagnostics = scope.source, scope.diagnostics
     for struct in contents.structs:
         span = span_of(struct.name, source)

@@ -188,7 +188,7 @@ def _end_of_declaration(text: str, place: int) -> int:
 
 
 def _end_of_block(text: str, place: int) -> int:
-    """Return the end of the semicolon behind a brace, with a name between them if there is one."""
+    """Return the end of the semicolon after a brace, with a name between them if there is one."""
     tail = _BLOCK_TAIL.match(text, place)
     return tail.end() if tail else place
 

@@ -81,7 +81,7 @@ def names_to_escape(declaration: Declaration) -> tuple[str, ...]:
 
 
 def idl_type_text(field_type: ElementType | SequenceType) -> str:
-    """Return the type as an .idl file names it; an array has its size behind the name that it declares."""
+    """Return the type as an .idl file names it; an array has its size after the name that it declares."""
     if isinstance(field_type, SequenceType):
         bound = "" if field_type.bound is None else f", {field_type.bound}"
         return f"sequence<{idl_type_text(field_type.element)}{bound}>"

@@ -170,7 +170,7 @@ def _second(alias: Alias, inner: Alias, scope: Scope) -> ElementType | None:
     if target.nested or isinstance(target.element, Alias):
         raise IdlError(
             alias.span,
-            f"behind '{alias.name}' stands '{inner.name}', which is no single element: ROS 2 Jazzy makes no C",
+            f"behind '{alias.name}' stands '{inner.name}', which is not a single element: ROS 2 Jazzy makes no C",
             "Put it into a struct of its own file",
         )
     return target.element
@@ -188,7 +188,7 @@ def _target(alias: Alias, scope: Scope) -> Written | None:
             "Take uint8 and constants in a module that ends with '_Constants'",
         )
     raise IdlError(
-        alias.span, f"'{alias.name}' is no type and no typedef of this file", _type_hint(alias.name, scope)
+        alias.span, f"'{alias.name}' is not a type and no typedef of this file", _type_hint(alias.name, scope)
     )
 
 

@@ -301,7 +301,7 @@ def _checked_float(kind: Primitive, value: int | float, span: Span) -> float:
 
 def _checked_integer(kind: Primitive, value: int | float, span: Span) -> int:
     if isinstance(value, float):
-        raise IdlError(span, f"{value} is no integer", "Write it without a point and an exponent")
+        raise IdlError(span, f"{value} is not an integer", "Write it without a point and an exponent")
     bits = 8 * kind.size
     low, high = (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) if kind in _SIGNED else (0, 2**bits - 1)
     if not low <= value <= high:

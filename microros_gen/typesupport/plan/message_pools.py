@@ -72,7 +72,7 @@ class MessagePool:
     """The blocks for elements of one kind, smallest first.
 
     `kind` ends its names in C (`text`: characters; `string`: strings of a sequence; `double`;
-    `geometry_msgs__msg__Point`: messages of a sequence; with `__message` behind it: those of `__create`).
+    `geometry_msgs__msg__Point`: messages of a sequence; with `__message` after it: those of `__create`).
     `element` is its type in C, which `header` declares (empty: the language does). `sizes`: of one element for each of
     the data models that the plan knows.
     """
@@ -156,7 +156,7 @@ def block_sizes(wanted: Mapping[int, int]) -> tuple[BlockSize, ...]:
 def open_members(sender: Sender, messages: Mapping[TypeName, Message]) -> tuple[tuple[str, int], ...]:
     """Return strings and sequences of a sender's message without a bound in the interface file, with their limits.
 
-    Strings of a sequence, and members of its messages, have `[]` behind its name.
+    Strings of a sequence, and members of its messages, have `[]` after its name.
     """
     found: list[tuple[str, int]] = []
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Views of the type support: each step of an encoder with its C expressions spelt out."""
+"""Views of the type support: each step of an encoder with its C expressions spelled out."""
 
 from __future__ import annotations
 
@@ -311,7 +311,7 @@ def _entities(own: LimitSet) -> str:
 
 
 def _end_of(steps: tuple[Step, ...], place: Place) -> str:
-    """Return the expression of the position behind the last step."""
+    """Return the expression of the position after the last step."""
     for step in steps:
         if isinstance(step, Zeros):
             place = Place(step.place.variable, step.place.offset + step.count)

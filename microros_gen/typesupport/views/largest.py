@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Largest encoded sizes, spelt out for static assertions: the encoder's own steps with everything full.
+"""Largest encoded sizes, spelled out for static assertions: the encoder's own steps with everything full.
 
 typesupport/plan/size.py has the size from the members of the type; here it follows from the steps that are generated,
 and the compiler works it out once more. A line is one part of variable length: where it ends, which is where the next
-line begins. Elements of a sequence behind its first have one stride, so two of them are listed at most; and what was
+line begins. Elements of a sequence after its first have one stride, so two of them are listed at most; and what was
 listed from a position of the same alignment is not listed again, be it in the assertion of a type that is part of
 this one. So the text grows with the members.
 """
@@ -37,7 +37,7 @@ LARGEST_UNSIGNED = 0xFFFF
 
 
 class _At(NamedTuple):
-    """A position: `offset` bytes behind `base`, which is `computed` by an expression in C or, None, a number."""
+    """A position: `offset` bytes after `base`, which is `computed` by an expression in C or, None, a number."""
 
     base: int
     computed: str | None = None
@@ -63,7 +63,7 @@ class _At(NamedTuple):
         return f"{start} + {self.offset}U" if self.offset else start
 
     def plus(self, count: int) -> _At:
-        """Return the position `count` bytes behind it."""
+        """Return the position `count` bytes after it."""
         return _At(self.base, self.computed, self.offset + count)
 
 
@@ -137,7 +137,7 @@ class LargestSizes:
 class _Listing:
     """Walks through the steps of one body, from its first byte.
 
-    `_base` is where the encoder's variable `position` stands, `_end` the position behind the last step, `_table`
+    `_base` is where the encoder's variable `position` stands, `_end` the position after the last step, `_table`
     the limits that the present function is given.
     """
 
@@ -171,7 +171,7 @@ class _Listing:
         return (self._base if place.variable else _At(0)).plus(place.offset)
 
     def _message(self, name: TypeName, limits: TypeLimits | None, at: _At) -> _At:
-        """Move behind a message that begins at `at`; return that position."""
+        """Move after a message that begins at `at`; return that position."""
         wire = self._sizes.plans[name].wire
         if wire is None or wire.at_steps is None:
             raise ValueError(f"no encoder of {name} starts at any position")

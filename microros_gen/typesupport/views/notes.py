@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a generated header says of a type and its members beside the comments of the interface file."""
+"""What a generated header says of a type and its members besides the comments of the interface file."""
 
 from __future__ import annotations
 

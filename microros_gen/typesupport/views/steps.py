@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Views of the steps of an encoder, each with its C expressions spelt out, for the macros in steps.j2."""
+"""Views of the steps of an encoder, each with its C expressions spelled out, for the macros in steps.j2."""
 
 from __future__ import annotations
 
@@ -205,7 +205,7 @@ def position(place: Place) -> str:
 
 
 def _start(step: Messages | Texts) -> str:
-    """Return the position of the first element: behind the length of a sequence."""
+    """Return the position of the first element: after the length of a sequence."""
     offset = LENGTH_SIZE if step.sequence else 0
     return position(Place(step.place.variable, step.place.offset + offset))
 

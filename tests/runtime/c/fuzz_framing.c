@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* For libFuzzer: whatever came before on the line, a whole frame behind it arrives, with the bytes that were sent. */
+/* For libFuzzer: whatever came before on the line, a whole frame after it arrives, with the bytes that were sent. */
 #include "microros/xrce_framing.h"
 
 #include <stdlib.h>

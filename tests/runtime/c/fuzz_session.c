@@ -104,7 +104,7 @@ static void act(uint8_t action, input_t * input)
       break;
     case 6:
       (void)rmw_uros_spin_once(rcl_context_get_rmw_context(&support.context)); /* makes room */
-      agent_offer_number(3, action); /* the first subscription, behind three publishers */
+      agent_offer_number(3, action); /* the first subscription, after three publishers */
       break;
     default:
       (void)rmw_uros_spin_once(rcl_context_get_rmw_context(&support.context));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A port whose time the unit makes, with an agent behind its UDP group that grants everything at once. */
+/* A port whose time the unit makes, with an agent after its UDP group that grants everything at once. */
 #ifndef PORT_AGENT_H
 #define PORT_AGENT_H
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The other transports of the port whose network is in the hands of the test: a connection, the one serial line of a board, or
- * a line or a medium of packets behind functions of the application; and a group for multicast. A line is one: who closes it
+ * a line or a medium of packets after functions of the application; and a group for multicast. A line is one: who closes it
  * closes it for all.
  */
 #include "port_fake.h"

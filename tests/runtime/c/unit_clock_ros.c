@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* ROS time from /clock: two ROS clocks, two subscriptions of the application beside that of the library. */
+/* ROS time from /clock: two ROS clocks, two subscriptions of the application besides that of the library. */
 #include "port_agent.h"
 #include "types.h"
 #include "unit.h"

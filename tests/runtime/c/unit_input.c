@@ -17,7 +17,7 @@ static uint16_t expected; /* of the last ACKNACK */
 static uint16_t missing;
 static uint32_t acknacks;
 
-/* Stands for the session: what is handed on carries its number behind the header. */
+/* Stands for the session: what is handed on carries its number after the header. */
 bool xrce_session_take_submessages(xrce_client_t * taker, const uint8_t * message, size_t size, uint32_t now)
 {
   CHECK(taker == &client && now == 5u && size == MESSAGE && handed_on_count < 2 * MESSAGES);

@@ -48,7 +48,7 @@ static void test_reallocates(rcl_allocator_t a)
 
   strcpy(text, "seven77");
   other = a.allocate(8, a.state);
-  text = a.reallocate(text, 100, a.state); /* moves: something is behind it */
+  text = a.reallocate(text, 100, a.state); /* moves: something is after it */
   CHECK(text != NULL && strcmp(text, "seven77") == 0 && text != other);
   CHECK(a.reallocate(text, 200, a.state) == text); /* grows in place */
   CHECK(a.reallocate(text, 10, a.state) == text);

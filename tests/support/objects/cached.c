@@ -191,7 +191,7 @@ static bool publish(const char * from, const char * to)
   return true;
 }
 
-/* Gives the place of one of the files beside the object: its name with another ending. */
+/* Gives the place of one of the files next to the object: its name with another ending. */
 static void beside(const call_t * call, const char * ending, char * place)
 {
   snprintf(place, PATH_MAX, "%.*s%s", (int)(strlen(call->object) - 2), call->object, ending);
