@@ -34,7 +34,10 @@ from microros_gen.toolchain.toolchain import find_toolchain
 from tests.support.image.size_images import APPLICATION, BOARDS, PROBE, build, tool
 from tests.support.matrix import has
 
-pytestmark = pytest.mark.skipif(not has("gcc") or not has("size"), reason="no gcc or no size")
+pytestmark = [
+    pytest.mark.skipif(not has("gcc") or not has("size"), reason="no gcc or no size"),
+    pytest.mark.builds,
+]
 LINK_FLAGS = ("-Wl,--gc-sections", "-Wl,-z,now")
 """Without lazy binding: the dynamic linker would run on the stack that is measured."""
 Measured = Callable[[str], SizeReport]

@@ -17,7 +17,10 @@ from microros_gen.selection.find_components import load_catalogue
 from microros_gen.toolchain.compile import object_name
 from tests.support.matrix import ALSO, FIRST, VARIANTS, Tree, check, compile_tree, has
 
-pytestmark = pytest.mark.skipif(not has("gcc") or not has("nm"), reason="no gcc or no nm")
+pytestmark = [
+    pytest.mark.skipif(not has("gcc") or not has("nm"), reason="no gcc or no nm"),
+    pytest.mark.builds,
+]
 TreeOf = Callable[[str], Tree]
 
 HEAP_AND_STDIO = re.compile(

@@ -12,6 +12,8 @@ from microros_gen.toolchain.toolchain import WARNINGS
 from tests.support.matrix import ALSO, VARIANTS, Tree, check, compile_tree, has
 from tests.support.paths import ROOT
 
+pytestmark = pytest.mark.builds
+
 TreeOf = Callable[[str], Tree]
 
 _ALSO_CLANG = (
