@@ -102,7 +102,7 @@ def test_places_of_declarations() -> None:
         ("double a", "Write 'float64'"),
         ("Int32 a\nunit8 a", "2:1: error: 'unit8' is not a message type"),
         ("unit8 a", "Did you mean 'uint8'?"),
-        ("time a", "1:1: error: 'time' is no type of ROS 2. Write 'builtin_interfaces/Time'"),
+        ("time a", "1:1: error: 'time' is not a type of ROS 2. Write 'builtin_interfaces/Time'"),
         ("a/msg/B a", "1:1: error: 'a/msg/B' is not a type. Write 'a/B'"),
         ("int32 imuTemp", "1:7: error: 'imuTemp' is not a field name"),
         ("int32 imuTemp", "For example 'imu_temp'"),
