@@ -13,7 +13,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from generators import c_api, command_line, error_texts, pictures, python_api, schemas
+from generators import c_api, command_line, diagnostics, error_texts, pictures, python_api, schemas
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
@@ -54,6 +54,7 @@ def generated() -> dict[str, str]:
     """Return the pages that are made from the code: path below docs/ → Markdown."""
     pages = {
         "reference/command_line.md": command_line.page(),
+        "reference/diagnostics.md": diagnostics.page(),
         "reference/error_texts.md": error_texts.page(),
         "reference/python_api.md": python_api.page(),
     }

@@ -126,4 +126,4 @@ def _check_names(item: PreconfiguredObject, diagnostics: Diagnostics) -> None:
             wanted = "rq/nameRequest, rr/nameReply, package::srv::dds_::Type_Request_, …_Response_"
             ros_service(_service(item))
     except BridgeError as error:
-        diagnostics.error(str(error), item.span, f"Names are those of DDS: {wanted}")
+        diagnostics.error(str(error), item.span, f"Names are those of DDS: {wanted}", id="MG-9416")

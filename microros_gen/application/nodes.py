@@ -59,7 +59,9 @@ def parse_nodes(tree: YamlNode | None, diagnostics: Diagnostics) -> tuple[NodeDe
         first = seen.setdefault(full, node)
         if first is not node and first.name_span:
             message = f"duplicate node '{full}'; the first is in line {first.name_span.line}"
-            diagnostics.error(message, node.name_span, "Give each a name or a namespace of its own")
+            diagnostics.error(
+                message, node.name_span, "Give each a name or a namespace of its own", id="MG-3002"
+            )
     return nodes
 
 
@@ -116,7 +118,7 @@ def _check_expanded(name: YamlNode | None, what: str, node: NodeDecl, diagnostic
         if fault:
             full = expand_topic_name(text, node.name, node.namespace)
             shown = full if len(full) <= 60 else f"{full[:60]}…"
-            diagnostics.error(f"{what} '{shown}' {fault.message}", name.span, fault.hint)
+            diagnostics.error(f"{what} '{shown}' {fault.message}", name.span, fault.hint, id="MG-3003")
 
 
 def _timer(item: YamlNode, diagnostics: Diagnostics) -> TimerDecl:
@@ -134,7 +136,10 @@ def positive_time(item: YamlNode, key: str, diagnostics: Diagnostics) -> int | N
     time = time_of(node)
     if time == 0:
         diagnostics.error(
-            f"'{key}' must be at least 1 us; it is {text_of(node)}", span_of(node), "Write a longer time"
+            f"'{key}' must be at least 1 us; it is {text_of(node)}",
+            span_of(node),
+            "Write a longer time",
+            id="MG-3004",
         )
     return time
 
@@ -167,14 +172,16 @@ def _check_default(parameter: ParameterDecl, node: YamlNode | None, diagnostics:
     if not isinstance(value, wanted) or (isinstance(value, bool) and parameter.type != "bool"):
         message = f"the default of the parameter '{parameter.name}' is not of type {parameter.type}"
         hint = "Write true or false" if parameter.type == "bool" else "Change it, or the type"
-        diagnostics.error(message, node.span, hint)
+        diagnostics.error(message, node.span, hint, id="MG-3005")
     elif isinstance(value, (int, float)) and parameter.minimum is not None and parameter.maximum is not None:
         if not parameter.minimum <= value <= parameter.maximum:
             message = f"the default of the parameter '{parameter.name}' is not in its range"
-            diagnostics.error(message, node.span, f"It goes from {parameter.minimum} to {parameter.maximum}")
+            diagnostics.error(
+                message, node.span, f"It goes from {parameter.minimum} to {parameter.maximum}", id="MG-3006"
+            )
     elif isinstance(value, str) and parameter.size is not None and len(value.encode()) > parameter.size:
         message = f"the default of the parameter '{parameter.name}' is longer than its size"
-        diagnostics.error(message, node.span, f"Set size: {len(value.encode())}")
+        diagnostics.error(message, node.span, f"Set size: {len(value.encode())}", id="MG-3007")
 
 
 def _check_range(parameter: ParameterDecl, node: YamlNode | None, diagnostics: Diagnostics) -> None:
@@ -182,14 +189,14 @@ def _check_range(parameter: ParameterDecl, node: YamlNode | None, diagnostics: D
         return
     if parameter.type in ("bool", "string"):
         message = f"the parameter '{parameter.name}' is a {parameter.type}, which has no range"
-        diagnostics.error(message, node.span, "Remove `range`")
+        diagnostics.error(message, node.span, "Remove `range`", id="MG-3008")
     elif (
         parameter.minimum is not None
         and parameter.maximum is not None
         and parameter.minimum > parameter.maximum
     ):
         message = f"the range of the parameter '{parameter.name}' is empty: min is above max"
-        diagnostics.error(message, node.span, "Exchange them")
+        diagnostics.error(message, node.span, "Exchange them", id="MG-3009")
 
 
 def _executor(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> ExecutorDecl:
@@ -199,7 +206,10 @@ def _executor(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> Execu
         if handle.name not in known:
             hint = nearest(handle.name, known) or (f"There are {', '.join(sorted(known))}" if known else None)
             diagnostics.error(
-                f"the node has no timer, subscription or service '{handle.name}'", handle.span, hint
+                f"the node has no timer, subscription or service '{handle.name}'",
+                handle.span,
+                hint,
+                id="MG-3010",
             )
     timeout = time_of(child(item, "timeout"))
     return ExecutorDecl(text_of(child(item, "name")) or "", handles, timeout, item.span)
@@ -212,5 +222,7 @@ def check_unique(kind: str, named: list[tuple[str, Span | None]], diagnostics: D
         first = seen.get(name)
         if name in seen and name:
             where = f"; the first is in line {first.line}" if first else ""
-            diagnostics.error(f"duplicate {kind} '{name}'{where}", span, "Give each a name of its own")
+            diagnostics.error(
+                f"duplicate {kind} '{name}'{where}", span, "Give each a name of its own", id="MG-3011"
+            )
         seen.setdefault(name, span)

@@ -116,7 +116,7 @@ def _check_pools(node: YamlNode | None, diagnostics: Diagnostics) -> None:
     for entry in entries(node):
         if entry.key not in _POOLS_BESIDE_NODES:
             message = f"'pools.{entry.key}' has no effect: with `nodes` there is what they declare"
-            diagnostics.warning(message, entry.key_span, "Remove it")
+            diagnostics.warning(message, entry.key_span, "Remove it", id="MG-3012")
 
 
 def _names(node: YamlNode | None) -> tuple[Named, ...]:
@@ -140,19 +140,23 @@ def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
     host, port = address or (Transport().host, Transport().port)
     if agent is not None and type_name in _WITHOUT_ADDRESS:
         message = f"transport: {type_name} has no agent address"
-        diagnostics.error(message, agent.span, "Remove `agent`, or take type: udp or tcp")
+        diagnostics.error(message, agent.span, "Remove `agent`, or take type: udp or tcp", id="MG-3013")
     for key, only in _ONLY_FOR.items():
         if child(node, key) is not None and type_name != only:
             message = f"transport: {type_name} has no `{key}`"
-            diagnostics.error(message, span_of(child(node, key)), f"Remove `{key}`, or take type: {only}")
+            diagnostics.error(
+                message, span_of(child(node, key)), f"Remove `{key}`, or take type: {only}", id="MG-3014"
+            )
     framing, read_polls = child(node, "framing"), child(node, "read_polls")
     if bool_of(framing) and read_polls is not None:
         message = "'transport.read_polls' has no effect with frames: their read function always gets a time-out of 0"
-        diagnostics.error(message, read_polls.span, "Remove `read_polls`, or set framing: false")
+        diagnostics.error(
+            message, read_polls.span, "Remove `read_polls`, or set framing: false", id="MG-3015"
+        )
     size = int_of(mtu)
     if size is not None and type_name == "udp" and size > LARGEST_UDP_PAYLOAD:
         message = f"'transport.mtu' is {size}; a UDP datagram holds {LARGEST_UDP_PAYLOAD}"
-        diagnostics.error(message, span_of(mtu), f"Set mtu: {LARGEST_UDP_PAYLOAD} or less")
+        diagnostics.error(message, span_of(mtu), f"Set mtu: {LARGEST_UDP_PAYLOAD} or less", id="MG-3016")
     return Transport(
         type=type_name,
         host=host,
@@ -178,7 +182,7 @@ def parse_discover(text: str, span: Span | None, diagnostics: Diagnostics) -> in
         return None
     if separator and not (re.fullmatch(r"[0-9]{1,5}", port) and 1 <= int(port) <= 65535):
         message = f"the port of the search must be a whole number between 1 and 65535; it is '{port}'"
-        diagnostics.error(message, span, "Write `agent: discover`: agents listen at 7400")
+        diagnostics.error(message, span, "Write `agent: discover`: agents listen at 7400", id="MG-3017")
         return DISCOVERY_PORT
     return int(port) if separator else DISCOVERY_PORT
 
@@ -193,16 +197,18 @@ def parse_agent_address(text: str, span: Span | None, diagnostics: Diagnostics) 
     """Return host and port of `192.168.1.10:8888` or `[fd00::1]:8888`; None and an error where it is neither."""
     if text.count(":") > 1 and not re.fullmatch(r"\[.*\]:[^:\]]*", text):
         message = f"the agent '{text}' has an IPv6 address that is not in brackets, or lacks its port"
-        diagnostics.error(message, span, 'Write it as "[::1]:8888"')
+        diagnostics.error(message, span, 'Write it as "[::1]:8888"', id="MG-3018")
         return None
     host, separator, port = text.rpartition(":")
     if not separator:
-        diagnostics.error(f"missing port in the agent address '{text}'", span, f'Write "{text}:8888"')
+        diagnostics.error(
+            f"missing port in the agent address '{text}'", span, f'Write "{text}:8888"', id="MG-3019"
+        )
         return None
     valid = _check_host(host, span, diagnostics)
     if not re.fullmatch(r"[0-9]{1,5}", port) or not 1 <= int(port) <= 65535:
         message = f"the agent's port must be a whole number between 1 and 65535; it is '{port}'"
-        diagnostics.error(message, span, "The public agent's examples use 8888")
+        diagnostics.error(message, span, "The public agent's examples use 8888", id="MG-3020")
         return None
     return (host.strip("[]"), int(port)) if valid else None
 
@@ -216,10 +222,12 @@ def _check_host(host: str, span: Span | None, diagnostics: Diagnostics) -> bool:
         if re.fullmatch(r"[0-9.]*", host):
             reason = str(fault).split(" in ")[0]
             hint = f"Write four numbers from 0 to 255 without leading zeros ({reason})"
-            diagnostics.error(f"the agent's address '{host}' is not an IPv4 address", span, hint)
+            diagnostics.error(
+                f"the agent's address '{host}' is not an IPv4 address", span, hint, id="MG-3021"
+            )
         else:
             hint = "A device has no DNS to resolve it: write the IPv4 address"
-            diagnostics.error(f"the agent's address '{host}' is a host name", span, hint)
+            diagnostics.error(f"the agent's address '{host}' is a host name", span, hint, id="MG-3022")
         return False
     return True
 
@@ -229,11 +237,11 @@ def _check_ipv6(host: str, span: Span | None, diagnostics: Diagnostics) -> bool:
         zone = ipaddress.IPv6Address(host).scope_id
     except ValueError as fault:
         hint = f"Write up to eight groups of hexadecimal digits ({str(fault).split(' in ')[0]})"
-        diagnostics.error(f"the agent's address '{host}' is not an IPv6 address", span, hint)
+        diagnostics.error(f"the agent's address '{host}' is not an IPv6 address", span, hint, id="MG-3023")
         return False
     if zone is not None:
         message = f"the agent's address '{host}' names the interface '{zone}' of one machine"
-        diagnostics.error(message, span, "Write an address that the device can use without it")
+        diagnostics.error(message, span, "Write an address that the device can use without it", id="MG-3024")
     return zone is None
 
 
@@ -272,5 +280,5 @@ def _on_full(node: YamlNode | None, diagnostics: Diagnostics) -> tuple[str, int]
     milliseconds = int(match.group(1)) * (1000 if match.group(2) == "s" else 1)
     if not 1 <= milliseconds <= LONGEST_BLOCK_MS:
         message = f"'on_full: {text}' must block between 1 ms and {LONGEST_BLOCK_MS // 1000} s"
-        diagnostics.error(message, span_of(node), "`on_full: error` does not block at all")
+        diagnostics.error(message, span_of(node), "`on_full: error` does not block at all", id="MG-3025")
     return "block", milliseconds

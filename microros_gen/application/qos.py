@@ -36,5 +36,6 @@ def _milliseconds(node: YamlNode | None, key: str, diagnostics: Diagnostics) -> 
             f"XRCE carries a {key} in whole milliseconds, up to {_LONGEST_MS // 1000} s; it is {text_of(value)}",
             span_of(value),
             "Round it up",
+            id="MG-3026",
         )
     return time // 1000

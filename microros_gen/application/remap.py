@@ -64,7 +64,9 @@ def rename_endpoints(node: NodeDecl, tree: YamlNode | None, diagnostics: Diagnos
             hint = nearest(rule.key, known.values()) or (
                 f"There are {', '.join(known.values())}" if known else "Declare it first"
             )
-            diagnostics.error(f"the node has no topic or service '{rule.key}' to remap", rule.span, hint)
+            diagnostics.error(
+                f"the node has no topic or service '{rule.key}' to remap", rule.span, hint, id="MG-3027"
+            )
     return replace(node, endpoints=tuple(_renamed(e, node, rules) for e in node.endpoints))
 
 
@@ -89,7 +91,9 @@ def _rules(node: NodeDecl, tree: YamlNode | None, diagnostics: Diagnostics) -> d
             continue
         fault = _rule_fault(entry.key)
         if fault:
-            diagnostics.error(f"the name '{entry.key}' {fault.message}", entry.key_span, fault.hint)
+            diagnostics.error(
+                f"the name '{entry.key}' {fault.message}", entry.key_span, fault.hint, id="MG-3028"
+            )
             continue
         if not report_name(entry.value, "the name", _rule_fault, diagnostics):
             continue
@@ -97,10 +101,12 @@ def _rules(node: NodeDecl, tree: YamlNode | None, diagnostics: Diagnostics) -> d
         wire = expand_topic_name(text_of(entry.value) or "", node.name, node.namespace)
         long = expanded_fault(wire)
         if long:
-            diagnostics.error(f"the name '{wire[:60]}' {long.message}", entry.value.span, long.hint)
+            diagnostics.error(
+                f"the name '{wire[:60]}' {long.message}", entry.value.span, long.hint, id="MG-3029"
+            )
         elif given in found:
             message = f"'{entry.key}' and '{found[given].key}' are one name, '{given}': it is remapped twice"
-            diagnostics.error(message, entry.key_span, "Remove one of the rules")
+            diagnostics.error(message, entry.key_span, "Remove one of the rules", id="MG-3030")
         else:
             found[given] = _Rule(given, wire, entry.key, entry.key_span)
     return found

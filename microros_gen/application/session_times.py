@@ -38,7 +38,10 @@ def session_times(node: YamlNode | None, diagnostics: Diagnostics) -> SessionTim
     if first is not None and most is not None and most < first:
         message = f"'session.retry_max' is {text_of(child(node, 'retry_max'))}, less than `round_trip`"
         diagnostics.error(
-            message, span_of(child(node, "retry_max")), f"Write `retry_max: {_text(first)}` or more"
+            message,
+            span_of(child(node, "retry_max")),
+            f"Write `retry_max: {_text(first)}` or more",
+            id="MG-3031",
         )
     return SessionTimes(**found)
 
@@ -53,7 +56,7 @@ def _time(
     milliseconds = microseconds // 1000
     if not least <= milliseconds <= most:
         message = f"'session.{key}' must be between {_text(least)} and {_text(most)}; it is {text_of(time)}"
-        diagnostics.error(message, span_of(time), f"Write `{key}: {instead}`")
+        diagnostics.error(message, span_of(time), f"Write `{key}: {instead}`", id="MG-3032")
     return milliseconds
 
 

@@ -222,7 +222,7 @@ def _resolved(finder: InterfaceFinder, name: str, diagnostics: Diagnostics) -> I
     interfaces = resolve_interfaces((Named(name),), finder, diagnostics)
     diagnostics.check()
     if not interfaces.roots:
-        raise UserError([Diagnostic(f"'{name}' has no interface")])
+        raise UserError([Diagnostic(f"'{name}' has no interface", id="MG-9713")])
     return interfaces
 
 

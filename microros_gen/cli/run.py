@@ -197,12 +197,18 @@ def _image_of(located: Located, domain: int | None) -> _Image:
         machine = Machine.of(manifest["emulator"]) if manifest["emulator"] else None
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         message = f"{out} is not an output folder of microros-gen"
-        raise UserError([Diagnostic(message, hint="Give the folder that `build` wrote")]) from error
+        raise UserError(
+            [Diagnostic(message, hint="Give the folder that `build` wrote", id="MG-9714")]
+        ) from error
     path = located.image.image if located.image is not None else _example_of(located, name, target)
     if machine is None and target != "host":
         message = f"the image is for {target}, which names no emulator"
         raise UserError(
-            [Diagnostic(message, hint="Add `emulator: {program: …, package: …}` to the target file")]
+            [
+                Diagnostic(
+                    message, hint="Add `emulator: {program: …, package: …}` to the target file", id="MG-9715"
+                )
+            ]
         )
     return _Image(out, path.resolve(), machine, transport, domain)
 
@@ -213,18 +219,20 @@ def _example_of(located: Located, name: str | None, target: str) -> Path:
         message = (
             f"{located.library.archive} is a library alone: no image was linked to it by microros_image()"
         )
-        raise UserError([Diagnostic(message, hint="Give the one that you linked: --image FILE")])
+        raise UserError(
+            [Diagnostic(message, hint="Give the one that you linked: --image FILE", id="MG-9716")]
+        )
     if name is None:
         what = f"target {target} has no image, or the application must provide a part"
         message = f"{located.output} holds a library alone: {what}"
         hint = "`microros-gen build` says which; --image FILE starts one of yours"
-        raise UserError([Diagnostic(message, hint=hint)])
+        raise UserError([Diagnostic(message, hint=hint, id="MG-9717")])
     path = located.output / "bin" / name
     if not path.is_file():
         hint = (
             "Make it with `microros-gen build`, then run it; of an image of yours give the CMake build folder"
         )
-        raise UserError([Diagnostic(f"{located.output} holds no image yet", hint=hint)])
+        raise UserError([Diagnostic(f"{located.output} holds no image yet", hint=hint, id="MG-9718")])
     return path
 
 
@@ -241,7 +249,9 @@ def _agent_of_host(image: _Image) -> list[str]:
         return ["pty", "--link", device]
     what = f"opens {device} itself" if kind == "serial" else "has a custom transport"
     hint = "Start an agent at the other end (microros-gen agent --help), then run with --no-agent"
-    raise UserError([Diagnostic(f"the image {what}: there is no agent that would fit", hint=hint)])
+    raise UserError(
+        [Diagnostic(f"the image {what}: there is no agent that would fit", hint=hint, id="MG-9719")]
+    )
 
 
 def _start_agent(parts: _Parts, options: list[str]) -> None:
@@ -253,4 +263,7 @@ def _start_agent(parts: _Parts, options: list[str]) -> None:
         if line.startswith(AGENT_READY):
             return
     if not parts.stopped:
-        raise UserError([Diagnostic(f"the agent did not start (status {agent.wait()}, see above)")], status=1)
+        raise UserError(
+            [Diagnostic(f"the agent did not start (status {agent.wait()}, see above)", id="MG-9720")],
+            status=1,
+        )

@@ -61,13 +61,17 @@ def _toolchain(target: Target | None) -> bytes:
     hint = "For example: microros-gen targets cortex-m4f --format cmake"
     if target is None:
         raise UserError(
-            [Diagnostic("a tool-chain file is that of one target, and no NAME is given", hint=hint)]
+            [
+                Diagnostic(
+                    "a tool-chain file is that of one target, and no NAME is given", hint=hint, id="MG-9721"
+                )
+            ]
         )
     if target.hosted:
         what = (
             f"target {target.name} has no tool-chain file: CMake finds the compiler of this machine by itself"
         )
-        raise UserError([Diagnostic(what, hint=hint)])
+        raise UserError([Diagnostic(what, hint=hint, id="MG-9722")])
     from microros_gen.client.views.board import render_toolchain
     from microros_gen.documents.templates import shared_environment
 

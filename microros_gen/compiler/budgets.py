@@ -26,10 +26,10 @@ def check_plan(planned: Planned, read: Callable[[], Folder], warnings: Diagnosti
         folder = read()
         report = measure_folder(folder)
     except UserError as error:
-        warnings.warning(f"budgets are not checked: {error.diagnostics[0].message}")
+        warnings.warning(f"budgets are not checked: {error.diagnostics[0].message}", id="MG-8601")
         return
     if memory.stack is not None and not report.stack.known:
-        warnings.warning(f"memory.stack is not checked: {report.stack.why}", memory.stack_span)
+        warnings.warning(f"memory.stack is not checked: {report.stack.why}", memory.stack_span, id="MG-8602")
     if any(line.exceeded and line.key == "ram_budget" for line in report.budgets):
         store_advice(folder, plan_advice(planned, folder))
         report = measure_folder(folder)
@@ -40,5 +40,5 @@ def check_manifest(folder: Folder, warnings: Diagnostics) -> None:
     """Check the budgets that the manifest of a folder names; raises and warns as `check_plan`."""
     report = measure_folder(folder)
     if "stack" in folder.manifest["memory"] and not report.stack.known:
-        warnings.warning(f"memory.stack is not checked: {report.stack.why}")
+        warnings.warning(f"memory.stack is not checked: {report.stack.why}", id="MG-8603")
     check_budgets(report.budgets, {})

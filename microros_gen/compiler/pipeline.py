@@ -124,6 +124,7 @@ def _check_interfaces_have_a_use(
             f"nothing that is selected sends or receives messages, and '{named.name}' is one",
             named.span,
             "Select a profile or component that does (publish, subscribe, services), or `cdr` for encoders alone",
+            id="MG-8604",
         )
 
 
@@ -237,6 +238,7 @@ def _interfaces(resolved: Resolved, finder: InterfaceFinder, diagnostics: Diagno
         f"there is no message to publish among the interfaces, so {DEFAULT_INTERFACE} is added",
         next((named.span for named in requested), None),
         "Services and actions bring their types and no publishers; add a message with --interface pkg/msg/Type",
+        id="MG-8605",
     )
     interfaces = resolve_interfaces((*requested, Named(DEFAULT_INTERFACE)), finder, diagnostics)
     diagnostics.check()

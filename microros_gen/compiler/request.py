@@ -81,6 +81,7 @@ def _refuse_rtos(target: TargetRef, diagnostics: Diagnostics) -> None:
             target.rtos_span,
             "leave `rtos` out and define port_time_ms, port_sleep_ms and what else the library's port gives "
             "over your RTOS: your functions win over the archive's (microros/port.h)",
+            id="MG-8606",
         )
 
 
@@ -118,7 +119,7 @@ def _with_agent(transport: Transport, agent: Named, diagnostics: Diagnostics) ->
     if is_device or chosen in ("serial", "custom"):
         what = "device" if is_device else "agent address"
         hint = "Give the path of a device, as in /dev/ttyUSB0" if chosen == "serial" else "Leave it out"
-        diagnostics.error(f"transport: {chosen} has no {what}", agent.span, hint)
+        diagnostics.error(f"transport: {chosen} has no {what}", agent.span, hint, id="MG-8607")
         return transport
     discover = parse_discover(agent.name, agent.span, diagnostics)
     if discover is not None:

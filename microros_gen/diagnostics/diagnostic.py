@@ -32,7 +32,8 @@ class Diagnostic:
     """One message to the user: what is wrong, where, and what to do (`hint`).
 
     `block` are lines that can be pasted into the file; they are printed below the place. `too_large`: a message
-    is larger than what carries it, so lower limits would help.
+    is larger than what carries it, so lower limits would help. `id` stays the same from version to version
+    (`MG-3012`); a page of the documentation lists all.
     """
 
     message: str
@@ -41,12 +42,14 @@ class Diagnostic:
     severity: Severity = Severity.ERROR
     block: tuple[str, ...] = ()
     too_large: bool = False
+    id: str = ""
 
     def headline(self) -> str:
-        """Return `file:line:col: error: what. hint` (without a place: `microros-gen: error: …`)."""
+        """Return `file:line:col: error: what. hint [id]` (without a place: `microros-gen: error: …`)."""
         where = str(self.span) if self.span else "microros-gen"
         text = f"{where}: {self.severity.value}: {self.message}"
-        return _shortened(f"{text}. {self.hint}" if self.hint else text)
+        text = _shortened(f"{text}. {self.hint}" if self.hint else text)
+        return f"{text} [{self.id}]" if self.id else text
 
     def render(self) -> str:
         """Return the headline, then the source line with a caret below the place where there is one, then the block."""
@@ -95,17 +98,17 @@ class Diagnostics:
     def __init__(self) -> None:
         self._found: list[Diagnostic] = []
 
-    def error(self, message: str, span: Span | None = None, hint: str | None = None) -> None:
+    def error(self, message: str, span: Span | None = None, hint: str | None = None, *, id: str) -> None:
         """Add an error."""
-        self._add(Diagnostic(message, span, hint))
+        self._add(Diagnostic(message, span, hint, id=id))
 
-    def too_large(self, message: str, span: Span | None, hint: str) -> None:
+    def too_large(self, message: str, span: Span | None, hint: str, *, id: str) -> None:
         """Add an error that lower limits would mend."""
-        self._add(Diagnostic(message, span, hint, too_large=True))
+        self._add(Diagnostic(message, span, hint, too_large=True, id=id))
 
-    def warning(self, message: str, span: Span | None = None, hint: str | None = None) -> None:
+    def warning(self, message: str, span: Span | None = None, hint: str | None = None, *, id: str) -> None:
         """Add a warning."""
-        self._add(Diagnostic(message, span, hint, Severity.WARNING))
+        self._add(Diagnostic(message, span, hint, Severity.WARNING, id=id))
 
     def add(self, diagnostic: Diagnostic) -> None:
         """Add a diagnostic as it is."""

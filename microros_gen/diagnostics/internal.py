@@ -30,7 +30,7 @@ def reads(
             raise
         except RecursionError as error:
             span = Span(source, 1, 1)
-            raise UserError([Diagnostic("nested too deeply", span, "Flatten it")]) from error
+            raise UserError([Diagnostic("nested too deeply", span, "Flatten it", id="MG-0001")]) from error
         except Exception as error:
             raise UserError([internal_error(error, Span(source, 1, 1))]) from error
 
@@ -40,4 +40,4 @@ def reads(
 def internal_error(error: BaseException, span: Span | None = None) -> Diagnostic:
     """Return what a user is told about an exception that nobody expected."""
     what = f"internal error: {type(error).__name__}: {str(error)[:200]}".rstrip(": ")
-    return Diagnostic(what, span, f"Please report it with what `{TRACEBACK}=1` adds")
+    return Diagnostic(what, span, f"Please report it with what `{TRACEBACK}=1` adds", id="MG-0002")

@@ -27,7 +27,7 @@ def load_schema(path: Path) -> Schema:
 def validate(tree: YamlNode | None, source: Source, schema: Schema, diagnostics: Diagnostics) -> None:
     """Report each difference between `tree` and `schema` at its place, in the order of the text."""
     if tree is None:
-        diagnostics.error("the file is empty", Span(source, 1, 1), "Write `key: value` lines")
+        diagnostics.error("the file is empty", Span(source, 1, 1), "Write `key: value` lines", id="MG-1001")
         return
     found = Diagnostics()
     for difference in differences(to_data(tree), schema):
@@ -43,23 +43,23 @@ def _report(tree: YamlNode, difference: Difference, diagnostics: Diagnostics) ->
         for entry in node:
             if _is_unknown(entry.key, schema):
                 message, hint = describe_unknown_key(entry.key, label, schema)
-                diagnostics.error(message, entry.key_span, hint)
+                diagnostics.error(message, entry.key_span, hint, id="MG-1002")
     elif keyword == "required" and isinstance(node, MappingNode):
         for key in cast("list[str]", schema["required"]):
             meant = any(key_without_space(entry.key, schema) == key for entry in node)
             if key not in node.entries and not meant:
                 owner = f"'{label}' lacks" if label else "the file lacks"
-                diagnostics.error(f"{owner} the key '{key}'", node.span, f"Add `{key}: …`")
+                diagnostics.error(f"{owner} the key '{key}'", node.span, f"Add `{key}: …`", id="MG-1003")
     elif keyword == "not" and "x-reserved" in schema:
         message = (
             f"the key '{path[-1]}' is reserved for {schema['x-reserved']}, which this version does not have"
         )
-        diagnostics.error(message, _key_span(tree, path), "Remove it")
+        diagnostics.error(message, _key_span(tree, path), "Remove it", id="MG-1004")
     elif keyword == "uniqueItems" and isinstance(node, SequenceNode):
         _report_twins(node, label, diagnostics)
     else:
         message, hint = describe_mismatch(node, label, schema)
-        diagnostics.error(message, node.span, hint)
+        diagnostics.error(message, node.span, hint, id="MG-1005")
 
 
 def path_label(path: list[str | int]) -> str:
@@ -84,7 +84,7 @@ def _report_twins(node: SequenceNode, label: str, diagnostics: Diagnostics) -> N
         text = repr(to_data(item))
         if text in seen:
             message = f"'{label}' has {text} twice; first in line {seen[text]}"
-            diagnostics.error(message, item.span, "Remove one of them")
+            diagnostics.error(message, item.span, "Remove one of them", id="MG-1006")
         seen.setdefault(text, item.span.line)
 
 

@@ -19,7 +19,10 @@ def expect_mapping(node: YamlNode | None, what: str, diagnostics: Diagnostics) -
         return node
     if node is not None:
         diagnostics.error(
-            f"{what} must be a mapping of keys and values", node.span, "Write `key: value` lines"
+            f"{what} must be a mapping of keys and values",
+            node.span,
+            "Write `key: value` lines",
+            id="MG-1007",
         )
     return None
 
@@ -31,10 +34,10 @@ def check_keys(
     for entry in node:
         if entry.key not in known:
             hint = nearest(entry.key, known) or f"Known are {', '.join(known)}"
-            diagnostics.error(f"unknown key '{entry.key}'", entry.key_span, hint)
+            diagnostics.error(f"unknown key '{entry.key}'", entry.key_span, hint, id="MG-1008")
     for key in required:
         if key not in node.entries:
-            diagnostics.error(f"missing key '{key}'", node.span, f"Add `{key}: …`")
+            diagnostics.error(f"missing key '{key}'", node.span, f"Add `{key}: …`", id="MG-1009")
 
 
 def read_text(node: MappingNode, key: str, diagnostics: Diagnostics, default: str = "") -> str:
@@ -44,7 +47,7 @@ def read_text(node: MappingNode, key: str, diagnostics: Diagnostics, default: st
         return default
     if isinstance(value, ScalarNode) and isinstance(value.value, str):
         return value.value
-    diagnostics.error(f"'{key}' must be a text", value.span, "Put it into quotes")
+    diagnostics.error(f"'{key}' must be a text", value.span, "Put it into quotes", id="MG-1010")
     return default
 
 
@@ -59,7 +62,7 @@ def read_choice(
         return Named(value.text, value.span)
     found = value.text if isinstance(value, ScalarNode) else ""
     hint = nearest(found, choices)
-    diagnostics.error(f"'{key}' must be one of {', '.join(choices)}", value.span, hint)
+    diagnostics.error(f"'{key}' must be one of {', '.join(choices)}", value.span, hint, id="MG-1011")
     return None
 
 
@@ -71,15 +74,18 @@ def read_names(
     if value is None:
         return ()
     if not isinstance(value, SequenceNode):
-        diagnostics.error(f"'{key}' must be a list", value.span, f"Write `{key}: [a, b]`")
+        diagnostics.error(f"'{key}' must be a list", value.span, f"Write `{key}: [a, b]`", id="MG-1012")
         return ()
     names: list[Named] = []
     for item in value.items:
         if not isinstance(item, ScalarNode) or not isinstance(item.value, str):
-            diagnostics.error(f"'{key}' must list names", item.span)
+            diagnostics.error(f"'{key}' must list names", item.span, id="MG-1013")
         elif known is not None and item.value not in known:
             diagnostics.error(
-                f"unknown value '{item.value}' in '{key}'", item.span, nearest(item.value, known)
+                f"unknown value '{item.value}' in '{key}'",
+                item.span,
+                nearest(item.value, known),
+                id="MG-1014",
             )
         else:
             names.append(Named(item.value, item.span))

@@ -74,8 +74,8 @@ def yaml_fault(source: Source, error: Exception) -> Diagnostic:
     if isinstance(error, yaml.reader.ReaderError):
         return _unreadable(source, error)
     if isinstance(error, RecursionError):
-        return Diagnostic("nested too deeply", Span(source, 1, 1), "Flatten it")
-    return Diagnostic(f"not valid YAML: {error}", Span(source, 1, 1))
+        return Diagnostic("nested too deeply", Span(source, 1, 1), "Flatten it", id="MG-1016")
+    return Diagnostic(f"not valid YAML: {error}", Span(source, 1, 1), id="MG-1017")
 
 
 def _marked(source: Source, error: yaml.MarkedYAMLError) -> Diagnostic:
@@ -89,8 +89,8 @@ def _marked(source: Source, error: yaml.MarkedYAMLError) -> Diagnostic:
         span, problem = tab, r"'\t'"
     for pattern, message, hint in _FAULTS:
         if re.search(pattern, problem):
-            return Diagnostic(f"not valid YAML: {message}", span, hint)
-    return Diagnostic(f"not valid YAML: {problem}", span)
+            return Diagnostic(f"not valid YAML: {message}", span, hint, id="MG-1018")
+    return Diagnostic(f"not valid YAML: {problem}", span, id="MG-1019")
 
 
 def _tab_in_indent(source: Source, line: int) -> Span | None:
@@ -105,4 +105,6 @@ def _unreadable(source: Source, error: yaml.reader.ReaderError) -> Diagnostic:
     column = len(before) - (before.rfind("\n") + 1) + 1
     code = error.character if isinstance(error.character, int) else ord(error.character)
     message = f"not valid YAML: the character U+{code:04X} is not allowed in a text"
-    return Diagnostic(message, Span(source, line, column), 'Remove it, or write it as "\\x…" in quotes')
+    return Diagnostic(
+        message, Span(source, line, column), 'Remove it, or write it as "\\x…" in quotes', id="MG-1020"
+    )

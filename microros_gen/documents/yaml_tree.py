@@ -247,7 +247,7 @@ class _Builder:
         return Span(self._source, start.line + 1, start.column + 1, end.column + 1 if same_line else None)
 
     def _error(self, node: yaml.Node, message: str, hint: str | None) -> None:
-        self._diagnostics.error(message, self._span(node), hint)
+        self._diagnostics.error(message, self._span(node), hint, id="MG-1021")
 
 
 def _children(node: yaml.Node) -> list[yaml.Node]:

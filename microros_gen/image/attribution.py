@@ -119,7 +119,7 @@ def _no_map(folder: Folder) -> UserError:
     if folder.linked is not None:
         what = f"{folder.linked.image} has neither a map nor symbols"
         hint = f"Link it without -s and with -Wl,-Map={folder.linked.map}, or give its map with --map"
-    return UserError([Diagnostic(what, hint=hint)])
+    return UserError([Diagnostic(what, hint=hint, id="MG-8401")])
 
 
 def attribute_library(folder: Folder) -> tuple[Piece, ...]:

@@ -65,7 +65,9 @@ class Elf:
             raise UserError(
                 [
                     Diagnostic(
-                        f"{path} cannot be measured: {error}", hint="`size` and `explain` read ELF files"
+                        f"{path} cannot be measured: {error}",
+                        hint="`size` and `explain` read ELF files",
+                        id="MG-8402",
                     )
                 ],
                 status=1,

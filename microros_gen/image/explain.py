@@ -78,6 +78,7 @@ class Explainer:
                 Diagnostic(
                     f"{self._folder.path} has no symbol, file, component or type '{query}'",
                     hint=hint or f"`microros-gen size {self._folder.path} --all` lists the symbols",
+                    id="MG-8403",
                 )
             ]
         )
@@ -107,7 +108,9 @@ class Explainer:
             return None
         if len(found) > 1:
             hint = f"Say which: {', '.join(found)}"
-            raise UserError([Diagnostic(f"there are {len(found)} files named {query}", hint=hint)])
+            raise UserError(
+                [Diagnostic(f"there are {len(found)} files named {query}", hint=hint, id="MG-8404")]
+            )
         name = found[0]
         text = (self._folder.path / name).read_text(encoding="utf-8", errors="replace")
         refusal = _ERROR.search(text) if name.endswith(".h") else None

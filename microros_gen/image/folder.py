@@ -171,7 +171,9 @@ def read_folder(path: Path, image: Path | None = None, linker_map: Path | None =
         manifest["selection"]["reasons"], manifest["memory"], manifest["image"]
     except (OSError, ValueError, KeyError, TypeError) as error:
         message = f"{located.output} is not an output folder of microros-gen"
-        raise UserError([Diagnostic(message, hint="Give the folder that `build` wrote")]) from error
+        raise UserError(
+            [Diagnostic(message, hint="Give the folder that `build` wrote", id="MG-8405")]
+        ) from error
     return Folder(located.output, manifest, sources, _tools(located), located.image, located.library)
 
 
@@ -191,4 +193,4 @@ def _tools(located: Located) -> Mapping[str, Any]:
     hint = (
         "Make it with `microros-gen build`; of an image of yours give the CMake build folder, or --image FILE"
     )
-    raise UserError([Diagnostic(message, hint=hint)])
+    raise UserError([Diagnostic(message, hint=hint, id="MG-8406")])

@@ -100,7 +100,13 @@ def _given(
     if len({r.output for r in libraries}) > 1:
         message = f"{image} is not an image of this build folder, which has several libraries"
         raise UserError(
-            [Diagnostic(message, hint=f"Give the output folder of its library: {_outputs(libraries)}")]
+            [
+                Diagnostic(
+                    message,
+                    hint=f"Give the output folder of its library: {_outputs(libraries)}",
+                    id="MG-8407",
+                )
+            ]
         )
     found = next((r for r in libraries if r.archive.is_file()), libraries[0] if libraries else None)
     place = output or (found.output if found else Path())
@@ -128,12 +134,14 @@ def _chosen(path: Path, libraries: tuple[LibraryRecord, ...], images: tuple[Imag
         return Located(library.output, library, built[0])
     if built:
         options = ", ".join(f"--image {record.image}" for record in built)
-        raise UserError([Diagnostic(f"{path} has {len(built)} images", hint=f"Say which: {options}")])
+        raise UserError(
+            [Diagnostic(f"{path} has {len(built)} images", hint=f"Say which: {options}", id="MG-8408")]
+        )
     if images:
         raise _not_built(path, images[0].image)
     if len({r.output for r in libraries}) > 1:
         message = f"{path} has several libraries and no image"
-        raise UserError([Diagnostic(message, hint=f"Say which: {_outputs(libraries)}")])
+        raise UserError([Diagnostic(message, hint=f"Say which: {_outputs(libraries)}", id="MG-8409")])
     made = [r for r in libraries if r.archive.is_file()]
     if not made:
         raise _not_built(path, libraries[0].archive)
@@ -142,13 +150,13 @@ def _chosen(path: Path, libraries: tuple[LibraryRecord, ...], images: tuple[Imag
 
 def _not_built(path: Path, missing: Path) -> UserError:
     hint = f"Build it: cmake --build {_home_of(path) or path}"
-    return UserError([Diagnostic(f"{missing} was not built yet", hint=hint)])
+    return UserError([Diagnostic(f"{missing} was not built yet", hint=hint, id="MG-8410")])
 
 
 def _nothing(path: Path) -> UserError:
     below = sorted(p.parent for p in path.glob(f"*/{RECORDS}") if p.is_dir()) if path.is_dir() else []
     hint = f"Give one of {', '.join(map(str, below))}" if below else _HINT
-    return UserError([Diagnostic(f"{path} {_NONE}", hint=hint)])
+    return UserError([Diagnostic(f"{path} {_NONE}", hint=hint, id="MG-8411")])
 
 
 def _home_of(path: Path) -> Path | None:
@@ -180,7 +188,7 @@ def _load(path: Path) -> LibraryRecord | ImageRecord:
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         pass
     message = f"{path} was not written by this version of microros-gen"
-    raise UserError([Diagnostic(message, hint=f"Configure again: cmake {path.parent.parent}")])
+    raise UserError([Diagnostic(message, hint=f"Configure again: cmake {path.parent.parent}", id="MG-8412")])
 
 
 def _library(data: Mapping[str, Any]) -> LibraryRecord:

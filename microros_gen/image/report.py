@@ -64,7 +64,7 @@ def measure_folder(folder: Folder) -> SizeReport:
         return _measure_library(folder) if folder.image is None else _measure_image(folder, folder.image)
     except (ELFError, DWARFError) as error:
         what = f"{folder.image or folder.path} cannot be measured: {error}"
-        raise UserError([Diagnostic(what, hint="Link it again")], status=1) from error
+        raise UserError([Diagnostic(what, hint="Link it again", id="MG-8413")], status=1) from error
 
 
 def static_memory(folder: Folder) -> int:
@@ -91,7 +91,9 @@ def _check_plan(folder: Folder, image: Elf) -> None:
     suffix = f"__plan_{folder.manifest['plan']}"
     if not any(symbol.name.endswith(suffix) for symbol in image.symbols):
         what = f"{image.path} was not linked with the library of {folder.path} as it is now"
-        raise UserError([Diagnostic(what, hint="Link it again, or give the folder of its library")])
+        raise UserError(
+            [Diagnostic(what, hint="Link it again, or give the folder of its library", id="MG-8414")]
+        )
 
 
 def public_functions(folder: Folder, pieces: Iterable[Piece]) -> frozenset[str]:
@@ -108,9 +110,7 @@ def check_budgets(budgets: Iterable[BudgetLine], places: Mapping[str, Span | Non
     """Raise UserError with status 1 when a budget is exceeded. `places` are where the application sets them."""
     found = [
         Diagnostic(
-            exceeded_message(line),
-            places.get(line.key) or _span(line),
-            advice_text(line),
+            exceeded_message(line), places.get(line.key) or _span(line), advice_text(line), id="MG-8415"
         )
         for line in budgets
         if line.exceeded

@@ -81,6 +81,7 @@ class _Resolver:
                 f"'{request.name}' names no interface",
                 request.span,
                 "Write pkg, pkg/Type, pkg/msg/Type, pkg/srv/Type or pkg/action/Type",
+                id="MG-2001",
             )
             return ()
         name = self._of_any_kind(text, request.span)
@@ -125,6 +126,7 @@ class _Resolver:
                 f"'{text}' is ambiguous: {names[0].package} has {' and '.join(map(str, there))}",
                 span,
                 f"Write {' or '.join(map(str, there))}",
+                id="MG-2002",
             )
             return None
         return there[0] if there else names[0]
@@ -161,16 +163,21 @@ class _Resolver:
         near = nearest(package, (place.name for place in self._finder.packages()))
         looked = f"Looked in {self._finder.searched()}; --interface-path adds a place"
         self._diagnostics.error(
-            f"unknown interface package '{package}'{need}", span, f"{near} {looked}" if near else looked
+            f"unknown interface package '{package}'{need}",
+            span,
+            f"{near} {looked}" if near else looked,
+            id="MG-2003",
         )
 
     def _unknown_type(self, name: TypeName, place: PackagePlace, span: Span | None, need: str) -> None:
         if name.kind not in KINDS:
             message = f"'{name}': the kinds of interfaces are {', '.join(KINDS)}, not '{name.kind}'{need}"
-            self._diagnostics.error(message, span, f"Write {name.package}/msg/{name.name} for a message")
+            self._diagnostics.error(
+                message, span, f"Write {name.package}/msg/{name.name} for a message", id="MG-2004"
+            )
             return
         what = f"package '{name.package}' ({place.folder}) has no type '{name.name}'{need}"
-        self._diagnostics.error(what, span, self._near(name, place))
+        self._diagnostics.error(what, span, self._near(name, place), id="MG-2005")
 
     def _near(self, name: TypeName, place: PackagePlace) -> str | None:
         """Return a hint: a place that this one hides, another package with such a type, the nearest type."""
@@ -196,6 +203,7 @@ class _Resolver:
             f"package '{place.name}' ({place.folder}) has no .msg, .srv, .action or .idl file",
             span,
             "They lie in its folders msg/, srv/ and action/",
+            id="MG-2006",
         )
 
     def _place(self, package: str) -> PackagePlace | None:
@@ -208,6 +216,7 @@ class _Resolver:
                     f"the package '{package}' is there {len(own)} times: {folders}",
                     hint="ROS 2 takes a name once: remove one, or name the folder that counts first with"
                     " --interface-path",
+                    id="MG-2007",
                 )
         return self._places[package]
 
@@ -227,6 +236,7 @@ def _parsed(source: Source, name: TypeName, diagnostics: Diagnostics) -> Declara
             f"the file declares {there} and not {name}",
             Span(source, 1, 1),
             "ROS 2 names a file after the type that it declares",
+            id="MG-2008",
         )
     diagnostics.extend(found)
     return declaration
@@ -269,7 +279,7 @@ def _report_cycle(
     fields = [f for message in found[ring[0]].messages for f in message.fields]
     span = next((f.span for f in fields if _interface_of(f) == follower), None)
     path = " → ".join(str(name) for name in [*ring, ring[0]])
-    diagnostics.error(f"a message contains itself: {path}", span, "Its size would have no end")
+    diagnostics.error(f"a message contains itself: {path}", span, "Its size would have no end", id="MG-2009")
 
 
 def _needs(interface: Interface) -> set[TypeName]:

@@ -151,7 +151,7 @@ class InterfaceFinder:
             fault = _path_fault(path)
             if fault is not None:
                 span = spans.get(path) if spans else None
-                diagnostics.error(f"the interface path '{path}' {fault[0]}", span, fault[1])
+                diagnostics.error(f"the interface path '{path}' {fault[0]}", span, fault[1], id="MG-2010")
 
     def searched(self) -> str:
         """Return where the search looks, in words, for a diagnostic."""
@@ -207,7 +207,9 @@ def read_type(place: PackagePlace, name: TypeName, diagnostics: Diagnostics) -> 
         except FileNotFoundError:
             continue
         except OSError as fault:
-            diagnostics.error(f"cannot read '{path}': {fault.strerror}", hint="Check the file's permissions")
+            diagnostics.error(
+                f"cannot read '{path}': {fault.strerror}", hint="Check the file's permissions", id="MG-2011"
+            )
             return None
         return _text_of(path, data, diagnostics)
     return None
@@ -221,6 +223,7 @@ def _text_of(path: Path, data: bytes, diagnostics: Diagnostics) -> Source | None
         diagnostics.error(
             f"'{path}' is not UTF-8: byte 0x{data[fault.start]:02x} in line {line}",
             hint="Save the file as UTF-8, which is what ROS 2 reads",
+            id="MG-2012",
         )
         return None
 

@@ -85,7 +85,7 @@ def write_folder(wish: Wish, draft: Draft) -> NewFolder:
         write_files(wish.folder, files)
     for remark in undecided:
         tell = found.error if remark.refused else found.warning
-        tell(remark.text, remark.span, remark.refused or None)
+        tell(remark.text, remark.span, remark.refused or None, id="MG-9099")
     builds = planned is not None and not any(remark.refused for remark in undecided)
     return NewFolder(wish.folder, tuple(sorted(files)), len(undecided), builds, tuple(found))
 
@@ -99,7 +99,7 @@ def _made(folder: Path) -> Iterator[None]:
     except OSError as error:
         hint = "Name a new folder" if folder.is_file() else "Name a folder that can be written"
         message = f"cannot make the folder {folder}: {error.strerror}"
-        raise UserError([Diagnostic(message, hint=hint)]) from error
+        raise UserError([Diagnostic(message, hint=hint, id="MG-9001")]) from error
     try:
         yield
     except UserError:
@@ -206,5 +206,9 @@ def _refuse_to_overwrite(folder: Path, files: Mapping[str, bytes]) -> None:
         shown = ", ".join(there[:3]) + (f" and {len(there) - 3} more" if len(there) > 3 else "")
         message = f"{folder} holds files that would be written: {shown}"
         raise UserError(
-            [Diagnostic(message, hint="Name a new folder, or move them away; nothing was changed")]
+            [
+                Diagnostic(
+                    message, hint="Name a new folder, or move them away; nothing was changed", id="MG-9002"
+                )
+            ]
         )

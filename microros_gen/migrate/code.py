@@ -30,7 +30,9 @@ def read_code(folder: Path, diagnostics: Diagnostics) -> tuple[Source, ...]:
     Bytes that are no UTF-8 are replaced: only comments and strings have them. Errors where there is nothing to read.
     """
     if not folder.exists():
-        diagnostics.error(f"there is no '{folder}'", hint="Give the folder of the application's sources")
+        diagnostics.error(
+            f"there is no '{folder}'", hint="Give the folder of the application's sources", id="MG-9003"
+        )
         return ()
     found: list[Source] = []
     for path in _paths(folder):
@@ -38,10 +40,10 @@ def read_code(folder: Path, diagnostics: Diagnostics) -> tuple[Source, ...]:
             if path.stat().st_size <= _LARGEST:
                 found.append(Source(str(path), read_text(path, errors="replace")))
         except OSError as error:
-            diagnostics.error(f"cannot read '{path}': {error.strerror}")
+            diagnostics.error(f"cannot read '{path}': {error.strerror}", id="MG-9004")
     if not found and not diagnostics.has_errors():
         hint = f"Files that are read end in {', '.join(READ)}"
-        diagnostics.error(f"'{folder}' has no C or C++ sources", hint=hint)
+        diagnostics.error(f"'{folder}' has no C or C++ sources", hint=hint, id="MG-9005")
     return tuple(found)
 
 

@@ -47,13 +47,15 @@ def read_settings(source: Source, diagnostics: Diagnostics) -> tuple[MetaSetting
     for diagnostic in found:
         if _TWICE in diagnostic.message:
             diagnostics.warning(
-                diagnostic.message + "; the first one is used", diagnostic.span, diagnostic.hint
+                diagnostic.message + "; the first one is used", diagnostic.span, diagnostic.hint, id="MG-9006"
             )
         else:
             diagnostics.extend([diagnostic])
     root = expect_mapping(tree, f"'{source.name}'", diagnostics)
     if tree is None and not found.has_errors():
-        diagnostics.error(f"'{source.name}' is empty", hint="A colcon.meta has a mapping `names` of packages")
+        diagnostics.error(
+            f"'{source.name}' is empty", hint="A colcon.meta has a mapping `names` of packages", id="MG-9007"
+        )
     if root is None:
         return ()
     packages = [
@@ -64,7 +66,7 @@ def read_settings(source: Source, diagnostics: Diagnostics) -> tuple[MetaSetting
     ]
     if not packages and not diagnostics.has_errors():
         diagnostics.error(
-            "no packages in this file", root.span, "A colcon.meta has a mapping `names` of them"
+            "no packages in this file", root.span, "A colcon.meta has a mapping `names` of them", id="MG-9008"
         )
     return tuple(setting for entry in packages for setting in _settings(entry, diagnostics))
 
@@ -87,7 +89,9 @@ def _arguments(package: str, node: YamlNode, diagnostics: Diagnostics) -> Iterat
     open_definition = ""
     for item in items:
         if not isinstance(item, ScalarNode):
-            diagnostics.error("'cmake-args' must list texts", item.span, 'Write ["-DNAME=VALUE"]')
+            diagnostics.error(
+                "'cmake-args' must list texts", item.span, 'Write ["-DNAME=VALUE"]', id="MG-9009"
+            )
             continue
         for word in item.text.split() if isinstance(node, ScalarNode) else [item.text.strip()]:
             if word == "-D":

@@ -127,7 +127,9 @@ def _settings_of(path: Path, diagnostics: Diagnostics) -> tuple[MetaSetting, ...
         source = Source(str(path), read_text(path))
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or "it is not UTF-8 text"
-        diagnostics.error(f"cannot read '{path}': {reason}", hint="Give the path of a colcon.meta")
+        diagnostics.error(
+            f"cannot read '{path}': {reason}", hint="Give the path of a colcon.meta", id="MG-9010"
+        )
         return ()
     return read_settings(source, diagnostics)
 

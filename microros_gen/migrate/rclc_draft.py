@@ -90,6 +90,7 @@ def rclc_draft(
         diagnostics.error(
             "these sources call nothing of rclc or rcl",
             hint="Give the folder of one application: it calls rclc_support_init",
+            id="MG-9011",
         )
     return Adopted(draft, tuple(find_capacities(files, calls, values)))
 
@@ -109,6 +110,7 @@ def _check_one(files: Iterable[CFile], diagnostics: Diagnostics) -> None:
                 f"there are several applications here: {start.name}() is also in {place(starts[0].span)}",
                 start.span,
                 "Give the folder or file of one of them",
+                id="MG-9012",
             )
 
 

@@ -31,7 +31,9 @@ def write_depfile(path: Path, made: Path, inputs: Iterable[Path]) -> None:
         temporary.replace(path)
     except OSError as error:
         what = f"cannot write the depfile {path}: {error.strerror or error}"
-        raise UserError([Diagnostic(what, hint="Choose another place with --depfile")]) from error
+        raise UserError(
+            [Diagnostic(what, hint="Choose another place with --depfile", id="MG-8001")]
+        ) from error
 
 
 def _escaped(path: str) -> str:

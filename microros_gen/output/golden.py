@@ -19,7 +19,11 @@ def golden_differences(golden: Path, files: Mapping[str, bytes]) -> tuple[str, .
     """
     if not golden.is_dir():
         raise UserError(
-            [Diagnostic(f"no golden folder {golden}", hint="Write it with --update and commit it")]
+            [
+                Diagnostic(
+                    f"no golden folder {golden}", hint="Write it with --update and commit it", id="MG-8002"
+                )
+            ]
         )
     held = dict(_golden_files(golden))
     diffs = []

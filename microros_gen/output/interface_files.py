@@ -20,7 +20,9 @@ def one_idl(interfaces: InterfaceSet, portable: bool, diagnostics: Diagnostics) 
     roots = {declaring_name(root) for root in interfaces.roots}
     if len(roots) != 1:
         message = f"these are {len(roots)} interfaces, and an .idl file holds one"
-        raise UserError([Diagnostic(message, hint="Name one of them, or write all of them with -o DIR")])
+        raise UserError(
+            [Diagnostic(message, hint="Name one of them, or write all of them with -o DIR", id="MG-8003")]
+        )
     (root,) = roots
     _warn_of_keywords(interfaces, (root,), portable, diagnostics)
     return idl_text(interfaces.interfaces[root].declaration, portable)
@@ -69,4 +71,5 @@ def _warn_of_keywords(
                 f"{name}: {', '.join(members)} {'are keywords' if several else 'is a keyword'} of IDL;"
                 " ROS 2 takes them as names, other IDL compilers do not",
                 hint=f"For those add --portable: then '_{members[0]}' is written",
+                id="MG-8004",
             )

@@ -74,7 +74,9 @@ def check_build_folders(out: Path) -> None:
             for place in (Path(folder) / name for name in files):
                 if place.exists() and not place.is_file():
                     message = f"{place} is not a regular file"
-                    raise UserError([Diagnostic(message, hint="Remove it; nothing was compiled")])
+                    raise UserError(
+                        [Diagnostic(message, hint="Remove it; nothing was compiled", id="MG-8005")]
+                    )
     _refuse_links(out, BUILD_FOLDERS, True)
 
 
@@ -108,7 +110,9 @@ def _owned_by(folder: Path) -> dict[str, frozenset[str]]:
 
 def _owned_files(out: Path) -> dict[str, frozenset[str]]:
     if out.exists() and not out.is_dir():
-        raise UserError([Diagnostic(f"{out} is not a folder", hint="Choose another output folder with -o")])
+        raise UserError(
+            [Diagnostic(f"{out} is not a folder", hint="Choose another output folder with -o", id="MG-8006")]
+        )
     if not out.exists():
         return {}
     owned = _owned_by(out)
@@ -119,6 +123,7 @@ def _owned_files(out: Path) -> dict[str, frozenset[str]]:
                 Diagnostic(
                     f"the output folder {out} holds files that microros-gen did not write ({found}, …)",
                     hint="Choose an empty or a new folder with -o; nothing was changed",
+                    id="MG-8007",
                 )
             ]
         )
@@ -161,7 +166,9 @@ def _refuse_links(out: Path, names: Iterable[str], themselves: bool = False) -> 
     found = {link for folder in folders if (link := _link(out, f"{folder}/file")) is not None}
     if found:
         hint = "Remove it; nothing outside the output folder is touched, and nothing was changed"
-        raise UserError([Diagnostic(f"{link} is a symbolic link", hint=hint) for link in sorted(found)])
+        raise UserError(
+            [Diagnostic(f"{link} is a symbolic link", hint=hint, id="MG-8008") for link in sorted(found)]
+        )
 
 
 def _is_as_written(path: Path, digests: frozenset[str]) -> bool:
@@ -252,6 +259,7 @@ def _told_as_user_error(out: Path) -> Iterator[None]:
                 Diagnostic(
                     f"cannot write the output folder {out}: {error.strerror or error} ({where})",
                     hint="Make it writable or choose another with -o",
+                    id="MG-8009",
                 )
             ]
         ) from error

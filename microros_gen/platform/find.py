@@ -56,11 +56,13 @@ class _Reader:
         builtin = name in known or (near == TARGETS and (TARGETS / f"{name}.yaml").is_file())
         if not builtin and not name.endswith((".yaml", ".yml")):
             hint = nearest(name, known) or f"There are: {', '.join(known)}; or give the path of a target file"
-            self._diagnostics.error(f"unknown target '{name}'", span, hint)
+            self._diagnostics.error(f"unknown target '{name}'", span, hint, id="MG-6001")
             return None
         path = TARGETS / f"{name}.yaml" if builtin else near / name
         if path.resolve() in self._way:
-            self._diagnostics.error(f"'{name}' extends itself", span, "Extend a built-in target at the end")
+            self._diagnostics.error(
+                f"'{name}' extends itself", span, "Extend a built-in target at the end", id="MG-6002"
+            )
             return None
         self._way.append(path.resolve())
         source = self._source(path, name, span)
@@ -84,5 +86,7 @@ class _Reader:
         except (OSError, UnicodeDecodeError) as error:
             reason = error.strerror if isinstance(error, OSError) else error
             hint = f"There are: {', '.join(builtin_targets())}; a path is relative to the file that names it"
-            self._diagnostics.error(f"cannot read the target file '{shown}': {reason}", span, hint)
+            self._diagnostics.error(
+                f"cannot read the target file '{shown}': {reason}", span, hint, id="MG-6003"
+            )
             return None

@@ -51,7 +51,7 @@ def read_part(kind: str, name: str, near: Path, span: Span | None, diagnostics: 
     if not own and name not in builtin_parts(kind):
         known = builtin_parts(kind)
         hint = nearest(name, known) or f"Known are: {', '.join(known) or 'none'}; or give a folder, ./{name}"
-        diagnostics.error(f"unknown {kind} '{name}'", span, hint)
+        diagnostics.error(f"unknown {kind} '{name}'", span, hint, id="MG-6004")
         return None
     folder = near / name if own else parts_folder() / kind / name
     found = Diagnostics()
@@ -86,7 +86,7 @@ def _source(path: Path, span: Span | None, diagnostics: Diagnostics) -> Source |
         return Source(str(path), read_text(path))
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else error
-        diagnostics.error(f"cannot read '{path}': {reason}", span, "Give the folder of a part")
+        diagnostics.error(f"cannot read '{path}': {reason}", span, "Give the folder of a part", id="MG-6005")
         return None
 
 
@@ -95,17 +95,22 @@ def _check(component: Component, kind: str, span: Span | None, diagnostics: Diag
     place = f"the {kind} '{component.name}'"
     if component.layer != "port" or not component.name.startswith("port_"):
         diagnostics.error(
-            f"{place} is no part of a platform", span, "Write `component: port_…`, `layer: port`"
+            f"{place} is no part of a platform",
+            span,
+            "Write `component: port_…`, `layer: port`",
+            id="MG-6006",
         )
     named = [provision.capability for provision in component.provides]
     asks = (*component.asks, *(ask for provision in component.provides for ask in provision.asks))
     named += [ask.capability for ask in asks]
     for name in sorted(set(named) - set(capabilities())):
         hint = nearest(name, capabilities()) or f"Known are: {', '.join(capabilities())}"
-        diagnostics.error(f"{place} names an unknown capability '{name}'", span, hint)
+        diagnostics.error(f"{place} names an unknown capability '{name}'", span, hint, id="MG-6007")
     for file in component.files:
         if not (component.folder / "src" / file.path).is_file():
-            diagnostics.error(f"{place} lacks the file 'src/{file.path}'", span, "Add it, or remove its name")
+            diagnostics.error(
+                f"{place} lacks the file 'src/{file.path}'", span, "Add it, or remove its name", id="MG-6008"
+            )
 
 
 def _with_facts(part: Part, path: Path, diagnostics: Diagnostics) -> Part:
@@ -168,7 +173,7 @@ def _driver(name: str, value: YamlNode, diagnostics: Diagnostics) -> Driver | No
     check_keys(node, _DRIVER_KEYS, (), diagnostics)
     kinds = [kind for kind in _BAUD_KEYS if kind in node.entries]
     if len(kinds) != 1:
-        diagnostics.error(f"'drivers.{name}' takes one of divisor, fraction", node.span)
+        diagnostics.error(f"'drivers.{name}' takes one of divisor, fraction", node.span, id="MG-6009")
         return None
     baud = expect_mapping(node.get(kinds[0]), f"'drivers.{name}.{kinds[0]}'", diagnostics)
     if baud is None:

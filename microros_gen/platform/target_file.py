@@ -74,7 +74,7 @@ def _with_parts(node: MappingNode, diagnostics: Diagnostics) -> MappingNode:
     name = text_of(port.value) or ""
     if name not in known:
         hint = nearest(name, known) or f"Write `cpu:` and `os:` instead; {', '.join(known)} are taken, too"
-        diagnostics.error(f"unknown port '{name}'", port.value.span, hint)
+        diagnostics.error(f"unknown port '{name}'", port.value.span, hint, id="MG-6010")
         return node
     parts = {
         entry.key: Entry(entry.key, port.key_span, replace(entry.value, span=port.value.span))
@@ -101,7 +101,7 @@ def target_of(node: MappingNode, diagnostics: Diagnostics) -> Target | None:
     for key in _REQUIRED:
         if key not in node.entries:
             hint = f"Add `{key}: …`, or `extends: cortex-m4` and its like, which have it"
-            diagnostics.error(f"the target lacks the key '{key}'", node.span, hint)
+            diagnostics.error(f"the target lacks the key '{key}'", node.span, hint, id="MG-6011")
     if diagnostics.has_errors():
         return None
     target = _target(node, _parts(node, diagnostics))
@@ -214,7 +214,9 @@ def _check(node: MappingNode, target: Target, diagnostics: Diagnostics) -> None:
     _check_registers(node, target, diagnostics)
     if target.linker_script is not None and target.cpu.image is None:
         hint = "Add `image: {entry: …, first: …, first_section: …, uart_handler: …}` to its cpu.yaml"
-        diagnostics.error(f"{_cpu_name(target)} has no start-up code for an image", node.span, hint)
+        diagnostics.error(
+            f"{_cpu_name(target)} has no start-up code for an image", node.span, hint, id="MG-6012"
+        )
 
 
 def _check_provides(node: MappingNode, diagnostics: Diagnostics) -> None:
@@ -222,7 +224,7 @@ def _check_provides(node: MappingNode, diagnostics: Diagnostics) -> None:
         name = text_of(item) or ""
         if name not in capabilities():
             hint = nearest(name, capabilities()) or f"Known are: {', '.join(capabilities())}"
-            diagnostics.error(f"unknown capability '{name}'", item.span, hint)
+            diagnostics.error(f"unknown capability '{name}'", item.span, hint, id="MG-6013")
 
 
 def _check_registers(node: MappingNode, target: Target, diagnostics: Diagnostics) -> None:
@@ -231,13 +233,15 @@ def _check_registers(node: MappingNode, target: Target, diagnostics: Diagnostics
     for entry in entries(node.get("registers")):
         if entry.key not in known:
             hint = nearest(entry.key, known) or f"Known are: {', '.join(known) or 'none'}"
-            diagnostics.error(f"{name_of} knows no register '{entry.key}'", entry.key_span, hint)
+            diagnostics.error(
+                f"{name_of} knows no register '{entry.key}'", entry.key_span, hint, id="MG-6014"
+            )
     if target.hosted or not target.has_image:
         return
     for name in cpu.registers:
         if child(node.get("registers"), name) is None:
             hint = f"Add `registers: {{{name}: 0x…}}`"
-            diagnostics.error(f"{name_of} needs the address of {name}", node.span, hint)
+            diagnostics.error(f"{name_of} needs the address of {name}", node.span, hint, id="MG-6015")
 
 
 def _cpu_name(target: Target) -> str:
@@ -254,17 +258,24 @@ def _check_uart(node: MappingNode, target: Target, diagnostics: Diagnostics) -> 
         for entry in entries(uart):
             if entry.key != "driver":
                 message = f"'uart.{entry.key}' has no effect: the application drives the line"
-                diagnostics.error(message, entry.key_span, "Remove it; its handlers go into `interrupts:`")
+                diagnostics.error(
+                    message, entry.key_span, "Remove it; its handlers go into `interrupts:`", id="MG-6016"
+                )
         return
     for key in ("base", "irq"):
         if child(uart, key) is None:
-            diagnostics.error(f"'uart' lacks the key '{key}'", (uart or node).span, f"Add `{key}: …`")
+            diagnostics.error(
+                f"'uart' lacks the key '{key}'", (uart or node).span, f"Add `{key}: …`", id="MG-6017"
+            )
     name = text_of(driver) or ""
     if target.cpu.driver(name) is None:
         known = (*(one.name for one in target.cpu.drivers), OWN_DRIVER)
         has = f"Its drivers are: {', '.join(known)}. Without `uart:` the application provides port_serial_*"
         diagnostics.error(
-            f"{_cpu_name(target)} has no driver '{name}'", driver.span, nearest(name, known) or has
+            f"{_cpu_name(target)} has no driver '{name}'",
+            driver.span,
+            nearest(name, known) or has,
+            id="MG-6018",
         )
 
 
@@ -273,12 +284,12 @@ def _check_memory(node: MappingNode, diagnostics: Diagnostics) -> None:
     for name, there, other, lacks in (("flash", flash, "ram", ram), ("ram", ram, "flash", flash)):
         if there is not None and lacks is None:
             hint = f"Add `{other}: {{origin: 0x20000000, size: 64 KiB}}`"
-            diagnostics.error(f"'{name}' without '{other}' makes no image", there.span, hint)
+            diagnostics.error(f"'{name}' without '{other}' makes no image", there.span, hint, id="MG-6019")
     if flash is None or ram is None:
         return
     if node.get("clock_hz") is None:
         hint = "Add `clock_hz: …`: what the system timer counts in a second"
-        diagnostics.error("an image needs the key 'clock_hz'", node.span, hint)
+        diagnostics.error("an image needs the key 'clock_hz'", node.span, hint, id="MG-6020")
     _check_regions(node, diagnostics)
 
 
@@ -289,21 +300,25 @@ def _check_regions(node: MappingNode, diagnostics: Diagnostics) -> None:
     regions = sorted(((_region(value) or Region(0, 0), name, value) for name, value in parts), key=_origin_of)
     for region, name, value in regions:
         if region.origin + region.size > _ADDRESS_SPACE:
-            diagnostics.error(f"'{name}' ends beyond 32 bits of address", value.span, "Lower its size")
+            diagnostics.error(
+                f"'{name}' ends beyond 32 bits of address", value.span, "Lower its size", id="MG-6021"
+            )
         if region.offset >= region.size:
-            diagnostics.error(f"'{name}.offset' leaves nothing of it", value.span, "Lower the offset")
+            diagnostics.error(
+                f"'{name}.offset' leaves nothing of it", value.span, "Lower the offset", id="MG-6022"
+            )
     for (first, name, value), (second, other, after) in pairwise(regions):
         if first.origin + first.size > second.origin:
             names = " and ".join(f"'{n}'" for n in sorted((name, other)))
             later = max(value, after, key=lambda part: (part.span.line, part.span.column))
-            diagnostics.error(f"{names} overlap", later.span, "Lower a size, or move an origin")
+            diagnostics.error(f"{names} overlap", later.span, "Lower a size, or move an origin", id="MG-6023")
     held: dict[str, str] = {}
     for entry in entries(node.get("memories")):
         for item in items(child(entry.value, "holds")):
             what = text_of(item) or ""
             if held.setdefault(what, entry.key) != entry.key:
                 message = f"'{what}' lies in 'memories.{held[what]}' already"
-                diagnostics.error(message, item.span, "Remove it here or there")
+                diagnostics.error(message, item.span, "Remove it here or there", id="MG-6024")
 
 
 def _origin_of(part: tuple[Region, str, YamlNode]) -> int:
@@ -319,7 +334,9 @@ def _check_image_keys(node: MappingNode, target: Target, diagnostics: Diagnostic
         if found is not None:
             name = owner if key is None else f"{owner}.{key}"
             hint = "Add `flash` and `ram`, or remove it"
-            diagnostics.error(f"'{name}' has no effect without an image of this project", found.span, hint)
+            diagnostics.error(
+                f"'{name}' has no effect without an image of this project", found.span, hint, id="MG-6025"
+            )
 
 
 def _check_stdio(node: MappingNode, target: Target, diagnostics: Diagnostics) -> None:
@@ -328,19 +345,25 @@ def _check_stdio(node: MappingNode, target: Target, diagnostics: Diagnostics) ->
     for key in ("driver", "base", "baud"):
         found = child(stdio, key)
         if found is not None and to != "uart":
-            diagnostics.error(f"stdio: {to} has no `{key}`", found.span, f"Remove `{key}`, or take to: uart")
+            diagnostics.error(
+                f"stdio: {to} has no `{key}`", found.span, f"Remove `{key}`, or take to: uart", id="MG-6026"
+            )
         if found is None and to == "uart" and key != "baud":
-            diagnostics.error(f"'stdio' lacks the key '{key}'", (stdio or node).span, f"Add `{key}: …`")
+            diagnostics.error(
+                f"'stdio' lacks the key '{key}'", (stdio or node).span, f"Add `{key}: …`", id="MG-6027"
+            )
     floats = child(stdio, "floats")
     if floats is not None and not target.cpu.stdio_heap:
         name = _cpu_name(target)
         text = f"'stdio.floats' has no effect with {name}: its C library, picolibc, always formats %f"
-        diagnostics.error(text, floats.span, "Remove `floats`")
+        diagnostics.error(text, floats.span, "Remove `floats`", id="MG-6028")
     driver = child(stdio, "driver")
     drivers = [one.name for one in target.cpu.drivers if one.stdio]
     if driver is not None and to == "uart" and text_of(driver) not in drivers:
         hint = f"Its drivers for output are: {', '.join(drivers) or 'none'}. With `to: application` the program has one"
-        diagnostics.error(f"{_cpu_name(target)} has no driver '{text_of(driver)}'", driver.span, hint)
+        diagnostics.error(
+            f"{_cpu_name(target)} has no driver '{text_of(driver)}'", driver.span, hint, id="MG-6029"
+        )
 
 
 def _check_interrupts(node: MappingNode, target: Target, diagnostics: Diagnostics) -> None:
@@ -348,7 +371,7 @@ def _check_interrupts(node: MappingNode, target: Target, diagnostics: Diagnostic
     for entry in entries(node.get("interrupts")):
         if int(entry.key) in taken:
             hint = "Remove it here, or remove `uart:`"
-            diagnostics.error(f"interrupt {entry.key} is taken by 'uart'", entry.key_span, hint)
+            diagnostics.error(f"interrupt {entry.key} is taken by 'uart'", entry.key_span, hint, id="MG-6030")
 
 
 def _text(node: MappingNode, key: str) -> str:

@@ -44,7 +44,7 @@ def choose_axes(
         own = said.get(axis)
         if own is not None and own.name not in values:
             hint = nearest(own.name, values) or f"There are {', '.join(values)}"
-            diagnostics.error(f"unknown {axis} '{own.name}'", own.span, hint)
+            diagnostics.error(f"unknown {axis} '{own.name}'", own.span, hint, id="MG-4001")
             own = None
         default = AxisChoice(axis, middleware.defaults[axis], "default")
         if axis == "transport" and target_transport is not None:
@@ -86,6 +86,7 @@ def _of_profiles(
                 f"{axis}: {chosen.name}{at(chosen.span)}",
                 profile.place(value.span),
                 f"Decide in the application with `{_key(axis, value.name)}`",
+                id="MG-4002",
             )
     return AxisChoice(axis, chosen.name, f"profile {first.name}", first.place(chosen.span))
 

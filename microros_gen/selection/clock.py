@@ -43,5 +43,8 @@ def _check_rules(nodes: Iterable[NodeDecl], listens: bool, diagnostics: Diagnost
         if node.clock_topic:
             hint = "Give the rule to the first node" if listens else "Select it with `clock: ros`"
             diagnostics.error(
-                f"the node {node.name} does not subscribe to {CLOCK_TOPIC}", node.clock_span, hint
+                f"the node {node.name} does not subscribe to {CLOCK_TOPIC}",
+                node.clock_span,
+                hint,
+                id="MG-4003",
             )

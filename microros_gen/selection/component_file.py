@@ -26,7 +26,7 @@ def parse_component(source: Source, diagnostics: Diagnostics) -> Component | Non
     node = expect_mapping(parse_yaml(source, diagnostics), "a component file", diagnostics)
     if node is None:
         if not diagnostics.has_errors():
-            diagnostics.error(f"the component file '{source.name}' is empty")
+            diagnostics.error(f"the component file '{source.name}' is empty", id="MG-4004")
         return None
     check_keys(node, (*_REQUIRED, *_LISTS, "provides"), _REQUIRED, diagnostics)
     layer = read_choice(node, "layer", LAYERS, diagnostics)
@@ -54,12 +54,12 @@ def _sources(node: MappingNode, diagnostics: Diagnostics) -> tuple[SourceFile, .
     """Read a list of `x.c` and `{file: x.c, when: {on_full: error}}`."""
     value = node.get("sources")
     if value is not None and not isinstance(value, SequenceNode):
-        diagnostics.error("'sources' must be a list", value.span, "Write `sources: [a.c, b.c]`")
+        diagnostics.error("'sources' must be a list", value.span, "Write `sources: [a.c, b.c]`", id="MG-4005")
     found = [(item, _source(item)) for item in items(value)]
     for item, source in found:
         if source is None:
             hint = "Write `x.c` or `{file: x.c, when: {on_full: error}}`"
-            diagnostics.error("'sources' must list files", item.span, hint)
+            diagnostics.error("'sources' must list files", item.span, hint, id="MG-4006")
     return tuple(source for _, source in found if source is not None)
 
 
@@ -72,12 +72,12 @@ def _asks(node: MappingNode, diagnostics: Diagnostics) -> tuple[Ask, ...]:
     """Read a list of `time` and `{capability: lock, when: {session.multithread: true}}`."""
     value = node.get("asks")
     if value is not None and not isinstance(value, SequenceNode):
-        diagnostics.error("'asks' must be a list", value.span, "Write `asks: [time, sleep]`")
+        diagnostics.error("'asks' must be a list", value.span, "Write `asks: [time, sleep]`", id="MG-4007")
     found = [(item, _conditional(item, "capability")) for item in items(value)]
     for item, ask in found:
         if ask is None:
             hint = "Write `time` or `{capability: lock, when: {session.multithread: true}}`"
-            diagnostics.error("'asks' must list capabilities", item.span, hint)
+            diagnostics.error("'asks' must list capabilities", item.span, hint, id="MG-4008")
     return tuple(Ask(*ask) for _, ask in found if ask is not None)
 
 
@@ -86,7 +86,10 @@ def _provides(node: MappingNode, diagnostics: Diagnostics) -> tuple[Provision, .
     value = node.get("provides")
     if value is not None and not isinstance(value, MappingNode):
         diagnostics.error(
-            "'provides' must be a mapping", value.span, "Write `provides: {time: {sources: [a.c]}}`"
+            "'provides' must be a mapping",
+            value.span,
+            "Write `provides: {time: {sources: [a.c]}}`",
+            id="MG-4009",
         )
     found = []
     for entry in entries(value):
@@ -108,7 +111,7 @@ def _implies(node: MappingNode, diagnostics: Diagnostics) -> tuple[Implied, ...]
         kind = next((k for k in ENDPOINT_KINDS if one is not None and k in one.entries), None)
         if one is None or kind is None:
             hint = f"Write one of {', '.join(f'`{k}: NAME`' for k in ENDPOINT_KINDS)}"
-            diagnostics.error("'implies' must list endpoints", item.span, hint)
+            diagnostics.error("'implies' must list endpoints", item.span, hint, id="MG-4010")
             continue
         check_keys(one, (kind, "type", "every_node", "queue", "qos"), (kind, "type"), diagnostics)
         every_node = bool_of(one.get("every_node")) or False

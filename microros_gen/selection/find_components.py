@@ -79,11 +79,13 @@ def _read(path: Path, root: Path, diagnostics: Diagnostics, prefix: str = "") ->
     try:
         source = Source(shown, read_text(path))
     except (OSError, UnicodeDecodeError) as fault:
-        diagnostics.error(f"cannot read the component file '{shown}': {fault}")
+        diagnostics.error(f"cannot read the component file '{shown}': {fault}", id="MG-4011")
         return None
     component = parse_component(source, diagnostics)
     if component is not None and component.name != f"{prefix}{path.parent.name}":
-        diagnostics.error(f"'{shown}' describes '{component.name}'", None, "Name the folder as the component")
+        diagnostics.error(
+            f"'{shown}' describes '{component.name}'", None, "Name the folder as the component", id="MG-4012"
+        )
         return None
     return component and replace(component, folder=path.parent)
 
@@ -92,4 +94,4 @@ def _check_needs(component: Component, found: dict[str, Component], diagnostics:
     for name in component.needs:
         if name not in found:
             message = f"the component '{component.name}' needs the unknown component '{name}'"
-            diagnostics.error(message, None, nearest(name, found))
+            diagnostics.error(message, None, nearest(name, found), id="MG-4013")

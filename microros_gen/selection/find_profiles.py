@@ -40,7 +40,10 @@ def load_builtin_profiles(folder: Path | None = None) -> Mapping[str, Profile]:
             profile = parse_profile(source, diagnostics, builtin=True) if source else None
             if profile is not None and profile.name != path.stem:
                 diagnostics.error(
-                    f"'{path.name}' describes '{profile.name}'", profile.span, "Rename one of them"
+                    f"'{path.name}' describes '{profile.name}'",
+                    profile.span,
+                    "Rename one of them",
+                    id="MG-4014",
                 )
             elif profile is not None:
                 found[profile.name] = profile
@@ -60,7 +63,7 @@ def load_middleware(folder: Path | None = None) -> Middleware:
     middleware = parse_middleware(source, diagnostics) if source else None
     diagnostics.check()
     if middleware is None:
-        diagnostics.error(f"'{MIDDLEWARE_FILE}' is empty")
+        diagnostics.error(f"'{MIDDLEWARE_FILE}' is empty", id="MG-4015")
         diagnostics.check()
         raise AssertionError
     return middleware
@@ -122,7 +125,7 @@ class _Reader:
         if twin is not None:
             hint = "Give it a name of its own"
             self._diagnostics.error(
-                f"the profile name '{profile.name}' is taken by {twin}", profile.span, hint
+                f"the profile name '{profile.name}' is taken by {twin}", profile.span, hint, id="MG-4016"
             )
         self.found[key] = profile
         bases = tuple(self.take(base, path.parent) for base in profile.extends)
@@ -133,13 +136,15 @@ class _Reader:
         files = [p.stem for p in sorted(near.glob("*.yaml"))] if not _is_path(name.name) else []
         hint = nearest(name.name, [*self._builtin, *files])
         if _is_path(name.name):
-            self._diagnostics.error(f"profile file '{name.name}' not found in '{near}'", name.span, hint)
+            self._diagnostics.error(
+                f"profile file '{name.name}' not found in '{near}'", name.span, hint, id="MG-4017"
+            )
             return
         hint = (
             hint
             or f"Built in are {', '.join(self._builtin)}; a file {name.name}.yaml next to the application too"
         )
-        self._diagnostics.error(f"unknown profile '{name.name}'", name.span, hint)
+        self._diagnostics.error(f"unknown profile '{name.name}'", name.span, hint, id="MG-4018")
 
 
 def _is_path(name: str) -> bool:
@@ -155,7 +160,7 @@ def _read(path: Path, shown: str, diagnostics: Diagnostics, span: Span | None = 
     try:
         return Source(shown, read_text(path))
     except OSError as fault:
-        diagnostics.error(f"cannot read '{shown}': {fault.strerror}", span)
+        diagnostics.error(f"cannot read '{shown}': {fault.strerror}", span, id="MG-4019")
     except UnicodeDecodeError:
-        diagnostics.error(f"'{shown}' is not UTF-8", span, "Save the file as UTF-8")
+        diagnostics.error(f"'{shown}' is not UTF-8", span, "Save the file as UTF-8", id="MG-4020")
     return None

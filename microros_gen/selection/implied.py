@@ -28,6 +28,7 @@ def with_implied(application: Application, selection: Selection, diagnostics: Di
             f"the {endpoint.kind} '{endpoint.topic}', which a component opens by itself, needs a declared node",
             application.spans.get("components"),
             "Declare the nodes: `nodes: [{name: …}]`",
+            id="MG-4021",
         )
     return replace(application, implied=once)
 

@@ -56,6 +56,7 @@ def unique_changes(
                 f"'{signed(change)}' contradicts '{signed(first)}'{at(first.span)}",
                 change.span,
                 "Remove one of them",
+                id="MG-4022",
             )
     return found
 
@@ -87,7 +88,7 @@ class _Folder:
         if key in self._path:
             names = [self._profiles[k].name for k in (*self._path[self._path.index(key) :], key)]
             message = f"the profile '{profile.name}' extends itself ({' → '.join(names)})"
-            self._diagnostics.error(message, span, "Remove one of the `extends`")
+            self._diagnostics.error(message, span, "Remove one of the `extends`", id="MG-4023")
             return None
         if key not in self._folded:
             self._path.append(key)
@@ -107,6 +108,7 @@ class _Folder:
                 f"one that drops it{at(drops[name].span)}",
                 profile.span,
                 f"Decide with +{name} or -{name} in its components",
+                id="MG-4024",
             )
         for change in own.values():
             (adds if change.add else drops)[change.name] = Named(change.name, change.span)
@@ -128,7 +130,9 @@ class _Folder:
         for change in own.values():
             if not change.add:
                 message = f"'-{change.name}' drops nothing: the profile '{profile.name}' extends no other"
-                self._diagnostics.warning(message, change.span, "Add `extends: […]`, or remove it")
+                self._diagnostics.warning(
+                    message, change.span, "Add `extends: […]`, or remove it", id="MG-4025"
+                )
 
     def _axes(self, profile: Profile, bases: list[ResolvedProfile]) -> dict[str, Named]:
         chosen: dict[str, Named] = {}
@@ -142,5 +146,6 @@ class _Folder:
                         f"{axis}: {value.name}{at(value.span)}",
                         profile.span,
                         f"Choose with `{axis}:` in it",
+                        id="MG-4026",
                     )
         return {**chosen, **own}

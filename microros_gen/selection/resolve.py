@@ -77,10 +77,12 @@ def resolve_selection(
 def _report_nothing(application: Application, diagnostics: Diagnostics) -> None:
     if not application.spans and not application.components:
         hint = "Give --profile pure_sender, or begin with `microros-gen init DIR`; `microros-gen profiles` lists them"
-        diagnostics.error("no application file microros.yaml in this folder, and no profile", None, hint)
+        diagnostics.error(
+            "no application file microros.yaml in this folder, and no profile", None, hint, id="MG-4027"
+        )
         return
     hint = "Add `profiles: [pure_sender]`, or --profile pure_sender"
-    diagnostics.error("nothing is selected", None, hint)
+    diagnostics.error("nothing is selected", None, hint, id="MG-4028")
 
 
 def check_ready(selection: Selection, diagnostics: Diagnostics) -> None:
@@ -96,6 +98,7 @@ def check_ready(selection: Selection, diagnostics: Diagnostics) -> None:
             f"{cause.name} needs the component{'s' if several else ''} {', '.join(names)}, which {NOT_READY}",
             cause.span,
             "`microros-gen profiles` shows what is ready, `microros-gen resolve` why each is needed",
+            id="MG-4029",
         )
 
 
@@ -129,7 +132,7 @@ class _Picker:
     def unknown(self, name: str, text: str, span: Span | None) -> None:
         """Report a component that there is not."""
         hint = nearest(name, self.catalogue) or f"There are {', '.join(MICRO_ROS_COMPONENTS)}"
-        self.diagnostics.error(f"unknown component '{name}' ({text})", span, hint)
+        self.diagnostics.error(f"unknown component '{name}' ({text})", span, hint, id="MG-4030")
 
     def close(self) -> None:
         """Add everything that the selected components need."""
@@ -180,7 +183,9 @@ def _pick_from_profiles(
             picker.unknown(change.name, f"components: {signed(change)}", change.span)
         elif not any(change.name == add.name for p in profiles for add in p.adds):
             picker.diagnostics.warning(
-                f"'{signed(change)}' drops nothing: no selected profile has '{change.name}'", change.span
+                f"'{signed(change)}' drops nothing: no selected profile has '{change.name}'",
+                change.span,
+                id="MG-4031",
             )
 
 
@@ -199,6 +204,7 @@ def _check_profile_drops(
                         f"'{adding.name}' has it{at(add.span)}",
                         drop.span,
                         f"Decide in the application: `components: [+{drop.name}]` or `[-{drop.name}]`",
+                        id="MG-4032",
                     )
 
 
@@ -265,12 +271,12 @@ def _check_drop(picker: _Picker, name: str, span: Span | None, text: str) -> Non
         roots = [r for r in picker.roots(name) if f"-{name}" not in r.name]
         because = "; ".join(placed(root) for root in roots)
         message = f"{text} drops a component that {', '.join(needing)} needs (selected by {because})"
-        picker.diagnostics.error(message, span, f"Drop {needing[0]} too, or remove {text}")
+        picker.diagnostics.error(message, span, f"Drop {needing[0]} too, or remove {text}", id="MG-4033")
     elif direct:
         message = f"{text} drops a component that is selected by {direct[0].text}"
         key = direct[0].text.partition(":")[0]
         change = "that" if " " in key else f"`{key}:`"
-        picker.diagnostics.error(message, span, f"Change {change}, or remove {text}")
+        picker.diagnostics.error(message, span, f"Change {change}, or remove {text}", id="MG-4034")
 
 
 def _check_declarations(picker: _Picker, application: Application) -> None:
@@ -280,12 +286,13 @@ def _check_declarations(picker: _Picker, application: Application) -> None:
         component = picker.catalogue.get(demand.component)
         if component is not None and not component.ready:
             message = f"{demand.text} needs the component '{demand.component}', which {NOT_READY}"
-            picker.diagnostics.error(message, demand.span, "Remove it")
+            picker.diagnostics.error(message, demand.span, "Remove it", id="MG-4035")
             continue
         picker.diagnostics.error(
             f"{demand.text} needs the component '{demand.component}', which nothing selects",
             demand.span,
             f"Add `components: [+{demand.component}]`, or a profile that has it",
+            id="MG-4036",
         )
 
 
@@ -302,6 +309,7 @@ def _check_axis_components(picker: _Picker, axes: Mapping[str, AxisChoice], midd
                     f"and contradicts {choice.text}",
                     root.span or choice.span,
                     f"Write `{axis}: {other.value}` instead of it",
+                    id="MG-4037",
                 )
 
 
@@ -318,6 +326,7 @@ def _check_liveliness(picker: _Picker, choice: AxisChoice) -> None:
             f"{choice.text} needs a reliable stream, and nothing that is selected has one",
             choice.span,
             "Make a publisher reliable, or write `liveliness: ping`",
+            id="MG-4038",
         )
 
 
@@ -328,6 +337,7 @@ def _check_creation(picker: _Picker, application: Application, choice: AxisChoic
             f"creation: reliable{at(creation.span)} contradicts {choice.text}: the client creates nothing",
             creation.span,
             "Remove `creation:`, or write `entities: reference`",
+            id="MG-4039",
         )
 
 
@@ -339,6 +349,7 @@ def _check_discovery(picker: _Picker, choice: AxisChoice) -> None:
             f"by UDP multicast",
             choice.span or root.span,
             "Write `transport: {type: udp}`, or drop it: `components: [-discovery]`",
+            id="MG-4040",
         )
 
 
@@ -352,6 +363,7 @@ def _check_sleep(picker: _Picker, choice: AxisChoice) -> None:
             " connection",
             choice.span or root.span,
             "Write `transport: {type: udp}`, or drop it: `components: [-sleep_cycles]`",
+            id="MG-4041",
         )
     if "discovery" in picker.causes:
         found = picker.roots("discovery")[0]
@@ -360,6 +372,7 @@ def _check_sleep(picker: _Picker, choice: AxisChoice) -> None:
             " searched for with each start",
             found.span or root.span,
             'Say where the agent is: `transport: {agent: "192.168.1.10:8888"}`',
+            id="MG-4042",
         )
 
 

@@ -124,7 +124,9 @@ def _compile(out: Path, units: Sequence[_Unit], stamps: Stamps) -> None:
         if result.returncode == 0:
             stamps.record(unit.object, unit.command, _dependencies(out / unit.object))
         else:
-            failed.append(Diagnostic(f"{unit.source} does not compile:\n{result.stdout.rstrip()}"))
+            failed.append(
+                Diagnostic(f"{unit.source} does not compile:\n{result.stdout.rstrip()}", id="MG-8201")
+            )
     if failed:
         raise UserError(failed, status=1)
 
@@ -169,7 +171,7 @@ def _link(out: Path, main_object: str, image: str, tools: Toolchain, script: str
     if result.returncode != 0:
         hint = _too_large(result.stdout)
         what = f"the example cannot be linked:\n{result.stdout.rstrip()}"
-        raise UserError([Diagnostic(what, hint=hint)], status=1)
+        raise UserError([Diagnostic(what, hint=hint, id="MG-8202")], status=1)
     (out / fresh).replace(out / image)
 
 
@@ -209,7 +211,7 @@ def _text(path: Path) -> str:
 def _must_succeed(command: Sequence[str], out: Path, what: str) -> None:
     result = run(command, out)
     if result.returncode != 0:
-        raise UserError([Diagnostic(f"{what}:\n{result.stdout.rstrip()}")], status=1)
+        raise UserError([Diagnostic(f"{what}:\n{result.stdout.rstrip()}", id="MG-8203")], status=1)
 
 
 def _remove_others(out: Path, objects: set[str], products: set[str]) -> None:

@@ -39,7 +39,7 @@ class Machine:
         if found is None:
             message = f"the image runs in {self.program}, which is not on the PATH"
             hint = f"Install it (Debian, Ubuntu: apt-get install {self.package})"
-            raise UserError([Diagnostic(message, hint=hint)])
+            raise UserError([Diagnostic(message, hint=hint, id="MG-8204")])
         return found
 
     def command(self, image: Path, restarts: bool) -> list[str]:
@@ -88,11 +88,15 @@ class Emulator:
         for line in self._process.stdout:
             answer = _message(line)
             if "error" in answer:
-                raise UserError([Diagnostic(f"the emulator refused '{name}': {answer['error']}")], status=1)
+                raise UserError(
+                    [Diagnostic(f"the emulator refused '{name}': {answer['error']}", id="MG-8205")], status=1
+                )
             if "return" in answer:
                 return answer["return"]
         status = self._process.wait()
-        raise UserError([Diagnostic(f"the emulator ended with status {status} (see above)")], status=1)
+        raise UserError(
+            [Diagnostic(f"the emulator ended with status {status} (see above)", id="MG-8206")], status=1
+        )
 
 
 def _message(line: str) -> dict[str, Any]:

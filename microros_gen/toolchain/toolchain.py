@@ -78,6 +78,7 @@ def _first_of(names: Sequence[str], what: str, target: Target, path: str | None)
                 f"target {target.name} needs {what} and none of {', '.join(names)} is on the PATH",
                 hint=f"Install it (Debian, Ubuntu: apt-get install {target.package}), or generate without "
                 "compiling: microros-gen generate",
+                id="MG-8207",
             )
         ]
     )

@@ -21,6 +21,7 @@ from microros_gen.cli.agent.types import ManifestOf, TypeHashes, read_manifests
 from microros_gen.diagnostics import Diagnostics, Source, UserError
 from microros_gen.documents.schema import load_schema
 from microros_gen.interfaces.type_hashes import type_hashes
+from tests.support.ids import without_id
 from tests.support.paths import ROOT
 
 EXAMPLE = ROOT / "examples/agent/agent.yaml"
@@ -134,7 +135,7 @@ references: refs.xml
     with pytest.raises(UserError) as error:
         options(text, tmp_path)
     path = tmp_path / "agent.yaml"
-    told = [d.headline().removeprefix(f"{path}:") for d in error.value.diagnostics]
+    told = [without_id(d.headline()).removeprefix(f"{path}:") for d in error.value.diagnostics]
     assert told == [
         "1:10: error: 'version' must be 1, the only version that there is; it is 2",
         "3:5: error: 'transports[0]' has no key 'upd4'. Did you mean 'udp4'?",
@@ -313,7 +314,8 @@ def test_what_the_file_names_and_is_not_there_is_told_at_its_place(tmp_path: Pat
         with pytest.raises(UserError) as caught:
             serve(options(text + more, tmp_path))
         told = [
-            d.headline().replace(f"{tmp_path}/", "").replace("error: ", "") for d in caught.value.diagnostics
+            without_id(d.headline()).replace(f"{tmp_path}/", "").replace("error: ", "")
+            for d in caught.value.diagnostics
         ]
         assert len(told) == len(wanted)
         for line, begin in zip(told, wanted, strict=True):

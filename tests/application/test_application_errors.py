@@ -8,6 +8,7 @@ import pytest
 from microros_gen.application.model import Application
 from microros_gen.application.parser import parse_application
 from microros_gen.diagnostics import Diagnostics, Source
+from tests.support.ids import without_id
 from tests.support.paths import ROOT
 
 NODE = "nodes:\n  - name: n\n"
@@ -17,7 +18,7 @@ PUBLISHER = "{topic: %s, type: std_msgs/msg/Bool}"
 def parse(text: str) -> tuple[Application | None, list[str]]:
     found = Diagnostics()
     application = parse_application(Source("f", text), found)
-    return application, [d.headline() for d in found]
+    return application, [without_id(d.headline()) for d in found]
 
 
 def topic(name: str) -> str:

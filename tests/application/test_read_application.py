@@ -7,6 +7,7 @@ from pathlib import Path
 
 from microros_gen.application.find import read_application
 from microros_gen.diagnostics import Diagnostics
+from tests.support.ids import without_id
 
 
 def test_the_file_of_the_folder_is_taken_where_there_is_one(tmp_path: Path) -> None:
@@ -32,6 +33,6 @@ def test_what_cannot_be_read_is_told(tmp_path: Path) -> None:
     for name, reason in (("none.yaml", "No such file"), ("bad.yaml", "it is not UTF-8 text")):
         said = Diagnostics()
         assert read_application(tmp_path / name, tmp_path, said) is None
-        (line,) = [d.headline() for d in said]
+        (line,) = [without_id(d.headline()) for d in said]
         assert line.startswith("microros-gen: error: cannot read the application file")
         assert reason in line

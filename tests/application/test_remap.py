@@ -12,6 +12,7 @@ from microros_gen.application.model import NodeDecl
 from microros_gen.application.names import expand_topic_name
 from microros_gen.application.parser import parse_application
 from microros_gen.diagnostics import Diagnostics, Source
+from tests.support.ids import without_id
 
 NODE = """\
 nodes:
@@ -46,7 +47,7 @@ def parse(rules: str) -> tuple[NodeDecl | None, list[str]]:
     found = Diagnostics()
     application = parse_application(Source("f", NODE % rules), found)
     return (application.nodes[0] if application and application.nodes else None), [
-        d.headline() for d in found
+        without_id(d.headline()) for d in found
     ]
 
 

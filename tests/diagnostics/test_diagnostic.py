@@ -63,15 +63,15 @@ def test_a_long_word_is_cut() -> None:
 
 def test_a_collector_keeps_each_diagnostic_once_and_raises_at_the_end() -> None:
     said = Diagnostics()
-    said.warning("w")
+    said.warning("w", id="MG-0001")
     said.check()
-    said.error("e", Span(FILE, 1, 1))
-    said.error("e", Span(FILE, 1, 1))
+    said.error("e", Span(FILE, 1, 1), id="MG-0002")
+    said.error("e", Span(FILE, 1, 1), id="MG-0002")
     with pytest.raises(UserError) as raised:
         said.check()
     assert [d.message for d in raised.value.diagnostics] == ["w", "e"]
     assert raised.value.status == 2
-    assert str(raised.value) == "microros-gen: warning: w\nmicroros.yaml:1:1: error: e"
+    assert str(raised.value) == "microros-gen: warning: w [MG-0001]\nmicroros.yaml:1:1: error: e [MG-0002]"
 
 
 @pytest.mark.parametrize(

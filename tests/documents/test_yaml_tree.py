@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.documents.yaml_tree import MappingNode, ScalarNode, parse_yaml, to_data
+from tests.support.ids import without_id
 
 LOADERS = [True, False]
 
@@ -20,7 +21,7 @@ LOADERS = [True, False]
 def read(text: str, c_loader: bool = True) -> tuple[Any, list[str]]:
     found = Diagnostics()
     tree = parse_yaml(Source("f", text), found, c_loader)
-    return (to_data(tree) if tree is not None else None), [d.headline() for d in found]
+    return (to_data(tree) if tree is not None else None), [without_id(d.headline()) for d in found]
 
 
 SCALARS = {

@@ -23,6 +23,7 @@ from microros_gen.interfaces.types import (
     StringType,
     TypeName,
 )
+from tests.support.ids import without_id
 from tests.support.interfaces.idl_corpus import BAD, BAD_PARTS, GOOD, const, default, msg, parts
 from tests.support.interfaces.idl_strategies import NAME, messages
 
@@ -32,7 +33,7 @@ def found(text: str, kind: str = "msg") -> list[str]:
     diagnostics = Diagnostics()
     declarations = parse_idl(Source("F.idl", text), "pkg_a", kind, diagnostics)
     assert bool(declarations) is not diagnostics.has_errors()
-    return [d.headline().removeprefix("F.idl:") for d in diagnostics]
+    return [without_id(d.headline()).removeprefix("F.idl:") for d in diagnostics]
 
 
 def message(text: str) -> Message:

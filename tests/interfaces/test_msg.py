@@ -27,6 +27,7 @@ from microros_gen.interfaces.types import (
     StringType,
     TypeName,
 )
+from tests.support.ids import without_id
 from tests.support.interfaces.msg_corpus import BAD, GOOD
 from tests.support.interfaces.msg_model import (
     NAME,
@@ -39,7 +40,7 @@ def read(text: str) -> tuple[Message | None, list[str]]:
     """Return the message and each diagnostic's headline."""
     diagnostics = Diagnostics()
     message = parse_msg(Source("Foo.msg", text), NAME, diagnostics)
-    return message, [d.headline() for d in diagnostics]
+    return message, [without_id(d.headline()) for d in diagnostics]
 
 
 def good(text: str) -> Message:

@@ -21,6 +21,7 @@ from microros_gen.interfaces.msg.srv import parse_srv
 from microros_gen.interfaces.msg.text import declaration_text
 from microros_gen.interfaces.type_description import type_description
 from microros_gen.interfaces.types import Action, Message, NamedType, Primitive, Service, TypeName, element_of
+from tests.support.ids import without_id
 from tests.support.interfaces.msg_model import messages, without_places
 from tests.support.interfaces.rosidl_pipeline import adapter_parts, ros_declaration
 
@@ -33,7 +34,7 @@ def read(text: str, kind: str = "srv", name: str = "Foo") -> tuple[Service | Act
     diagnostics = Diagnostics()
     parse = parse_srv if kind == "srv" else parse_action
     found = parse(Source("F", text), TypeName("pkg_a", kind, name), diagnostics)
-    return found, [d.headline().removeprefix("F:") for d in diagnostics]
+    return found, [without_id(d.headline()).removeprefix("F:") for d in diagnostics]
 
 
 def errors(text: str, kind: str = "srv") -> list[str]:

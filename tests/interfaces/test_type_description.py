@@ -27,6 +27,7 @@ from microros_gen.interfaces.types import (
     StringType,
     TypeName,
 )
+from tests.support.ids import without_id
 from tests.support.interfaces.rosidl_pipeline import ros_message
 
 SHARE = Path(sys.prefix) / "share"
@@ -76,7 +77,7 @@ def test_the_installed_idl_files_give_the_same(installed: InterfaceSet, tmp_path
     diagnostics = Diagnostics()
     names = tuple(Named(place.name) for place in finder.packages())
     interfaces = resolve_interfaces(names, finder, diagnostics)
-    assert [d.headline() for d in diagnostics] == []
+    assert [without_id(d.headline()) for d in diagnostics] == []
     assert len(interfaces) == 199
     for name in interfaces.described:
         assert interfaces.type_description(name) == installed.type_description(name)

@@ -17,6 +17,7 @@ from microros_gen.platform.provide import APPLICATION, Clash, provide
 from microros_gen.platform.target import Target
 from microros_gen.selection.component import Ask, Component, Provision, SourceFile
 from tests.support.command_line import Runner
+from tests.support.ids import without_id
 
 PART = """\
 component: port_demo
@@ -225,7 +226,7 @@ def target_of(folder: Path, text: str) -> Target:
     (folder / "t.yaml").write_text(text)
     diagnostics = Diagnostics()
     found = read_target("t.yaml", folder, None, diagnostics)
-    assert found is not None, [d.headline() for d in diagnostics]
+    assert found is not None, [without_id(d.headline()) for d in diagnostics]
     return found.target
 
 

@@ -16,6 +16,7 @@ from microros_gen.client.plan.streams import LARGEST_MTU
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.documents.templates import make_environment
 from microros_gen.selection.find_components import components_folder
+from tests.support.ids import without_id
 from tests.support.plans import POOL, changed
 
 TEXT = re.compile(
@@ -52,7 +53,7 @@ def refused(line: str) -> list[str]:
     diagnostics = Diagnostics()
     custom = line.replace("{", "{type: custom, ") if line.startswith("transport") else line
     parse_application(Source("f", f"version: 1\nprofiles: [pure_sender]\n{custom}\n"), diagnostics)
-    return [d.headline() for d in diagnostics]
+    return [without_id(d.headline()) for d in diagnostics]
 
 
 def filled(text: str) -> str:

@@ -17,6 +17,7 @@ from microros_gen.selection.find_components import load_catalogue
 from microros_gen.selection.find_profiles import load_middleware, load_profiles
 from microros_gen.selection.profiles import resolve_profiles
 from microros_gen.selection.resolve import resolve_selection
+from tests.support.ids import without_id
 from tests.support.selection.small_catalogue import Outcome, small_catalogue
 
 
@@ -46,13 +47,13 @@ def resolve(catalogue: Catalogue, middleware: Middleware) -> Callable[..., Outco
         application = Application()
         if text:
             parsed = parse_application(Source("microros.yaml", text), said)
-            assert parsed is not None, [d.headline() for d in said]
+            assert parsed is not None, [without_id(d.headline()) for d in said]
             application = parsed
         names = [Named(name) for name in profiles] or list(application.profiles)
         resolved = resolve_profiles(load_profiles(names, folder, said), said)
         below = parts_of(application) if parts is None else parts
         selection = resolve_selection(application, resolved, catalogue, middleware, said, below)
-        return Outcome(selection, tuple(d.headline() for d in said))
+        return Outcome(selection, tuple(without_id(d.headline()) for d in said))
 
     return run
 
@@ -72,6 +73,6 @@ def resolve_with(middleware: Middleware) -> Callable[..., Outcome]:
         assert application is not None
         resolved = resolve_profiles(load_profiles([Named(n) for n in profiles], Path(), said), said)
         selection = resolve_selection(application, resolved, parts, middleware, said, parts_of(application))
-        return Outcome(selection, tuple(d.headline() for d in said))
+        return Outcome(selection, tuple(without_id(d.headline()) for d in said))
 
     return run

@@ -96,7 +96,9 @@ def _clients(source: Source, diagnostics: Diagnostics) -> list[PreconfiguredClie
     if tree is None:
         if not source.text.strip():
             place = Span(source, 1, 1)
-            diagnostics.error("this file is empty", place, 'Begin with {"version": 1, "clients": [...]}')
+            diagnostics.error(
+                "this file is empty", place, 'Begin with {"version": 1, "clients": [...]}', id="MG-9401"
+            )
         return []
     root = expect_mapping(tree, "an entities file", diagnostics)
     if root is None:
@@ -104,7 +106,9 @@ def _clients(source: Source, diagnostics: Diagnostics) -> list[PreconfiguredClie
     check_keys(root, ("version", "clients"), ("version", "clients"), diagnostics)
     version = root.get("version")
     if version is not None and not (isinstance(version, ScalarNode) and version.value == VERSION):
-        diagnostics.error("this version of the file is not known", version.span, f"Write {VERSION}")
+        diagnostics.error(
+            "this version of the file is not known", version.span, f"Write {VERSION}", id="MG-9402"
+        )
     clients = [_client(node, diagnostics) for node in _items(root, "clients", diagnostics)]
     return [client for client in clients if client]
 
@@ -120,11 +124,11 @@ def _client(node: YamlNode, diagnostics: Diagnostics) -> PreconfiguredClient | N
     key = _key(client, diagnostics)
     adopt = client.get("adopt")
     if adopt is not None and not (isinstance(adopt, ScalarNode) and isinstance(adopt.value, bool)):
-        diagnostics.error("'adopt' must be true or false", adopt.span)
+        diagnostics.error("'adopt' must be true or false", adopt.span, id="MG-9403")
     adopted = isinstance(adopt, ScalarNode) and adopt.value is True
     if adopted and key is None and adopt is not None:
         diagnostics.error(
-            "a client of any key cannot be adopted", adopt.span, "Give its key, or leave it out"
+            "a client of any key cannot be adopted", adopt.span, "Give its key, or leave it out", id="MG-9404"
         )
     reads = [item for item in reader.found.values() if item.kind in _READ]
     if adopted and adopt is not None and reads:
@@ -133,6 +137,7 @@ def _client(node: YamlNode, diagnostics: Diagnostics) -> PreconfiguredClient | N
             " and without liveliness it does not ask again",
             adopt.span,
             "Give it `liveliness: ping` or `acknack` in its application file; then it needs no 'adopt'",
+            id="MG-9405",
         )
     entry = client.entries.get("key")
     return PreconfiguredClient(
@@ -147,7 +152,9 @@ def _key(client: MappingNode, diagnostics: Diagnostics) -> bytes | None:
         return None
     if not _HEX.fullmatch(text) or int(text, 16) == 0:
         hint = 'Write "0xAABBCCDD", or "*" for all others'
-        diagnostics.error("a client key is a hexadecimal number from 0x1 to 0xFFFFFFFF", node.span, hint)
+        diagnostics.error(
+            "a client key is a hexadecimal number from 0x1 to 0xFFFFFFFF", node.span, hint, id="MG-9406"
+        )
         return None
     return int(text, 16).to_bytes(4, "big")
 
@@ -159,7 +166,10 @@ def _check_distinct(clients: list[PreconfiguredClient], diagnostics: Diagnostics
         if other is not client:
             name = "*" if client.key is None else f"0x{client.key.hex().upper()}"
             diagnostics.error(
-                f"client {name} is there twice; first in {other.span}", client.span, "Join the two"
+                f"client {name} is there twice; first in {other.span}",
+                client.span,
+                "Join the two",
+                id="MG-9407",
             )
 
 
@@ -180,7 +190,7 @@ class _Objects:
         if kind is None:
             self._unsure = True
             if "kind" not in node.entries:
-                self._diagnostics.error("missing key 'kind'", node.span, 'Add "kind": …')
+                self._diagnostics.error("missing key 'kind'", node.span, 'Add "kind": …', id="MG-9408")
             return
         required, optional = _KEYS[kind.name]
         check_keys(node, (*required, *optional), required, self._diagnostics)
@@ -219,13 +229,17 @@ class _Objects:
             self._unsure = True
             wanted = identifier & 0xFFF0 | KINDS[kind]
             self._diagnostics.error(
-                f"the last digit of a {kind}'s id is {KINDS[kind]}", entry.span, f'Perhaps "{wanted:#06x}"'
+                f"the last digit of a {kind}'s id is {KINDS[kind]}",
+                entry.span,
+                f'Perhaps "{wanted:#06x}"',
+                id="MG-9409",
             )
         elif identifier in self.found:
             self._diagnostics.error(
                 f"the id {identifier:#06x} is there twice; first in line {self._line_of(identifier)}",
                 entry.span,
                 "Give each object an id of its own",
+                id="MG-9410",
             )
         return identifier
 
@@ -240,7 +254,9 @@ class _Objects:
         text = value.text if isinstance(value, ScalarNode) else ""
         if not _HEX.fullmatch(text) or not 0 < int(text, 16) <= 0xFFFF:
             hint = 'Write "0x0015": the index, then the kind as last digit'
-            self._diagnostics.error(f"'{key}' must be an object id, 0x0001 to 0xFFFF", value.span, hint)
+            self._diagnostics.error(
+                f"'{key}' must be an object id, 0x0001 to 0xFFFF", value.span, hint, id="MG-9411"
+            )
             return None
         return int(text, 16)
 
@@ -254,7 +270,7 @@ class _Objects:
             known = [f"{o.id:#06x}" for o in self.found.values() if o.kind == kind]
             hint = nearest(f"{identifier:#06x}", known) or f"Put the {kind} before what names it"
             self._diagnostics.error(
-                f"no {kind} {identifier:#06x} is among the objects before", value.span, hint
+                f"no {kind} {identifier:#06x} is among the objects before", value.span, hint, id="MG-9412"
             )
         return identifier
 
@@ -262,7 +278,7 @@ class _Objects:
         text = read_text(node, key, self._diagnostics, default=" ")
         if not text:
             value = node.get(key)
-            self._diagnostics.error(f"'{key}' is empty", value.span if value else None)
+            self._diagnostics.error(f"'{key}' is empty", value.span if value else None, id="MG-9413")
         return text.strip()
 
     def _number(self, node: MappingNode, key: str, choices: Container[int], range_text: str) -> int:
@@ -272,7 +288,7 @@ class _Objects:
         number = value.value if isinstance(value, ScalarNode) else None
         if isinstance(number, int) and not isinstance(number, bool) and number in choices:
             return number
-        self._diagnostics.error(f"'{key}' must be a number {range_text}", value.span)
+        self._diagnostics.error(f"'{key}' must be a number {range_text}", value.span, id="MG-9414")
         return 0
 
 
@@ -281,5 +297,5 @@ def _items(node: MappingNode, key: str, diagnostics: Diagnostics) -> tuple[YamlN
     if isinstance(value, SequenceNode):
         return value.items
     if value is not None:
-        diagnostics.error(f"'{key}' must be a list", value.span, f'Write "{key}": [...]')
+        diagnostics.error(f"'{key}' must be a list", value.span, f'Write "{key}": [...]', id="MG-9415")
     return ()

@@ -88,11 +88,13 @@ class _Tree:
             self._parser.Parse(self._source.text.encode(), True)
         except expat.ExpatError as error:
             place = Span(self._source, error.lineno, error.offset + 1)
-            diagnostics.error(f"not well-formed XML: {expat.errors.messages[error.code]}", place)
+            diagnostics.error(
+                f"not well-formed XML: {expat.errors.messages[error.code]}", place, id="MG-9417"
+            )
             return None
         for place in self._doctypes:
             hint = "Remove the <!DOCTYPE …>"
-            diagnostics.error("document types and entities are not taken", place, hint)
+            diagnostics.error("document types and entities are not taken", place, hint, id="MG-9418")
         return None if self._doctypes else self._builder.close()
 
     def place(self, element: Element) -> Span:
@@ -126,17 +128,17 @@ class _Gathered:
         if element.tag not in _SERVED:
             if element.tag not in _OTHERS:
                 hint = nearest(element.tag, _SERVED) or f"There are {', '.join(_SERVED)}"
-                self._diagnostics.error(f"unknown kind of profile '{element.tag}'", place, hint)
+                self._diagnostics.error(f"unknown kind of profile '{element.tag}'", place, hint, id="MG-9419")
             return
         name = element.get("profile_name", "")
         if not name:
             hint = 'Clients ask for it by that name: add profile_name="…"'
-            self._diagnostics.error(f"this {element.tag} has no profile_name", place, hint)
+            self._diagnostics.error(f"this {element.tag} has no profile_name", place, hint, id="MG-9420")
         try:
             found = from_profile(element)
         except XmlError as error:
             about = f"{element.tag} '{name}': {error.detail}"
-            self._diagnostics.error(about, tree.place(error.element))
+            self._diagnostics.error(about, tree.place(error.element), id="MG-9421")
             return
         if found and name:
             self._keep(found, name, place)
@@ -145,7 +147,9 @@ class _Gathered:
         """Add what a library of qualities of service or of applications holds, as `Library::Name`."""
         name = library.get("name", "")
         if not name:
-            self._diagnostics.error(f"this {library.tag} has no name", tree.place(library), 'Add name="…"')
+            self._diagnostics.error(
+                f"this {library.tag} has no name", tree.place(library), 'Add name="…"', id="MG-9422"
+            )
         profiles = library.tag == "qos_library"
         for element in library.findall("qos_profile" if profiles else "application"):
             qualities = [d for d in self.known.values() if isinstance(d, QosProfile)]
@@ -159,7 +163,7 @@ class _Gathered:
             except (MalformedError, UnknownNameError) as error:
                 about = error.detail if isinstance(error, MalformedError) else str(error)
                 self._diagnostics.error(
-                    f"{element.tag} '{element.get('name', '')}': {about}", tree.place(element)
+                    f"{element.tag} '{element.get('name', '')}': {about}", tree.place(element), id="MG-9423"
                 )
                 continue
             self._keep((kind, found), found.name, tree.place(element))
@@ -169,7 +173,10 @@ class _Gathered:
         first = self._places.setdefault((kind, name), place)
         if self.known.setdefault((kind, name), description) != description:
             self._diagnostics.error(
-                f"'{name}' is another one already, in {first}", place, "Give one of them another profile_name"
+                f"'{name}' is another one already, in {first}",
+                place,
+                "Give one of them another profile_name",
+                id="MG-9424",
             )
 
 
@@ -180,10 +187,10 @@ def _profiles(root: Element, tree: _Tree, diagnostics: Diagnostics) -> list[Elem
         return []
     if root.tag != "dds":
         hint = "The root of a file of references is <profiles>, or <dds> with <profiles> in it"
-        diagnostics.error(f"<{root.tag}> holds no references", tree.place(root), hint)
+        diagnostics.error(f"<{root.tag}> holds no references", tree.place(root), hint, id="MG-9425")
         return []
     for child in root:
         if child.tag not in ("profiles", *_BESIDE_PROFILES):
             hint = "Put profiles into <profiles>…</profiles>"
-            diagnostics.error(f"<{child.tag}> is not allowed in <dds>", tree.place(child), hint)
+            diagnostics.error(f"<{child.tag}> is not allowed in <dds>", tree.place(child), hint, id="MG-9426")
     return root.findall("profiles")

@@ -66,7 +66,7 @@ def open_bridge(
         handles = load_rclpy()
         types = raw_types()
     except RosUnusableError as error:
-        raise UserError([Diagnostic(f"the agent {error.reason}", hint=error.hint)]) from error
+        raise UserError([Diagnostic(f"the agent {error.reason}", hint=error.hint, id="MG-9427")]) from error
     types.libraries.hurry_writers()
     return RclpyBridge(
         handles, Ros(types, report or _ignore, request_wait_s), maximum_domains, domain, hash_of

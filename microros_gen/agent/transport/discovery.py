@@ -56,7 +56,9 @@ class Discovery:
         """Tell of `transports`; UserError when there are none or the port cannot be had."""
         if not transports:
             reason = "discovery needs a UDP or TCP transport"
-            raise UserError([Diagnostic(reason, hint="Add one, as `udp4`, or leave --discovery out")])
+            raise UserError(
+                [Diagnostic(reason, hint="Add one, as `udp4`, or leave --discovery out", id="MG-9428")]
+            )
         self._transports = sorted(transports, key=lambda t: t.protocol.stream)
         self._log = log
         self._addresses = addresses
@@ -200,7 +202,9 @@ def _open(port: int) -> socket.socket:
     except OSError as error:
         made.close()
         reason = f"discovery at {GROUP}:{port} cannot be opened: {error.strerror or error}"
-        raise UserError([Diagnostic(reason, hint="Choose another port with --discovery-port")]) from error
+        raise UserError(
+            [Diagnostic(reason, hint="Choose another port with --discovery-port", id="MG-9429")]
+        ) from error
     return made
 
 

@@ -87,7 +87,9 @@ class Pty(Line):
             except OSError as error:
                 os.close(self._master)
                 os.close(self._slave)
-                raise UserError([Diagnostic(f"the link {link} cannot be made: {error.strerror}")]) from error
+                raise UserError(
+                    [Diagnostic(f"the link {link} cannot be made: {error.strerror}", id="MG-9430")]
+                ) from error
         self.device = device
         super().__init__(str(link or device), lambda: os.dup(self._master), log)
         self.start()
@@ -125,7 +127,9 @@ def _no_such_speed(baud: int) -> Diagnostic:
     near = min(speeds(), key=lambda speed: abs(speed - baud))
     known = ", ".join(str(speed) for speed in speeds() if speed >= 9600)
     return Diagnostic(
-        f"this system has no serial speed of {baud} bit/s", hint=f"The nearest is {near}; there are {known}"
+        f"this system has no serial speed of {baud} bit/s",
+        hint=f"The nearest is {near}; there are {known}",
+        id="MG-9431",
     )
 
 
@@ -134,13 +138,18 @@ def _explain(error: OSError, device: str) -> Diagnostic:
         return Diagnostic(
             f"{device}: this user may not open it",
             hint="Join the group that owns it (`ls -l` shows it, often dialout), then log in again",
+            id="MG-9432",
         )
     if error.errno == errno.EBUSY:
         return Diagnostic(
-            f"{device} is in use by another program", hint="End the other agent or terminal program"
+            f"{device} is in use by another program",
+            hint="End the other agent or terminal program",
+            id="MG-9433",
         )
     if error.errno in (errno.ENOTTY, errno.EISDIR):
         return Diagnostic(
-            f"{device} is not a serial device", hint="Give a terminal device, as /dev/ttyUSB0 or /dev/pts/3"
+            f"{device} is not a serial device",
+            hint="Give a terminal device, as /dev/ttyUSB0 or /dev/pts/3",
+            id="MG-9434",
         )
-    return Diagnostic(f"{device} cannot be opened: {error.strerror or error}")
+    return Diagnostic(f"{device} cannot be opened: {error.strerror or error}", id="MG-9435")

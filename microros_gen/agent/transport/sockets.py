@@ -113,14 +113,17 @@ def place_name(address: object) -> str:
 def _explain(error: OSError, protocol: Protocol, host: str, port: int) -> Diagnostic:
     title, version = protocol.title, protocol.version
     if error.errno == errno.EADDRINUSE:
-        return Diagnostic(f"{title} port {port} is in use; choose another with --port")
+        return Diagnostic(f"{title} port {port} is in use; choose another with --port", id="MG-9436")
     if error.errno == errno.EACCES:
-        return Diagnostic(f"{title} port {port} needs privileges; choose one above 1023 with --port")
+        return Diagnostic(
+            f"{title} port {port} needs privileges; choose one above 1023 with --port", id="MG-9437"
+        )
     if error.errno == errno.EAFNOSUPPORT:
-        return Diagnostic(f"this system has no {version}")
+        return Diagnostic(f"this system has no {version}", id="MG-9438")
     if error.errno == errno.EADDRNOTAVAIL or isinstance(error, socket.gaierror):
         return Diagnostic(
             f"'{host}' is not an {version} address of this machine",
             hint=f"--bind takes one of them, or {protocol.everywhere} for all",
+            id="MG-9439",
         )
-    return Diagnostic(f"{title} {host}:{port} cannot be opened: {error.strerror or error}")
+    return Diagnostic(f"{title} {host}:{port} cannot be opened: {error.strerror or error}", id="MG-9440")

@@ -152,7 +152,7 @@ class AgentOptions:
         chosen = tuple(transports) or tuple(_near(folder, choice) for choice in file.transports)
         if not chosen:
             hint = "Name one, as `microros-gen agent udp4 --port 8888`, or a --config that does"
-            raise UserError([Diagnostic("the agent has no transport", hint=hint)])
+            raise UserError([Diagnostic("the agent has no transport", hint=hint, id="MG-9701")])
         asked = one["discovery_port"] or (DISCOVERY_PORT if one["discovery"] else None)
         return AgentOptions(
             transports=chosen,
@@ -187,7 +187,7 @@ def _one_each(given: Sequence[dict[str, Any]]) -> dict[str, Any]:
             else:
                 option = "--" + name.replace("_", "-")
                 reason = f"{option} has two values, {before} and {value}: it holds for the whole agent"
-                raise UserError([Diagnostic(reason, hint="Give it once")])
+                raise UserError([Diagnostic(reason, hint="Give it once", id="MG-9702")])
     return joined
 
 
@@ -216,10 +216,10 @@ def read_sources(
         try:
             sources.append(Source(str(path), read_text(path, encoding="utf-8-sig")))
         except OSError as error:
-            diagnostics.error(f"{path} cannot be read: {error.strerror}", known.get(path))
+            diagnostics.error(f"{path} cannot be read: {error.strerror}", known.get(path), id="MG-9703")
         except UnicodeDecodeError as error:
             diagnostics.error(
-                f"{path} is not UTF-8 (byte {error.start})", known.get(path), "Save it as UTF-8"
+                f"{path} is not UTF-8 (byte {error.start})", known.get(path), "Save it as UTF-8", id="MG-9704"
             )
     return sources
 
@@ -258,14 +258,16 @@ def _limit(name: str, value: str, diagnostics: Diagnostics) -> float | None:
     names = [field.name for field in fields(Limits)]
     if name not in names:
         hint = nearest(name, names) or f"Known are {', '.join(names)}"
-        diagnostics.error(f"unknown limit '{name}'", hint=hint)
+        diagnostics.error(f"unknown limit '{name}'", hint=hint, id="MG-9705")
         return None
     if not _VALUE.fullmatch(value):
-        diagnostics.error(f"'limits.{name}' must be a number", hint=f"Write --limit {name}=NUMBER")
+        diagnostics.error(
+            f"'limits.{name}' must be a number", hint=f"Write --limit {name}=NUMBER", id="MG-9706"
+        )
         return None
     found = Diagnostics()
     source = Source("--limit", f"version: 1\nlimits: {{{name}: {value}}}")
     limits = dict(parse_agent_file(source, found).limits)
     for diagnostic in found:
-        diagnostics.error(diagnostic.message, hint=diagnostic.hint)
+        diagnostics.error(diagnostic.message, hint=diagnostic.hint, id="MG-9707")
     return limits.get(name)

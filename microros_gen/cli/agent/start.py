@@ -100,7 +100,9 @@ def check_memory(limits: Limits) -> None:
     if wanted > limits.memory_bytes:
         message = f"the limits allow {wanted} bytes together, and memory_bytes {limits.memory_bytes}"
         pools = "history_bytes, object_bytes, input_bytes, output_bytes or call_bytes"
-        raise UserError([Diagnostic(message, hint=f"Lower {pools}, or set memory_bytes: {wanted}")])
+        raise UserError(
+            [Diagnostic(message, hint=f"Lower {pools}, or set memory_bytes: {wanted}", id="MG-9708")]
+        )
 
 
 def _tell_memory(log: EventLog, limits: Limits) -> None:
@@ -213,7 +215,7 @@ def _check_system() -> None:
             "Under Windows run it in WSL 2 (usbipd attach --wsl hands serial devices on), on macOS in a virtual"
             " machine; clients reach it over UDP, TCP or a serial line"
         )
-        raise UserError([Diagnostic("the agent needs Linux", hint=hint)])
+        raise UserError([Diagnostic("the agent needs Linux", hint=hint, id="MG-9709")])
 
 
 def _close(transports: Sequence[Transport]) -> None:

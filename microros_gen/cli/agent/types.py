@@ -87,7 +87,7 @@ def read_manifests(manifests: Sequence[ManifestOf], diagnostics: Diagnostics) ->
                     before = first[client, name]
                     message = f"{manifest.path} and {before} have different definitions of {name}"
                     hint = f"Say which client each is of: --manifest 0xKEY={manifest.path}"
-                    diagnostics.error(message, manifest.span, hint)
+                    diagnostics.error(message, manifest.span, hint, id="MG-9710")
                 first.setdefault((client, name), manifest.path)
     return ClientTypes(common, by_client)
 
@@ -107,11 +107,14 @@ def _read(manifest: ManifestOf, diagnostics: Diagnostics) -> _Content:
         if all(_HASH.fullmatch(told) for told in types.values()):
             return _Content(types, nodes)
     except OSError as error:
-        diagnostics.error(f"{path} cannot be read: {error.strerror}", span)
+        diagnostics.error(f"{path} cannot be read: {error.strerror}", span, id="MG-9711")
         return _Content({}, [])
     except (ValueError, KeyError, TypeError, AttributeError):
         pass
     diagnostics.error(
-        f"{path} is not a manifest of microros-gen", span, "Give OUT/manifest.json of the client"
+        f"{path} is not a manifest of microros-gen",
+        span,
+        "Give OUT/manifest.json of the client",
+        id="MG-9712",
     )
     return _Content({}, [])

@@ -184,6 +184,7 @@ def check_entities(application: Application, selection: Selection, diagnostics: 
             f"entities: preconfigured ({chosen.reason}) needs `nodes:`: the agent makes what is declared there",
             application.entities.span if application.entities else application.spans.get("interfaces"),
             "Declare the nodes and what they own, or write `entities: reference`",
+            id="MG-7001",
         )
     if selection.entities == "reference":
         _check_references(application, diagnostics)
@@ -207,6 +208,7 @@ def _check_references(application: Application, diagnostics: Diagnostics) -> Non
             f"'{reference}' (the other: {other.span or other.topic})",
             endpoint.topic_span or endpoint.span,
             "Make them alike, or write `entities: binary`",
+            id="MG-7002",
         )
 
 

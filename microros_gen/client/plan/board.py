@@ -163,6 +163,7 @@ def _check_unique_id(
             application.target.span,
             "Write where it is into the target file: `unique_id: {address: 0x1FFF7A10, words: 3}`, or give each "
             f"board a key of its own: `session: {{key: 0x{runtime.session.client_key or 0:08X}}}`",
+            id="MG-7003",
         )
     if isinstance(application.session_key, str) and not target.has_unique_id:
         diagnostics.error(
@@ -170,6 +171,7 @@ def _check_unique_id(
             application.spans.get("session") or application.target.span,
             "Write where it is into the target file: `unique_id: {address: 0x1FFF7A10, words: 3}`, or give each "
             "device a `session: {key: N}` of its own",
+            id="MG-7004",
         )
 
 
@@ -189,6 +191,7 @@ def _check_vectors(
             f"the {fixed} of {target.name} has no vector table offset register: 'flash.offset' has no effect",
             application.target.span,
             "Let the bootloader hand interrupts on, or remove it",
+            id="MG-7005",
         )
     elif flash.first % alignment:
         upwards = (flash.first + alignment - 1) // alignment * alignment - flash.origin
@@ -197,6 +200,7 @@ def _check_vectors(
             f" {alignment}",
             application.target.span,
             f"Set flash.offset: {upwards}",
+            id="MG-7006",
         )
 
 
@@ -215,6 +219,7 @@ def _stdio_divisor(
             f"'stdio' of {target.name} prints to the UART of the agent",
             application.target.span,
             "Give it another base, or take `stdio: {to: semihosting}`",
+            id="MG-7007",
         )
     clock_hz = target.uart.clock_hz if target.uart else 0
     driver = target.cpu.driver(stdio.driver)
@@ -227,6 +232,7 @@ def _stdio_divisor(
             f"{stdio.baud} baud is not possible with {clock_hz or target.clock_hz} Hz by the UART of 'stdio'",
             application.target.span,
             f"The nearest rate is {found.nearest}: `stdio: {{baud: {found.nearest}}}`",
+            id="MG-7008",
         )
     return found.divisor
 
@@ -242,6 +248,7 @@ def _stack_size(application: Application, target: Target, diagnostics: Diagnosti
             f"a stack of {size} bytes leaves nothing of the {region.size} bytes of RAM of {target.name}",
             application.memory.stack_span or application.target.span,
             "Lower memory.stack",
+            id="MG-7009",
         )
     return size
 
@@ -259,6 +266,7 @@ def _divisor(uart: Uart, target: Target, application: Application, diagnostics: 
             f"{baud} baud is not possible with {clock} Hz by the UART of {target.name}",
             application.transport.span or application.target.span,
             f"The nearest rate is {found.nearest}: `transport: {{baud: {found.nearest}}}`",
+            id="MG-7010",
         )
     return found.divisor
 

@@ -49,6 +49,7 @@ def timed_qos(application: Application, entities: str, diagnostics: Diagnostics)
             f"'entities: {entities}' carries neither deadline nor lifespan: '{endpoint.topic}' has one",
             endpoint.qos.span,
             "Take `entities: binary`, or remove it",
+            id="MG-7011",
         )
     return bool(timed)
 
@@ -70,7 +71,7 @@ def check_types(application: Application, diagnostics: Diagnostics) -> None:
                 span = endpoint.type_span or endpoint.span
                 line = f" in line {other.span.line}" if other.span else ""
                 message = f"{name} has the type {kind} here and {known}{line}"
-                diagnostics.error(message, span, "Give both the same type, or one another name")
+                diagnostics.error(message, span, "Give both the same type, or one another name", id="MG-7012")
 
 
 def full_name(node: NodeDecl, endpoint: EndpointDecl) -> str:
@@ -98,6 +99,7 @@ def pool(application: Application, key: str, default: int, diagnostics: Diagnost
             f"{value} {key} are more than the {LARGEST_POOL} that one session holds",
             hint="Select fewer interfaces, or say how many there are at once with "
             f"`pools: {{{key}: N}}` in the application file",
+            id="MG-7013",
         )
     return value
 

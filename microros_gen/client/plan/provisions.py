@@ -50,6 +50,7 @@ def plan_provisions(
             "elsewhere",
             application.target.span,
             f"Provide both, or neither: `provides: [{clash.taken}, {clash.kept}]`",
+            id="MG-7014",
         )
     _report_missing(found, application, target, diagnostics)
     return found
@@ -72,5 +73,6 @@ def _report_missing(
             f"`provides: [{names}]` says, or add a part that has them",
             Severity.WARNING,
             block,
+            id="MG-7015",
         )
     )

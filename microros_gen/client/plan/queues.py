@@ -26,6 +26,7 @@ def declared_queue(
             f"'queue_bytes' has no effect: {samples} {queue.size} bytes",
             span,
             "Remove it, or let more samples wait (`queue`)",
+            id="MG-7016",
         )
     return queue
 
@@ -48,6 +49,7 @@ def check_pool_key(application: Application, queues: tuple[QueuePlan, ...], diag
             f"'{POOL_KEY}' has no effect: no queue takes more than {largest} bytes",
             application.spans.get(POOL_KEY),
             "Remove it, or let more samples wait (`pools.queue`)",
+            id="MG-7017",
         )
 
 
@@ -63,5 +65,6 @@ def _queue(
             f"'{key}' is {asked} and the largest sample takes {whole.slot_size} bytes ({label})",
             span,
             f"Set queue_bytes: {whole.slot_size} or more, or lower its limits",
+            id="MG-7018",
         )
     return QueuePlan(whole.slots, whole.slot_size, max(size, whole.slot_size))

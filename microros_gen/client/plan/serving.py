@@ -101,7 +101,7 @@ def _report_nothing(application: Application, diagnostics: Diagnostics) -> None:
     declares = "of a node" if application.nodes else "in `interfaces:`"
     span = None if application.nodes else application.spans.get("interfaces")
     hint = f"Add a service {declares}, or leave `services` out of `components:`"
-    diagnostics.error("'services' is selected, and there is no service", span, hint)
+    diagnostics.error("'services' is selected, and there is no service", span, hint, id="MG-7019")
 
 
 def _check_names(application: Application, diagnostics: Diagnostics) -> None:
@@ -120,12 +120,14 @@ def _check_names(application: Application, diagnostics: Diagnostics) -> None:
                 f"{name} is a {endpoint.type} here and a {other.type} elsewhere ({other.span})",
                 endpoint.type_span or endpoint.span,
                 "Give both the same type, or one of them another name",
+                id="MG-7020",
             )
         elif same is not endpoint:
             diagnostics.error(
                 f"two servers for {name}: each request would have two answers (the other: {same.span})",
                 endpoint.topic_span or endpoint.span,
                 "Remove one of them, or give it another name",
+                id="MG-7021",
             )
 
 

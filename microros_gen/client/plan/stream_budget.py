@@ -65,7 +65,7 @@ def check_stream_budget(
         f" {streams.best_effort_size}, input {streams.input_size}{f', queues {queues}' if queues else ''})"
     )
     hint, block = _proposal(project, capacities, _Trial(plan, budget), now)
-    diagnostics.add(Diagnostic(message, application.memory.ram_span, hint, block=block))
+    diagnostics.add(Diagnostic(message, application.memory.ram_span, hint, block=block, id="MG-7022"))
 
 
 def _proposal(

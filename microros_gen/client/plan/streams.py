@@ -182,6 +182,7 @@ def plan_streams(
             "'on_full: drop_oldest' with fragments needs a history of 2: a message that is on its way is not dropped",
             application.spans.get("pools.history"),
             "Set `pools: {history: 2}`",
+            id="MG-7023",
         )
     creation = create if application.creation and application.creation.name == "reliable" else 0
     if not creation:
@@ -255,6 +256,7 @@ def _send_buffer(
             f"'transport.send_buffer' is {asked} and the longest frame on the line may take {least - 1} bytes",
             application.spans.get("transport.send_buffer"),
             f"Set send_buffer: {_align4(least)} or more, or lower transport.mtu or the limits of the largest message",
+            id="MG-7024",
         )
     return _align4(asked or max(least, at_once + 1))
 
@@ -292,6 +294,7 @@ def _input_slots(application: Application, reliable_input: bool, diagnostics: Di
             "'pools.input_history' has no effect: nothing that is selected comes on a reliable stream",
             application.spans.get("pools.input_history"),
             "Remove it",
+            id="MG-7025",
         )
     return 0
 
@@ -302,6 +305,7 @@ def _check_create(create: int, ceiling: int, application: Application, diagnosti
             f"the longest CREATE message takes {create} bytes and {_mtu_is(application)} {ceiling}",
             application.transport.mtu_span or application.transport.span,
             f"Set transport.mtu: {create}, or shorten the longest topic name",
+            id="MG-7026",
         )
 
 
@@ -321,6 +325,7 @@ def _check_fits(
             f"{message.label} takes up to {message.max_encoded_size} bytes, and a message holds {LARGEST_BODY} at most",
             span,
             f"Lower its limits{message.hint}",
+            id="MG-7027",
         )
     elif message.best_effort and size > ceiling:
         declare = "declare its publisher under `nodes:` as reliable"
@@ -330,6 +335,7 @@ def _check_fits(
             span,
             f"{_larger_mtu(size, transport)} its limits{message.hint}, or {reliable}: reliable messages"
             " are sent in fragments",
+            id="MG-7028",
         )
 
 
@@ -343,6 +349,7 @@ def _check_received(
             f"{sample.label} takes up to {sample.max_size} bytes, and a message holds {LARGEST_BODY} at most",
             span,
             "Lower its limits",
+            id="MG-7029",
         )
     elif sample.best_effort and size > ceiling:
         declare = "declare its subscription under `nodes:` as reliable"
@@ -351,6 +358,7 @@ def _check_received(
             f"{sample.label} takes up to {size} bytes when it arrives and {_mtu_is(application)} {ceiling}",
             span,
             f"{_larger_mtu(size, transport)} its limits, or {reliable}: reliable messages come in fragments",
+            id="MG-7030",
         )
 
 

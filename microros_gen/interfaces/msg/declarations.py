@@ -125,7 +125,7 @@ def _constant(tree: SyntaxNode, line: Line, diagnostics: Diagnostics) -> Declara
         return None
     warning = msg_names.constant_name_warning(str(name))
     if warning is not None:
-        diagnostics.warning(warning[0], line.span_of(name), warning[1])
+        diagnostics.warning(warning[0], line.span_of(name), warning[1], id="MG-2013")
     with _reported(diagnostics):
         value = _scalar(kind, rest[0] if rest else None, line, diagnostics)
         return Declaration(Constant(str(name), kind, value, span=_whole(line, name)), line.span_of(name))
@@ -144,14 +144,14 @@ def _field(tree: SyntaxNode, line: Line, package: str, diagnostics: Diagnostics)
         return None
     warning = msg_names.field_name_warning(str(name))
     if warning is not None:
-        diagnostics.warning(warning[0], line.span_of(name), warning[1])
+        diagnostics.warning(warning[0], line.span_of(name), warning[1], id="MG-2014")
     with _reported(diagnostics):
         default = _default(field_type, rest[0], line, diagnostics) if rest else None
         field_type = _as_jazzy_reads(field_type, line, diagnostics)
         warning = None if default is None else msg_names.value_warning(field_type, default)
         if warning is not None:
             place = line.span(line.text.rindex("[") + 1, len(line.text) + 1)
-            diagnostics.warning(warning[0], place, warning[1])
+            diagnostics.warning(warning[0], place, warning[1], id="MG-2015")
         return Declaration(Field(str(name), field_type, default, span=_whole(line, name)), line.span_of(name))
     return None
 
@@ -162,7 +162,7 @@ def _reported(diagnostics: Diagnostics) -> Iterator[None]:
     try:
         yield
     except _DeclarationError as fault:
-        diagnostics.error(fault.message, fault.span, fault.hint)
+        diagnostics.error(fault.message, fault.span, fault.hint, id="MG-2016")
 
 
 def _whole(line: Line, name: Token) -> Span:
@@ -300,7 +300,9 @@ def _scalar(
         raise _DeclarationError(line.span_of(node), fault.message, fault.hint) from None
     if isinstance(kind, StringType) and text[0] in "\"'" and (text[-1] != text[0] or text in "\"'"):
         reason = "The '#' begins a comment, inside of quotes too" if line.commented else "Close it"
-        diagnostics.warning(f"the quote is not closed: the text is {value!r}", line.span_of(node), reason)
+        diagnostics.warning(
+            f"the quote is not closed: the text is {value!r}", line.span_of(node), reason, id="MG-2017"
+        )
     return value
 
 
@@ -351,6 +353,7 @@ def _as_jazzy_reads(field_type: FieldType, line: Line, diagnostics: Diagnostics)
         f"ROS 2 Jazzy reads wstring<={element.bound}[] as a sequence of at most {element.bound} elements",
         line.span(1, line.text.index(" ") + 1),
         f"Write wstring<={element.bound}[<=N] with the number of elements that you mean",
+        id="MG-2018",
     )
     return SequenceType(element, element.bound)
 

@@ -87,11 +87,15 @@ def checked_source(source: Source, package: str, names: Iterable[str], diagnosti
             "the file begins with a byte order mark",
             Span(source, 1, 1),
             "ROS 2 refuses it: save as UTF-8 without it",
+            id="MG-2019",
         )
     for fault in (package_name_fault(package), *map(type_name_fault, names)):
         if fault is not None:
             diagnostics.error(
-                fault, Span(source, 1, 1), "ROS 2 takes no other names for folders and files of interfaces"
+                fault,
+                Span(source, 1, 1),
+                "ROS 2 takes no other names for folders and files of interfaces",
+                id="MG-2020",
             )
     return source
 
@@ -157,6 +161,7 @@ def _check_comment(source: Source, number: int, line: str, diagnostics: Diagnost
         "ROS 2 Jazzy cannot read this comment: it takes the backslash for the begin of an escape",
         Span(source, number, len(before) + 1, len(line.rstrip()) + 1),
         "Write it without: ROS 2 makes no interface of the file, this tool reads it",
+        id="MG-2021",
     )
 
 
@@ -194,7 +199,9 @@ def _report_syntax(line: Line, fault: UnexpectedInput, diagnostics: Diagnostics)
     found = line.text[column - 1 : column]
     if column == 1 and found == " ":
         span = line.span(1, len(line.text) - len(line.text.lstrip()) + 1)
-        diagnostics.error("a declaration begins in the first column", span, "Remove the space before it")
+        diagnostics.error(
+            "a declaration begins in the first column", span, "Remove the space before it", id="MG-2022"
+        )
         return
     words = sorted({_WORDS[name] for name in expected if name in _WORDS})
     what = {"": "the end of the line", " ": "a space"}.get(found, f"'{found}'")
@@ -202,6 +209,7 @@ def _report_syntax(line: Line, fault: UnexpectedInput, diagnostics: Diagnostics)
         f"expected {' or '.join(words)}, found {what}",
         line.span(column, column + 1),
         _syntax_hint(line.text, column, expected),
+        id="MG-2023",
     )
 
 
@@ -232,6 +240,7 @@ def _check_duplicates(entries: list[_Entry], diagnostics: Diagnostics) -> None:
                 f"the name '{declaration.name}' is declared twice",
                 declaration.name_span,
                 f"Line {line} has it first",
+                id="MG-2024",
             )
 
 

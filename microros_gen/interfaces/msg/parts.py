@@ -30,7 +30,7 @@ def parse_parts(
     source = checked_source(source, name.package, (f"{name.name}_{part}" for part in parts), found)
     warning = interface_name_warning(name.name, parts)
     if warning is not None:
-        found.warning(warning[0], Span(source, 1, 1), warning[1])
+        found.warning(warning[0], Span(source, 1, 1), warning[1], id="MG-2025")
     lines = source.text.splitlines()
     borders = _borders(source, lines, parts, found)
     starts = [0, *(border + 1 for border in borders)]
@@ -58,6 +58,7 @@ def _check_equal_constants(messages: Sequence[Message], diagnostics: Diagnostics
                     "declared alike, and its C does not compile",
                     constant.span,
                     "Give one of them another name or comment",
+                    id="MG-2026",
                 )
 
 
@@ -81,17 +82,21 @@ def _borders(
             f"'{lines[index].strip()}' is not a separator",
             Span(source, index + 1, 1, len(lines[index]) + 1),
             "ROS 2 takes a line of exactly three hyphens, without spaces or a comment",
+            id="MG-2027",
         )
     wanted = len(parts) - 1
     for number, index in enumerate(exact[wanted:], wanted + 1):
         place = Span(source, index + 1, 1, len(SEPARATOR) + 1)
-        diagnostics.error(f"'---' number {number}: {_kind(parts)} has {_count(wanted)}", place, _order(parts))
+        diagnostics.error(
+            f"'---' number {number}: {_kind(parts)} has {_count(wanted)}", place, _order(parts), id="MG-2028"
+        )
     if len(exact) + len(near) < wanted:
         missing = parts[len(exact) + len(near) :]
         diagnostics.error(
             f"the line '---' before the {missing[1].lower()} is missing",
             Span(source, max(len(lines), 1), 1),
             _order(parts),
+            id="MG-2029",
         )
     return sorted(exact + near)
 

@@ -110,7 +110,7 @@ def scope_of(contents: Contents, syntax: Syntax, source: Source, scope: Scope) -
             written = _typedef(placed.node, scope, source)
         except IdlError as error:
             scope.broken.add(name)
-            scope.diagnostics.error(error.message, error.span, error.hint)
+            scope.diagnostics.error(error.message, error.span, error.hint, id="MG-2030")
             continue
         if scope.typedefs.setdefault(name, written) != written:
             span = span_of(placed.node.children[1], source)
@@ -118,6 +118,7 @@ def scope_of(contents: Contents, syntax: Syntax, source: Source, scope: Scope) -
                 f"'{name}' is another type above",
                 span,
                 "ROS 2 knows typedefs by their name alone: rename one",
+                id="MG-2031",
             )
 
 
@@ -138,6 +139,7 @@ def message_of(placed: Placed, constants: Sequence[Placed], name: TypeName, scop
             f"the struct '{placed.name}' has no member",
             span_of(placed.name, source),
             f"ROS 2 writes 'uint8 {EMPTY_MEMBER};'",
+            id="MG-2032",
         )
     _check_duplicates([*values, *fields], scope.diagnostics)
     if [(f.name, f.type) for f in fields] == [(EMPTY_MEMBER, Primitive.UINT8)]:
@@ -151,7 +153,7 @@ def reported(diagnostics: Diagnostics) -> Iterator[None]:
     try:
         yield
     except IdlError as error:
-        diagnostics.error(error.message, error.span, error.hint)
+        diagnostics.error(error.message, error.span, error.hint, id="MG-2033")
 
 
 def name_fault(name: str) -> tuple[str, str] | None:
@@ -225,7 +227,7 @@ def _check_type_support(field_type: FieldType, span: Span) -> None:
 def _warn_of_value(kind: FieldType, value: Value, span: Span, scope: Scope) -> None:
     warning = value_warning(kind, value)
     if warning is not None:
-        scope.diagnostics.warning(warning[0], span, warning[1])
+        scope.diagnostics.warning(warning[0], span, warning[1], id="MG-2034")
 
 
 def _warn_of_size(declarator: SyntaxNode, size: int, scope: Scope) -> None:
@@ -234,6 +236,7 @@ def _warn_of_size(declarator: SyntaxNode, size: int, scope: Scope) -> None:
         f"ROS 2 Jazzy makes an array of {size} of '{declarator.children[0]}' too",
         span_of(declarator, scope.source),
         "Write it as a member of its own",
+        id="MG-2035",
     )
 
 
@@ -253,7 +256,7 @@ def _constant(node: SyntaxNode, scope: Scope) -> Constant | None:
         if _check_name(name, scope):
             warning = constant_name_warning(str(name))
             if warning is not None:
-                scope.diagnostics.warning(warning[0], span_of(name, source), warning[1])
+                scope.diagnostics.warning(warning[0], span_of(name, source), warning[1], id="MG-2036")
             return Constant(str(name), kind, checked, annotations.comment, span_of(name, source))
     return None
 
@@ -274,11 +277,11 @@ def _check_name(name: Token, scope: Scope) -> bool:
     span = span_of(name, scope.source)
     fault = name_fault(str(name))
     if fault is not None:
-        scope.diagnostics.error(fault[0], span, fault[1])
+        scope.diagnostics.error(fault[0], span, fault[1], id="MG-2037")
         return False
     warning = field_name_warning(str(name))
     if warning is not None:
-        scope.diagnostics.warning(warning[0], span, warning[1])
+        scope.diagnostics.warning(warning[0], span, warning[1], id="MG-2038")
     return True
 
 
@@ -290,4 +293,4 @@ def _check_duplicates(elements: Sequence[Constant | Field], diagnostics: Diagnos
             continue
         earlier = first[element.name]
         hint = f"Line {earlier.line} has it first" if earlier else None
-        diagnostics.error(f"the name '{element.name}' is declared twice", element.span, hint)
+        diagnostics.error(f"the name '{element.name}' is declared twice", element.span, hint, id="MG-2039")

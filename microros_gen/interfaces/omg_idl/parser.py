@@ -85,16 +85,19 @@ def _checked_source(source: Source, package: str, kind: str, diagnostics: Diagno
     if text.startswith(_BYTE_ORDER_MARK):
         text = text[1:]
         hint = "ROS 2 refuses it: save as UTF-8 without it"
-        diagnostics.warning("the file begins with a byte order mark", Span(source, 1, 1), hint)
+        diagnostics.warning("the file begins with a byte order mark", Span(source, 1, 1), hint, id="MG-2040")
     if text != source.text:
         source = Source(source.name, text)
     fault = package_name_fault(package)
     if fault is not None:
         hint = "ROS 2 takes no other names for folders of interfaces"
-        diagnostics.error(fault, Span(source, 1, 1), hint)
+        diagnostics.error(fault, Span(source, 1, 1), hint, id="MG-2041")
     if kind not in KINDS:
         diagnostics.error(
-            f"'{kind}' is not a folder of interfaces", Span(source, 1, 1), "They are msg, srv and action"
+            f"'{kind}' is not a folder of interfaces",
+            Span(source, 1, 1),
+            "They are msg, srv and action",
+            id="MG-2042",
         )
     return source
 
@@ -114,7 +117,9 @@ def _declarations(contents: Contents, scope: Scope) -> tuple[Declaration, ...]:
         return ()
     warning = interface_name_warning(stem, [part for part in _PARTS[scope.modules[1]] if part])
     if warning is not None:
-        scope.diagnostics.warning(warning[0], span_of(structs[0].name, scope.source), warning[1])
+        scope.diagnostics.warning(
+            warning[0], span_of(structs[0].name, scope.source), warning[1], id="MG-2043"
+        )
     return (_declaration(TypeName(*scope.modules, stem), messages, scope.source),)
 
 
@@ -135,24 +140,26 @@ def _check_surroundings(contents: Contents, scope: Scope) -> None:
                 f"the struct '{struct.name}' is in {found}, its file in {'/'.join(scope.modules)}",
                 span,
                 f"Write it in module {scope.modules[0]} {{ module {scope.modules[1]} {{ … }}; }};",
+                id="MG-2044",
             )
         fault = name_fault(str(struct.name))
         if fault is not None:
-            diagnostics.error(fault[0], span, fault[1])
+            diagnostics.error(fault[0], span, fault[1], id="MG-2045")
     for forward in contents.forwards:
         if forward.node.children[0].children:
             diagnostics.error(
                 "a declaration of a struct ahead takes no annotation",
                 span_of(forward.name, source),
                 "Put it at the struct itself",
+                id="MG-2046",
             )
     for module in contents.modules:
         span = span_of(module.name, source)
         if module.node.children[0].children:
             message = f"ROS 2 Jazzy takes the annotation's name for that of the module '{module.name}'"
-            diagnostics.error(message, span, "Write modules without annotations")
+            diagnostics.error(message, span, "Write modules without annotations", id="MG-2047")
         if len(module.node.children) == 2 and not scope.broken:
-            diagnostics.error(f"the module '{module.name}' is empty", span, "Remove it")
+            diagnostics.error(f"the module '{module.name}' is empty", span, "Remove it", id="MG-2048")
 
 
 def _stem(structs: Sequence[Placed], scope: Scope) -> str | None:
@@ -167,7 +174,7 @@ def _stem(structs: Sequence[Placed], scope: Scope) -> str | None:
         declared = _INTERFACE.get(_DECLARED_BY.get(len(structs), ""), "no interface")
         many = "one struct" if len(structs) == 1 else f"{len(structs) or 'no'} structs"
         hint = f"Declare {expected}; a struct used by others has a file of its own"
-        diagnostics.error(f"{many} in a file of {kind}/: that is {declared}", span, hint)
+        diagnostics.error(f"{many} in a file of {kind}/: that is {declared}", span, hint, id="MG-2049")
         return None
     stems = []
     for struct, part in zip(structs, parts, strict=True):
@@ -175,13 +182,15 @@ def _stem(structs: Sequence[Placed], scope: Scope) -> str | None:
         if not struct.name.endswith(suffix):
             span = span_of(struct.name, source)
             message = f"'{struct.name}' does not end with '{suffix}'"
-            diagnostics.error(message, span, f"{_INTERFACE[kind].capitalize()} is made of {expected}")
+            diagnostics.error(
+                message, span, f"{_INTERFACE[kind].capitalize()} is made of {expected}", id="MG-2050"
+            )
             return None
         stems.append(struct.name.removesuffix(suffix))
     for struct, stem in zip(structs, stems, strict=True):
         if stem != stems[0] or not stem:
             message = f"the names before the suffixes differ: '{stems[0]}' and '{stem}'"
-            diagnostics.error(message, span_of(struct.name, source), "Give them the same")
+            diagnostics.error(message, span_of(struct.name, source), "Give them the same", id="MG-2051")
             return None
     return stems[0]
 
@@ -194,7 +203,10 @@ def _constants_by_struct(contents: Contents, scope: Scope) -> dict[str, list[Pla
         span = span_of(constant.name, scope.source)
         if not constant.modules:
             scope.diagnostics.error(
-                f"the constant '{constant.name}' is in no module", span, "Put it into module Name_Constants"
+                f"the constant '{constant.name}' is in no module",
+                span,
+                "Put it into module Name_Constants",
+                id="MG-2052",
             )
             continue
         module = constant.modules[-1]
@@ -204,6 +216,7 @@ def _constants_by_struct(contents: Contents, scope: Scope) -> dict[str, list[Pla
                 f"ROS 2 Jazzy ignores the constant '{constant.name}': it belongs to no struct",
                 span,
                 f"Those of a struct Name stand in module Name{CONSTANTS_SUFFIX}",
+                id="MG-2053",
             )
         found.setdefault(owner, []).append(constant)
     _check_equal_constants(contents.constants, scope)
@@ -221,5 +234,6 @@ def _check_equal_constants(constants: Sequence[Placed], scope: Scope) -> None:
                     "both are declared alike, and its C does not compile",
                     span_of(constant.name, scope.source),
                     "Give one of them another name or comment",
+                    id="MG-2054",
                 )
         first[str(constant.name)].append(constant)

@@ -199,13 +199,15 @@ def _report(source: Source, text: str, error: _Error, diagnostics: Diagnostics) 
         start = len(text[:start].rstrip())
         end = start + 1
         message = "expected ';' at the end of the declaration"
-        diagnostics.error(message, _span(source, text, start, end), "Add it")
+        diagnostics.error(message, _span(source, text, start, end), "Add it", id="MG-2055")
         return
     found = text[start:end]
     words = sorted({_WORDS[name] for name in error.expected if name in _WORDS})
     what = f"'{found}'" if found.strip() else "the end of the file"
     message = f"expected {' or '.join(words)}, found {what}" if words else f"{what} cannot stand here"
-    diagnostics.error(message, _span(source, text, start, end), _hint(text, start, found, error.expected))
+    diagnostics.error(
+        message, _span(source, text, start, end), _hint(text, start, found, error.expected), id="MG-2056"
+    )
 
 
 def _hint(text: str, start: int, found: str, expected: frozenset[str]) -> str | None:

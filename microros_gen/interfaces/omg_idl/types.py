@@ -276,5 +276,6 @@ def _bound_in_jazzy(element: ElementType | Alias, node: SyntaxNode, scope: Scope
         f"ROS 2 Jazzy reads this as a sequence of at most {element.bound} elements: the bound of its strings",
         span_of(first_token(node), scope.source),
         f"Write sequence<wstring<{element.bound}>, N> with the number of elements that you mean",
+        id="MG-2057",
     )
     return element.bound

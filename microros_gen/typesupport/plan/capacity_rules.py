@@ -46,14 +46,17 @@ class RuleChecker:
     def _unknown_type(self, rule: LimitRule, name: str) -> None:
         near = nearest(name, self._messages)
         self._diagnostics.warning(
-            f"the limit for '{name}' has no effect: the type is not used", rule.span, near
+            f"the limit for '{name}' has no effect: the type is not used", rule.span, near, id="MG-5001"
         )
 
     def _check_range(self, rule: LimitRule) -> None:
         for kind, value in (("string", rule.string), ("sequence", rule.sequence)):
             if value is not None and not 0 <= value <= LARGEST_LIMIT:
                 self._diagnostics.error(
-                    f"a {kind} limit of {value} is out of range", rule.span, f"0 to {LARGEST_LIMIT}"
+                    f"a {kind} limit of {value} is out of range",
+                    rule.span,
+                    f"0 to {LARGEST_LIMIT}",
+                    id="MG-5002",
                 )
 
     def _follow(self, rule: LimitRule, path: tuple[str, ...]) -> FieldType | None:
@@ -65,14 +68,16 @@ class RuleChecker:
                 element = element_of(found)
                 if not isinstance(element, NamedType):
                     self._diagnostics.error(
-                        f"'{'.'.join(path)}': there are no members below a primitive", rule.span
+                        f"'{'.'.join(path)}': there are no members below a primitive", rule.span, id="MG-5003"
                     )
                     return None
                 message = self._messages[str(element.name)]
             field = next((f for f in message.fields if f.name == name), None)
             if field is None:
                 near = nearest(name, (f.name for f in message.fields))
-                self._diagnostics.error(f"{message.name} has no member '{name}'", rule.span, near)
+                self._diagnostics.error(
+                    f"{message.name} has no member '{name}'", rule.span, near, id="MG-5004"
+                )
                 return None
             found = field.type
         return found
@@ -86,12 +91,13 @@ class RuleChecker:
         is_sequence = isinstance(field_type, SequenceType)
         is_string = isinstance(element, StringType)
         if not is_sequence and not is_string:
-            self._diagnostics.error(f"{where} has a fixed size; it takes no limit", rule.span)
+            self._diagnostics.error(f"{where} has a fixed size; it takes no limit", rule.span, id="MG-5005")
         elif rule.single and is_sequence and is_string:
             self._diagnostics.error(
                 f"one number for {where} is ambiguous: it is a sequence of strings",
                 rule.span,
                 f"Write {{sequence: {rule.sequence}, string: …}}",
+                id="MG-5006",
             )
         else:
             self._check_kind(rule, where, "sequence", is_sequence, rule.sequence, bound_of(field_type))
@@ -103,18 +109,21 @@ class RuleChecker:
         if value is None or (rule.single and not fits):
             return
         if not fits:
-            self._diagnostics.error(f"{where} is no {kind}", rule.span, f"Leave '{kind}' away")
+            self._diagnostics.error(f"{where} is no {kind}", rule.span, f"Leave '{kind}' away", id="MG-5007")
         elif bound is not None and value > bound:
             self._diagnostics.error(
                 f"the limit {value} for {where} is above its bound {bound}",
                 rule.span,
                 f"Write at most {bound}",
+                id="MG-5008",
             )
 
     def _check_below(self, rule: LimitRule, where: str, field_type: FieldType, name: TypeName) -> None:
         if not isinstance(field_type, SequenceType):
             if is_fixed(self._messages[str(name)], {m.name: m for m in self._messages.values()}):
-                self._diagnostics.error(f"{where} has a fixed size; it takes no limit", rule.span)
+                self._diagnostics.error(
+                    f"{where} has a fixed size; it takes no limit", rule.span, id="MG-5009"
+                )
             return
         self._check_kind(rule, where, "sequence", True, rule.sequence, field_type.bound)
 

@@ -388,6 +388,7 @@ class _UnitBuilder:
             f"the default value of '{field.name}' needs a {kind} limit of {needed}, and that of {place} is {limit}",
             field.span,
             f"Set its {kind} limit to {needed}",
+            id="MG-5010",
         )
 
 

@@ -167,6 +167,7 @@ def _check_sizes(plans: Iterable[TypePlan], diagnostics: Diagnostics) -> None:
                 f"{plan.name} takes up to {plan.max_encoded_size} bytes under its limits",
                 plan.message.span,
                 f"Lower its limits: a message has at most {LARGEST_BODY} bytes",
+                id="MG-5011",
             )
 
 
@@ -183,4 +184,5 @@ def _check_files(plans: Iterable[TypePlan], diagnostics: Diagnostics) -> None:
                 f"{name} and {other} are both {include_path(plan.files.header)} in C",
                 plan.message.span,
                 "Rename one of them, or leave it out",
+                id="MG-5012",
             )

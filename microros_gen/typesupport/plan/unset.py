@@ -49,7 +49,7 @@ def report_unset(roots: Sequence[UnsetRoot], rules: Sequence[LimitRule], diagnos
     hint = _hint(values, rules)
     for index, root in enumerate(roots):
         block = _block(roots, values, rules) if index == len(roots) - 1 else ()
-        diagnostics.add(Diagnostic(_message(root), root.span, hint, block=block))
+        diagnostics.add(Diagnostic(_message(root), root.span, hint, block=block, id="MG-5013"))
 
 
 def _hint(values: Mapping[str, int], rules: Sequence[LimitRule]) -> str:

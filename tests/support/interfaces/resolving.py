@@ -9,6 +9,7 @@ from microros_gen.diagnostics import Diagnostics
 from microros_gen.documents.named import Named
 from microros_gen.interfaces.closure import InterfaceSet, resolve_interfaces
 from microros_gen.interfaces.find import InterfaceFinder
+from tests.support.ids import without_id
 
 
 def package(folder: Path, name: str, kind: str = "msg", **types: str) -> Path:
@@ -22,7 +23,7 @@ def package(folder: Path, name: str, kind: str = "msg", **types: str) -> Path:
 def resolve(finder: InterfaceFinder, *requests: str) -> tuple[InterfaceSet, list[str]]:
     diagnostics = Diagnostics()
     interfaces = resolve_interfaces(tuple(Named(request) for request in requests), finder, diagnostics)
-    return interfaces, [d.headline() for d in diagnostics]
+    return interfaces, [without_id(d.headline()) for d in diagnostics]
 
 
 def names(interfaces: InterfaceSet) -> list[str]:

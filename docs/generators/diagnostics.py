@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The page of all diagnostics, read from the calls that make them: id, message, hint."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import microros_gen
+from microros_gen.records import dataclass
+
+PACKAGE = Path(microros_gen.__file__).parent
+_SUBJECTS = {
+    "diagnostics": "The tool itself",
+    "documents": "YAML files",
+    "interfaces": "Interfaces",
+    "application": "The application file",
+    "selection": "Profiles and components",
+    "typesupport": "Limits and storage of messages",
+    "platform": "Targets",
+    "client": "Entities, streams and boards",
+    "output": "The output folder",
+    "toolchain": "Compilers and emulators",
+    "image": "Images and budgets",
+    "compiler": "The command as a whole",
+    "migrate": "init",
+    "ros": "ROS 2",
+    "agent": "The agent",
+    "cli": "The command line",
+}
+_INTRODUCTION = """\
+Each error and warning ends with an id in brackets, `[MG-3012]`, which stays the same when the words change. Parts in
+braces stand for names, numbers and paths of your case. The hint says what to do."""
+
+
+@dataclass(frozen=True)
+class Told:
+    """One diagnostic: `message` and `hint` with parts in braces; `is_error` false: a warning."""
+
+    id: str
+    message: str
+    hint: str
+    is_error: bool
+    subject: str
+
+
+def diagnostics() -> list[Told]:
+    """Return every diagnostic of the package, sorted by id; one that several places give is there several times."""
+    found = [told for path in sorted(PACKAGE.rglob("*.py")) for told in _of_module(path)]
+    return sorted(found, key=lambda told: (told.id, told.message))
+
+
+def page() -> str:
+    """Return the page."""
+    parts = ["# Diagnostics", _INTRODUCTION]
+    everything = diagnostics()
+    for subject, title in _SUBJECTS.items():
+        rows = [told for told in everything if told.subject == subject]
+        if rows:
+            parts += [f"## {title}", _table(rows)]
+    return "\n\n".join(parts) + "\n"
+
+
+def _table(rows: list[Told]) -> str:
+    cells = [
+        f'| <span id="{told.id.lower()}">{told.id}</span> | {"error" if told.is_error else "warning"} |'
+        f" {_plain(told.message)} | {_plain(told.hint)} |"
+        for told in rows
+    ]
+    return "\n".join(["| id | kind | message | hint |", "|---|---|---|---|", *cells])
+
+
+def _plain(text: str) -> str:
+    """Return a text in which Markdown finds nothing to format."""
+    text = " ".join(text.split())
+    return "".join(f"\\{c}" if c in "\\`*_{}[]<>#|" else c for c in text)
+
+
+def _of_module(path: Path) -> Iterator[Told]:
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    functions = [n for n in ast.walk(tree) if isinstance(n, (ast.FunctionDef, ast.AsyncFunctionDef))]
+    for function in functions:
+        texts = _texts(function)
+        for node in ast.walk(function):
+            if isinstance(node, ast.Call) and _owner(functions, node) is function:
+                yield from _of_call(node, texts, path.relative_to(PACKAGE).parts[0])
+
+
+def _texts(function: ast.AST) -> dict[str, ast.expr]:
+    """Return the variables of a function that get a value at one place."""
+    found: dict[str, list[ast.expr]] = {}
+    for node in ast.walk(function):
+        if isinstance(node, ast.Assign):
+            for target in node.targets:
+                if isinstance(target, ast.Name):
+                    found.setdefault(target.id, []).append(node.value)
+    return {name: values[0] for name, values in found.items() if len(values) == 1}
+
+
+def _owner(functions: list[ast.FunctionDef | ast.AsyncFunctionDef], node: ast.Call) -> object:
+    """Return the innermost function that holds `node`."""
+    holding = [
+        f for f in functions if f.lineno <= node.lineno and (f.end_lineno or 0) >= (node.end_lineno or 0)
+    ]
+    return max(holding, key=lambda f: f.lineno, default=None)
+
+
+def _of_call(node: ast.Call, texts: dict[str, ast.expr], subject: str) -> Iterator[Told]:
+    named = {keyword.arg: keyword.value for keyword in node.keywords}
+    identity = named.get("id")
+    if not isinstance(identity, ast.Constant) or not str(identity.value).startswith("MG-"):
+        return
+    arguments = list(node.args)
+    message = arguments[0] if arguments else named.get("message")
+    hint = arguments[2] if len(arguments) > 2 else named.get("hint")
+    warns = isinstance(node.func, ast.Attribute) and node.func.attr == "warning"
+    warns |= "severity" in named
+    yield Told(str(identity.value), _pattern(message, texts), _pattern(hint, texts), not warns, subject)
+
+
+def _pattern(node: ast.expr | None, texts: dict[str, ast.expr]) -> str:
+    """Return a text as it is written, with what is put in at run time in braces."""
+    if node is None or (isinstance(node, ast.Constant) and node.value is None):
+        return ""
+    if isinstance(node, ast.Constant):
+        return str(node.value)
+    if isinstance(node, ast.JoinedStr):
+        return "".join(_pattern(value, texts) for value in node.values)
+    if isinstance(node, ast.FormattedValue):
+        return f"{{{_name(node.value)}}}"
+    if isinstance(node, ast.BinOp):
+        return _pattern(node.left, texts) + _pattern(node.right, texts)
+    if isinstance(node, ast.IfExp):
+        return f"{_pattern(node.body, texts)} / {_pattern(node.orelse, texts)}".strip(" /")
+    if isinstance(node, ast.BoolOp):
+        return " / ".join(filter(None, (_pattern(value, texts) for value in node.values)))
+    if isinstance(node, ast.Name) and node.id in texts:
+        return _pattern(texts[node.id], {k: v for k, v in texts.items() if k != node.id})
+    return f"{{{_name(node)}}}"
+
+
+def _name(node: ast.expr) -> str:
+    """Return a word for what is put in: the last name of the expression."""
+    names = [
+        n.attr if isinstance(n, ast.Attribute) else n.id
+        for n in ast.walk(node)
+        if isinstance(n, (ast.Attribute, ast.Name))
+    ]
+    return names[0].lstrip("_") if names else "…"
