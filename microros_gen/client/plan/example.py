@@ -59,7 +59,7 @@ def plan_filling(
 ) -> Filling:
     """Fill every plain member of `message` without a default of its own; arrays and sequences stay.
 
-    A string gets as much of `text` as its limit has room for.
+    A string gets as much of `text` as its limit has room for; one whose type has a lower bound stays empty.
     """
     members = tuple(_plain_members(message, messages, ""))
     stamps = tuple(path for path, field in members if field.type == NamedType(_TIME))
@@ -68,7 +68,9 @@ def plan_filling(
     texts = tuple(
         MemberValue(path, text[: _string_limit(message, messages, limits, path)])
         for path, f in members
-        if isinstance(f.type, StringType) and not f.type.wide
+        if isinstance(f.type, StringType)
+        and not f.type.wide
+        and (f.type.bound is None or f.type.bound >= len(text))
     )
     return Filling(stamps, values, texts)
 
