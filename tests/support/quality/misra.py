@@ -206,7 +206,7 @@ def table(deviations: Sequence[Deviation]) -> str:
         "**Left to cppcheck's own checks** (their suppressions: `tests/quality/cppcheck-suppressions.txt`): "
         f"{', '.join(by_cppcheck)}.\n\n",
         "**Not checked by the tool:** 1.1, 1.2, 12.5, and every directive.\n\n",
-        "| rule | category | in | why | risk, and what stands against it |\n|---|---|---|---|---|\n",
+        "| rule | category | in | why | risk, and mitigation |\n|---|---|---|---|---|\n",
     ]
     for d in deviations:
         where = ", ".join(f"`{pattern}`" for pattern in d.where)
