@@ -7,7 +7,7 @@ import json
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from microros_gen.selection.model import Chosen, Selection
+from microros_gen.selection.model import Chosen, ChosenComponent, Selection
 
 FORMATS = ("table", "json", "dot")
 
@@ -41,6 +41,7 @@ def selection_data(selection: Selection) -> dict[str, Any]:
                 "status": "ready" if chosen.component.ready else "planned",
                 "summary": chosen.component.summary,
                 "reasons": list(chosen.reasons),
+                **({"from": chosen.component.origin} if chosen.component.origin else {}),
             }
             for chosen in selection.components
         ],
@@ -57,7 +58,7 @@ def selection_table(selection: Selection) -> str:
     """Return `selection` as tables for a terminal: a reason a line."""
     axes = [(a.axis, a.value, (a.reason,)) for a in selection.axes]
     components = [
-        (c.component.name, c.component.layer, "ready" if c.component.ready else "planned", c.reasons)
+        (c.component.name, c.component.layer, "ready" if c.component.ready else "planned", _why(c))
         for c in selection.components
     ]
     parts = [
@@ -71,6 +72,12 @@ def selection_table(selection: Selection) -> str:
             rows = [(c.name, c.reasons) for c in chosen]
             parts.append(f"{title}\n{format_table((head, 'WHY'), rows)}")
     return "\n".join(parts)
+
+
+def _why(chosen: ChosenComponent) -> tuple[str, ...]:
+    """Return the reasons of a component, and where it is from where it does not ship with the tool."""
+    origin = chosen.component.origin
+    return (*chosen.reasons, f"from {origin}") if origin else chosen.reasons
 
 
 def selection_dot(selection: Selection) -> str:

@@ -32,16 +32,20 @@ from microros_gen.interfaces.closure import InterfaceSet, resolve_interfaces, sp
 from microros_gen.interfaces.derived import declaring_name, derived_name
 from microros_gen.interfaces.find import InterfaceFinder
 from microros_gen.interfaces.types import TypeName
+from microros_gen.platform.capabilities import capabilities
 from microros_gen.platform.part_file import own_part_files
 from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
 from microros_gen.selection.clock import CLOCK_ROS, with_clock
 from microros_gen.selection.component import Catalogue, Profile
 from microros_gen.selection.component_sources import ComponentFile, read_headers, read_sources
+from microros_gen.selection.extension import files_of, folders_below
 from microros_gen.selection.find_components import load_catalogue
 from microros_gen.selection.find_profiles import load_middleware, load_profiles
 from microros_gen.selection.implied import with_implied
+from microros_gen.selection.installed import index_folders
 from microros_gen.selection.model import Selection
+from microros_gen.selection.outside import component_names, with_outside
 from microros_gen.selection.profiles import resolve_profiles
 from microros_gen.selection.resolve import check_ready, resolve_selection
 from microros_gen.typesupport.plan.capacity import Capacities, Defaults, Entity, Root, plan_capacities
@@ -79,9 +83,15 @@ class Planned:
 
 def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
     """Resolve profiles and components; what sends or receives and names no type gets the default one."""
-    catalogue = _catalogue(request.target)
-    profiles = load_profiles(request.application.profiles, request.profiles_near, diagnostics)
+    extensions = request.extensions
+    profiles = load_profiles(
+        request.application.profiles, request.profiles_near, diagnostics, extensions=extensions
+    )
     resolved = resolve_profiles(profiles, diagnostics)
+    diagnostics.check()
+    names = component_names(request.application, resolved)
+    builtin = _catalogue(request.target)
+    catalogue = with_outside(builtin, extensions, names, capabilities(), diagnostics)
     diagnostics.check()
     target = request.target
     selection = resolve_selection(
@@ -191,7 +201,7 @@ def render_request(planned: Planned) -> dict[str, bytes]:
     inputs |= {
         f"target {Path(s.name).name}": s.text.encode() for s in planned.resolved.request.found_target.own
     }
-    inputs |= {name: path.read_bytes() for name, path in own_part_files(planned.project.target)}
+    inputs |= {name: path.read_bytes() for name, path in _outside_files(planned.resolved)}
     inputs |= {str(entry.name): entry.source.text.encode() for entry in planned.interfaces}
     files[MANIFEST] = manifest(planned.project, inputs, files)
     return files
@@ -208,10 +218,27 @@ def read_paths(planned: Planned) -> Iterator[Path]:
     yield from (candidate for path in own for candidate in (path, path.with_suffix(".yaml")))
     yield near / request.application.target.name
     yield from (Path(source.name) for source in request.found_target.own)
-    yield from (path for _, path in own_part_files(request.target))
+    yield from (path for _, path in _outside_files(planned.resolved))
+    yield from (path for folder in _outside_folders(planned.resolved) for path in folders_below(folder))
+    yield from index_folders(os.environ)
     yield from planned.searched
     for entry in planned.interfaces:
         yield from (entry.place.folder / entry.name.kind, Path(entry.source.name))
+
+
+def _outside_files(resolved: Resolved) -> Iterator[tuple[str, Path]]:
+    """Yield every file of components and parts that do not ship with the tool: what it is, and its path."""
+    yield from own_part_files(resolved.request.target)
+    for component in resolved.catalogue.values():
+        if component.origin and component.layer != "port":
+            for name, path in files_of(component.folder):
+                yield f"component {component.name}/{name}", path
+
+
+def _outside_folders(resolved: Resolved) -> Iterator[Path]:
+    """Yield the folders in which a new file would matter."""
+    yield from (extension.folder for extension in resolved.request.extensions.named)
+    yield from (c.folder for c in resolved.catalogue.values() if c.origin)
 
 
 def _requested(application: Application) -> tuple[Named, ...]:

@@ -16,6 +16,7 @@ from microros_gen.documents.named import Named
 from microros_gen.platform.find import FoundTarget, builtin_targets, read_target
 from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
+from microros_gen.selection.extension import INSTALLED, Extensions, take_extensions
 
 
 @dataclass(frozen=True)
@@ -23,7 +24,8 @@ class Request:
     """What the user asked for, read but not yet resolved.
 
     Names of files in the application file are relative to `near`, its folder; names of profiles on the command
-    line to the current folder, `profiles_near`. `interface_paths` are those of the options.
+    line to the current folder, `profiles_near`. `interface_paths` are those of the options. `extensions` are folders
+    that `components` names, in their order; the application has the names of their components instead.
     """
 
     application: Application
@@ -34,6 +36,7 @@ class Request:
     found_target: FoundTarget
     inputs: Mapping[str, bytes]
     interface_paths: tuple[Path, ...] = ()
+    extensions: Extensions = INSTALLED
     warnings: tuple[Diagnostic, ...] = ()
 
     @property
@@ -55,10 +58,13 @@ def request_of(source: Source | None, near: Path, options: Options, diagnostics:
     application = parse_application(source, diagnostics) if source else Application()
     diagnostics.check()
     assert application is not None
+    application, of_file = take_extensions(application, near, diagnostics)
     application = _with_options(application, options, diagnostics)
+    application, of_options = take_extensions(application, Path(), diagnostics)
+    extensions = Extensions((*of_file, *of_options))
     profiles_near = Path() if options.profiles else near
     _refuse_rtos(application.target, diagnostics)
-    target = read_target(application.target.name, near, application.target.span, diagnostics)
+    target = read_target(application.target.name, near, application.target.span, diagnostics, extensions)
     diagnostics.check()
     assert target is not None
     inputs = {"microros.yaml": source.text.encode()} if source else {}
@@ -71,6 +77,7 @@ def request_of(source: Source | None, near: Path, options: Options, diagnostics:
         target,
         inputs,
         options.interface_paths,
+        extensions,
     )
 
 

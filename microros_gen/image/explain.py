@@ -89,10 +89,16 @@ class Explainer:
                 p for p in self._report.pieces if p.owner.name == query and p.owner.group == "component"
             ]
             component = self._catalogue.get(query)
-            return self._of_pieces("component", query, pieces, component.summary if component else "")
+            note = component.summary if component else self._outside(query)
+            return self._of_pieces("component", query, pieces, note)
         if query in self._catalogue:
             return self._unselected(query, query)
         return None
+
+    def _outside(self, name: str) -> str:
+        """Return what the manifest says of a component that does not ship with the tool."""
+        found = self._folder.manifest["selection"].get("outside", {}).get(name)
+        return f"{found['summary']} (from {found['from']})" if found else ""
 
     def _type(self, query: str) -> Explanation | None:
         if query not in self._folder.manifest["types"]:

@@ -17,6 +17,7 @@ from microros_gen.client.plan.runtime_entities import PublisherPlan, QueuePlan
 from microros_gen.client.views.project import without_folder
 from microros_gen.interfaces.type_description import individual_type_description
 from microros_gen.interfaces.types import Message, NamedType, TypeName, element_of
+from microros_gen.selection.model import Selection
 
 
 def manifest(project: Project, inputs: Mapping[str, bytes], outputs: Mapping[str, bytes]) -> bytes:
@@ -78,6 +79,7 @@ def _selection(project: Project) -> dict[str, Any]:
         "reasons": {
             c.component.name: [without_folder(reason) for reason in c.reasons] for c in selection.components
         },
+        **_outside(selection),
         "entities": selection.entities,
         "transport": selection.transport,
         "liveliness": selection.liveliness,
@@ -86,6 +88,13 @@ def _selection(project: Project) -> dict[str, Any]:
         "receives": [c.name for c in selection.receives],
         "objects": [c.name for c in selection.objects],
     }
+
+
+def _outside(selection: Selection) -> dict[str, Any]:
+    """Return where the components are from that do not ship with the tool; nothing where all do."""
+    found = (c.component for c in selection.components if c.component.origin)
+    outside = {c.name: {"from": c.origin, "summary": c.summary} for c in found}
+    return {"outside": outside} if outside else {}
 
 
 def _entities(project: Project) -> dict[str, Any]:

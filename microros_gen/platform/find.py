@@ -12,6 +12,7 @@ from microros_gen.documents.yaml_tree import MappingNode
 from microros_gen.platform.target import Target
 from microros_gen.platform.target_file import merge_target, parse_target, target_of
 from microros_gen.records import dataclass
+from microros_gen.selection.extension import INSTALLED, Extensions
 
 TARGETS = Path(__file__).resolve().parent.parent / "targets"
 
@@ -29,15 +30,22 @@ def builtin_targets() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in TARGETS.glob("[a-z]*.yaml")))
 
 
-def read_target(name: str, near: Path, span: Span | None, diagnostics: Diagnostics) -> FoundTarget | None:
+def read_target(
+    name: str,
+    near: Path,
+    span: Span | None,
+    diagnostics: Diagnostics,
+    extensions: Extensions = INSTALLED,
+) -> FoundTarget | None:
     """Read a target by its name, or a file by its path (relative to `near`) with all that it extends.
 
-    None and errors in `diagnostics` where there is none or one of its files does not hold.
+    Parts that it names and that are not built in come from `extensions`. None and errors in
+    `diagnostics` where there is none or one of its files does not hold.
     """
     found = Diagnostics()
     reader = _Reader(found)
     node = reader.read(name, near, span)
-    target = target_of(node, found) if node is not None else None
+    target = target_of(node, found, extensions) if node is not None else None
     diagnostics.extend(found)
     return FoundTarget(target, tuple(reader.own)) if target is not None else None
 

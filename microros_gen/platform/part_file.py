@@ -17,6 +17,7 @@ from microros_gen.platform.part import Cpu, Divisor, Driver, Fraction, Image, Os
 from microros_gen.platform.target import Target
 from microros_gen.selection.component import Component
 from microros_gen.selection.component_file import parse_component
+from microros_gen.selection.extension import INSTALLED, Extensions, digest_of, own_name
 from microros_gen.selection.find_components import COMPONENT_FILE, parts_folder
 
 _CPU_KEYS = (
@@ -42,20 +43,35 @@ def builtin_parts(kind: str) -> tuple[str, ...]:
     return tuple(sorted(path.parent.name for path in (parts_folder() / kind).glob(f"*/{COMPONENT_FILE}")))
 
 
-def read_part(kind: str, name: str, near: Path, span: Span | None, diagnostics: Diagnostics) -> Part | None:
+def read_part(
+    kind: str,
+    name: str,
+    near: Path,
+    span: Span | None,
+    diagnostics: Diagnostics,
+    extensions: Extensions = INSTALLED,
+) -> Part | None:
     """Read a part by its name, or a folder of the user's by its path relative to `near` (with a / in it).
 
-    None and errors in `diagnostics` where there is none, or one of its files does not hold.
+    A name that is not built in is looked for in `extensions`. None and errors in `diagnostics` where there is none, or
+    one of its files does not hold.
     """
-    own = "/" in name or "\\" in name
-    if not own and name not in builtin_parts(kind):
+    is_path = "/" in name or "\\" in name
+    own = is_path or name not in builtin_parts(kind)
+    folder = near / name if is_path else parts_folder() / kind / name
+    origin = f"folder {own_name(folder)}"
+    bringer = extensions.part(kind, name, span, diagnostics) if own and not is_path else None
+    if bringer is not None:
+        folder, origin = bringer.part(kind, name) or folder, bringer.origin
+    elif own and not is_path:
         known = builtin_parts(kind)
         hint = nearest(name, known) or f"Known are: {', '.join(known) or 'none'}; or give a folder, ./{name}"
         diagnostics.error(f"unknown {kind} '{name}'", span, hint, id="MG-6004")
         return None
-    folder = near / name if own else parts_folder() / kind / name
     found = Diagnostics()
     component = _component(folder, span, found)
+    if own and component is not None and not found.has_errors():
+        component = replace(component, origin=origin, digest=_digest(folder, span, found))
     part = Part(kind, component, own=own) if component is not None else None
     if part is not None and kind in ("cpu", "os"):
         part = _with_facts(part, folder / f"{kind}.yaml", found)
@@ -79,6 +95,15 @@ def _component(folder: Path, span: Span | None, diagnostics: Diagnostics) -> Com
     source = _source(folder / COMPONENT_FILE, span, diagnostics)
     component = parse_component(source, diagnostics) if source is not None else None
     return replace(component, folder=folder) if component is not None else None
+
+
+def _digest(folder: Path, span: Span | None, diagnostics: Diagnostics) -> str:
+    try:
+        return digest_of(folder)
+    except OSError as error:
+        what = f"cannot read '{error.filename}': {error.strerror}"
+        diagnostics.error(what, span, "Leave in the folder what belongs to the part", id="MG-6060")
+        return ""
 
 
 def _source(path: Path, span: Span | None, diagnostics: Diagnostics) -> Source | None:

@@ -32,6 +32,7 @@ from microros_gen.platform.target import (
     Uart,
     UniqueId,
 )
+from microros_gen.selection.extension import INSTALLED, Extensions
 
 SCHEMA = Path(__file__).with_name("target.schema.json")
 PORTS_FILE = Path(__file__).with_name("ports.yaml")
@@ -96,7 +97,9 @@ def merge_target(node: MappingNode, base: MappingNode) -> MappingNode:
     return MappingNode(merged, node.span)
 
 
-def target_of(node: MappingNode, diagnostics: Diagnostics) -> Target | None:
+def target_of(
+    node: MappingNode, diagnostics: Diagnostics, extensions: Extensions = INSTALLED
+) -> Target | None:
     """Return the target that a (merged) tree describes; None and errors where something lacks or contradicts."""
     for key in _REQUIRED:
         if key not in node.entries:
@@ -104,19 +107,20 @@ def target_of(node: MappingNode, diagnostics: Diagnostics) -> Target | None:
             diagnostics.error(f"the target lacks the key '{key}'", node.span, hint, id="MG-6011")
     if diagnostics.has_errors():
         return None
-    target = _target(node, _parts(node, diagnostics))
+    target = _target(node, _parts(node, diagnostics, extensions))
     _check(node, target, diagnostics)
     return None if diagnostics.has_errors() else target
 
 
-def _parts(node: MappingNode, diagnostics: Diagnostics) -> tuple[Part, ...]:
+def _parts(node: MappingNode, diagnostics: Diagnostics, extensions: Extensions) -> tuple[Part, ...]:
     """Read the parts that a target names; a path is relative to the file that has it."""
     found = []
     for kind in KINDS:
         value = node.get(kind)
         if value is not None:
             near = Path(value.span.source.name).parent
-            found.append(read_part(kind, text_of(value) or "", near, value.span, diagnostics))
+            name = text_of(value) or ""
+            found.append(read_part(kind, name, near, value.span, diagnostics, extensions))
     return tuple(part for part in found if part is not None)
 
 

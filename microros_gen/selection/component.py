@@ -79,6 +79,7 @@ class Component:
     `sends`, `receives` name XRCE submessages; `objects` name XRCE object kinds that the client creates.
     `asks` are capabilities of the platform; a component of layer `port` `provides` some. `folder` has its files.
     `implies`: what it opens by itself; the components that this takes are among its `needs`.
+    `origin` says where a component is from that does not ship with the tool; `digest` changes with its files.
     """
 
     name: str
@@ -96,6 +97,13 @@ class Component:
     provides: tuple[Provision, ...] = ()
     implies: tuple[Implied, ...] = ()
     folder: Path = field(default_factory=Path, compare=False)
+    origin: str = ""
+    digest: str = ""
+
+    @property
+    def identity(self) -> str:
+        """Its name; of a component from outside also its digest."""
+        return f"{self.name} {self.digest}" if self.digest else self.name
 
     @property
     def files(self) -> tuple[SourceFile, ...]:
@@ -203,4 +211,4 @@ class Middleware:
 
 
 Catalogue = Mapping[str, Component]
-"""All components by name, as `sources.components.load_catalogue` reads them; cannot be changed."""
+"""All components by name, in the order of the names; cannot be changed."""

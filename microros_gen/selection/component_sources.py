@@ -12,7 +12,7 @@ from microros_gen.selection.component import Component
 
 @dataclass(frozen=True)
 class ComponentFile:
-    """One file of a component: where it goes and its bytes.
+    """One file of a component: where it goes, its bytes, and where it was read.
 
     `template` is the template's name where it is one; empty for a template that does not ship with the tool.
     """
@@ -20,6 +20,7 @@ class ComponentFile:
     path: str
     content: bytes
     template: str | None
+    source: Path
 
 
 def read_headers(component: Component) -> tuple[ComponentFile, ...]:
@@ -37,7 +38,7 @@ def read_sources(component: Component, names: tuple[str, ...]) -> tuple[Componen
 
 def _file(path: Path, target: str) -> ComponentFile:
     template = _template_name(path) if path.suffix == ".j2" else None
-    return ComponentFile(target.removesuffix(".j2"), path.read_bytes(), template)
+    return ComponentFile(target.removesuffix(".j2"), path.read_bytes(), template, path)
 
 
 def _template_name(path: Path) -> str:

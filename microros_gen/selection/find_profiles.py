@@ -12,6 +12,7 @@ from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
 from microros_gen.documents.files import is_file, read_text
 from microros_gen.documents.named import Named
 from microros_gen.selection.component import Middleware, Profile, ProfileSet
+from microros_gen.selection.extension import INSTALLED, Extensions
 from microros_gen.selection.profile_file import parse_middleware, parse_profile
 from microros_gen.selection.xrce import BUILTIN_PROFILES
 
@@ -70,16 +71,20 @@ def load_middleware(folder: Path | None = None) -> Middleware:
 
 
 def load_profiles(
-    requested: Iterable[Named], near: Path, diagnostics: Diagnostics, builtin_folder: Path | None = None
+    requested: Iterable[Named],
+    near: Path,
+    diagnostics: Diagnostics,
+    builtin_folder: Path | None = None,
+    extensions: Extensions = INSTALLED,
 ) -> ProfileSet:
     """Read the requested profiles and all that they extend.
 
     A reference is the name of a built-in profile, the name of a file `NAME.yaml` in `near` (the folder of the
-    application file), or a path (with a `/` or an ending .yaml or .yml) from there. What a user's profile
-    extends is looked for next to that file. What cannot be found or read is an error in `diagnostics` and
-    left out.
+    application file), a path (with a `/` or an ending .yaml or .yml) from there, or the name of a profile that
+    `extensions` have. What a user's profile extends is looked for next to that file. What cannot be found or read
+    is an error in `diagnostics` and left out.
     """
-    reader = _Reader(load_builtin_profiles(builtin_folder), diagnostics)
+    reader = _Reader(load_builtin_profiles(builtin_folder), extensions, diagnostics)
     keys = [reader.take(name, near) for name in requested]
     unique = {key.name: key for key in reversed([k for k in keys if k is not None])}
     return ProfileSet(tuple(reversed(unique.values())), MappingProxyType(reader.found))
@@ -88,8 +93,11 @@ def load_profiles(
 class _Reader:
     """Follows references from profile to profile, each file once."""
 
-    def __init__(self, builtin: Mapping[str, Profile], diagnostics: Diagnostics) -> None:
+    def __init__(
+        self, builtin: Mapping[str, Profile], extensions: Extensions, diagnostics: Diagnostics
+    ) -> None:
         self._builtin = builtin
+        self._extensions = extensions
         self._diagnostics = diagnostics
         self.found: dict[str, Profile] = {}
 
@@ -99,6 +107,9 @@ class _Reader:
             self._take_builtin(name.name)
             return name
         path = _user_file(name.name, near)
+        if path is None and not _is_path(name.name):
+            bringer = self._extensions.profile(name.name, name.span, self._diagnostics)
+            path = bringer.profile(name.name) if bringer is not None else None
         if path is None:
             self._unknown(name, near)
             return None

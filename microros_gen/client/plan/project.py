@@ -234,8 +234,8 @@ def plan_project(
     board = plan_board(application, target, runtime, diagnostics)
     own_line = runtime.transport.kind == "serial" and not target.hosted and not board.has_serial_driver
     runtime = replace(runtime, transport=replace(runtime.transport, own_line=own_line))
-    names_of_components = (c.component.name for c in selection.components)
-    runtime = replace(runtime, plan_id=plan_id(runtime, names_of_components, types))
+    identities = (c.component.identity for c in selection.components)
+    runtime = replace(runtime, plan_id=plan_id(runtime, identities, types))
     provisions = plan_provisions(application, selection, runtime, board, target, diagnostics)
     return Project(
         name,

@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 
-from jinja2 import Environment, Template
+from jinja2 import Environment
 
 from microros_gen.application.model import Memory
 from microros_gen.client.plan.project import Project
@@ -14,6 +14,8 @@ from microros_gen.client.plan.runtime_entities import PublisherPlan
 from microros_gen.client.views.agent_files import render_agent_files
 from microros_gen.client.views.board import BoardView, board_view, render_toolchain
 from microros_gen.client.views.example import example_view
+from microros_gen.diagnostics import Diagnostic, UserError
+from microros_gen.documents.own_templates import render_own
 from microros_gen.platform.capabilities import declarations
 from microros_gen.records import dataclass
 from microros_gen.selection.component import Component
@@ -73,8 +75,11 @@ def render_project(
     `#error` each.
     """
     rendered = _component_files(project, files, environment)
+    of_components = frozenset(rendered)
     pools = frozenset(pool.kind for pool in project.runtime.memory.message_pools)
-    rendered |= render_types(project.types, environment, project.selection.has("services"), pools)
+    rendered |= _free(
+        of_components, render_types(project.types, environment, project.selection.has("services"), pools)
+    )
     rendered |= render_decoders(project.types, environment)
     if project.selection.has("micro_ros_utilities"):
         rendered |= render_members(project.types, environment, pools)
@@ -90,6 +95,16 @@ def render_project(
     if view.board is not None:
         rendered["toolchain.cmake"] = render_toolchain(project.target, environment)
     return rendered
+
+
+def _free(taken: frozenset[str], files: dict[str, bytes]) -> dict[str, bytes]:
+    """Return the files of types. UserError: a component from outside has a file with the name of one."""
+    clashes = sorted(taken & files.keys())
+    if clashes:
+        message = f"a component has the file '{clashes[0]}', which belongs to a type"
+        hint = "Choose a folder of its own below include/ for its headers, and a name that no interface package has"
+        raise UserError([Diagnostic(message, hint=hint, id="MG-7160")])
+    return files
 
 
 def _budgets(memory: Memory) -> str:
@@ -115,20 +130,16 @@ def _component_files(
         "headers": tuple(sorted(h for c in project.selection.components for h in c.component.headers)),
     }
     return {
-        file.path: file.content
-        if file.template is None
-        else _template(file, environment).render(context).encode()
+        file.path: file.content if file.template is None else _rendered(file, environment, context).encode()
         for file in files
     }
 
 
-def _template(file: ComponentFile, environment: Environment) -> Template:
-    """Return a template by its name, or from the text of one that does not ship with the tool."""
-    return (
-        environment.get_template(file.template)
-        if file.template
-        else environment.from_string(file.content.decode())
-    )
+def _rendered(file: ComponentFile, environment: Environment, context: Mapping[str, object]) -> str:
+    """Render a template by its name, or from the text of one that does not ship with the tool."""
+    if file.template:
+        return environment.get_template(file.template).render(context)
+    return render_own(file.source, environment, context)
 
 
 def _unselected_headers(

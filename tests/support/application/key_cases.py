@@ -199,8 +199,8 @@ _TOP = {
         [("timers", True), ("ping", False), ("clock", True)],
         "components: [+Timers]",
         "1:14",
-        "'components[0]' must be a component to add or drop such as +timers or -ping; it is the "
-        "text '+Timers'",
+        "'components[0]' must be a component to add or drop such as +timers or -ping, or a folder such as "
+        "./my_component; it is the text '+Timers'",
     ),
     "creation": KeyCase(
         "creation: reliable",
