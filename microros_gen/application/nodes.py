@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
+from microros_gen.application.kinds import KIND, KINDS
 from microros_gen.application.limits import endpoint_limits
 from microros_gen.application.model import EndpointDecl, ExecutorDecl, NodeDecl, ParameterDecl, TimerDecl
 from microros_gen.application.names import (
@@ -35,13 +36,6 @@ from microros_gen.documents.tree_values import (
 )
 from microros_gen.documents.yaml_tree import ScalarNode, YamlNode
 
-# List in the file → kind of endpoint, and the key of its name.
-ENDPOINTS = {
-    "publishers": ("publisher", "topic"),
-    "subscriptions": ("subscription", "topic"),
-    "services": ("service", "name"),
-    "clients": ("client", "name"),
-}
 _VALUE_TYPES: Mapping[str, tuple[type, ...]] = {
     "bool": (bool,),
     "integer": (int,),
@@ -88,15 +82,15 @@ def _node(item: YamlNode, diagnostics: Diagnostics) -> NodeDecl:
 
 
 def _endpoints(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> Iterator[EndpointDecl]:
-    for key, (kind, name_key) in ENDPOINTS.items():
-        for endpoint in items(child(item, key)):
-            name, type_node = child(endpoint, name_key), child(endpoint, "type")
-            what = "the topic name" if name_key == "topic" else "the service name"
+    for kind in KINDS:
+        for endpoint in items(child(item, kind.key)):
+            name, type_node = child(endpoint, kind.name_key), child(endpoint, "type")
+            what = "the service name" if kind.service_type else "the topic name"
             if report_name(name, what, topic_fault, diagnostics):
                 _check_expanded(name, what, node, diagnostics)
             type_name = text_of(type_node) or ""
             yield EndpointDecl(
-                kind=kind,
+                kind=kind.name,
                 topic=substitute(text_of(name) or "", node.name, node.namespace),
                 type=type_name,
                 qos=endpoint_qos(child(endpoint, "qos"), diagnostics),
@@ -201,7 +195,7 @@ def _check_range(parameter: ParameterDecl, node: YamlNode | None, diagnostics: D
 
 def _executor(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> ExecutorDecl:
     handles = tuple(h for i in items(child(item, "handles")) if (h := named_of(i)) is not None)
-    known = {t.name for t in node.timers} | {e.topic for e in node.endpoints if e.kind != "publisher"}
+    known = {t.name for t in node.timers} | {e.topic for e in node.endpoints if KIND[e.kind].waited}
     for handle in handles:
         if handle.name not in known:
             hint = nearest(handle.name, known) or (f"There are {', '.join(sorted(known))}" if known else None)

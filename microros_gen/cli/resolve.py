@@ -10,6 +10,7 @@ from typing import Any
 import click
 
 from microros_gen import compiler
+from microros_gen.application.kinds import KINDS
 from microros_gen.cli.generate import warnings_text
 from microros_gen.cli.options import selection_options
 from microros_gen.cli.tables import format_selection, format_table, selection_data
@@ -65,8 +66,7 @@ def pool_rows(planned: Planned) -> list[tuple[str, str, str]]:
     source = "declared in nodes:" if runtime.entities.declared else "pools: or one for each interface"
     rows = [
         ("nodes", str(runtime.entities.nodes.max), source),
-        ("publishers", str(runtime.entities.publishers.max), source),
-        *_receiving_rows(planned),
+        *_entity_rows(planned),
         *_running_rows(planned),
         *_stream_rows(streams),
         (
@@ -109,24 +109,14 @@ def _storage_rows(planned: Planned) -> list[tuple[str, str, str]]:
     ]
 
 
-def _receiving_rows(planned: Planned) -> list[tuple[str, str, str]]:
+def _entity_rows(planned: Planned) -> list[tuple[str, str, str]]:
     runtime = planned.project.runtime
     rows = []
-    if runtime.entities.subscriptions.max:
-        source = "declared in nodes:" if runtime.entities.declared else "pools: or one for each interface"
-        rows.append(("subscriptions", str(runtime.entities.subscriptions.max), source))
-    for name, places in (
-        ("services", runtime.entities.services.max),
-        ("clients", runtime.entities.clients.max),
-    ):
-        if places:
-            rows.append(
-                (
-                    name,
-                    str(places),
-                    "declared in nodes:" if runtime.entities.declared else "pools: or one for each service",
-                )
-            )
+    for kind in KINDS:
+        each = "pools: or one for each service" if kind.service_type else "pools: or one for each interface"
+        places = runtime.entities.places(kind.name).max
+        if places or not kind.receives:
+            rows.append((kind.key, str(places), "declared in nodes:" if runtime.entities.declared else each))
     if runtime.input.queues:
         slots = f"{runtime.input.queue_slots} slots, {runtime.input.queues_size} bytes"
         shared = "queue_bytes:, else " if runtime.input.queue_mode == "bytes" else ""

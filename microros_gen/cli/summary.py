@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from microros_gen.application.kinds import KINDS, EntityKind
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import PublisherPlan, SubscriptionPlan
 from microros_gen.client.plan.services import ServicePlan
@@ -28,22 +29,7 @@ def plan_summary(planned: Planned) -> str:
     lines = [
         ("profile", f"{project.name} for {project.target.name}: {_components(planned)}"),
         ("agent", _agent(planned)),
-        *(
-            ("publishes", line)
-            for line in _entities(planned, "publish", runtime.entities.publishers.declared)
-        ),
-        *(
-            ("receives", line)
-            for line in _entities(planned, "subscribe", runtime.entities.subscriptions.declared)
-        ),
-        *(
-            ("serves", line)
-            for line in _services(runtime.entities.services.declared, runtime.entities.services.max)
-        ),
-        *(
-            ("calls", line)
-            for line in _services(runtime.entities.clients.declared, runtime.entities.clients.max)
-        ),
+        *((kind.does, line) for kind in KINDS for line in _entities(planned, kind)),
         (
             "streams",
             f"reliable {runtime.streams.reliable_slots} x {runtime.streams.reliable_slot_size} bytes,"
@@ -118,17 +104,18 @@ def _components(planned: Planned) -> str:
     return f"{', '.join(own)} and {below} components below them (`resolve` says why)"
 
 
-def _entities(
-    planned: Planned, component: str, declared: Sequence[PublisherPlan | SubscriptionPlan]
-) -> list[str]:
+def _entities(planned: Planned, kind: EntityKind) -> list[str]:
     runtime = planned.project.runtime
+    places = runtime.entities.places(kind.name).max
+    declared = [_shown(entity) for entity in runtime.entities.places(kind.name).declared]
+    if kind.service_type:
+        return declared if declared or not places else [f"up to {places}"]
     if runtime.entities.declared:
-        return [f"{d.topic} ({d.type}, {'reliable' if d.reliable else 'best effort'})" for d in declared]
-    if not planned.project.selection.has(component):
+        return declared
+    if not planned.project.selection.has(kind.component):
         return []
-    places = runtime.entities.publishers.max if component == "publish" else runtime.entities.subscriptions.max
-    own = [f"{e.topic} ({e.type}, best effort)" for e in planned.project.application.implied]
-    own = own if component == "subscribe" else []
+    implied = [e for e in planned.project.application.implied if e.kind == kind.name]
+    own = [f"{e.topic} ({e.type}, best effort)" for e in implied]
     places -= len(own)
     shown = [str(root) for root in planned.project.roots[:6]]
     more = len(planned.project.roots) - len(shown)
@@ -136,10 +123,10 @@ def _entities(
     return [*own, *([of_roots] if places else [])]
 
 
-def _services(declared: Sequence[ServicePlan], places: int) -> list[str]:
-    if declared or not places:
-        return [f"{d.name} ({d.type})" for d in declared]
-    return [f"up to {places}"]
+def _shown(entity: PublisherPlan | SubscriptionPlan | ServicePlan) -> str:
+    if isinstance(entity, ServicePlan):
+        return f"{entity.name} ({entity.type})"
+    return f"{entity.topic} ({entity.type}, {'reliable' if entity.reliable else 'best effort'})"
 
 
 def _defaults(planned: Planned) -> str:

@@ -10,6 +10,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from microros_gen.application.find import APPLICATION_FILE
+from microros_gen.application.kinds import KIND, SERVICE_KINDS, TOPIC_KINDS
 from microros_gen.application.model import Application, EndpointDecl
 from microros_gen.client.plan.agent_files import check_entities
 from microros_gen.client.plan.declared import (
@@ -17,7 +18,6 @@ from microros_gen.client.plan.declared import (
     declarations,
     full_name,
     node_name,
-    service_parts,
     type_name,
 )
 from microros_gen.client.plan.project import Project, plan_project
@@ -274,7 +274,7 @@ def _interfaces(resolved: Resolved, finder: InterfaceFinder, diagnostics: Diagno
 
 def _of_kind(endpoint: EndpointDecl) -> str:
     """Return the full name of an endpoint's type: `pkg/Type` of a service is `pkg/srv/Type`."""
-    name = split_type_name(endpoint.type, "srv" if endpoint.kind in ("service", "client") else "msg")
+    name = split_type_name(endpoint.type, KIND[endpoint.kind].type_kind)
     return endpoint.type if name is None else str(name)
 
 
@@ -298,9 +298,9 @@ def _capacities(resolved: Resolved, interfaces: InterfaceSet, diagnostics: Diagn
             endpoint.limits,
             endpoint.type_span or endpoint.span,
             room,
-            Entity(kind, index, full_name(node, endpoint), node_name(node), kind == "publisher"),
+            Entity(kind, index, full_name(node, endpoint), node_name(node), bool(KIND[kind].sends)),
         )
-        for kind in ("publisher", "subscription")
+        for kind in TOPIC_KINDS
         for index, (_, node, endpoint) in enumerate(declarations(application, kind))
     ]
     declared += service_roots(application, interfaces.messages, room)
@@ -327,10 +327,10 @@ def _received(application: Application, selection: Selection, capacities: Capaci
         return tuple(capacities.limits)
     received = {type_name(e.type) for _, _, e in declarations(application, "subscription")}
     received |= {type_name(e.type) for e in application.implied}
-    for kind in ("service", "client"):
+    for kind in SERVICE_KINDS:
         for _, _, endpoint in declarations(application, kind):
             service = type_name(endpoint.type, "srv")
-            received |= {derived_name(service, part) for part, sends in service_parts(kind) if not sends}
+            received |= {derived_name(service, part) for part, sends in KIND[kind].parts if not sends}
     return tuple(name for name in capacities.limits if name in received)
 
 

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
+from microros_gen.application.kinds import KINDS, RECEIVING, EntityKind
 from microros_gen.image.attribution import Piece
 from microros_gen.image.dwarf import Facts
 from microros_gen.image.folder import Folder
@@ -62,8 +63,6 @@ _INDEXED = (
     (re.compile(r"(?:^|\.)subscriptions\[(\d+)\]"), "subscription"),
     (re.compile(r"(?:^|\.)(?:clients|requesters)\[(\d+)\]"), "client"),
 )
-RECEIVING = {"subscription": "subscriptions", "service": "services", "client": "clients"}
-"""What receives and where the manifest has it, in the order of the places."""
 _RECEIVERS = re.compile(r"(?:^|\.)receivers\[(\d+)\]")
 _SERVICES = re.compile(r"(?:^|\.)services\[(\d+)\]")
 _ENDPOINTS = re.compile(r"(?:^|\.)endpoints\[(\d+)\]")
@@ -162,8 +161,8 @@ def _use(manifest: Mapping[str, Any], piece: Piece, kind: str, path: str) -> str
 def _endpoint(manifest: Mapping[str, Any], index: int, first: str = "publisher") -> str:
     """Return whose place this is, in a table that begins with those of `first`."""
     pools = manifest["pools"]
-    counts = {kind: int(pools.get(key, 0)) for kind, key in RECEIVING.items()}
-    counts = {"publisher": max(int(pools["publishers"]), 0 if any(counts.values()) else 1), **counts}
+    counts = {kind.name: int(pools.get(kind.key, 0)) for kind in KINDS}
+    counts[KINDS[0].name] += 0 if any(counts.values()) else 1
     kinds = list(counts)
     for kind in kinds[kinds.index(first) :]:
         if index < counts[kind]:
@@ -215,13 +214,12 @@ def _publishers(
 
 
 def _receivers(
-    manifest: Mapping[str, Any], kind: str, by_use: Mapping[str, int], flash: Mapping[str, int]
+    manifest: Mapping[str, Any], kind: EntityKind, by_use: Mapping[str, int], flash: Mapping[str, int]
 ) -> Iterator[Entity]:
     """Yield what receives, of one kind; the bytes of its queue are its own, unless it waits in the input buffer."""
-    key = RECEIVING[kind]
-    declared = manifest["entities"].get(key, [])
-    count = int(manifest["pools"].get(key, 0))
-    places = sum(int(manifest["pools"].get(other, 0)) for other in RECEIVING.values())
+    declared = manifest["entities"].get(kind.key, [])
+    count = int(manifest["pools"].get(kind.key, 0))
+    places = sum(int(manifest["pools"].get(other.key, 0)) for other in RECEIVING)
     for index in range(count):
         known = declared[index] if index < len(declared) else None
         kinds = messages_of(known["type"], manifest) if known else set(manifest["types"])
@@ -229,10 +227,10 @@ def _receivers(
         lent = known is not None and known.get("slot") == INPUT_BUFFER
         queue = _queue_size(known) if known else by_use.get("queues", 0) // places
         yield Entity(
-            kind,
-            shown_endpoint(known) if known else f"{kind} {index} of the pool",
+            kind.name,
+            shown_endpoint(known) if known else f"{kind.name} {index} of the pool",
             known["type"] if known else None,
-            by_use.get(f"{kind} {index}", 0) + (0 if lent else queue),
+            by_use.get(f"{kind.name} {index}", 0) + (0 if lent else queue),
             sum(flash.get(part, 0) for part in parts),
             sum(1 for other in declared if other["type"] == known["type"]) if known else count,
             sum(by_use.get(f"message of {name}", 0) for name in kinds),

@@ -7,9 +7,10 @@ import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 
+from microros_gen.application.kinds import RECEIVING
 from microros_gen.diagnostics import Diagnostic, UserError, nearest
 from microros_gen.image.attribution import Piece, attribute_library
-from microros_gen.image.entities import RECEIVING, messages_of, shown_endpoint, with_parts
+from microros_gen.image.entities import messages_of, shown_endpoint, with_parts
 from microros_gen.image.folder import Folder
 from microros_gen.image.references import References, read_references
 from microros_gen.image.report import SizeReport
@@ -261,11 +262,12 @@ class Explainer:
 
     def _receiving(self, owner: str) -> Iterator[str]:
         manifest = self._folder.manifest
-        for kind, key in RECEIVING.items():
-            component = "subscribe" if kind == "subscription" else "services"
-            for entity in manifest["entities"].get(key, ()):
-                if owner == component or owner in with_parts(messages_of(entity["type"], manifest), manifest):
-                    yield f"{kind} {shown_endpoint(entity)} ({entity['type']})"
+        for kind in RECEIVING:
+            for entity in manifest["entities"].get(kind.key, ()):
+                if owner == kind.component or owner in with_parts(
+                    messages_of(entity["type"], manifest), manifest
+                ):
+                    yield f"{kind.name} {shown_endpoint(entity)} ({entity['type']})"
 
     def _removes(self, owner: str, seen: frozenset[str] = frozenset()) -> Iterator[str]:
         reasons = self._folder.manifest["selection"]["reasons"]

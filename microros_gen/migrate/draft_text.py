@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from textwrap import wrap
 
+from microros_gen.application.kinds import KIND, KINDS
 from microros_gen.diagnostics import Span
 from microros_gen.migrate.draft import (
     Draft,
@@ -28,12 +29,7 @@ TARGET = "target"
 _WIDTH = 110
 _PLAIN = re.compile(r"[A-Za-z_/][A-Za-z0-9_./-]*")
 _NOT_TEXT = ("true", "false", "null")
-_KINDS = {
-    "publisher": "publishers",
-    "subscription": "subscriptions",
-    "service": "services",
-    "client": "clients",
-}
+_KINDS = {kind.name: kind.key for kind in KINDS}
 _GROUPS = {
     "transport": "How it reaches its agent.",
     "session": "Its session with the agent.",
@@ -167,8 +163,10 @@ def _undecided(remarks: Iterable[Remark], indent: str) -> Iterator[str]:
 
 
 def _endpoint(endpoint: DraftEndpoint) -> str:
-    key = "topic" if endpoint.kind in ("publisher", "subscription") else "name"
-    parts = [f"{key}: {_scalar(endpoint.name or '?')}", f"type: {_scalar(endpoint.type or '?')}"]
+    parts = [
+        f"{KIND[endpoint.kind].name_key}: {_scalar(endpoint.name or '?')}",
+        f"type: {_scalar(endpoint.type or '?')}",
+    ]
     if endpoint.qos.settings:
         inside = ", ".join(f"{k}: {_scalar(v)}" for k, v in endpoint.qos.settings.items())
         parts.append(f"qos: {{{inside}}}")

@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 
+from microros_gen.application.kinds import KINDS
 from microros_gen.application.model import MOST_HISTORY
 from microros_gen.application.parser import LONGEST_BLOCK_MS
 from microros_gen.application.session_times import LONGEST_SILENCE_MS, SHORTEST_SILENCE_MS
@@ -18,7 +19,7 @@ MOST_ENTITIES = 250
 _ON = ("ON", "TRUE", "YES", "Y", "1")
 _TRANSPORTS = ("udp", "tcp", "serial", "custom")
 _CREATION = {"bin": "binary", "refs": "reference"}
-_ENTITIES = ("nodes", "publishers", "subscriptions", "services", "clients")
+_ENTITIES = ("nodes", *(kind.key for kind in KINDS))
 _QUEUE = "RMW_UXRCE_MAX_HISTORY"
 # Setting → key of `pools`, least and most.
 _POOLS = {
@@ -204,7 +205,7 @@ class _Reader:
             for p, entity in (("pure_sender", "publishers"), ("pure_reader", "subscriptions"))
             if entity in does
         ]
-        if does & {"services", "clients"}:
+        if does & {kind.key for kind in KINDS if kind.service_type}:
             self._components.append("+services")
         return tuple(profiles)
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
+from microros_gen.application.kinds import KIND, NAMES
 from microros_gen.migrate.c_program import Call, Tokens
 from microros_gen.migrate.c_values import TypeSupport, Unknown, Values, handle_of, shown
 from microros_gen.migrate.draft import DraftEndpoint, DraftNode, DraftQos, DraftTimer, Remark, Setting
@@ -26,14 +27,12 @@ _DEFAULTS: Mapping[str, Setting] = {
     **{policy: values[0] for policy, values in _POLICIES.items()},
     "depth": 10,
 }
-_KINDS = ("publisher", "subscription", "service", "client")
-_KIND_OF_TYPE = {"publisher": "msg", "subscription": "msg", "service": "srv", "client": "srv"}
 # Function → (kind, how its QoS is given: nothing, sensor data, as its fifth argument, inside of its options).
 ENDPOINT_CALLS = {
-    **{f"rclc_{kind}_init_default": (kind, "") for kind in _KINDS},
-    **{f"rclc_{kind}_init_best_effort": (kind, "sensor") for kind in _KINDS},
-    **{f"rclc_{kind}_init": (kind, "argument") for kind in _KINDS},
-    **{f"rcl_{kind}_init": (kind, "options") for kind in _KINDS},
+    **{f"rclc_{kind}_init_default": (kind, "") for kind in NAMES},
+    **{f"rclc_{kind}_init_best_effort": (kind, "sensor") for kind in NAMES},
+    **{f"rclc_{kind}_init": (kind, "argument") for kind in NAMES},
+    **{f"rcl_{kind}_init": (kind, "options") for kind in NAMES},
 }
 _MOST_TURNS = 64
 NODE_CALLS = ("rclc_node_init_default", "rclc_node_init_with_options", "rcl_node_init")
@@ -145,12 +144,11 @@ def _endpoint(call: Call, values: Values) -> FoundEndpoint:
     remarks = list(_conditional(call))
     name = values.text(call.arguments[3], call)
     if isinstance(name, Unknown):
-        what = "topic" if kind in ("publisher", "subscription") else "name"
-        remarks.append(Remark(f"the {what} of the {kind}: {name.reason}", call.span))
+        remarks.append(Remark(f"the {KIND[kind].name_key} of the {kind}: {name.reason}", call.span))
     support = values.type_support(call.arguments[2], call)
     if isinstance(support, Unknown):
         remarks.append(Remark(f"the type of the {kind}: {support.reason}", call.span))
-    elif support.kind != _KIND_OF_TYPE[kind]:
+    elif support.kind != KIND[kind].type_kind:
         remarks.append(Remark(f"the type of the {kind} is {support}", call.span))
         support = Unknown("")
     qos, not_known = _qos(way, kind, call, values)
@@ -197,7 +195,7 @@ def _conditional(call: Call) -> Iterable[Remark]:
 
 def _qos(way: str, kind: str, call: Call, values: Values) -> tuple[Mapping[str, Setting], list[Remark]]:
     """Return what differs from the default QoS, and what is not known of it."""
-    if kind in ("service", "client"):
+    if KIND[kind].service_type:
         return {}, []
     if way == "sensor":
         return _SENSOR_DATA, []

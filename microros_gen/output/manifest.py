@@ -11,9 +11,11 @@ from pathlib import PurePath
 from typing import Any
 
 from microros_gen import __version__
+from microros_gen.application.kinds import KINDS, RECEIVING, EntityKind
 from microros_gen.application.model import Memory
 from microros_gen.client.plan.project import Project
-from microros_gen.client.plan.runtime_entities import PublisherPlan, QueuePlan
+from microros_gen.client.plan.runtime_entities import PublisherPlan, QueuePlan, SubscriptionPlan
+from microros_gen.client.plan.services import ServicePlan
 from microros_gen.client.views.project import without_folder
 from microros_gen.interfaces.type_description import individual_type_description
 from microros_gen.interfaces.types import Message, NamedType, TypeName, element_of
@@ -103,77 +105,67 @@ def _entities(project: Project) -> dict[str, Any]:
             {"name": n.name, "namespace": n.namespace, "domain_id": n.domain_id}
             for n in project.runtime.entities.nodes.declared
         ],
-        "publishers": [_publisher(project, p) for p in project.runtime.entities.publishers.declared],
-        **_subscriptions(project),
-        **_services(project),
+        **{kind.key: _declared(project, kind) for kind in KINDS if _is_shown(project, kind)},
     }
 
 
-def _subscriptions(project: Project) -> dict[str, Any]:
-    """Return the declared subscriptions; nothing where subscriptions are not selected."""
+def _is_shown(project: Project, kind: EntityKind) -> bool:
+    """Return whether the manifest has a kind of entity: what sends messages always, services with any places."""
+    entities = project.runtime.entities
+    if kind.service_type:
+        return entities.serves
+    return not kind.receives or entities.places(kind.name).any
+
+
+def _declared(project: Project, kind: EntityKind) -> list[dict[str, Any]]:
+    """Return the declared entities of a kind, each with its queue where it receives."""
+    declared = project.runtime.entities.places(kind.name).declared
+    queues = iter(_queues(project, kind))
+    return [_entity(project, one, next(queues, None)) for one in declared]
+
+
+def _queues(project: Project, kind: EntityKind) -> tuple[QueuePlan, ...]:
+    """Return the queues of a kind, in the order of its places; none of what only sends."""
     runtime = project.runtime
-    if not runtime.entities.subscriptions.max:
+    first = 0
+    for other in RECEIVING:
+        count = runtime.entities.places(other.name).max
+        if other == kind:
+            return runtime.input.queues[first : first + count]
+        first += count
+    return ()
+
+
+def _entity(
+    project: Project, entity: PublisherPlan | SubscriptionPlan | ServicePlan, queue: QueuePlan | None
+) -> dict[str, Any]:
+    """Return a declared entity; with `max_encoded_size` where a publisher's limits are not those of its type."""
+    if isinstance(entity, ServicePlan):
+        return {"node": entity.node, "name": entity.name, "type": str(entity.type), **_queue(queue)}
+    shown = {
+        "node": entity.node,
+        "topic": entity.topic,
+        "type": str(entity.type),
+        "reliable": entity.reliable,
+    }
+    if isinstance(entity, PublisherPlan):
+        own = project.own_limits(entity)
+        return {**shown, **({"max_encoded_size": own.max_encoded_size} if own else {})}
+    lent = entity.index == project.runtime.input.reader
+    return {
+        **shown,
+        **_queue(queue),
+        **({"slot": "input buffer"} if lent else {}),
+        **({"storage": "none"} if entity.storage and not entity.stored else {}),
+    }
+
+
+def _queue(queue: QueuePlan | None) -> dict[str, int]:
+    """Return the size of a queue; with its bytes where its samples share them."""
+    if queue is None:
         return {}
-    queues = runtime.input.queues
-    return {
-        "subscriptions": [
-            {
-                "node": s.node,
-                "topic": s.topic,
-                "type": str(s.type),
-                "reliable": s.reliable,
-                "queue": queues[s.index].slots,
-                "slot_size": queues[s.index].slot_size,
-                **_queue_bytes(queues[s.index]),
-                **({"slot": "input buffer"} if s.index == runtime.input.reader else {}),
-                **({"storage": "none"} if s.storage and not s.stored else {}),
-            }
-            for s in runtime.entities.subscriptions.declared
-        ]
-    }
-
-
-def _services(project: Project) -> dict[str, Any]:
-    """Return the declared services and clients; nothing where there are no places for them."""
-    runtime = project.runtime
-    if not runtime.entities.serves:
-        return {}
-    first = runtime.entities.subscriptions.max
-    queues = runtime.input.queues[first:]
-    return {
-        key: [
-            {
-                "node": s.node,
-                "name": s.name,
-                "type": str(s.type),
-                "queue": queues[before + s.index].slots,
-                "slot_size": queues[before + s.index].slot_size,
-                **_queue_bytes(queues[before + s.index]),
-            }
-            for s in declared
-        ]
-        for key, declared, before in (
-            ("services", runtime.entities.services.declared, 0),
-            ("clients", runtime.entities.clients.declared, runtime.entities.services.max),
-        )
-    }
-
-
-def _queue_bytes(queue: QueuePlan) -> dict[str, int]:
-    """Return the bytes of a queue whose samples share them."""
-    return {} if queue.asked is None else {"queue_bytes": queue.asked}
-
-
-def _publisher(project: Project, publisher: PublisherPlan) -> dict[str, Any]:
-    """Return a declared publisher; with `max_encoded_size` where its limits are not those of its type."""
-    own = project.own_limits(publisher)
-    return {
-        "node": publisher.node,
-        "topic": publisher.topic,
-        "type": str(publisher.type),
-        "reliable": publisher.reliable,
-        **({"max_encoded_size": own.max_encoded_size} if own else {}),
-    }
+    shared = {} if queue.asked is None else {"queue_bytes": queue.asked}
+    return {"queue": queue.slots, "slot_size": queue.slot_size, **shared}
 
 
 def closure(name: TypeName, messages: Mapping[TypeName, Message]) -> frozenset[TypeName]:
@@ -213,14 +205,11 @@ def _pools(project: Project) -> dict[str, int]:
     runtime = project.runtime
     return {
         "nodes": runtime.entities.nodes.max,
-        "publishers": runtime.entities.publishers.max,
-        **(
-            {"subscriptions": runtime.entities.subscriptions.max}
-            if runtime.entities.subscriptions.max
-            else {}
-        ),
-        **({"services": runtime.entities.services.max} if runtime.entities.services.any else {}),
-        **({"clients": runtime.entities.clients.max} if runtime.entities.clients.any else {}),
+        **{
+            kind.key: places.max
+            for kind in KINDS
+            if (places := runtime.entities.places(kind.name)).any or not kind.receives
+        },
         **({"queues": runtime.input.queues_size} if runtime.input.queues else {}),
         **({"timers": runtime.timers.max} if runtime.timers.any else {}),
         **(

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from microros_gen.application.kinds import NAMES
 from microros_gen.application.model import Qos
 from microros_gen.diagnostics import Diagnostics, Source, reads
 from microros_gen.documents.tree_read import check_keys, expect_mapping, read_choice, read_names, read_text
@@ -15,7 +16,6 @@ LAYERS = ("micro-ROS", "middleware", "port")
 _REQUIRED = ("component", "summary", "layer", "status")
 _LISTS = ("needs", "asks", "xrce", "sends", "receives", "objects", "headers", "sources", "implies")
 _PROVISION = ("sources", "asks", "always")
-ENDPOINT_KINDS = ("publisher", "subscription", "service", "client")
 _STATUS = ("ready", "planned")
 
 
@@ -108,9 +108,9 @@ def _implies(node: MappingNode, diagnostics: Diagnostics) -> tuple[Implied, ...]
     found = []
     for item in items(node.get("implies")):
         one = expect_mapping(item, "an item of 'implies'", diagnostics)
-        kind = next((k for k in ENDPOINT_KINDS if one is not None and k in one.entries), None)
+        kind = next((k for k in NAMES if one is not None and k in one.entries), None)
         if one is None or kind is None:
-            hint = f"Write one of {', '.join(f'`{k}: NAME`' for k in ENDPOINT_KINDS)}"
+            hint = f"Write one of {', '.join(f'`{k}: NAME`' for k in NAMES)}"
             diagnostics.error("'implies' must list endpoints", item.span, hint, id="MG-4010")
             continue
         check_keys(one, (kind, "type", "every_node", "queue", "qos"), (kind, "type"), diagnostics)

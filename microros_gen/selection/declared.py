@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from microros_gen.application.kinds import KIND
 from microros_gen.application.model import Application, EndpointDecl, NodeDecl
 from microros_gen.application.names import expand_topic_name
 from microros_gen.diagnostics import Span
@@ -15,13 +16,6 @@ STREAM_BEST_EFFORT = "stream_best_effort"
 STREAM_BEST_EFFORT_INPUT = "stream_best_effort_input"
 STREAM_RELIABLE = "stream_reliable"
 STREAM_RELIABLE_INPUT = "stream_reliable_input"
-
-COMPONENT_OF_KIND = {
-    "publisher": "publish",
-    "subscription": "subscribe",
-    "service": "services",
-    "client": "services",
-}
 
 
 @dataclass(frozen=True)
@@ -37,7 +31,7 @@ def declared_components(application: Application) -> Iterator[Demand]:
     """Yield the micro-ROS component that each declaration of a node needs in order to be created at all."""
     for node in application.nodes:
         for endpoint in node.endpoints:
-            yield Demand(COMPONENT_OF_KIND[endpoint.kind], _article(endpoint.kind), endpoint.span)
+            yield Demand(KIND[endpoint.kind].component, _article(endpoint.kind), endpoint.span)
         for timer in node.timers:
             yield Demand("timers", "a timer", timer.span)
         for parameter in node.parameters:
@@ -83,7 +77,7 @@ def _creation_demands(application: Application, entities: str) -> Iterator[Deman
 
 
 def _endpoint_demands(node: NodeDecl, endpoint: EndpointDecl, selected: frozenset[str]) -> Iterator[Demand]:
-    if COMPONENT_OF_KIND[endpoint.kind] not in selected:
+    if KIND[endpoint.kind].component not in selected:
         return
     reliable = endpoint.qos.reliability == "reliable"
     where = f"{expand_topic_name(endpoint.topic, node.name, node.namespace)}{at(endpoint.span)}"

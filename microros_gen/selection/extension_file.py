@@ -7,13 +7,14 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
+from microros_gen.application.kinds import KIND, NAMES
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
 from microros_gen.documents.files import is_file, read_text
 from microros_gen.documents.tree_values import child, items, span_of, text_of
 from microros_gen.documents.yaml_tree import MappingNode, YamlNode, parse_yaml
 from microros_gen.interfaces.closure import split_type_name
 from microros_gen.selection.component import Component
-from microros_gen.selection.component_file import ENDPOINT_KINDS, parse_component
+from microros_gen.selection.component_file import parse_component
 from microros_gen.selection.extension import Extension, digest_of, own_name
 from microros_gen.selection.find_components import COMPONENT_FILE
 
@@ -104,10 +105,12 @@ def _check_files(tree: MappingNode, folder: Path, diagnostics: Diagnostics) -> N
 
 
 def _check_type(item: YamlNode, diagnostics: Diagnostics) -> None:
-    kind = next((kind for kind in ENDPOINT_KINDS if child(item, kind) is not None), None)
+    kind = next((kind for kind in NAMES if child(item, kind) is not None), None)
     node = child(item, "type")
-    default = "srv" if kind in ("service", "client") else "msg"
-    if node is not None and split_type_name(text_of(node) or "", default) is None:
+    if node is None or kind is None:
+        return
+    default = KIND[kind].type_kind
+    if split_type_name(text_of(node) or "", default) is None:
         message = f"'{text_of(node)}' is no type"
         diagnostics.error(message, node.span, f"Write `package/{default}/Name`", id="MG-4069")
 

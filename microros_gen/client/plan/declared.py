@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from microros_gen.application.kinds import KIND
 from microros_gen.application.model import Application, EndpointDecl, NodeDecl
 from microros_gen.application.names import expand_topic_name
 from microros_gen.diagnostics import Diagnostics, Span
@@ -29,16 +30,6 @@ def implied(application: Application, *kinds: str) -> int:
     return sum(endpoint.of_the_library for endpoint in (*of_nodes, *own))
 
 
-def publisher_declarations(application: Application) -> tuple[tuple[int, NodeDecl, EndpointDecl], ...]:
-    """Return every declared publisher, as `declarations`."""
-    return declarations(application, "publisher")
-
-
-def subscription_declarations(application: Application) -> tuple[tuple[int, NodeDecl, EndpointDecl], ...]:
-    """Return every declared subscription, as `declarations`."""
-    return declarations(application, "subscription")
-
-
 def timed_qos(application: Application, entities: str, diagnostics: Diagnostics) -> bool:
     """Return whether an endpoint has a deadline or lifespan; where objects are not described in binary: an error."""
     timed = [
@@ -54,18 +45,14 @@ def timed_qos(application: Application, entities: str, diagnostics: Diagnostics)
     return bool(timed)
 
 
-def service_parts(kind: str) -> tuple[tuple[str, bool], ...]:
-    """Return what a `service` or a `client` exchanges: each message's suffix, and whether it sends that."""
-    return ("Request", kind == "client"), ("Response", kind == "service")
-
-
 def check_types(application: Application, diagnostics: Diagnostics) -> None:
     """Report each topic and service that two declarations give different types: their endpoints would never match."""
     first: dict[tuple[int, bool, str], tuple[str, EndpointDecl]] = {}
     for node in application.nodes:
         for endpoint in node.endpoints:
-            served = endpoint.kind in ("service", "client")
-            name, kind = full_name(node, endpoint), str(type_name(endpoint.type, "srv" if served else "msg"))
+            endpoint_kind = KIND[endpoint.kind]
+            served = endpoint_kind.service_type
+            name, kind = full_name(node, endpoint), str(type_name(endpoint.type, endpoint_kind.type_kind))
             known, other = first.setdefault((node.domain_id, served, name), (kind, endpoint))
             if known != kind:
                 span = endpoint.type_span or endpoint.span

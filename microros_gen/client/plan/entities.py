@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import field
 from typing import Generic, TypeVar
 
+from microros_gen.application.kinds import KIND
 from microros_gen.client.plan.runtime_entities import NodePlan, PublisherPlan, SubscriptionPlan
 from microros_gen.client.plan.runtime_rows import EndpointRow
 from microros_gen.client.plan.services import ServicePlan
@@ -56,6 +57,12 @@ class EntitiesPlan:
     name_size: int = 0
     type_name_size: int = 0
     timed_qos: bool = False
+
+    def places(self, kind: str) -> Places[PublisherPlan] | Places[SubscriptionPlan] | Places[ServicePlan]:
+        """Return the places of a kind of entity."""
+        found: Places[PublisherPlan] | Places[SubscriptionPlan] | Places[ServicePlan]
+        found = getattr(self, KIND[kind].key)
+        return found
 
     @property
     def names_mode(self) -> str:

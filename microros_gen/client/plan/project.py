@@ -13,10 +13,10 @@ from microros_gen.application.names import expand_topic_name
 from microros_gen.client.plan.board import RING_CHUNK, BoardPlan, has_own_line, plan_board
 from microros_gen.client.plan.creation import CreateNames, create_size, create_text, participant_reference
 from microros_gen.client.plan.declared import (
+    declarations,
     implied,
     named_at,
     pool,
-    publisher_declarations,
     timed_qos,
     type_name,
 )
@@ -291,7 +291,7 @@ def _declared(
         for i, n in enumerate(application.nodes)
     )
     publishers = []
-    for index, (node_index, node, endpoint) in enumerate(publisher_declarations(application)):
+    for index, (node_index, node, endpoint) in enumerate(declarations(application, "publisher")):
         topic = expand_topic_name(endpoint.topic, node.name, node.namespace)
         reliable = endpoint.qos.reliability == "reliable"
         name = type_name(endpoint.type)
@@ -323,7 +323,7 @@ def _written_by_publishers(
         return tuple(
             Written(str(r), types[r].max_encoded_size, True, True, named_at(application, r)) for r in roots
         )
-    declared = enumerate(publisher_declarations(application))
+    declared = enumerate(declarations(application, "publisher"))
     return tuple(_written(index, node, endpoint, types) for index, (_, node, endpoint) in declared)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from microros_gen.application.model import Application, EndpointDecl, Qos
-from microros_gen.client.plan.declared import full_name, named_at, pool, subscription_declarations, type_name
+from microros_gen.client.plan.declared import declarations, full_name, named_at, pool, type_name
 from microros_gen.client.plan.queues import declared_queue, pooled_queue
 from microros_gen.client.plan.runtime_entities import QueuePlan, SubscriptionPlan
 from microros_gen.client.plan.streams import Received, slot_of
@@ -60,7 +60,7 @@ def plan_receiving(
         places = pool(application, "subscriptions", default, diagnostics)
         return _pooled(application, types, roots, max(places, least), diagnostics)
     subscriptions, queues, received = [], [], []
-    for index, (node_index, node, endpoint) in enumerate(subscription_declarations(application)):
+    for index, (node_index, node, endpoint) in enumerate(declarations(application, "subscription")):
         topic, name = full_name(node, endpoint), type_name(endpoint.type)
         reliable = endpoint.qos.reliability == "reliable"
         size = types[name].largest("subscription", index)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from microros_gen.application.kinds import KIND
 from microros_gen.application.model import Application, ExecutorDecl, NodeDecl
 from microros_gen.client.plan.declared import pool
 from microros_gen.client.plan.runtime_entities import TimerPlan
@@ -159,6 +160,6 @@ def _handles(node: NodeDecl, executor: ExecutorDecl) -> int:
     A name may be that of a service and of a client; a name before `remap:` is what the sources have.
     """
     names = {handle.name for handle in executor.handles}
-    received = [e for e in node.endpoints if e.kind != "publisher" and not e.of_the_library]
+    received = [e for e in node.endpoints if KIND[e.kind].waited and not e.of_the_library]
     timers = sum(not names or timer.name in names for timer in node.timers)
     return timers + sum(not names or (e.given or e.topic) in names for e in received)

@@ -5,8 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from microros_gen.application.kinds import KIND
 from microros_gen.application.model import Application
-from microros_gen.client.plan.declared import declarations, full_name, service_parts, type_name
+from microros_gen.client.plan.declared import declarations, full_name, type_name
 from microros_gen.interfaces.derived import derived_name
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
@@ -66,7 +67,7 @@ def _sent_types(kind: str, text: str) -> Iterator[TypeName]:
         yield type_name(text)
         return
     service = type_name(text, "srv")
-    yield from (derived_name(service, part) for part, sends in service_parts(kind) if sends)
+    yield from (derived_name(service, part) for part, sends in KIND[kind].parts if sends)
 
 
 def _pooled(

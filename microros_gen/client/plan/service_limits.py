@@ -5,8 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from microros_gen.application.kinds import KIND
 from microros_gen.application.model import Application, LimitRule
-from microros_gen.client.plan.declared import declarations, full_name, node_name, service_parts, type_name
+from microros_gen.client.plan.declared import declarations, full_name, node_name, type_name
 from microros_gen.interfaces.derived import derived_name
 from microros_gen.interfaces.types import Message, TypeName
 from microros_gen.typesupport.plan.capacity import Entity, Root
@@ -29,7 +30,7 @@ def service_roots(application: Application, messages: Mapping[TypeName, Message]
         for kind in ("service", "client")
         for index, (_, node, endpoint) in enumerate(declarations(application, kind))
         for service in [type_name(endpoint.type, "srv")]
-        for part, sends in service_parts(kind)
+        for part, sends in KIND[kind].parts
     ]
 
 

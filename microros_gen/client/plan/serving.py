@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from microros_gen.application.kinds import KIND
 from microros_gen.application.model import Application, EndpointDecl
 from microros_gen.client.plan.declared import (
     declarations,
     full_name,
     named_at,
     pool,
-    service_parts,
     type_name,
 )
 from microros_gen.client.plan.queues import declared_queue, pooled_queue
@@ -137,7 +137,7 @@ def _sizes(
     """Return the largest body that comes, and the largest that goes."""
     service = type_name(endpoint.type, "srv")
     sizes = {
-        sends: types[derived_name(service, part)].largest(kind, index) for part, sends in service_parts(kind)
+        sends: types[derived_name(service, part)].largest(kind, index) for part, sends in KIND[kind].parts
     }
     return sizes[False], sizes[True]
 
@@ -148,7 +148,7 @@ def _plan(
     service = type_name(endpoint.type, "srv")
     messages = {known: plan.message for known, plan in types.items()}
     limited, stored = "", []
-    for part, sends in service_parts(kind):
+    for part, sends in KIND[kind].parts:
         type_ = types[derived_name(service, part)]
         own = type_.limit_set(kind, index) if sends else None
         limited = own.name if own else limited

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from microros_gen.application.model import EndpointDecl, Qos
-from microros_gen.client.plan.declared import publisher_declarations, subscription_declarations
+from microros_gen.client.plan.declared import declarations
 from microros_gen.client.plan.example import (
     MemberValue,
     example_node,
@@ -167,7 +167,7 @@ def _publishers(
 ) -> list[_Publisher]:
     runtime = project.runtime
     if runtime.entities.nodes.declared:
-        declared = [endpoint for _, _, endpoint in publisher_declarations(project.application)]
+        declared = [endpoint for _, _, endpoint in declarations(project.application, "publisher")]
         return [
             _publisher(
                 project,
@@ -218,7 +218,7 @@ def _subscriptions(
 ) -> list[tuple[TypeName, SubscriptionView]]:
     runtime = project.runtime
     if runtime.entities.nodes.declared:
-        declared = [endpoint for _, _, endpoint in subscription_declarations(project.application)]
+        declared = [endpoint for _, _, endpoint in declarations(project.application, "subscription")]
         return [
             (
                 s.type,

@@ -8,9 +8,11 @@ from collections.abc import Iterable, Mapping
 
 from jinja2 import Environment
 
+from microros_gen.application.kinds import KINDS
 from microros_gen.application.model import Memory
 from microros_gen.client.plan.project import Project
-from microros_gen.client.plan.runtime_entities import PublisherPlan
+from microros_gen.client.plan.runtime_entities import PublisherPlan, SubscriptionPlan
+from microros_gen.client.plan.services import ServicePlan
 from microros_gen.client.views.agent_files import render_agent_files
 from microros_gen.client.views.board import BoardView, board_view, render_toolchain
 from microros_gen.client.views.example import example_view
@@ -174,6 +176,13 @@ def _line(project: Project) -> int:
     return board.ring_size + board.output_size if board.has_serial_driver else 0
 
 
+def _shown(project: Project, entity: PublisherPlan | SubscriptionPlan | ServicePlan) -> str:
+    if isinstance(entity, ServicePlan):
+        return f"`{entity.name}` of {entity.type}"
+    text = f"`{entity.topic}` of {entity.type}, {'reliable' if entity.reliable else 'best effort'}"
+    return f"{text}{_own_limits(project, entity)}" if isinstance(entity, PublisherPlan) else text
+
+
 def _own_limits(project: Project, publisher: PublisherPlan) -> str:
     own = project.own_limits(publisher)
     return f", limits of its own: at most {own.max_encoded_size} bytes" if own else ""
@@ -189,32 +198,19 @@ def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectVi
     runtime = project.runtime
     declared = [f"node `{n.name}` in `{n.namespace}`" for n in runtime.entities.nodes.declared]
     declared += [
-        f"publisher `{p.topic}` of {p.type}, {'reliable' if p.reliable else 'best effort'}{_own_limits(project, p)}"
-        for p in runtime.entities.publishers.declared
-    ]
-    declared += [
-        f"subscription `{s.topic}` of {s.type}, {'reliable' if s.reliable else 'best effort'}"
-        for s in runtime.entities.subscriptions.declared
-    ]
-    declared += [
-        f"{s.kind} `{s.name}` of {s.type}"
-        for s in (*runtime.entities.services.declared, *runtime.entities.clients.declared)
+        f"{kind.name} {_shown(project, entity)}"
+        for kind in KINDS
+        for entity in runtime.entities.places(kind.name).declared
     ]
     pools = [
         f"up to {runtime.entities.nodes.max} node(s), named by the application",
     ]
     pools += [f"subscription `{e.topic}` of {e.type}" for e in project.application.implied]
     of_roots = ", ".join(str(root) for root in project.roots)
-    for name, places in (
-        ("publisher", runtime.entities.publishers.max),
-        ("subscription", runtime.entities.subscriptions.application),
-    ):
-        pools += [f"up to {places} {name}(s) of {of_roots}"] if places else []
-    for name, places in (
-        ("service", runtime.entities.services.max),
-        ("client", runtime.entities.clients.max),
-    ):
-        pools += [f"up to {places} {name}(s)"] if places else []
+    for kind in KINDS:
+        places = runtime.entities.places(kind.name).application
+        of_types = "" if kind.service_type else f" of {of_roots}"
+        pools += [f"up to {places} {kind.name}(s){of_types}"] if places else []
     return _ProjectView(
         title=project.name,
         image=project.name,
