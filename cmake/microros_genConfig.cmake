@@ -30,7 +30,7 @@ function(_microros_tool_of_repository root command message)
 name one that can; this makes one that can: ${MICROROS_GEN_PYTHON} -m pip install \"${root}\"" PARENT_SCOPE)
 endfunction()
 
-# Sets `command` to the program of the environment `prefix`, else to one on the PATH, or `message` to why there is none.
+# Sets `command` to the program of the environment `prefix`, else to one on the PATH, or `message` to the reason if it is missing.
 function(_microros_tool_of_environment prefix command message)
   find_program(MICROROS_GEN_PROGRAM microros-gen PATHS "${prefix}/bin" "${prefix}/Scripts" NO_DEFAULT_PATH
     NO_CMAKE_FIND_ROOT_PATH DOC "The program microros-gen")
@@ -39,7 +39,7 @@ function(_microros_tool_of_environment prefix command message)
   if(MICROROS_GEN_PROGRAM)
     set(${command} "${MICROROS_GEN_PROGRAM}" PARENT_SCOPE)
   else()
-    set(${message} "there is no program microros-gen in ${prefix} or on the PATH. Install it into the active Python environment: \
+    set(${message} "program microros-gen not found in ${prefix} or on the PATH. Install it into the active Python environment: \
 pip install PATH, of a clone or wheel of microros_gen"
       PARENT_SCOPE)
   endif()

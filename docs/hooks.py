@@ -2,7 +2,7 @@
 """What mkdocs does for this site besides Markdown: generated pages and pictures, files that pages link to.
 
 A page says `../examples/…`, as it has to where the repository is browsed; the site gets a copy of such a file below
-`files/`, or, for a page of OUTSIDE, a page of its own.
+`files/`, or, for a page of OUTSIDE, its own page.
 """
 
 from __future__ import annotations

@@ -30,7 +30,7 @@ _TITLES = {
 _FOLDERS = {"uxr": _CLIENT, "ucdr": _CLIENT, "rmw_microxrcedds_c": _CLIENT}
 _TRANSPORTS = ("udp", "tcp", "serial", "custom")
 _REFUSAL = re.compile(r"^#define (\w+) \1__\w+\n", re.MULTILINE)
-"""Stands for a function of another transport: who calls it is told by that name what to set."""
+"""Placeholder for a function of another transport; its name tells the caller what to set."""
 
 _MANY = 6
 _WORD = re.compile(r"`(\w+)(\(\))?`")

@@ -31,7 +31,7 @@ _NAMES = (
 
 @dataclass(frozen=True)
 class Item:
-    """Declarations that stand together, and what the comment above them says ("" for none)."""
+    """Declarations that belong together, and what the comment above them says ("" for none)."""
 
     text: str
     doc: str

@@ -31,7 +31,7 @@ _SUBJECTS = {
 }
 _INTRODUCTION = """\
 Each error and warning ends with an id in brackets, `[MG-3012]`, which stays the same when the words change. Parts in
-braces stand for names, numbers and paths of your case. The hint says what to do."""
+braces are placeholders for names, numbers and paths. The hint says what to do."""
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,7 @@ def page(title: str, introduction: str, schema_file: Path) -> str:
 
 
 def _shared(schema: Schema) -> list[str]:
-    """Return the definitions that several places refer to: they have sections of their own."""
+    """Return the definitions that several places refer to: they have their own sections."""
     uses = re.findall(r'"\$ref": "#/\$defs/(\w+)"', json.dumps(schema))
     return sorted({name for name in uses if uses.count(name) > 1})
 
@@ -71,7 +71,7 @@ def _resolved(schema: Schema, part: Schema) -> tuple[Schema, str]:
 
 
 def _objects(schema: Schema, part: Schema, path: str) -> Iterator[tuple[str, Schema]]:
-    """Yield the objects with keys of their own that a value may be: itself, the items of a list, alternatives."""
+    """Yield the objects with their own keys that a value may be: itself, the items of a list, alternatives."""
     if any(_named(part)):
         yield path, part
     if "items" in part:

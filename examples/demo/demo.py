@@ -44,7 +44,7 @@ def main() -> int:
 
 
 def free_port() -> int:
-    """Return the first free UDP port; the usual one when it can be had."""
+    """Return the first free UDP port; the usual one if it is free."""
     for port in PORTS:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
             try:
@@ -83,7 +83,7 @@ def show(port: int) -> None:
         agent_command = [sys.executable, "-m", "microros_gen", "agent", "udp4", "--port", str(port)]
         agent_command += ["--domain", os.environ.get("ROS_DOMAIN_ID") or "0"]  # the listener's, too
         stack.enter_context(part("agent", agent_command, environment, "agent ready"))
-        print("3. listener: an rclpy node in a process of its own")
+        print("3. listener: an rclpy node in a separate process")
         listener_command = [sys.executable, str(FOLDER / "subscriber.py")]
         listener = stack.enter_context(part("listener", listener_command, environment, "listener ready"))
         print(f"4. image: {(OUT / 'bin/pure_sender').relative_to(ROOT)}")

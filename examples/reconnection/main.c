@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Stop the agent and start it again: the numbers go on, and orders are received again. No line here does that; the library
- * finds the agent and creates the node and its entities anew. Who wants to know is told by a callback.
+ * finds the agent and creates the node and its entities again. A callback reports each change.
  */
 #include "../example.h"
 

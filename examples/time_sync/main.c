@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A device without a clock of its own stamps its messages with the agent's time. It asks again from time to time, since
+ * A device without its own clock stamps its messages with the agent's time. It asks again from time to time, since
  * the crystal of the board and the clock of the agent's machine drift apart.
  */
 #include "../example.h"

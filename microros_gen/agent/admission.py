@@ -258,9 +258,9 @@ class Admission:
     def _admit(self, newcomer: Newcomer, now: float) -> Status:
         link, address, transport = newcomer.link, newcomer.address, newcomer.transport
         self._newcomers.forget(address)
-        neighbour = self._clients.at(address)
-        if neighbour is not None and neighbour.session.link.key != link.key:
-            self.dismiss(neighbour, "replaced by another at its address")
+        neighbor = self._clients.at(address)
+        if neighbor is not None and neighbor.session.link.key != link.key:
+            self.dismiss(neighbor, "replaced by another at its address")
         client, heritage = self._clients.with_key(link.key), {}
         if client is not None and client.session.link.session == link.session:
             self._welcome_back(client, link, address, transport, now)
@@ -345,7 +345,7 @@ class Admission:
         link = Link(header.session, key, self._limits.minimum_mtu)
         client = self._add(link, address, transport, self._limits.client_timeout_s, now)
         if client is None:
-            raise MalformedError("no_session", "there is no room for the client")
+            raise MalformedError("no_session", "no room for the client")
         client.adopted = True
         if isinstance(submessage, Heartbeat):
             client.session.begin(submessage.stream, submessage.first)

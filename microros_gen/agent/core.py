@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The agent without sockets and without a clock of its own: takes messages, answers them, watches time-outs.
+"""The agent without sockets and without its own clock: takes messages, answers them, watches time-outs.
 
 `receive` never raises, whatever the bytes: what is malformed is counted, and told once per kind.
 """
@@ -40,7 +40,7 @@ WORDS = {
     " perhaps of the agent before this one; a client with liveliness notices that, and opens a session here",
     "client_resources": "message from {peer} ignored: {detail}",
 }
-"""What is said of messages that are not malformed."""
+"""Log texts of messages that are well-formed."""
 TICK_S = 0.05
 """Seconds between two looks at time-outs while there are clients."""
 

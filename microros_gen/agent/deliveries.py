@@ -90,7 +90,7 @@ class Deliveries:
         return self._later[0][0] if self._later else None
 
     def run(self, now: float) -> None:
-        """Let those go on whose moment has come."""
+        """Continue the deliveries that are due."""
         due = []
         while self._later and self._later[0][0] <= now:
             due.append(heapq.heappop(self._later)[2])

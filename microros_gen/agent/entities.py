@@ -110,7 +110,7 @@ class Entity:
         return self.kind == ObjectKind.DATAREADER and isinstance(about, Endpoint) and about.qos.reliable
 
     def keep(self, samples: Sequence[bytes], shares: Shares, behind: bool = False) -> int:
-        """Keep samples, in order, before or after what is kept; return how many there was no room for."""
+        """Keep samples in order, before or after those already kept; return how many did not fit."""
         taken = [sample for sample in samples if shares.history.take(len(sample))]
         lost = len(samples) - len(taken)
         taken.reverse()
@@ -118,7 +118,7 @@ class Entity:
         return lost
 
     def next_kept(self, shares: Shares) -> bytes:
-        """Return the next of what is kept."""
+        """Return the next kept sample."""
         sample = self.kept.pop()
         shares.history.add(-len(sample))
         return sample

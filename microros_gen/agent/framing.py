@@ -4,7 +4,7 @@
 On TCP each message follows its length (16 bits, little endian). On a serial line a frame is a flag (0x7E),
 then, stuffed: source address, destination address, length of the payload (16 bits, little endian), the payload, and
 its CRC-16/ARC (little endian). Stuffing writes 0x7E as 7D 5E and 0x7D as 7D 5D; so a flag always begins a frame, and
-there is none at its end. Addresses are bytes; an agent has address 0.
+none follows the last one. Addresses are bytes; an agent has address 0.
 
 The CRC is a table look-up for two bytes at a time in Python, measured 35 MB/s, and 24 MB/s for whole
 frames: twenty times what a serial line of 12 Mbit/s carries, so no library is needed for it.
@@ -94,7 +94,7 @@ class FrameDecoder:
 
     - `frame_noise`: bytes between frames (a boot message, another baud rate, the rest of an older frame);
     - `frame_truncated`: another frame began before this one was complete;
-    - `frame_escape`: an escape that stands for nothing;
+    - `frame_escape`: an invalid escape sequence;
     - `frame_too_large`: a length beyond `largest`; `frame_empty`: no payload;
     - `frame_crc`: a checksum that is another one;
     - `frame_address`: a frame to somebody else, for example this side's own, echoed.

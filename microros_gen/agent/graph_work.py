@@ -29,7 +29,7 @@ than the share of a second, who has few entities gets them within the second tha
 
 
 class GraphWork:
-    """What is left of the time for changes."""
+    """Remaining time for changes."""
 
     def __init__(self, ms_per_second: float) -> None:
         self._share = ms_per_second / 1000

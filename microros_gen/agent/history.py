@@ -83,7 +83,7 @@ class WriterHistory:
         reason += " or than the client or all clients together may have"
         if self._lasting and not self._keeps_all:
             raise HistoryFullError(reason)
-        raise BusyError(reason + ", while its readers have not taken what is there")
+        raise BusyError(reason + ", while its readers have not taken earlier samples")
 
     def give_back(self) -> None:
         """It is gone."""

@@ -14,7 +14,7 @@ class InputPool:
     def __init__(self, total: int, holders: int) -> None:
         self.share = total // 2 // max(1, holders)
         self.free = total - self.share * holders
-        """Bytes that are nobody's; below 0 when holders took what could not be refused."""
+        """Bytes without an owner; below 0 when holders took bytes that could not be refused."""
 
 
 class Holder:
@@ -27,7 +27,7 @@ class Holder:
         self.held = 0
 
     def take(self, size: int) -> bool:
-        """Hold `size` bytes more; False when there is no room for them."""
+        """Hold `size` more bytes; return False if they do not fit."""
         if not self.has_room(size):
             return False
         self.add(size)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What DDS gave for the reliable readers of a client that is given up, or gives its session up, and comes back.
+"""Keeps samples from DDS for the reliable readers of a client that timed out, or replaced its session, and returns.
 
 DDS has an acknowledgement of it, and does not give it again. Kept is what the client has not acknowledged: what was
 sent and may or may not have arrived, what waited to be sent, and, when the agent gives a client up, what DDS still had.
@@ -32,7 +32,7 @@ class Keeping:
             self._tell_lost(client, sum(reading.save() for reading in client.readings.values()))
 
     def forget_old(self, client: Client, now: float) -> None:
-        """Drop what is kept for a client that is away for too long."""
+        """Drop the samples of a client that is away for too long."""
         if now - client.heard > self._keep_s:
             for entity in client.objects:
                 entity.drop_kept(client.shares)
@@ -63,5 +63,5 @@ class Keeping:
 
     def _tell_lost(self, client: Client, lost: int) -> None:
         for _ in range(lost):
-            text = "client {client}: a sample was lost with its session: there is no room to keep it"
+            text = "client {client}: a sample was lost with its session: no room to keep it"
             self._log.count("not_kept", text, client=client.name)

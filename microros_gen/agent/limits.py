@@ -65,7 +65,7 @@ class Limits:
     client_timeout_s: float = 30.0
     """Seconds after which a client that was not heard leaves the ROS graph."""
     keep_s: float = 60.0
-    """Seconds for which is kept what the reliable readers of a client have not got that is given up, or opens its
+    """Seconds for which samples are kept that a client's reliable readers did not get, when it timed out or opens its
     session again; 0: nothing is. What may have arrived comes again."""
     sleep_timeout_s: float = 86_400.0
     """Seconds until a client that left the graph is forgotten; heard before that, its entities return."""

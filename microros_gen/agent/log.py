@@ -95,7 +95,7 @@ class EventLog:
     def emit(self, level: Level, event: str, text: str, /, **fields: Json) -> None:
         """Write one event: `text`, for people, is a format string over `fields`; JSON has both.
 
-        Nobody can fill a disk by it, or hold up the agent: see `BURST`. What was not written is told afterwards.
+        No sender can fill a disk or delay the agent by it: see `BURST`. Suppressed lines are counted and reported.
         """
         if level > self._limit:
             return

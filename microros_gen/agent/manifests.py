@@ -16,7 +16,7 @@ class Manifests:
         self._hashes = {_client(name): types for name, types in (hashes or {}).items()}
 
     def hash_of(self, key: bytes, node: str) -> HashOf | None:
-        """Return what tells the hashes of a client's types; None when there is no manifest of it.
+        """Return the source of the hashes of a client's types; None without a manifest of the client.
 
         `node` is the name of its node, `node` or `namespace/node`; a manifest for the key goes before one for it.
         """

@@ -73,7 +73,7 @@ def resident_bytes() -> int:
 
 
 def heaviest(clients: Iterable[Client]) -> Client | None:
-    """Return the client that takes most, as far as that is known; None: there are none."""
+    """Return the client that takes most memory, as far as that is known; None without clients."""
     return max(clients, key=weight_of, default=None)
 
 

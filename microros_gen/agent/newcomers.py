@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Clients that opened a session and said nothing in it yet, and who gives way when there is no place for them.
+"""Clients that opened a session and said nothing in it yet, and which of them is replaced when no place is free.
 
 Over UDP anybody can send a CREATE_CLIENT under a forged address, and DDS-XRCE has no cookie. So what such a datagram
 leaves is one small record here, and not a client: no streams, no objects, no place in the ROS graph, no place that a
@@ -25,7 +25,7 @@ from microros_gen.agent.wire.session_messages import CreateClient
 from microros_gen.records import dataclass
 
 HARD_LIVELINESS = "uxr_hl"
-"""Property by which a client asks for a time-out of its own, in ms."""
+"""Property by which a client asks for its own time-out, in ms."""
 EMPTY_S = 1.0
 """A client that has no object, and was silent for this long, gives its place to another."""
 

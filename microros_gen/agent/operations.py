@@ -182,7 +182,7 @@ class Operations:
         self._log.count(kind, text, client=client.name, reason=str(error))
 
     def acknowledged(self, client: Client, stream: int, first: int, missing: int, now: float) -> None:
-        """Carry out an ACKNACK: send again what is missing, then go on with what waits."""
+        """Process an ACKNACK: send the missing messages again, then the waiting ones."""
         for message in client.session.acknowledged(stream, first, missing, now):
             client.send(message)
         if client.waiting:
@@ -251,7 +251,7 @@ class Operations:
         entity = client.objects.find(submessage.object)
         little = entity is None or entity.representation is None or entity.representation.little
         if len(encode(info, little)) > client.session.link.room() and not is_reliable(client.stream):
-            info = replace(info, config=None)  # there is no room for it, nor a stream for fragments
+            info = replace(info, config=None)  # it does not fit, and there is no stream for fragments
         if client.stream == STREAM_NONE:
             client.send(client.session.unnumbered(info, little))
         else:
@@ -259,7 +259,7 @@ class Operations:
 
     def _may_tell(self, client: Client, config: object) -> bool:
         """Return whether a client gets a configuration of this size: over UDP it may be somebody else who has to take
-        it, so not more is told than twice of what was said."""
+        it, so the answers are at most twice as long as the requests."""
         if not client.transport.forgeable or not isinstance(config, Representation):
             return True
         size = len(config.body)
@@ -324,7 +324,7 @@ def _check_reading(entity: Entity | None, wanted: ReadData) -> tuple[Status, str
     if wanted.content_filter:
         return Status.INCOMPATIBLE, f"ROS 2 cannot filter by content: '{wanted.content_filter}'"
     if wanted.format not in list(DataFormat):
-        return Status.INVALID_DATA, f"there is no data format {wanted.format:#04x}"
+        return Status.INVALID_DATA, f"unknown data format {wanted.format:#04x}"
     if wanted.format and entity.kind in CALLS:
         return Status.INVALID_DATA, "requests and replies come in FORMAT_DATA only"
     return Status.OK, ""

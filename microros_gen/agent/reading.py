@@ -4,7 +4,7 @@
 Nothing is queued here. What the delivery control (DDS-XRCE 1.0, 7.7.14 and table 9) or the window of the reliable
 stream does not let through yet stays in DDS, whose QoS says how much of it is kept.
 
-In FORMAT_DATA each sample is a message of its own, though several would fit and cost less: the rmw of micro-ROS takes
+In FORMAT_DATA each sample is a separate message, though several in one would cost less: the rmw of micro-ROS takes
 one message at a time and has room for four samples by default, so a message with more loses some of a reliable stream.
 Who wants several in a message asks for a sequence format.
 """
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from microros_gen.agent.clients import Client
 
 MOST_SAVED = 256
-"""Samples that are kept for a client when it is given up: to take them takes some milliseconds."""
+"""Samples kept for a client that timed out: taking them from ROS takes some milliseconds."""
 TURN = 64
 """Messages that one reading sends before it is somebody else's turn."""
 RETRY_S = 0.1
@@ -153,7 +153,7 @@ class Reading:
         self._pending = None
 
     def save(self) -> int:
-        """Keep what ROS has for a client that is given up for now; return how many there was no room for."""
+        """Keep the samples that ROS holds for a client that timed out; return how many did not fit."""
         if not self._keeps or self.source is None:
             return 0
         taken: list[bytes] = []

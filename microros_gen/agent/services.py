@@ -97,7 +97,7 @@ class Calls:
             self._count(entity)
 
     def _count(self, entity: Entity) -> bool:
-        """Count the open requests of an object anew; False when they would be more than the client may have."""
+        """Update the number of open requests of an object; return False if it exceeds the client's limit."""
         size = CALL_BYTES * len(entity.outstanding)
         more = size - entity.calls_bytes
         if more > 0 and not self._holder.take(more):

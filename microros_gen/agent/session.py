@@ -74,7 +74,7 @@ class Session:
         if lost and heartbeat.stream in self._reassembly:
             self._reassembly[heartbeat.stream].drop()
         if not reliable.stopped:
-            self._drop_unfinished(heartbeat.stream)  # given up by the client
+            self._drop_unfinished(heartbeat.stream)  # dropped by the client
         return ready
 
     @property

@@ -84,9 +84,9 @@ class ReliableIn:
         return ()  # what is not held is not acknowledged either, so the client sends it again
 
     def announce(self, first: int, last: int) -> tuple[tuple[bytes, ...], bool]:
-        """Take a HEARTBEAT: messages before `first` cannot be had any more, those up to `last` can.
+        """Process a HEARTBEAT: the sender holds the messages `first` to `last` and no earlier ones.
 
-        Returns what can be processed now, and whether messages were given up for it.
+        Return what can be processed now, and whether missing messages were skipped for it.
         """
         skip = (first - self.next) & 0xFFFF
         lost = 0 < skip < HALF

@@ -21,7 +21,7 @@ NEVER = float("-inf")
 STEP_BYTES = 4_096
 """What a stream may have without asking: that is shared by all clients."""
 MANY = 512
-"""Messages after which it is counted anew how many of them are sent again."""
+"""Number of messages over which the rate of repetitions is measured."""
 REPEAT_S = 0.01
 """Seconds in which a message is not sent again a second time."""
 
@@ -191,7 +191,7 @@ class ReliableOut:
         return max(HEARTBEAT_PERIOD_S, slow, min(silent / 4, SILENT_PERIOD_S))
 
     def _repeat(self, first: int, missing: int, now: float) -> list[bytes]:
-        """Return what is asked for again; not what just was: a client says of every message what it still lacks."""
+        """Return the messages to send again, without those just sent: a client names all missing ones each time."""
         again = []
         repeated: dict[int, float] = {}
         for i, message in enumerate(self._unacknowledged):

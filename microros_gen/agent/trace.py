@@ -149,7 +149,7 @@ def _value(owner: Any, name: str, value: Any) -> Json:
 
 
 def _words(owner: Any, name: str) -> type[IntEnum] | None:
-    """Return what numbers of a field stand for."""
+    """Return the names of a field's numbers."""
     if name == "kind":
         return ObjectKind if isinstance(owner, Create) else None
     if name == "format":

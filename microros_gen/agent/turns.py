@@ -41,7 +41,7 @@ class Turns:
         self.end = 0.0
         """When the turn that is under way is over."""
         self.messages: Callable[[Client], None] = _nothing
-        """Process what is ready of a client; what is left over stays in its `ready`."""
+        """Process the messages that are ready of a client; the rest stays in its `ready`."""
         self._turn_s = turn_s
         self._fair = fair
         self._graph = graph

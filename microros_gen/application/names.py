@@ -72,7 +72,7 @@ def expanded_fault(name: str, longest: int = LONGEST_TOPIC_NAME) -> NameFault | 
 def namespace_fault(name: str) -> NameFault | None:
     """Return what is wrong with a namespace, or None.
 
-    `""` is `/`, and a slash is put before it where it lacks one.
+    `""` is `/`, and a missing slash is put before it.
     """
     if name in ("", "/"):
         return None
@@ -115,7 +115,7 @@ def _shape_fault(name: str, allowed: str) -> NameFault | None:
     tilde = name.rfind("~")
     if tilde > 0:
         return NameFault(
-            "has '~' behind its first character", tilde, "'~' stands for the node, at the beginning only"
+            "has '~' after its first character", tilde, "'~' means the node, and only at the beginning"
         )
     if tilde == 0 and name[1:2] not in ("", "/"):
         return NameFault("needs a slash behind '~'", 1, f"Write ~/{name[1:]}")

@@ -54,7 +54,7 @@ def parse_nodes(tree: YamlNode | None, diagnostics: Diagnostics) -> tuple[NodeDe
         if first is not node and first.name_span:
             message = f"duplicate node '{full}'; the first is in line {first.name_span.line}"
             diagnostics.error(
-                message, node.name_span, "Give each a name or a namespace of its own", id="MG-3002"
+                message, node.name_span, "Give each a different name or namespace", id="MG-3002"
             )
     return nodes
 
@@ -217,6 +217,6 @@ def check_unique(kind: str, named: list[tuple[str, Span | None]], diagnostics: D
         if name in seen and name:
             where = f"; the first is in line {first.line}" if first else ""
             diagnostics.error(
-                f"duplicate {kind} '{name}'{where}", span, "Give each a name of its own", id="MG-3011"
+                f"duplicate {kind} '{name}'{where}", span, "Give each a different name", id="MG-3011"
             )
         seen.setdefault(name, span)

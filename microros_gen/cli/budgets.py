@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks budgets and prints what cannot be checked, for `build` and for builds of a user's own."""
+"""Checks budgets and prints what cannot be checked, for `build` and for a user's own builds."""
 
 from __future__ import annotations
 

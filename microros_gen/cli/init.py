@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`microros-gen init`: a new application folder, from a profile or from what there is already."""
+"""`microros-gen init`: a new application folder, from a profile or from existing sources."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def command(
     """Write a new application folder: microros.yaml, main.c, CMakeLists.txt, README.md.
 
     No file that is there already is changed. What could not be decided is marked in microros.yaml, with the file and
-    line that it is about, and told as a warning.
+    line that it is about, and reported as a warning.
 
     \b
     microros-gen init my_robot --profile pure_sender

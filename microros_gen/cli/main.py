@@ -26,7 +26,7 @@ _COMMANDS = {
     "profiles": "List the profiles, or show what one of them selects.",
     "interfaces": "List packages and types, or show one of them.",
     "targets": "List the targets, or show one of them.",
-    "init": "Write a new application folder, from a profile or from what there is already.",
+    "init": "Write a new application folder, from a profile or from existing sources.",
     "run": "Start a built image together with an agent.",
     "agent": "Connect XRCE clients to ROS 2.",
 }

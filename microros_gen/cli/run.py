@@ -214,7 +214,7 @@ def _image_of(located: Located, domain: int | None) -> _Image:
 
 
 def _example_of(located: Located, name: str | None, target: str) -> Path:
-    """Return the image that `build` made. UserError where there is none."""
+    """Return the image that `build` made. UserError if none exists."""
     if located.library is not None:
         message = (
             f"{located.library.archive} is a library alone: no image was linked to it by microros_image()"
@@ -230,7 +230,7 @@ def _example_of(located: Located, name: str | None, target: str) -> Path:
     path = located.output / "bin" / name
     if not path.is_file():
         hint = (
-            "Make it with `microros-gen build`, then run it; of an image of yours give the CMake build folder"
+            "Make it with `microros-gen build`, then run it; for your own image give the CMake build folder"
         )
         raise UserError([Diagnostic(f"{located.output} holds no image yet", hint=hint, id="MG-9718")])
     return path
@@ -250,7 +250,7 @@ def _agent_of_host(image: _Image) -> list[str]:
     what = f"opens {device} itself" if kind == "serial" else "has a custom transport"
     hint = "Start an agent at the other end (microros-gen agent --help), then run with --no-agent"
     raise UserError(
-        [Diagnostic(f"the image {what}: there is no agent that would fit", hint=hint, id="MG-9719")]
+        [Diagnostic(f"the image {what}: no agent supports this transport", hint=hint, id="MG-9719")]
     )
 
 

@@ -126,7 +126,7 @@ def toolchain(planned: Planned, environ: Mapping[str, str] | None = None) -> Too
 
 
 def compile(planned: Planned, out: Path, tools: Toolchain | None = None) -> Built:
-    """Compile what was written to `out`: lib/libmicroros.a, and the example's image where the target has one.
+    """Compile the sources in `out`: lib/libmicroros.a, and the example's image where the target has one.
 
     Raises UserError with status 1: a source does not compile, or the image is larger than the target's memory.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Budgets of an application file against what was built, by `build` and by builds of a user's own."""
+"""Budgets of an application file against what was built, by `build` and by a user's own builds."""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@ from microros_gen.records import dataclass
 
 @dataclass(frozen=True)
 class Options:
-    """What a caller selects; what is left out, the application file or a default decides.
+    """Selection by the caller. Omitted values come from the application file or a default.
 
     `config`: the application file (None: `microros.yaml` of the current folder where there is one). `profiles` and
     `target` replace those of the file, `components` (`timers`, `-ping`) and `interfaces` (`pkg`, `pkg/msg/Type`) add to

@@ -262,7 +262,7 @@ def _interfaces(resolved: Resolved, finder: InterfaceFinder, diagnostics: Diagno
     if application.nodes or _published(interfaces, application) or not resolved.selection.has("publish"):
         return interfaces
     diagnostics.warning(
-        f"there is no message to publish among the interfaces, so {DEFAULT_INTERFACE} is added",
+        f"no message to publish among the interfaces: {DEFAULT_INTERFACE} is added",
         next((named.span for named in requested), None),
         "Services and actions bring their types and no publishers; add a message with --interface pkg/msg/Type",
         id="MG-8605",

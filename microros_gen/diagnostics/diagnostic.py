@@ -103,7 +103,7 @@ class Diagnostics:
         self._add(Diagnostic(message, span, hint, id=id))
 
     def too_large(self, message: str, span: Span | None, hint: str, *, id: str) -> None:
-        """Add an error that lower limits would mend."""
+        """Add an error that lower limits would fix."""
         self._add(Diagnostic(message, span, hint, too_large=True, id=id))
 
     def warning(self, message: str, span: Span | None = None, hint: str | None = None, *, id: str) -> None:

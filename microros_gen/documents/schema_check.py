@@ -66,7 +66,7 @@ class _Checker:
     def _parts(
         self, keyword: str, wanted: Any, data: Any, schema: Schema
     ) -> Iterator[tuple[Path, tuple[Any, Schema]]]:
-        """Yield what a keyword compares with schemas of its own: where it is, the data and the schema."""
+        """Yield what a keyword compares with the schemas in it: where it is, the data and the schema."""
         if keyword == "$ref":
             yield (), (data, self._root["$defs"][wanted.removeprefix("#/$defs/")])
         elif isinstance(data, list) and keyword == "items":
@@ -122,7 +122,7 @@ def _has_twins(data: list[Any]) -> bool:
     return any(_equal(item, other) for index, item in enumerate(data) for other in data[:index])
 
 
-# Keyword → whether a value is not what the keyword asks for; each speaks of values of its own type alone.
+# Keyword → whether a value violates the keyword; each applies only to values of one type.
 _FAULTS: Mapping[str, Callable[[Any, Any], bool]] = MappingProxyType(
     {
         "type": lambda data, wanted: not _has_type(data, wanted),

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Typed reads of a YAML tree, for files whose shape no schema has checked before.
 
-Each function reports what does not fit at its place and returns what is left of it.
+Each function reports what does not fit at its place and returns the rest of it.
 """
 
 from __future__ import annotations

@@ -50,7 +50,7 @@ _FAULTS: tuple[tuple[str, str, str | None], ...] = (
     (
         r"sequence entries are not allowed",
         "a '-' where no list can begin",
-        "Put the list on lines of its own",
+        "Put the list on its own lines",
     ),
     (
         r"unknown escape character",

@@ -55,7 +55,7 @@ _NOT_A_NUMBER = (".nan", ".NaN", ".NAN")
 
 @dataclass(frozen=True)
 class ScalarNode:
-    """A scalar: `value` is what it means, `text` what stands in the file; `plain` where it has no quotes."""
+    """A scalar: `value` is what it means, `text` what is in the file; `plain` where it has no quotes."""
 
     value: bool | int | float | str | None
     text: str

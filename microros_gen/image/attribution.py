@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Gives every byte of an image an owner: symbol → input section → object → source file → component.
 
-What a section holds and nobody owns (gaps between input sections) is padding, so that the pieces of a kind add up
+What a section holds and nobody owns (gaps between input sections) is padding, so that the parts of a kind add up
 to what `size` prints.
 """
 
@@ -59,7 +59,7 @@ class Owner:
 
 @dataclass(frozen=True)
 class Piece:
-    """Neighbouring bytes of one owner. `kind` is text, data or bss; `symbol` is None for what has no name.
+    """Neighboring bytes of one owner. `kind` is text, data or bss; `symbol` is None for what has no name.
 
     `source` is a C file below the output folder, or the linker's name of an object that was not made from one.
     """
@@ -96,7 +96,7 @@ RESERVED = {
 
 
 def attribute(folder: Folder, image: Elf) -> tuple[Piece, ...]:
-    """Return the pieces of a linked image, by section and address. UserError where the linker left no map."""
+    """Return the parts of a linked image, by section and address. UserError where the linker left no map."""
     layout = layout_of(folder, image)
     if not layout.placed:
         raise _no_map(folder)
@@ -123,7 +123,7 @@ def _no_map(folder: Folder) -> UserError:
 
 
 def attribute_library(folder: Folder) -> tuple[Piece, ...]:
-    """Return the pieces of every object of the library: what there is before a linker drops what is not used.
+    """Return the parts of every object of the library, before a linker drops unused ones.
 
     Nothing has an address yet: the sections are laid one after the other, so that each piece has its own.
     """

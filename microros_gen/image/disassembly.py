@@ -37,7 +37,7 @@ _CALL = re.compile(r"^(bl|blx|callq?|jal)$")
 def parse_disassembly(text: str, machine: str, extents: Mapping[int, int]) -> tuple[Code, ...]:
     """Return every function of the output of `objdump -d --no-show-raw-insn`, in its order.
 
-    `extents` are the sizes of functions by address: a label inside of one begins no function of its own.
+    `extents` are the sizes of functions by address: a label inside of one does not start another function.
     """
     found = _functions(text, extents)
     return tuple(_function(name, address, lines, machine) for name, address, lines in found)

@@ -282,14 +282,14 @@ class Explainer:
                 yield _change(reason, owner)
 
     def _file_choice(self, pieces: Iterable[Piece], kind: str) -> Iterator[str]:
-        """Yield what else could stand for a file that one choice of the plan selects."""
+        """Yield the alternatives to a file that one choice of the plan selects."""
         sources = sorted({p.source for p in pieces if p.source}) if kind in ("file", "symbol") else ()
         for source in sources:
             component = self._catalogue.get(source.split("/")[1]) if source.count("/") > 1 else None
             for file in component.files if component else ():
                 if file.path.removesuffix(".j2") == source.rpartition("/")[2] and file.when:
                     wanted = ", ".join(f"{key} = {value}" for key, value in file.when)
-                    yield f"another choice of {wanted}: this file stands for it"
+                    yield f"another choice of {wanted}: this file implements it"
 
 
 def _change(reason: str, owner: str) -> str:

@@ -162,7 +162,7 @@ class Folder:
 def read_folder(path: Path, image: Path | None = None, linker_map: Path | None = None) -> Folder:
     """Read an output folder, or the one of a CMake build folder, with the image that was built from it.
 
-    Raises UserError where there is none, or it was not built.
+    Raises UserError if none exists, or it was not built.
     """
     located = locate(path, image, linker_map)
     try:
@@ -178,7 +178,7 @@ def read_folder(path: Path, image: Path | None = None, linker_map: Path | None =
 
 
 def _tools(located: Located) -> Mapping[str, Any]:
-    """Return what built the library: as CMake says, or `build`; nothing where an image is all there is."""
+    """Return what built the library: CMake's record, or `build`; nothing if only an image exists."""
     if located.library is not None:
         return {"archiver": located.library.archiver}
     try:
@@ -191,6 +191,6 @@ def _tools(located: Located) -> Mapping[str, Any]:
         return {}
     message = f"{located.output} was not built yet"
     hint = (
-        "Make it with `microros-gen build`; of an image of yours give the CMake build folder, or --image FILE"
+        "Make it with `microros-gen build`; for your own image give the CMake build folder, or --image FILE"
     )
     raise UserError([Diagnostic(message, hint=hint, id="MG-8406")])

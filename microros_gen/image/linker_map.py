@@ -34,7 +34,7 @@ _TOOL_CHAIN = re.compile(
 
 
 def member_of(name: str) -> tuple[str, str]:
-    """Split `lib/librobot.a(app.o)` into library and member; both are empty for an object of its own."""
+    """Split `lib/librobot.a(app.o)` into library and member; both are empty for an object outside of a library."""
     match = _MEMBER.match(name)
     return (match["archive"], match["member"]) if match else ("", "")
 

@@ -60,7 +60,7 @@ class Located:
 
 
 def locate(path: Path, image: Path | None = None, linker_map: Path | None = None) -> Located:
-    """Find what `path`, an output folder or a CMake build folder, and `--image`, `--map` stand for.
+    """Find the image that `path` (an output folder or a CMake build folder), `--image` and `--map` name.
 
     `image` may be an executable that was linked outside of CMake, or the archive of a library of the build folder.
     Raises UserError where there is nothing, or more than one to choose from.
@@ -160,7 +160,7 @@ def _nothing(path: Path) -> UserError:
 
 
 def _home_of(path: Path) -> Path | None:
-    """Return the CMake build folder around `path`, itself included; None where there is none."""
+    """Return the CMake build folder around `path`, itself included; None if none exists."""
     whole = path.resolve()
     return next((p for p in (whole, *whole.parents) if (p / RECORDS).is_dir()), None)
 

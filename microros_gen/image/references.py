@@ -24,7 +24,7 @@ class References:
     referrers: Mapping[Key, frozenset[Key]]
 
     def chain(self, target: Key, roots: Iterable[str] = ROOTS) -> tuple[str, ...]:
-        """Return the shortest way from a root to `target`, both included; empty where there is none."""
+        """Return the shortest way from a root to `target`, both included; empty if none exists."""
         wanted = set(roots)
         before: dict[Key, Key | None] = {target: None}
         waiting = [target]

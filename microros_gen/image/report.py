@@ -27,7 +27,7 @@ _PRIVATE = "microros"
 
 @dataclass(frozen=True)
 class SizeReport:
-    """What an output folder takes. Without an image the pieces are those of every object of the library."""
+    """What an output folder takes. Without an image the parts are those of every object of the library."""
 
     folder: Folder
     pieces: tuple[Piece, ...]

@@ -88,7 +88,7 @@ def stack_report(graph: CallGraph, image: Elf, public: Iterable[str]) -> StackRe
 
 
 def bound_of(graph: CallGraph, name: str) -> Bound | None:
-    """Return the bound of one function of the image, or None where there is none of that name."""
+    """Return the bound of one function of the image, or None without one of that name."""
     node = graph.named(name)
     return _Worst(graph).bound(node, "function") if node else None
 

@@ -149,7 +149,7 @@ class _Resolver:
         return declaring_name(name) in self._types[name.package]
 
     def _known(self, name: TypeName, span: Span | None, need: str) -> bool:
-        """Return whether the type exists; otherwise say what is missing, at the request or at the field."""
+        """Return whether the type exists; otherwise report it at the request or at the field."""
         place = self._place(name.package)
         if place is None:
             self._unknown_package(name.package, span, need)

@@ -120,7 +120,7 @@ class InterfaceFinder:
         return types_in(place) if place is not None else ()
 
     def read(self, name: TypeName, diagnostics: Diagnostics) -> Source | None:
-        """Return the text of type `name`, or None where there is no such file or it cannot be read.
+        """Return the text of type `name`, or None if the file does not exist or cannot be read.
 
         A file that exists and is not UTF-8 or not readable is an error in `diagnostics`.
         """
@@ -199,7 +199,7 @@ def types_in(place: PackagePlace) -> tuple[TypeName, ...]:
 
 
 def read_type(place: PackagePlace, name: TypeName, diagnostics: Diagnostics) -> Source | None:
-    """Read the file of type `name` in `place`; None where there is none or, with an error, no text."""
+    """Read the file of type `name` in `place`; None if none exists or, with an error, no text."""
     for suffix in SUFFIXES_OF_KIND.get(name.kind, ()):
         path = place.folder / name.kind / f"{name.name}{suffix}"
         try:

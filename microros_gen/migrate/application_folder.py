@@ -146,7 +146,7 @@ def _plan(wish: Wish, text: str, diagnostics: Diagnostics) -> Planned | None:
 
 
 def _files(wish: Wish, text: str, planned: Planned | None, undecided: int) -> dict[str, bytes]:
-    """Return what is written, by its path below the folder."""
+    """Return the files to write, by their path below the folder."""
     files = {APPLICATION_FILE: text.encode()}
     environment = shared_environment()
     toolchain = None

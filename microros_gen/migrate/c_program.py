@@ -43,7 +43,7 @@ class Call:
     """`name(arguments)` in `function`; `index` orders the calls of one file.
 
     `loops` are the loops around it, the outermost first. `turn` has the count of each of them where the call is one
-    of several that loops stand for; else it is empty.
+    of several that a loop creates; else it is empty.
     """
 
     name: str
@@ -109,7 +109,7 @@ def _read(text: CText) -> CFile:
 
 
 def matching(tokens: Sequence[Token]) -> dict[int, int]:
-    """Return for the index of each opening bracket that of the closing one; the end where there is none."""
+    """Return for the index of each opening bracket that of the closing one; the end if none exists."""
     found: dict[int, int] = {}
     stack: list[int] = []
     for index, token in enumerate(tokens):

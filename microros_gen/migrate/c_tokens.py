@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """C and C++ text → tokens with places. It is no compiler: macros are not expanded, both sides of an `#if` are read.
 
-What is left out: comments, directives (their macros and conditions are kept), and what stands in `#if 0`.
+Omitted: comments, directives (their macros and conditions are kept), and code in `#if 0`.
 """
 
 from __future__ import annotations

@@ -39,7 +39,7 @@ class MetaSetting:
 def read_settings(source: Source, diagnostics: Diagnostics) -> tuple[MetaSetting, ...]:
     """Return every argument of CMake that `source` gives, in its order.
 
-    Errors where it is no colcon.meta. A package that is there twice, which JSON allows, is read where it stands first;
+    Report a file that is not a colcon.meta. Of a duplicate package, which JSON allows, the first is used;
     the other one is a warning.
     """
     found = Diagnostics()

@@ -83,7 +83,7 @@ class _Reader:
         if self._declared and name in _ENTITY_POOLS:
             is_queue = name == _QUEUE
             self._without(
-                setting, "each endpoint has its `queue`" if is_queue else "`nodes` declares what there is"
+                setting, "each endpoint has its `queue`" if is_queue else "`nodes` declares the entities"
             )
         elif name in _POOLS:
             key, least, most = _POOLS[name]

@@ -14,9 +14,9 @@ _PLANNED = "streams are planned from the declared entities"
 _TRANSPORT = "`transport` says which one there is, and only its code comes in"
 _COUNTED = "topics are counted from publishers and subscriptions"
 _EXACT = "names of types and references have exactly the room that they need"
-_SESSION = "the session connects, and connects again, by itself, at intervals of its own"
+_SESSION = "the session connects, and connects again, by itself, at its own intervals"
 _CALLS = "calls that create something wait for the agent for at most a second"
-_HEAP = "the library has no heap, files or threads of its own"
+_HEAP = "the library has no heap, no files and no threads"
 _TESTS = "the tests of the old stack are not built"
 _BUILD = "it is about how the old stack is built"
 _CORE = "the tracing of the old stack is not there"
@@ -87,8 +87,8 @@ OF_A_BUILD = _BUILD
 NOT_HERE_WHEN_ON: Mapping[str, str] = MappingProxyType(
     {
         "RMW_UXRCE_GRAPH": "questions about the ROS graph are not in this version",
-        "RMW_UXRCE_ALLOW_DYNAMIC_ALLOCATIONS": "pools do not grow: there is no heap. Declare what the application has",
-        "UCLIENT_PROFILE_CAN": "there is no CAN FD transport: give its four functions as a custom transport",
+        "RMW_UXRCE_ALLOW_DYNAMIC_ALLOCATIONS": "pools do not grow: the library has no heap. Declare all entities",
+        "UCLIENT_PROFILE_CAN": "CAN FD is not supported: provide its four functions as a custom transport",
         "UCLIENT_PROFILE_SHARED_MEMORY": "delivery inside one device goes through the agent in this version",
         "UCLIENT_PROFILE_MATCHING": "matching of QoS on the device is not in this version; the agent does it",
     }

@@ -9,7 +9,7 @@ from microros_gen.migrate.c_program import Call
 from microros_gen.migrate.draft import Remark
 from microros_gen.selection.component import NOT_READY
 
-# What begins so belongs to a component that there is not yet, unless some component declares it.
+# Names with these prefixes belong to a component that does not exist yet, unless some component declares it.
 _COMPONENTS = {
     "rclc_action_": "actions",
     "rclc_executor_add_action_": "actions",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What `init` is asked for, and the proposal that it makes of it."""
+"""The request to `init`, and the proposal that it derives from it."""
 
 from __future__ import annotations
 

@@ -114,7 +114,7 @@ def _with(call: Call, variable: str, number: int) -> Call:
 
 
 def find_timers(calls: Iterable[Call], values: Values) -> list[FoundTimer]:
-    """Return the timers in the order of the sources, each with a name of its own."""
+    """Return the timers in the order of the sources, each with its own name."""
     found: list[FoundTimer] = []
     for call in calls:
         if call.name in TIMER_CALLS and len(call.arguments) > TIMER_CALLS[call.name]:

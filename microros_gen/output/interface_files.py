@@ -31,7 +31,7 @@ def one_idl(interfaces: InterfaceSet, portable: bool, diagnostics: Diagnostics) 
 def write_idl(
     interfaces: InterfaceSet, folder: Path, portable: bool, diagnostics: Diagnostics
 ) -> tuple[int, int]:
-    """Write the .idl files of what was asked for and all that they include; return how many, and how many changed."""
+    """Write the requested .idl files and all that they include; return how many there are, and how many changed."""
     names = _with_included(interfaces)
     _warn_of_keywords(interfaces, names, portable, diagnostics)
     files = {

@@ -130,7 +130,7 @@ def _state(path: Path) -> list[int]:
 def tool_files() -> Iterator[Path]:
     """Yield the tool's own files: templates, components, profiles and modules; first the folder of its package.
 
-    An installation makes that folder anew, even where it gives the files older times.
+    An installation creates that folder again, even if it gives the files older times.
     """
     yield Path(microros_gen.__file__).parent
     yield from (Path(entry.path) for entry in _tool_entries())

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 
 class RosError(Exception):
-    """ROS 2, or what stands for it here, refused something; the text says what."""
+    """ROS 2, or its replacement here, refused something; the text says what."""
 
 
 class RosUnusableError(RosError):
-    """There is no ROS 2 that can be used: `reason` follows the name of the program that wanted it."""
+    """No usable ROS 2: `reason` follows the name of the program that needs it."""
 
     def __init__(self, reason: str, hint: str) -> None:
         super().__init__(f"this program {reason}. {hint}")

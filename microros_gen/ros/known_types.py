@@ -39,7 +39,7 @@ class KnownTypes:
         self._known: dict[TypeName, KnownType] = {}
 
     def message(self, text: str) -> KnownType:
-        """Return a message: `pkg/msg/Type`, `pkg/Type` or a derived one. UserError: there is no such file."""
+        """Return a message: `pkg/msg/Type`, `pkg/Type` or a derived one. Raise UserError if it has no file."""
         known = self._find(text, "msg")
         if known.name not in known.interfaces.messages:
             raise RosError(f"{known.name} is not a message")

@@ -166,6 +166,6 @@ class FastBuffer(ctypes.Structure):
 
 
 class RawMessage(ctypes.Structure):
-    """What stands for a message of any type here: encapsulation header and CDR body, in memory that is not its own."""
+    """A message of any type: encapsulation header and CDR body, in borrowed memory."""
 
     _fields_ = (("bytes", c_void_p), ("size", c_size_t))

@@ -2,7 +2,7 @@
 """A message type as a flat list of steps.
 
 Members of nested messages are steps of the outermost one; adjacent numbers are one step, so that `struct` writes and
-reads them in one call. Only elements of arrays and sequences have a program of their own.
+reads them in one call. Only elements of arrays and sequences have a separate program.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ class Program:
         if not value.keys() <= names.keys():
             wrong = next(name for name in value if name not in names)
             hint = nearest(str(wrong), names) or f"It has {', '.join(names) or 'none'}"
-            raise CodecError(f"there is no member '{wrong}'. {hint}", self._paths[number])
+            raise CodecError(f"unknown member '{wrong}'. {hint}", self._paths[number])
         return value
 
 
@@ -154,7 +154,7 @@ def _text(kind: StringType) -> Characters:
 
 
 def _default(field: Field) -> Any:
-    """Return what stands for a member that is missing."""
+    """Return the default of a missing member."""
     if field.default is not None:
         return field.default
     if isinstance(field.type, ArrayType):

@@ -73,7 +73,7 @@ class Implied:
 class Component:
     """One component: what it needs, what it adds to the wire, which files it brings.
 
-    `layer` is `micro-ROS` for the eleven of D1.4 (4.10.3), `middleware` or `port` for what they stand on.
+    `layer` is `micro-ROS` for the components of D1.4 (4.10.3), `middleware` or `port` for the layers below.
     `ready` is false for a component that the resolver knows and the runtime does not have yet.
     `headers` are public headers below include/; they become an `#error` when the component is not selected.
     `sends`, `receives` name XRCE submessages; `objects` name XRCE object kinds that the client creates.
@@ -131,7 +131,7 @@ class Profile:
 
 @dataclass(frozen=True)
 class ProfileSet:
-    """Profiles as they were read: what was asked for, and everything that it extends.
+    """Profiles as they were read: what was requested, and everything that it extends.
 
     Keys of `profiles`, and the names in `requested` and in each profile's `extends`, are the name of a
     built-in profile or the path of a user's file.

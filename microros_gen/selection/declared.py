@@ -43,7 +43,7 @@ def declared_components(application: Application) -> Iterator[Demand]:
 def stream_demands(application: Application, selected: frozenset[str], entities: str) -> Iterator[Demand]:
     """Yield the streams that entities and their creation need, for the components that are `selected`.
 
-    A client without entities of its own making (`preconfigured`) creates nothing. Without `nodes:` any entity
+    A client that creates no entities (`preconfigured`) creates nothing. Without `nodes:` any entity
     may be created, reliable ones too: rclc_publisher_init_default and rclc_subscription_init_default are.
     """
     if entities != "preconfigured":

@@ -134,7 +134,7 @@ class _Reader:
         if twin is None and profile.name in self._builtin:
             twin = f"the built-in {profile.name}"
         if twin is not None:
-            hint = "Give it a name of its own"
+            hint = "Give it a different name"
             self._diagnostics.error(
                 f"the profile name '{profile.name}' is taken by {twin}", profile.span, hint, id="MG-4016"
             )

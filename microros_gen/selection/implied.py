@@ -11,7 +11,7 @@ from microros_gen.selection.model import Selection
 
 
 def with_implied(application: Application, selection: Selection, diagnostics: Diagnostics) -> Application:
-    """Return the application with the endpoints that its components imply, in front of its own.
+    """Return the application with the endpoints that its components imply, before its own ones.
 
     With `nodes:` an endpoint belongs to the first node, or one to every node. Without them the library opens
     subscriptions alone by itself, once: for anything else the nodes have to be declared.

@@ -112,7 +112,7 @@ class _Reason:
 
 
 class _Picker:
-    """Components on their way in, with reasons. A component that there is not is reported once a place."""
+    """Components on their way in, with reasons. An unknown component is reported once per place."""
 
     def __init__(self, catalogue: Catalogue, diagnostics: Diagnostics) -> None:
         self.catalogue = catalogue
@@ -130,7 +130,7 @@ class _Picker:
             reasons.append(reason)
 
     def unknown(self, name: str, text: str, span: Span | None) -> None:
-        """Report a component that there is not."""
+        """Report an unknown component."""
         hint = nearest(name, self.catalogue) or f"There are {', '.join(MICRO_ROS_COMPONENTS)}"
         self.diagnostics.error(f"unknown component '{name}' ({text})", span, hint, id="MG-4030")
 

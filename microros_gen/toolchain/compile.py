@@ -87,7 +87,7 @@ def compile_tree(
 
 
 def object_name(source: str) -> str:
-    """Return the object of a C file, below the output folder; members of the library have names of their own.
+    """Return the object of a C file, below the output folder; members of the library have their own names.
 
     `src/std_msgs/int32__functions.c` → `.build/src/std_msgs/std_msgs__int32__functions.o`.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A bridge in this process and an observer in another one, in a ROS domain of their own."""
+"""A bridge in this process and an observer in another one, in a separate ROS domain."""
 
 from __future__ import annotations
 

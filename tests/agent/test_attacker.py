@@ -529,7 +529,7 @@ def test_memory_stays_where_it_is() -> None:
 
 
 def test_the_log_is_bounded_and_says_so(stage: Stage) -> None:
-    """A line for each refusal would fill disks, and hold up the agent where nobody reads."""
+    """A line for each refusal would fill disks, and delay the agent where nobody reads."""
     for number in range(3 * BURST):
         stage.say(ReadData(1, 0x1000 + number, 0x80), stream=0)
     refused = stage.bench.text.getvalue().count("reading from 0x")

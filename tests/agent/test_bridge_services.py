@@ -101,7 +101,7 @@ def test_a_big_endian_request_is_understood(bridged: Bridged, bridge_observer: O
 
 
 def test_requests_wait_for_a_service_that_comes_later(bridged: Bridged, bridge_observer: Observer) -> None:
-    """Of too many the last are lost, by name; nobody's reply is given to another."""
+    """Of too many the last are dropped, with a report; no reply reaches another client."""
     node = bridged.bridge.create_node("early", bridged.domain)
     requester = node.create_requester(get_types("later"))
     requester.request(names_body(["n" * HELD_BYTES]))
@@ -138,7 +138,7 @@ def lost(bridged: Bridged, node: str) -> list[NoServer]:
 
 
 def test_a_service_that_goes_and_comes_again(bridged: Bridged, bridge_observer: Observer) -> None:
-    """What is asked meanwhile waits, or is lost by name: ROS 2 would take it, and tell nobody."""
+    """Requests meanwhile wait, or are dropped with a report: ROS 2 would drop them silently."""
     node = bridged.bridge.create_node("patient", bridged.domain)
     requester = node.create_requester(get_types("absent"))
     requester._wait_s = 0.05  # type: ignore[attr-defined]

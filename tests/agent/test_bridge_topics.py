@@ -170,7 +170,7 @@ def test_quality_of_service_in_the_graph(bridged: Bridged, bridge_observer: Obse
 
 def test_what_is_destroyed_gives_everything_back(bridged: Bridged) -> None:
     def descriptors() -> int:
-        """Count eventfds: Fast DDS opens and closes files of its own."""
+        """Count eventfds: Fast DDS opens and closes its own files."""
         return sum(_target(fd) == "anon_inode:[eventfd]" for fd in Path("/proc/self/fd").iterdir())
 
     topic = Topic("rt/again", DDS_INT32)
@@ -220,7 +220,7 @@ def test_domains_are_apart(bridged: Bridged, bridge_observer: Observer) -> None:
 def test_the_agent_keeps_its_place_in_the_graph_when_clients_go(
     bridged: Bridged, bridge_observer: Observer
 ) -> None:
-    """A client that comes back is seen at once: others need not discover the agent anew."""
+    """A client that comes back is seen at once: others need not discover the agent again."""
     bridged.bridge.create_node("first", bridged.domain).destroy()
     own = f"/_microros_agent_{os.getpid()}"
     bridge_observer.see(lambda g: own in g["nodes"] and "/first" not in g["nodes"])

@@ -107,7 +107,7 @@ def test_a_volatile_writer_whose_readers_keep_up_needs_little() -> None:
 
 @pytest.mark.parametrize("flags", [RELIABLE, KEEP_ALL_RELIABLE])
 def test_a_volatile_writer_whose_readers_do_not_keep_up_waits(flags: int) -> None:
-    """Nothing is lost on a reliable stream: it goes on when they have taken what is there."""
+    """Nothing is lost on a reliable stream: it continues when they have taken the samples."""
     bench = publisher(Limits(object_history_bytes=3_000_000), flags, 1_000)
     bench.bridge.settled = False
     taken = sum(write(bench, 60_000, 0x80, number) for number in range(60))

@@ -80,7 +80,7 @@ def lines(name: str) -> list[Line]:
 
 
 def unframed(pieces: Iterable[Line], feed: dict[str, Callable[[bytes], list[bytes]]]) -> list[Line]:
-    """Return the messages of a byte stream that was recorded in pieces."""
+    """Return the messages of a byte stream that was recorded in parts."""
     return [(direction, message) for direction, piece in pieces for message in feed[direction](piece)]
 
 

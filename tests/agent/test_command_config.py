@@ -137,7 +137,7 @@ references: refs.xml
     path = tmp_path / "agent.yaml"
     told = [without_id(d.headline()).removeprefix(f"{path}:") for d in error.value.diagnostics]
     assert told == [
-        "1:10: error: 'version' must be 1, the only version that there is; it is 2",
+        "1:10: error: 'version' must be 1, the only version; it is 2",
         "3:5: error: 'transports[0]' has no key 'upd4'. Did you mean 'udp4'?",
         "4:12: error: 'transports[1].udp4' has no key 'prot'. Did you mean 'port'?",
         "5:18: error: 'transports[2].tcp4.port' must be a whole number between 0 and 65535; it is 70000",

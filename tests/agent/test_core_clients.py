@@ -229,7 +229,7 @@ def test_time_is_that_of_arrival_and_of_sending(monkeypatch: pytest.MonkeyPatch)
 
 
 def test_a_session_with_id_zero_is_none() -> None:
-    """8.3.2.1: 0x00 and 0x80 say that there is no session."""
+    """8.3.2.1: 0x00 and 0x80 mean *no session*."""
     bench = Bench()
     keyed = captured.CREATE_CLIENT_KEYED.replace("d4 01", "d4 00")
     (answer,) = bench.say(keyed)

@@ -178,7 +178,7 @@ def test_on_loopback_a_client_that_asks_through_the_network_is_answered(asker: s
 
 
 def test_on_loopback_other_machines_are_not_heard(asker: socket.socket) -> None:
-    """Nor can they use up the answers of those that are on this machine. Here `asker` stands for another one."""
+    """Nor can they use up the answers of those that are on this machine. Here `asker` is another one."""
     bench = Bench()
     udp = Udp(UDP4, "127.0.0.1", 0)
     network = networked()

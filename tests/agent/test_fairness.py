@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What one client makes the agent do holds up nobody else: turns, their order, and the time for changes of the graph.
+"""What one client makes the agent do delays nobody else: turns, their order, and the time for changes of the graph.
 
 Time is counted: what ROS 2 does costs milliseconds of the bench's clock.
 """
@@ -105,7 +105,7 @@ def is_served(bench: Bench, value: int) -> None:
 
 
 def application(writers: int, last: str, last_type: str = "std_msgs/msg/Int32") -> Create:
-    """Return the CREATE of an application with so many writers; the last one has a topic of its own."""
+    """Return the CREATE of an application with so many writers; the last one has its own topic."""
     many = "".join(f'<data_writer name="w{n}" topic_ref="rt/s10"/>' for n in range(writers - 1))
     type_name = dds_type("std_msgs/msg/Int32")
     text = (

@@ -56,7 +56,7 @@ def begin(bench: Bench, address: str, key: str, size: int) -> None:
 
 
 def test_fragments_of_all_clients_together_are_bounded() -> None:
-    """Two take all that there is for who comes first; a third has its own share, and the first no more."""
+    """Two take the whole shared part; a third has its own share, and the first gets no more."""
     bench = Bench(Limits(input_bytes=4000, clients=4))
     begin(bench, "a", "00 00 00 0a", 1400)
     begin(bench, "b", "00 00 00 0b", 1400)

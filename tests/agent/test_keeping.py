@@ -325,11 +325,11 @@ def read_over_a_bad_line(samples: int, seed: int) -> int:
 
 
 def test_nothing_is_lost_with_sessions_over_a_bad_line() -> None:
-    """S11: sessions were given up, and 399 of 10,000 samples (once 6,728) were lost with them."""
-    assert read_over_a_bad_line(600, 1) > 0, "some were given up"
+    """S11: sessions timed out, and 399 of 10,000 samples (once 6,728) were lost with them."""
+    assert read_over_a_bad_line(600, 1) > 0, "some timed out"
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("seed", range(3))
 def test_ten_thousand_samples_over_a_bad_line(seed: int) -> None:
-    print("sessions given up:", read_over_a_bad_line(10_000, seed))
+    print("sessions timed out:", read_over_a_bad_line(10_000, seed))

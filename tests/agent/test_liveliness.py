@@ -20,7 +20,7 @@ SIGN_OF_LIFE = message(GetInfo(1, OBJECT_CLIENT, INFO_ACTIVITY), stream=0)
 
 
 def quiet(timeout_ms: int, **limits: int) -> Bench:
-    """Return the bench of a client with a time-out of its own, which speaks when it is asked."""
+    """Return the bench of a client with its own time-out, which speaks when it is asked."""
     bench = Bench(Limits(**limits))
     bench.say(hello(1, timeout_ms=timeout_ms))
     for create in entities():
@@ -29,7 +29,7 @@ def quiet(timeout_ms: int, **limits: int) -> Bench:
 
 
 def live(bench: Bench, seconds: float, loss: float, chance: random.Random) -> int:
-    """Answer what is asked, where question and answer arrive; return how often the client was taken for gone."""
+    """Answer requests if request and answer arrive; return how often the client timed out."""
     (client,) = bench.agent.clients
     given_up = 0
     for _ in range(round(seconds / STEP_S)):
@@ -46,7 +46,7 @@ def live(bench: Bench, seconds: float, loss: float, chance: random.Random) -> in
 
 @pytest.mark.parametrize("timeout_ms", [2_000, 10_000])
 def test_a_line_that_loses_a_third_is_not_dead(timeout_ms: int) -> None:
-    """An hour: with a time-out that does not look at the line it is given up a dozen times."""
+    """An hour: with a time-out that ignores the quality of the line it would time out a dozen times."""
     bench = quiet(timeout_ms)
     chance = random.Random(timeout_ms)
     live(bench, 20 * timeout_ms / 1_000, 0.3, chance)  # it has to be known first

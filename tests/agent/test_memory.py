@@ -61,7 +61,7 @@ def test_near_the_limit_nothing_more_is_made() -> None:
     process.used = 80
     bench.agent.care(bench.now)
     assert ask(bench, entities()[1]) == RESOURCES
-    assert ask(bench, entities()[0]) in (OK, 1), "what is there is there"
+    assert ask(bench, entities()[0]) in (OK, 1), "the existing object is found"
     bench.transport.sent.clear()
     connect(bench, 2)
     assert bench.transport.sent[0][1][8] == RESOURCES
@@ -150,7 +150,7 @@ def event(agent: AgentProcess, name: str) -> dict[str, float]:
 
 
 def lasting(client: XrceClient, number: int, depth: int) -> int:
-    """Create a transient-local writer on a topic of its own; return the status."""
+    """Create a transient-local writer on a separate topic; return the status."""
     topic, writer = number << 4 | 2, number << 4 | 5
     described = topic_blob(f"rt/memory/t{number}", dds_type("std_msgs/msg/Int32"))
     assert client.create(topic, Format.BINARY, described, 0x11) in (OK, 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sessions that are opened from forged addresses: they take nobody's place, and leave next to nothing."""
+"""Sessions that are opened from forged addresses: they replace no client, and leave almost no memory behind."""
 
 from __future__ import annotations
 
@@ -158,5 +158,5 @@ def test_who_may_be_somewhere_else_is_not_told_more_than_it_said(forgeable: bool
     heard += say(message(Create(1, 0x1A, 0x0A, Format.XML, text, 0, 0), stream=0))
     heard += say(message(*(GetInfo(number, 0x1A, INFO_CONFIG) for number in range(200)), stream=0))
     assert (heard > 2.2 * said) is not forgeable
-    assert heard > 60_000, "it is told once and more"
+    assert heard > 60_000, "it is reported more than once"
     assert bool(bench.log.counters["info_withheld"]) is forgeable

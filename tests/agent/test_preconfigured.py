@@ -196,7 +196,7 @@ def listened_to(bench: Bench, address: str = "a") -> Bench:
 
 
 def test_one_that_asks_for_the_agent_is_never_taken_for_another() -> None:
-    """A client with liveliness whose agent was restarted: its samples are nobody's, and it must find that out."""
+    """A client with liveliness whose agent was restarted: its samples are dropped, and it must detect that."""
     bench = bench_with(content(adopt=True))
     for i in range(9):
         assert bench.say(sample(i, 40 + i)) == []

@@ -149,7 +149,7 @@ def test_libraries_of_qualities_and_applications() -> None:
     [
         (
             LIBRARIES.replace('base_name="Q::Lasting"/>', 'base_name="Q::Last"/>'),
-            "refs0.xml:2:34: error: application 'Counter': there is no quality of service 'Q::Last'",
+            "refs0.xml:2:34: error: application 'Counter': unknown quality of service 'Q::Last'",
         ),
         (LIBRARIES.replace('name="Q"', ""), "refs0.xml:6:1: error: this qos_library has no name"),
         (

@@ -104,7 +104,7 @@ def test_topics_writers_and_readers() -> None:
     outcome = objects.create(other)
     assert (outcome.status, outcome.reason) == (
         Status.UNKNOWN_REFERENCE,
-        "data_writer 'w': there is no topic 'rt/c'",
+        "data_writer 'w': unknown topic 'rt/c'",
     )
     filtered = (
         '<data_reader name="r" topic_ref="rt/b"><content_filter name="f"><expression> x &gt; 5 </expression>'

@@ -140,7 +140,7 @@ def _lives(core: Agent, bridged: Bridged, transport: FakeTransport) -> tuple[int
 
 
 def test_a_life_leaves_nothing() -> None:
-    """In a process of its own: another test's node in this one would keep what it has seen of the graph."""
+    """In a separate process: another test's node in this one would keep what it has seen of the graph."""
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
         python, heap = pool.submit(measured).result(timeout=seconds(120))
     print(f"each life leaves {python:.0f} B in Python and {heap:.0f} B on the heap")

@@ -114,7 +114,7 @@ def test_another_agent_is_noticed_and_given_everything_again() -> None:
             until(lambda: in_graph(observer) == (False, False, False))
             way = ("udp4", "--port", str(agent.port))
             with running_agent(domain, transport=way):
-                assert client.ping() == 0, "the new agent says that there is no session"
+                assert client.ping() == 0, "the new agent reports an unknown session"
                 client.send(RELIABLE, b"\x0c\x01\x00\x00")
                 with pytest.raises(NoAnswerError):
                     client.take(Data, timeout_s=0.3)

@@ -91,7 +91,7 @@ def test_a_heartbeat_announces_and_skips() -> None:
     assert stream.announce(5, 6) == ((b"5",), True)
     assert stream.missing() == (6, 0b1)
     assert stream.announce(2, 6) == ((), False), "an old one changes nothing"
-    assert stream.announce(7, 6) == ((), True), "nothing left to send: the gap is given up"
+    assert stream.announce(7, 6) == ((), True), "nothing left to send: the gap is dropped"
     assert stream.missing() == (7, 0)
 
 

@@ -265,7 +265,7 @@ def from_host(host: str, transport: Tcp) -> socket.socket:
 
 
 def test_half_open_connections_keep_nobody_waiting() -> None:
-    """S7: 500 that say nothing or nonsense, opened anew when they are closed; a new client is served at once."""
+    """S7: 500 that say nothing or nonsense, opened again when they are closed; a new client is served at once."""
     bench = Bench()
     transport = tcp(bench, connections=64, connections_per_host=32)
     with Served(transport, bench=bench) as served:

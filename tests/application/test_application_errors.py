@@ -47,7 +47,7 @@ ERRORS: dict[str, tuple[str, str]] = {
         "session: {round_trip: 3 s, retry_max: 200 ms}\n",
         "f:1:39: error: 'session.retry_max' is 200 ms, less than `round_trip`. Write `retry_max: 3 s` or more",
     ),
-    "a promise about packets where there are none": (
+    "a promise about packets on a stream of bytes": (
         "transport: {type: custom, framing: true, read_polls: true}\n",
         "f:1:54: error: 'transport.read_polls' has no effect with frames: their read function always gets a time-out "
         "of 0. Remove `read_polls`, or set framing: false",
@@ -119,7 +119,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     "topic: tilde inside": (
         topic("imu/~"),
         "f:3:30: error: the topic name 'imu/~' has '~' behind its first character. "
-        "'~' stands for the node, at the beginning only",
+        "'~' means the node, and only at the beginning",
     ),
     "topic: tilde without slash": (
         topic("~imu"),
@@ -178,11 +178,11 @@ ERRORS: dict[str, tuple[str, str]] = {
     "two nodes of one name": (
         "nodes:\n  - {name: a, namespace: b}\n  - {name: a, namespace: /b}\n",
         "f:3:12: error: duplicate node '/b/a'; the first is in line 2. "
-        "Give each a name or a namespace of its own",
+        "Give each a different name or namespace",
     ),
     "two timers of one name": (
         f"{NODE}    timers:\n    - {{name: t, period: 1 s}}\n    - {{name: t, period: 2 s}}\n",
-        "f:5:7: error: duplicate timer 't'; the first is in line 4. Give each a name of its own",
+        "f:5:7: error: duplicate timer 't'; the first is in line 4. Give each a different name",
     ),
     "a timer of no time": (
         f"{NODE}    timers: [{{name: t, period: 0 ms}}]\n",

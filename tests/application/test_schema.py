@@ -38,7 +38,7 @@ def resolved(schema: dict[str, Any]) -> dict[str, Any]:
 
 
 def key_paths(schema: dict[str, Any], path: str = "") -> Iterator[str]:
-    """Yield the path of every key, with [] for the items of a list; limits are a language of their own."""
+    """Yield the path of every key, with [] for the items of a list; limits have their own syntax."""
     for key, value in schema.get("properties", {}).items():
         here = f"{path}.{key}".lstrip(".")
         yield here

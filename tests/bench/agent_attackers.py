@@ -79,7 +79,7 @@ class Attacker:
         self._reliable = (self._reliable + 1) & 0xFFFF
 
     def make(self, kind: int, number: int, body: bytes, parent: int = 0, form: int = Format.BINARY) -> Create:
-        """Return a CREATE that takes the place of what is there."""
+        """Return a CREATE that replaces the existing object."""
         domain = self.domain if kind == NODE else 0
         return Create(1, number << 4 | kind, kind, form, body, parent, domain, True, True)
 
@@ -161,7 +161,7 @@ def _topic_with_ends(client: Attacker, place: int, number: int) -> bytes:
 
 
 def comes_and_goes(port: int, _tcp: int, domain: int, seconds: float) -> None:
-    """S4: a time-out of 1 ms and 480 writers: each datagram makes all of them anew."""
+    """S4: a time-out of 1 ms and 480 writers: each datagram creates all of them again."""
     one = Attacker(port, domain, 0xBAD00400, [("uxr_hl", "1")])
     one.node("s4")
     one.say_reliably(one.make(TOPIC, 1, topic_blob("rt/s4", INT32), 0x11))

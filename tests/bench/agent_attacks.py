@@ -2,7 +2,7 @@
 """The table of attacks: what each does to an honest client, to a new one, and to the agent; and all of them at once.
 
 The honest client sends a sample each 20 ms on a reliable stream, an rclpy process sends it back, and the client gets it
-on a reliable stream: that is a round trip. Each line has an agent of its own.
+on a reliable stream: that is a round trip. Each line has its own agent.
 """
 
 from __future__ import annotations
@@ -135,7 +135,7 @@ class Honest:
             self._client.tick(time.monotonic())
 
     def forget(self) -> None:
-        """Begin to count anew."""
+        """Reset the counters."""
         self._sent_at.clear()
         self.trips_ms.clear()
         self.sent = 0
@@ -259,7 +259,7 @@ def echo(domain: int) -> Iterator[None]:
 
 @contextmanager
 def attacking(attack: str, agent: AgentUnderTest, domain: int, seconds: float) -> Iterator[None]:
-    """Run one attack in a process of its own; it has begun when the context begins."""
+    """Run one attack in a separate process; it has begun when the context begins."""
     numbers = (agent.udp, agent.tcp, domain, seconds)
     command = [sys.executable, str(HERE / "agent_attackers.py"), attack, *map(str, numbers)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:

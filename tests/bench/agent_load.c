@@ -227,7 +227,7 @@ static void on_message(const uint8_t * message, size_t size)
   }
 }
 
-/* Take what is there, waiting for the first datagram at most `wait_ms`; return whether there was any. */
+/* Take the available datagrams, waiting for the first one at most `wait_ms`; return whether there was any. */
 static bool take_input(int wait_ms)
 {
   static uint8_t message[65536];
@@ -490,7 +490,7 @@ int main(int argc, char ** argv)
   } else if (strcmp(argv[1], "loopback") == 0) {
     loopback();
   } else {
-    fprintf(stderr, "agent_load: there is no task '%s'\n", argv[1]);
+    fprintf(stderr, "agent_load: unknown task '%s'\n", argv[1]);
     return 2;
   }
   return 0;

@@ -63,7 +63,7 @@ class Programs:
 
 
 def build_programs(work: Path) -> Programs | None:
-    """Compile both sides against the ROS 2 wheels of this environment; None where there are none."""
+    """Compile both sides against the ROS 2 wheels of this environment; None if none exists."""
     include, library = Path(sys.prefix) / "include", Path(sys.prefix) / "lib"
     if not (include / "rcl").exists() or shutil.which("cc") is None:
         return None

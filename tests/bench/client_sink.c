@@ -6,7 +6,7 @@
  *
  * client_sink
  * Prints `port N`; a datagram `?` is answered with `bytes datagrams samples` since the last one, in text. A datagram of one digit says
- * that from now on each so-many-th reliable message is acknowledged; what is left is, when nothing comes for a millisecond.
+ * that from now on each N-th reliable message is acknowledged; the remaining ones after a millisecond without input.
  */
 #include <arpa/inet.h>
 #include <stdbool.h>

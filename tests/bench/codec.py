@@ -128,7 +128,7 @@ def build_here(work: Path) -> Path:
 
 
 def build_fast_cdr(work: Path) -> Path | None:
-    """Compile the peer's side against the wheels of this environment; None where there are none."""
+    """Compile the peer's side against the wheels of this environment; None if none exists."""
     include, library = Path(sys.prefix) / "include", Path(sys.prefix) / "lib"
     if not (include / "fastcdr").exists() or shutil.which("c++") is None:
         print("codec: no peer: the ROS 2 wheels or a C++ compiler is missing")

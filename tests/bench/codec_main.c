@@ -105,7 +105,7 @@ int main(int argc, char ** argv)
   if (size == 0u || !codec_decode(one->handle, size, one->target)) {
     return 1;
   }
-  if (codec_encode_again(one->handle, one->target) != size) { /* what was read is what was written */
+  if (codec_encode_again(one->handle, one->target) != size) { /* the bytes read equal the bytes written */
     return 1;
   }
   show(size);

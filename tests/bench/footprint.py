@@ -39,7 +39,7 @@ def bench_footprint(folder: Path) -> None:
     builds = Builds(folder)
     print("footprint: a sender of std_msgs/msg/Int32, linked image that publishes in QEMU, serial line")
     print(
-        "  bytes; stack: painted, and proven by `microros-gen size`; instructions: of the client alone, with an"
+        "  bytes; stack: measured, and proven by `microros-gen size`; instructions: of the client alone, with an"
     )
     print(
         "  agent that answers at once; publish: with room in the stream, the last answer of the agent taken in"

@@ -143,9 +143,9 @@ def synthetic(work: Path, count: int) -> Path:
     folder = work / f"synthetic_{count}" / "msg"
     folder.mkdir(parents=True, exist_ok=True)
     for i in range(count):
-        neighbour = f"Type{i - 1} neighbour\n" if i % 10 else ""
+        neighbor = f"Type{i - 1} neighbor\n" if i % 10 else ""
         members = "std_msgs/Header header\nstring name\nfloat64[9] matrix\nint32[] counts\nbool valid\n"
-        (folder / f"Type{i}.msg").write_text(members + neighbour)
+        (folder / f"Type{i}.msg").write_text(members + neighbor)
     return folder.parent
 
 

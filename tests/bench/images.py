@@ -44,7 +44,7 @@ BOTH = TICKS.replace("[pure_sender]", "[pure_sender, pure_reader]") % "" + LISTE
 @dataclass(frozen=True)
 class Image:
     """An application file with a source below tests/firmware/c (none: the example), its flags, and what the existing
-    stack takes for the same: flash, static RAM with heap, painted stack (recorded).
+    stack takes for the same: flash, static RAM with heap, measured stack (recorded).
     """
 
     label: str
@@ -87,7 +87,7 @@ def bench_images(folder: Path) -> None:
     print("images: linked, serial line, start-up, driver and all storage included, `errors: code`; bytes:")
     print("  text + data / RAM without the stack / worst stack that `size` proves, every interrupt on top")
     head = "".join(f"{name:>24}" for name in PROCESSORS.values())
-    print(f"  {'':52}{head}   existing stack, M4 (recorded; stack painted)")
+    print(f"  {'':52}{head}   existing stack, M4 (recorded; stack measured)")
     for image in IMAGES:
         cells = []
         for board in PROCESSORS:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`check`: the users' comparison with a golden copy of their own."""
+"""`check`: the users' comparison with their own golden copy."""
 
 from __future__ import annotations
 

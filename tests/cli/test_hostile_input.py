@@ -155,7 +155,7 @@ def test_a_constant_before_the_first_module_of_an_idl_file(folder: Path) -> None
 @pytest.mark.parametrize("aim", ["pipe", "/dev/zero", "large"])
 @pytest.mark.parametrize("place", ["p/msg/A.msg", "microros.yaml", "own.yaml", "board.yaml", "p/package.xml"])
 def test_only_regular_files_of_a_bounded_size_are_read(folder: Path, aim: str, place: str) -> None:
-    """In a process of its own, which a time-out ends if it waits."""
+    """In a separate process, which a time-out ends if it waits."""
     (folder / "p/msg").mkdir(parents=True)
     (folder / "p/msg/A.msg").write_text("int32 a\n")
     (folder / "microros.yaml").write_text(

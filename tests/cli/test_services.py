@@ -91,5 +91,5 @@ def test_services_without_a_service_are_refused(run: Runner, folder: Path, rest:
     (folder / "microros.yaml").write_text(text, encoding="utf-8")
     outcome = run("generate", "--output", "out")
     assert outcome.status == 2
-    assert "'services' is selected, and there is no service" in outcome.err
+    assert "'services' is selected, but no service is declared" in outcome.err
     assert hint in outcome.err

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the generated main.c runs with an executor: declared handles, timers and timeouts, and what is left out."""
+"""What the generated main.c runs with an executor: declared handles, timers and timeouts, and what it omits."""
 
 from __future__ import annotations
 

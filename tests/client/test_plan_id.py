@@ -76,7 +76,7 @@ def test_each_thing_of_a_plan_changes_the_id() -> None:
     count = 0
     for path, other in variants(EVERYTHING):
         if path.endswith("[…]") and not path.endswith("declared[…]"):
-            continue  # a table grows by rows of its own kind; each row's values are changed below
+            continue  # a table grows by rows of one kind; each row's values are changed below
         found = identity(other)
         assert found not in known, f"{path} and {known[found]}"
         known[found] = path

@@ -97,7 +97,7 @@ def test_the_agent_holds_it(tmp_path: Path, entities: str) -> None:
 
 
 def test_one_reference_cannot_be_two(tmp_path: Path) -> None:
-    """The application may have a subscription of /clock of its own, but not with another QoS by reference."""
+    """The application may have its own subscription of /clock, but not with another QoS by reference."""
     heard = "topic: heard, type: std_msgs/msg/Int64, queue: 3"
     own = NODES.replace(heard, "topic: /clock, type: rosgraph_msgs/msg/Clock")
     runtime = planned(tmp_path, own).project.runtime

@@ -49,7 +49,7 @@ def test_every_option_of_the_help_is_there(call: tuple[str, ...]) -> None:
 
 
 def described(part: Any, path: str = "") -> Iterator[tuple[str, str]]:
-    """Yield each key of a schema and what is said of it."""
+    """Yield each key of a schema and its description."""
     if isinstance(part, dict):
         for key, value in part.get("properties", {}).items():
             yield f"{path}.{key}", value.get("description", value.get("$ref", ""))

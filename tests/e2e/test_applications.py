@@ -229,7 +229,7 @@ ROOMY = "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\n
 def test_the_usual_reconnecting_sender(
     images: Images, relay: Relay, observer: Observer, domain: int, tmp_path: Path
 ) -> None:
-    """Compiles as it is, waits for the agent, publishes, and finds back to an agent that was killed."""
+    """Compiles as it is, waits for the agent, publishes, and reconnects to an agent that was killed."""
     program = images.build(relay.port, ROOMY).application(
         C_FILES / "reconnect.c", tmp_path / "usual", "-std=c11", "-Wall", "-Wextra", "-Werror"
     )

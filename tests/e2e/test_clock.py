@@ -118,7 +118,7 @@ def test_timers_follow_the_clock(
         # Back, but not to before the last call: as it was.
         assert [simulated.at(ms) for ms in (90_150, 90_120, 90_199)] == [[], ["jump -30"], []]
         assert simulated.at(90_200) == ["tick 90200"]
-        # Further back: the period begins anew.
+        # Further back: the period begins again.
         assert [simulated.at(ms) for ms in (20_000, 20_099)] == [["jump -70200"], []]
         assert simulated.at(20_100) == ["tick 20100"]
         assert _ticks(observer, 23) == [{"data": i} for i in range(1, 24)]

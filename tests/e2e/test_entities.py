@@ -54,7 +54,7 @@ def subscribed(observer: Observer) -> Observer:
 def built(
     images: Images, port: int, names: Iterable[str] = WAYS, flags: tuple[str, ...] = FLAGS
 ) -> Mapping[str, Image]:
-    """Build an image for each way, in a namespace of its own; a full stream is waited for, so nothing is left out."""
+    """Build an image for each way, in a separate namespace; a full stream is waited for, so nothing is lost."""
     head = "version: 1\nprofiles: [pure_sender]\non_full: block 2 s\npools: {history: 16}\nnodes:\n"
     texts = {name: f"{head}{WAYS[name][0].format(name=name)}{WAYS[name][1]}" for name in names}
     return {name: images.build(port, text, "gcc", flags) for name, text in texts.items()}

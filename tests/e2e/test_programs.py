@@ -58,7 +58,7 @@ def short_image(images: Images, port: int, domain: int) -> Image:
 
 @contextmanager
 def running(domain: int, *arguments: str) -> Iterator[subprocess.Popen[str]]:
-    """Run a command in a process group of its own, as a shell does; nothing of it remains."""
+    """Run a command in a separate process group, as a shell does; nothing of it remains."""
     process = subprocess.Popen(
         [*RUN, *arguments],
         env=environment(domain),

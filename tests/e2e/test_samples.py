@@ -29,7 +29,7 @@ SHORT_RUN = (*SANITIZE, f"-DEXAMPLE_SAMPLES={SAMPLES}", "-DEXAMPLE_PERIOD_MS=20"
 
 
 def declared(name: str) -> str:
-    """Return the declared application in a namespace of its own; with it goes the client key."""
+    """Return the declared application in a separate namespace; with it goes the client key."""
     return DECLARED.replace("/arm", f"/{name}") + "pools: {history: 16}\n"
 
 

@@ -104,7 +104,7 @@ def test_a_main_that_returns_restarts_the_board_until_there_is_an_agent(builds: 
         assert running.process.wait(timeout=seconds(20)) == 0
 
 
-@pytest.mark.parametrize("loop", ["keeps the session", "begins anew"])
+@pytest.mark.parametrize("loop", ["keeps the session", "begins again"])
 def test_the_usual_loops_outlive_an_outage_of_the_agent(builds: Builds, loop: str) -> None:
     """The one line is the session's: a ping while it is looked for must not close it."""
     built = builds.build("qemu-mps2-an385", IMPATIENT)

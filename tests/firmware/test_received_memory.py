@@ -111,7 +111,7 @@ def test_a_queue_of_bytes_takes_what_it_is_given(builds: Builds) -> None:
 
 @pytest.mark.parametrize(("line", "lent"), [("udp, best effort", True), ("udp, reliable", False)])
 def test_size_counts_a_slot_in_the_input_buffer_once(builds: Builds, line: str, lent: bool) -> None:
-    """What waits there is no memory of the subscription's own."""
+    """Samples that wait there take no memory of the subscription."""
     need(CORTEX_M4)
     built = _built(builds, line, 360)
     said, scan = _size(built)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a build folder's records stand for, without a build: which image, which library, and what is said otherwise."""
+"""What a build folder's records represent, without a build: image, library, and messages if they are not found."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sizes against independent oracles: `size` and `nm` of the tool chain, C's sizeof, a painted stack."""
+"""Sizes against independent oracles: `size` and `nm` of the tool chain, C's sizeof, the measured high-water mark."""
 
 from __future__ import annotations
 
@@ -129,7 +129,7 @@ def test_the_library_alone_adds_up(measured: Measured) -> None:
 
 
 def check_message_storage(report: SizeReport) -> None:
-    """Blocks of messages that are sent have a line of their own, count in the budget, and fewer messages save them."""
+    """Blocks for sent messages have a separate line and count in the budget; fewer messages save them."""
     blocks = report.folder.manifest["message_storage"]["blocks"]
     assert blocks == {"std_msgs__msg__Int32__message": [[1, 2]], "std_msgs__msg__UInt8__message": [[1, 2]]}
     storage = sum(p.size for p in report.ram if p.use == MESSAGE_STORAGE)
@@ -251,7 +251,7 @@ def run_with(tree: Path, folder: Path, main: str) -> SizeReport:
 
 
 def test_the_stack_of_a_painted_run_is_below_the_bound(probe_tree: Path, tmp_path: Path) -> None:
-    """The same calls on a painted stack, port functions included: what was used is no more than what was bounded."""
+    """The same calls with a measured high-water mark, port functions included: it does not exceed the bound."""
     main = (Path(__file__).parent / "c" / "stack_probe.c").read_text(encoding="utf-8")
     report = run_with(probe_tree, tmp_path, main)
     said = tool(report.folder.path / "bin/pure_sender")

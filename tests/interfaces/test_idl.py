@@ -112,7 +112,7 @@ def test_services_and_actions_have_what_ros_derives() -> None:
         (const("const short A = 'a';"), "Write its number"),
         (const("const uint8 A = 256;"), "256 does not fit uint8. Its range is 0 to 255"),
         (default("float", "1"), "6:23: error: ROS 2 Jazzy makes C of a whole number that does not compile. Write 1.0"),
-        (msg("Colour a;", "typedef int32 Color;"), "Did you mean 'Color'?"),
+        (msg("Kolor a;", "typedef int32 Color;"), "Did you mean 'Color'?"),
         (msg("Bar a;"), "Another interface is written 'pkg_a::msg::Bar'"),
         (msg("unknown_type a;"), "error: 'unknown_type' is not a type and no typedef of this file."),
         (msg("float64 a;"), "Write double"),

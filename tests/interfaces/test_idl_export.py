@@ -38,7 +38,7 @@ def tree(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def installed_idl(path: Path, folder: Path) -> str:
-    """Return the .idl text that ROS 2 installs besides an interface file, or makes of it where it installs none."""
+    """Return the .idl text that ROS 2 installs with an interface file, or generates from it if it installs none."""
     idl = path.with_suffix(".idl")
     if idl.exists():
         return idl.read_text(encoding="utf-8")

@@ -55,7 +55,7 @@ def test_model_of_a_whole_file() -> None:
 #   indented
 
 # Above the constant.
-uint8 MODE = 0x2   # behind it
+uint8 MODE = 0x2   # after it
 string<=8[<=4] names ['a', "b"]  # [m/s]
   # and below
 
@@ -71,7 +71,7 @@ other/Baz[] more
             Field("bar", NamedType(TypeName("pkg_a", "msg", "Bar"))),
             Field("more", SequenceType(NamedType(TypeName("other", "msg", "Baz")))),
         ),
-        (Constant("MODE", Primitive.UINT8, 2, ("Above the constant.", "behind it")),),
+        (Constant("MODE", Primitive.UINT8, 2, ("Above the constant.", "after it")),),
         ("What it is.", "  indented"),
     )
 

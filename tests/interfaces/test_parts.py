@@ -180,7 +180,7 @@ def test_names_of_services(name: str) -> None:
     ("kind", "name"), [("srv", "Request"), ("srv", "Event"), ("action", "Goal"), ("action", "Feedback")]
 )
 def test_an_interface_with_the_name_of_a_part_has_a_warning(kind: str, name: str) -> None:
-    """A C++ class cannot hold a type of its own name."""
+    """A C++ class cannot have a member with the name of the class."""
     found, said = read("---\n---" if kind == "action" else "---", kind, name)
     assert found is not None
     assert said == [

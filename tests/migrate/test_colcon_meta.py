@@ -116,12 +116,12 @@ def test_what_is_not_needed_is_named_with_its_reason_and_line(init: Init, tmp_pa
     text = (tmp_path / "app/microros.yaml").read_text()
     listed = " ".join(line.lstrip("# ") for line in text.splitlines() if line.startswith("#"))
     for line, said in [
-        (5, "rcutils RCUTILS_NO_FILESYSTEM=ON: the library has no heap, files or threads of its own"),
+        (5, "rcutils RCUTILS_NO_FILESYSTEM=ON: the library has no heap, no files and no threads"),
         (6, "rcutils ENABLE_TESTING=OFF: the tests of the old stack are not built"),
         (11, "tracetools TRACETOOLS_DISABLED=ON: the tracing"),
         (16, "microxrcedds_client UCLIENT_PIC=OFF: it is about how the old stack is built"),
         (17, "microxrcedds_client UCLIENT_UDP_TRANSPORT_MTU=1024: the transport is custom"),
-        (18, "microxrcedds_client UCLIENT_PROFILE_CAN=OFF: there is no CAN FD transport"),
+        (18, "microxrcedds_client UCLIENT_PROFILE_CAN=OFF: CAN FD is not supported"),
         (24, "rmw_microxrcedds RMW_UXRCE_MAX_TOPICS=9: topics are counted"),
         (25, "rmw_microxrcedds RMW_UXRCE_DEFAULT_UDP_PORT=1: the transport is custom"),
     ]:
@@ -136,7 +136,7 @@ def test_what_is_not_needed_is_named_with_its_reason_and_line(init: Init, tmp_pa
         ("RMW_UXRCE_MAX_NODES=many", "'many' is no whole number"),
         ("RMW_UXRCE_MAX_PUBLISHERS=-1", "here it can be 0 to 250"),
         ("RMW_UXRCE_GRAPH=ON", "questions about the ROS graph are not in this version"),
-        ("RMW_UXRCE_ALLOW_DYNAMIC_ALLOCATIONS=ON", "pools do not grow: there is no heap"),
+        ("RMW_UXRCE_ALLOW_DYNAMIC_ALLOCATIONS=ON", "pools do not grow: the library has no heap"),
         ("RMW_UXRCE_CREATION_MODE=xml", "'xml' is none of bin, refs"),
         ("RMW_UXRCE_TRANSPORT=custom_serial", "the transport 'custom_serial' is not known here"),
         ("RMW_UXRCE_MAX_SUBSCRIPTIOS=2", "not known here. Did you mean 'RMW_UXRCE_MAX_SUBSCRIPTIONS'?"),

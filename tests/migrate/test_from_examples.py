@@ -80,7 +80,7 @@ def test_sources_and_settings_together(init: Init, tmp_path: Path) -> None:
     assert entities_of(application) == entities_of(application_in(EXAMPLES / "subscriber/microros.yaml"))
     assert (application.pools, application.transport.type) == ({"history": 2}, "serial")
     text = (tmp_path / "app/microros.yaml").read_text()
-    assert "RMW_UXRCE_MAX_PUBLISHERS=9: `nodes` declares what there is" in text.replace("\n#  ", "")
+    assert "RMW_UXRCE_MAX_PUBLISHERS=9: `nodes` declares the entities" in text.replace("\n#  ", "")
 
 
 def test_a_package_that_is_not_found_is_an_error_in_the_proposal(init: Init, tmp_path: Path) -> None:

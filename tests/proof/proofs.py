@@ -113,7 +113,7 @@ class Tree:
     types: tuple[TypePlan, ...]
 
     def key(self) -> str:
-        """Return what stands for its C files as they are now."""
+        """Return a key of the current content of its C files."""
         return tree_key(corpus.Tree("", self.folder, ()))
 
 
@@ -135,7 +135,7 @@ def runs(proof: Proof) -> Iterator[tuple[str, int]]:
 
 
 def command(proof: Proof, made: Tree, machdep: str, variant: Mapping[str, str], place: Path) -> list[str]:
-    """Return the command of a run; `place` is a folder for what is written for it."""
+    """Return the command of a run; `place` is a folder for its files."""
     defines = [f"-D{key}={value}" for key, value in variant.items() if key.isupper()]
     includes = [f"-I{place}", f"-I{place}/drivers", "-Iinclude", "-I."]
     files = sorted({file for pattern in proof.sources for file in _found(made, pattern, variant)})
@@ -152,7 +152,7 @@ def command(proof: Proof, made: Tree, machdep: str, variant: Mapping[str, str], 
 
 
 def _found(made: Tree, pattern: str, variant: Mapping[str, str]) -> list[str]:
-    """Return files of the tree; TYPES in a pattern stands for what the files of the variant's types begin with."""
+    """Return files of the tree; TYPES in a pattern is replaced by the prefixes of the files of the variant's types."""
     starts = stems(made.types, variant["type"]) if "TYPES" in pattern else [""]
     patterns = [pattern.replace("TYPES", start) for start in starts]
     found = {p.relative_to(made.folder).as_posix() for each in patterns for p in made.folder.glob(each)}
@@ -161,7 +161,7 @@ def _found(made: Tree, pattern: str, variant: Mapping[str, str]) -> list[str]:
 
 
 def run(proof: Proof, made: Tree, machdep: str, number: int, place: Path) -> Run:
-    """Analyse; `failure` is what frama-c says when it could not."""
+    """Analyze; `failure` is what frama-c says when it could not."""
     variant = proof.variants[number]
     here = place / f"{proof.name}-{machdep}-{number}"
     shutil.copytree(DRIVERS, here / "drivers", dirs_exist_ok=True)
@@ -187,7 +187,7 @@ def run(proof: Proof, made: Tree, machdep: str, number: int, place: Path) -> Run
 
 
 def _key(made: Tree, here: Path, words: Sequence[str]) -> str:
-    """Return what stands for a run: its command, and every C file that it may read."""
+    """Return the key of a run: its command, and every C file that it may read."""
     digest = hashlib.sha256(repr(words).encode())
     for path in sorted(here.rglob("*.[ch]")):
         digest.update(path.relative_to(here).as_posix().encode() + path.read_bytes())

@@ -49,7 +49,7 @@ def line(run: Run) -> str:
 
 
 def problems(run: Run) -> list[str]:
-    """Return what has to be mended or justified after this run."""
+    """Return what has to be fixed or justified after this run."""
     found = [
         f"{name(run)}: {alarm.file}:{alarm.line}: {alarm.text}"
         for alarm in run.alarms

@@ -16,7 +16,7 @@ from tests.support.quality import misra
 from tests.support.quality.corpus import (
     Tree,
     Unit,
-    analyse,
+    analyze,
     covered,
     ready_components,
     run,
@@ -116,7 +116,7 @@ def test_clang_tidy(all_units: list[Unit]) -> None:
         return done.stdout + done.stderr if done.returncode else ""
 
     name = f"clang-tidy, ports 32 bit, long type support {version} {TIDY.read_text(encoding='utf-8')}"
-    assert complaints(analyse(name, all_units, check)) == ""
+    assert complaints(analyze(name, all_units, check)) == ""
 
 
 @pytest.mark.lint
@@ -132,7 +132,7 @@ def test_cppcheck(trees: list[Tree]) -> None:
 
     version = run(["cppcheck", "--version"], ROOT).stdout
     name = f"cppcheck of trees {version} {options} {SUPPRESSIONS.read_text(encoding='utf-8')}"
-    assert complaints(analyse(name, [Unit(tree, "", tree_key(tree)) for tree in trees], check)) == ""
+    assert complaints(analyze(name, [Unit(tree, "", tree_key(tree)) for tree in trees], check)) == ""
 
 
 def compile_quietly(compiler: str, flags: Sequence[str], each: list[Unit]) -> str:
@@ -143,7 +143,7 @@ def compile_quietly(compiler: str, flags: Sequence[str], each: list[Unit]) -> st
         return f"{unit.tree.name}: {done.stderr}" if done.stderr or done.returncode else ""
 
     version = run([compiler, "--version"], ROOT).stdout.splitlines()[0]
-    return complaints(analyse(f"{version} {flags}, ports 32 bit", each, check))
+    return complaints(analyze(f"{version} {flags}, ports 32 bit", each, check))
 
 
 @pytest.mark.skipif(not shutil.which("gcc"), reason="no gcc")
@@ -177,7 +177,7 @@ def places(trees: list[Tree], is_header_a_difference: bool) -> misra.Places:
 
 
 def has_texts(tree: Tree) -> bool:
-    """Whether errors are texts: in a tree with codes the same names stand for something else."""
+    """Whether errors are texts: in a tree with codes the same names have other values."""
     return "src/support/error_text.c" in tree.sources
 
 

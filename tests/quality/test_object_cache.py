@@ -18,7 +18,7 @@ SOURCE = '#include "x.h"\nint f(int a)\n{\n  int unused;\n  return a + A;\n}\n'
 
 
 class Workshop:
-    """A cache of its own, and a way to see whether the real compiler made an object: it leaves a line in a file."""
+    """A separate cache, and a way to see whether the real compiler made an object: it writes a line to a file."""
 
     def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         real = shutil.which("gcc", path="/usr/local/bin:/usr/bin:/bin")

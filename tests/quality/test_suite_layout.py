@@ -19,7 +19,7 @@ OWN = {
     "firmware": "images for boards, in QEMU",
     "golden": "`make golden` writes it",
     "proof": "`make proof`, a program",
-    "quality": "analysers, layers, this file",
+    "quality": "analyzers, layers, this file",
     "runtime": "the C components",
     "support": "helpers",
     "tools": "programs of the Makefile",

@@ -1,42 +1,50 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The pages are written in standard English: no phrase of wording.yaml, and the glossary has each term once."""
+"""Pages, comments, docstrings and messages are in standard English: no phrase of wording.yaml, American spelling."""
 
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
-import yaml
 
 from tests.support.paths import ROOT
+from tests.support.quality.wording import files, prose, refused, refused_in
 
-PHRASES = yaml.safe_load(Path(__file__).with_name("wording.yaml").read_text(encoding="utf-8"))
-PAGES = {
-    str(path.relative_to(ROOT)): path
-    for path in (ROOT / "README.md", ROOT / "examples/README.md", *sorted((ROOT / "docs").rglob("*.md")))
-}
-_CODE = re.compile(r"^( *)```.*?^\1```|`[^`\n]+`|\]\([^)]*\)|<!-- misra: begin.*?misra: end -->", re.M | re.S)
+FOLDERS = sorted({name.rsplit("/", 1)[0] if "/" in name else "" for name in files()})
 
 
-def prose(text: str) -> str:
-    """Return a page with its code and links blanked out, lines kept."""
-    return _CODE.sub(lambda found: re.sub(r"[^\n]", " ", found[0]), text)
-
-
-def refused(text: str) -> list[str]:
-    """Return each phrase that `text` should not have, with its line and what to write instead."""
+@pytest.mark.parametrize("folder", FOLDERS)
+def test_no_file_of_a_folder_has_a_phrase_of_the_list(folder: str) -> None:
     found = []
-    for entry in PHRASES:
-        for match in re.finditer(entry["phrase"].replace(" ", r"\s+"), text, re.IGNORECASE):
-            line = text.count("\n", 0, match.start()) + 1
-            found.append(f"{line}: {' '.join(match[0].split())!r}: write {entry['write']}")
-    return found
+    for name, path in files().items():
+        if (name.rsplit("/", 1)[0] if "/" in name else "") == folder:
+            found += [f"{name}:{hit}" for hit in refused_in(path)]
+    assert found == []
 
 
-@pytest.mark.parametrize("name", PAGES)
-def test_a_page_has_no_phrase_of_the_list(name: str) -> None:
-    assert refused(prose(PAGES[name].read_text(encoding="utf-8"))) == []
+@pytest.mark.builds
+def test_spelling_is_american() -> None:
+    run = subprocess.run(
+        [
+            sys.executable,
+            "-m",
+            "codespell_lib",
+            "--builtin",
+            "clear,en-GB_to_en-US",
+            "-I",
+            "tests/quality/spelling.txt",
+            *files(),
+        ],
+        cwd=ROOT,
+        text=True,
+        capture_output=True,
+        check=False,
+    )
+    assert run.stdout + run.stderr == ""
+    assert run.returncode == 0
 
 
 @pytest.mark.parametrize(
@@ -52,12 +60,28 @@ def test_the_list_finds_a_phrase_across_lines(text: str) -> None:
     assert refused(text)
 
 
-def test_code_is_no_prose() -> None:
-    assert not refused(prose("`painted`\n\n```c\nint painted;\n```\n"))
+def test_code_of_a_page_is_not_prose(tmp_path: Path) -> None:
+    assert not refused(prose(tmp_path / "a.md", "`painted`\n\n```c\nint painted;\n```\n"))
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "line"),
+    [
+        ("a.py", 'x = 1\n"""A file\nof its own."""\nthe_house = 2\n', 3),
+        ("a.py", "painted = 1  # a painted stack\n", 1),
+        ("a.py", 'painted = f"stands twice: {painted}"\n', 1),
+        ("a.c", "int painted;\n/* Has a file of\n * its own. */\n", 2),
+        ("a.h.j2", "{# A file of its own. #}\nint painted;\n", 1),
+        ("a.yaml", "# The key stands twice\nkey: 1\n", 1),
+    ],
+)
+def test_the_list_reads_comments_and_strings_of_code(tmp_path: Path, name: str, text: str, line: int) -> None:
+    found = refused(prose(tmp_path / name, text))
+    assert {hit.split(":")[0] for hit in found} == {str(line)}
 
 
 def test_each_term_is_explained_once_and_in_order() -> None:
-    text = PAGES["docs/glossary.md"].read_text(encoding="utf-8")
+    text = (ROOT / "docs/glossary.md").read_text(encoding="utf-8")
     terms = [row[0].lower() for row in re.findall(r"(?m)^\| ([^|]+) \| ([^|]+) \|$", text)][1:]
     assert len(terms) > 40
     assert terms == sorted(set(terms), key=lambda term: re.sub(r"[^a-z ]", "", term))

@@ -374,9 +374,9 @@ TIMELESS = {
     "port_riscv": "waits for one byte of a UART; its counter has 64 bits",
     "qos": "the deadline of a QoS is a number for the agent",
     "transport_custom": "hands a time-out on to the application's function",
-    "transport_serial": "has no time of its own",
-    "transport_tcp": "has no time of its own",
-    "transport_udp": "has no time of its own",
+    "transport_serial": "keeps no time",
+    "transport_tcp": "keeps no time",
+    "transport_udp": "keeps no time",
 }
 TIME = re.compile(r"\b(port_time_\w+|port_sleep_ms|xrce_is_due|\w+_(ms|ns))\b")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Search for an agent by multicast over real sockets: what is found, tried, given up, and found again after a loss."""
+"""Search for an agent by multicast over real sockets: agents found, tried, abandoned, and found again after a loss."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ Answers = Callable[[], list[bytes]]
 
 
 class Group(threading.Thread):
-    """Answers in the group, at a port of its own, over the loopback interface alone."""
+    """Answers in the group, at its own port, over the loopback interface alone."""
 
     def __init__(self, answers: Answers) -> None:
         super().__init__(daemon=True)

@@ -32,7 +32,7 @@ POOL_KEYS = (
     "ros_clocks",
     "jump_callbacks",
 )
-"""What stands for %s in `pools: {%s: %m}`."""
+"""The values of %s in `pools: {%s: %m}`."""
 
 
 def texts() -> dict[str, str]:

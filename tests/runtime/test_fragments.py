@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reliable messages above the MTU: pieces, window, loss, what is given up, and new sessions."""
+"""Reliable messages above the MTU: fragments, window, loss, dropped messages, and new sessions."""
 
 from __future__ import annotations
 
@@ -160,7 +160,7 @@ def test_a_new_session_sends_the_whole_again(bench: Bench) -> None:
     client.ok("flush 2000")
     assert client.statistics()["reconnects"] == 1
     assert bodies(client.agent) == [body(600, 1)]
-    assert client.agent.spoiled == 1, "what was there of the session before"
+    assert client.agent.spoiled == 1, "a fragment of the previous session"
 
 
 def test_drop_oldest_leaves_alone_what_is_on_its_way(bench: Bench) -> None:

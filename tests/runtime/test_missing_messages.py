@@ -125,7 +125,7 @@ def test_a_forged_number_makes_no_storm(bench: Bench) -> None:
 
 @pytest.mark.parametrize("behind", [False, True], ids=["old numbers ahead", "old numbers in use"])
 def test_what_is_left_of_a_session_does_not_touch_the_next(bench: Bench, behind: bool) -> None:
-    """On a line it comes before the answer to CREATE_CLIENT; with UDP the new session has a socket of its own."""
+    """On a line it comes before the answer to CREATE_CLIENT; with UDP the new session has its own socket."""
     agent = ReadingAgent()
     client = bench.start(READER, agent=agent)
     for call in (

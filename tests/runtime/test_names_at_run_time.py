@@ -136,7 +136,7 @@ class Names:
         return code or (full.value or b"").decode()
 
     def index(self, topic: str) -> int | None:
-        """Return where rcl_validate_topic_name finds a fault; None: there is none."""
+        """Return where rcl_validate_topic_name finds a fault; None without one."""
         index = self._library.probe_index(topic.encode())
         return None if index == -1 else index
 
@@ -168,7 +168,7 @@ def ros() -> Any:
 @given(name=NAMES, namespace=st.sampled_from(["/", "/ns", "/a/b"]))
 @settings(max_examples=400)
 def test_topics(names: Names, ros: Any, name: str, namespace: str) -> None:
-    """Without `name_substitutions`: there are none, and no `~x`, which rcl takes with one character alone.
+    """Without `name_substitutions`: no substitutions, and no `~x`, which rcl accepts with a single character.
 
     How long a name may be is a matter of the plan: it is declared, or `pools: {name_size: …}` bounds it.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Publishers of one type with limits of their own: what one of them refuses another one sends."""
+"""Publishers of one type with their own limits: what one of them refuses another one sends."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Queues whose samples share bytes (`queue_bytes`): what fits, what is asked for, what is dropped, what moves."""
+"""Queues whose samples share bytes (`queue_bytes`): which samples fit, are requested, are dropped and move."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def test_a_reliable_one_asks_for_what_fits_whatever_the_sizes_are(bench: Bench) 
     """Two of the largest fit an empty queue; small ones leave room for more of them."""
     places = Places(bench, PLAN, OPENED)
     assert asked(places, GO) == [2]
-    assert asked(places, NUMBER) == [3], "a queue without the key beside it"
+    assert asked(places, NUMBER) == [3], "a queue without the key"
     offered(places, GO, *((20, letter) for letter in "abcdefghijkl"))
     places.client.spin(30)
     assert 10 * share(20) + LARGEST < BYTES
@@ -73,7 +73,7 @@ def test_a_reliable_one_asks_for_what_fits_whatever_the_sizes_are(bench: Bench) 
 
 
 def test_as_many_of_the_largest_fit_whatever_came_before(bench: Bench) -> None:
-    """The end of the queue is never too near: what waits moves, also while the pieces of the next one arrive."""
+    """The end of the queue is never too near: waiting samples move, also while fragments of the next one arrive."""
     places = Places(bench, PLAN, OPENED)
     offered(places, GO, (20, "s"), (395, "a"))
     places.client.spin(12)
@@ -151,7 +151,7 @@ def test_nothing_is_lost_under_loss_and_disorder(bench: Bench, plan: RuntimePlan
 
 
 def test_what_waits_stays_over_a_new_session(bench: Bench) -> None:
-    """A sample of which only pieces have come is not given to anybody."""
+    """A partly received sample is never delivered."""
     places = Places(bench, PLAN, OPENED)
     offered(places, GO, (30, "a"))
     places.client.spin(4)

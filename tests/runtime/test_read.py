@@ -98,7 +98,7 @@ def test_what_a_subscription_creates(bench: Bench) -> None:
 
 
 def test_read_data_as_the_public_client_sends_it(bench: Bench) -> None:
-    """On a reliable stream of its own; micro-ROS asks with the same submessage."""
+    """On a separate reliable stream; micro-ROS asks with the same submessage."""
     reader = Reader(bench, qos="best_effort")
     (sent,) = (d for d in reader.client.sent if d[4] == READ_DATA)
     request = sent[8:10].hex()

@@ -35,7 +35,7 @@ TWO = ("String go best_effort", "Int32 number reliable")
 
 
 def test_a_sample_waits_where_its_fragments_came(bench: Bench) -> None:
-    """The queue has one slot and there is no other buffer; the agent holds the next one back until it was taken."""
+    """The queue has one slot and there is no second buffer; the agent holds back the next sample meanwhile."""
     places = Places(bench, FRAGMENTS, THREE)
     places.send(places.agent.offer(FIRST, text(300, "a"), text(390, "b")))
     places.client.spin(5)
@@ -98,7 +98,7 @@ def test_fragments_of_a_subscription_that_is_closed_meanwhile(bench: Bench) -> N
 
 
 def test_a_sample_that_nobody_asked_for_between_fragments(bench: Bench) -> None:
-    """It takes the slot; what was there in part is counted, and never given to anybody."""
+    """It takes the slot; a partly received sample is counted, and never delivered."""
     places = Places(bench, FRAGMENTS, THREE)
     pieces = places.agent.offer(FIRST, text(300, "a"))
     places.send(pieces[:3])

@@ -174,7 +174,7 @@ def test_a_reply_that_nobody_waits_for(bench: Bench) -> None:
 
 
 def test_more_requests_than_there_is_room_for_replies(bench: Bench) -> None:
-    """The oldest is given up, so that a client without a server goes on; its late reply is thrown away."""
+    """The oldest request is abandoned, so a client without a server continues; its late reply is discarded."""
     peer = Peer(bench)
     assert [peer.ask(value) for value in range(4)] == [1, 2, 3, 4]
     assert peer.counted("client") == [0, 0, 1, 0]
@@ -249,7 +249,7 @@ def test_no_call_is_lost_or_doubled_at_30_percent_loss(bench: Bench, plan: Runti
 
 
 def test_a_lost_session(bench: Bench) -> None:
-    """What was under way is told once and counted; both go on by themselves, and a reply that comes still is taken."""
+    """Outstanding requests are reported once and counted; both sides continue, and a late reply is taken."""
     peer = Peer(bench)
     peer.ask(1)
     peer.ask(2)

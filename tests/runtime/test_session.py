@@ -203,7 +203,7 @@ def test_reconnection_slows_down(bench: Bench) -> None:
 
 def test_ping_api(bench: Bench) -> None:
     client = bench.start()
-    assert client.call("ping 10 1").code == 0, "without a session, over a transport of its own"
+    assert client.call("ping 10 1").code == 0, "without a session, over its own transport"
     assert client.sent == [bytes.fromhex("80000000 02010800 000afffd 02000000")]
     client.agent.silent = True
     result = client.call("ping 10 3")

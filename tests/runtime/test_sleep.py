@@ -160,9 +160,9 @@ def test_another_entity_in_the_place(bench: Bench, memory: Path) -> None:
     assert device.agent.values() == [7]
 
 
-@pytest.mark.parametrize("forgetful", [True, False], ids=["anew", "gone"])
+@pytest.mark.parametrize("forgetful", [True, False], ids=["restarted", "gone"])
 def test_an_agent_that_forgot_meanwhile(bench: Bench, memory: Path, forgetful: bool) -> None:
-    """It has started anew, or is not there: a new session by itself, in which both directions go on."""
+    """The agent has restarted, or is gone: a new session by itself, in which both directions go on."""
     device = Device(bench, memory)
     device.sleep()
     if forgetful:

@@ -64,7 +64,7 @@ def request(client: Client, agent: ServingAgent, number: int) -> None:
 
 
 def take_and_answer(client: Client) -> int:
-    """Take a request as a polling program does, and answer it; return its number, 0: there was none."""
+    """Take a request as a polling program does, and answer it; return its number, or 0 without one."""
     taken = client.call("serve_take 0 0")
     assert taken.code in (0, TAKE_FAILED), taken
     if taken.code:

@@ -55,7 +55,7 @@ def test_no_frame_grows_with_the_largest_message(transport: str, tmp_path: Path)
     large = frames(tmp_path / "large", transport, LARGEST)
     assert {"rmw_uros_ping_agent", "rmw_inquiry_ask", "rmw_uros_sync_session"} <= set(small)
     grown = {name for name, size in large.items() if size != small[name]}
-    # A connection has what waits to be sent in it, also one of its own for a question.
+    # A connection contains the bytes that wait to be sent, also a separate connection for a request.
     assert grown == ({"ping_place", "discovery_reaches"} if transport == "tcp" else set())
     # That nothing else receives on the stack, port_fake.c watches in test_states.py.
     reading = {"inquiry_once", "inquiry_try", "rmw_inquiry_ask", "xrce_discovery_search"}

@@ -27,7 +27,7 @@ PLAN = changed(
 
 
 def byte_by_byte(peer: socket.socket, answers: list[bytes]) -> None:
-    """Send each byte in a segment of its own."""
+    """Send each byte in a separate segment."""
     for byte in b"".join(map(framed, answers)):
         peer.sendall(bytes([byte]))
         time.sleep(0.0002)
@@ -62,7 +62,7 @@ def test_whatever_the_segments(send: Sender, read: int, tmp_path: Path) -> None:
 def test_a_closed_connection_is_opened_again(
     close_at: tuple[int, ...], liveliness: str, tmp_path: Path
 ) -> None:
-    """The agent closes it and forgets; without liveliness, too, the client finds back."""
+    """The agent closes it and forgets; without liveliness, too, the client reconnects."""
     plan = changed(PLAN, streams__on_full="block", streams__on_full_block_ms=50)
     with serving(TcpAgent()) as agent:
         agent.before = lambda count: count not in close_at

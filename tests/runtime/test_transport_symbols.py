@@ -36,7 +36,7 @@ def test_one_transport_and_no_other(name: str, tmp_path: Path) -> None:
     objects = compile_objects(tree, tree.sources, "gcc", ("-Os",))
     out = subprocess.run(["nm", *map(str, objects)], capture_output=True, text=True, check=True).stdout
     names = {line.split()[-1] for line in out.splitlines() if len(line.split()) >= 2}
-    names = {n for n in names if not n.startswith("microros_error_")}  # texts: each an object of its own
+    names = {n for n in names if not n.startswith("microros_error_")}  # texts: each its own object
     for transport, pattern in OWN.items():
         found = {n for n in names if pattern.search(n)}
         if transport == plan.transport.kind:

@@ -30,7 +30,7 @@ def write(folder: Path, **files: str) -> None:
 
 
 def fold(folder: Path, *names: str) -> tuple[list[str], dict[str, tuple[str, ...]]]:
-    """Return what was said (without the folder) and the components of each resolved profile."""
+    """Return the messages (without the folder) and the components of each resolved profile."""
     said = Diagnostics()
     resolved = resolve_profiles(load_profiles([Named(n) for n in names], folder, said), said)
     lines = [without_id(d.headline()).replace(f"{folder.as_posix()}/", "") for d in said]
@@ -159,7 +159,7 @@ ERRORS = {
     "name of a built-in profile": (
         {"x": "profile: pure_sender\n"},
         "x.yaml:1:10: error: the profile name 'pure_sender' is taken by the built-in pure_sender. "
-        "Give it a name of its own",
+        "Give it a different name",
     ),
     "empty": ({"x": "# nothing\n"}, "x.yaml:1:1: error: the file is empty. Write `key: value` lines"),
     "no name": (

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the command line in this process, in a folder of its own."""
+"""Runs the command line in this process, in a separate folder."""
 
 from __future__ import annotations
 

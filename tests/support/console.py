@@ -2,7 +2,7 @@
 """Reads the code blocks of a page and runs its console blocks, in the order of the page, in one folder.
 
 In a block marked `console` a line `$ command` is run by a shell; the lines below it are what it prints: `...` alone
-stands for any lines, `…` for any part of a line, and sizes that a compiler gives are not compared. Without such lines
+matches any lines, `…` any part of a line, and sizes that a compiler gives are not compared. Without such lines
 only the status counts. A command with `&` at its end runs on until the page ends; its lines are waited for. A block
 marked `sh` has commands alone, one a line. Where the lines shown have an `error: `, the command must fail, and the
 lines are what it prints to stderr. A block with `title="path"` is a file that the page has the reader write.
@@ -89,7 +89,7 @@ def shows(printed: str, shown: list[str], begun: bool = False) -> bool:
 
 
 class Terminal:
-    """Runs commands of a page in one folder, with a port instead of 8888 and a ROS domain of its own."""
+    """Runs commands of a page in one folder, with a port instead of 8888 and its own ROS domain."""
 
     def __init__(self, folder: Path, port: int) -> None:
         self._folder = folder

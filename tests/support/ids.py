@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a test of words compares: a diagnostic without its id, which has tests of its own."""
+"""Diagnostics without their id, for tests that compare texts; the ids have separate tests."""
 
 from __future__ import annotations
 

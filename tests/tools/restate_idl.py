@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Restates interface packages: reads their interface files and prints names, types, constants and defaults anew.
+"""Restates interface packages: reads their interface files and prints names, types, constants and defaults.
 
 Nothing else of the read files is kept, comments least of all; the short notes below are this project's own.
 Run it when a new distribution is taken up:

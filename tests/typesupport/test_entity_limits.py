@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Limits of a publisher of its own: storage of its own, where another publisher of the type has larger ones.
+"""Publishers with their own limits: separate storage, if another publisher of the type has larger limits.
 
 test_own_encoders.py has the encoders.
 """
@@ -111,6 +111,6 @@ def test_the_example_uses_the_storage_of_each_topic(out: Path) -> None:
 
 
 def test_the_type_has_the_largest_of_all(out: Path) -> None:
-    """The handle stands for every publisher of the type: rmw_serialize and message sizes go by the largest limits."""
+    """The handle is shared by all publishers of the type: rmw_serialize and message sizes go by the largest limits."""
     header = (out / "include/std_msgs/msg/detail/string__type_support.h").read_text()
     assert "std_msgs__msg__String__MAX_ENCODED_SIZE = 45" in header

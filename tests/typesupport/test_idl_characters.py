@@ -81,7 +81,7 @@ def source(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def ros(source: Path, tmp_path_factory: pytest.TempPathFactory) -> RosPackage:
-    """What ROS 2 makes of it."""
+    """The result of ROS 2."""
     return make_ros_package(source, "letters", list(PACKAGE), tmp_path_factory.mktemp("ros"))
 
 

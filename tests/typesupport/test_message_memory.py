@@ -78,7 +78,7 @@ def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.parametrize("variant", VARIANTS)
 def test_what_sources_do_with_messages(out: Path, variant: str) -> None:
-    """Initialize, assign, copy, create, the utilities, buffers and an allocator of their own: line by line in C."""
+    """Initialize, assign, copy, create, the utilities, buffers and an application's allocator: line by line in C."""
     command = VARIANTS[variant]
     if shutil.which(command[0]) is None:
         pytest.skip(f"no {command[0]}")

@@ -198,7 +198,7 @@ def motor(tmp_path_factory: pytest.TempPathFactory) -> Generated:
 
 
 def test_a_struct_says_what_the_interface_file_says(motor: Generated) -> None:
-    """Comments, units, ranges, bounds and default values stand above the member that they belong to."""
+    """Comments, units, ranges, bounds and default values precede the member that they belong to."""
     header = motor.files["include/a/msg/detail/motor__struct.h"].decode()
     assert "/** Largest speed. [rpm] */\nenum\n{\n  a__msg__Motor__MOST = 6000\n};" in header
     start = header.index(

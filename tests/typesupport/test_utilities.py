@@ -198,7 +198,7 @@ def test_strings(program: Callable[[str], Path], variant: str) -> None:
 
 
 def test_above_the_limit_is_refused_by_name(program: Callable[[str], Path]) -> None:
-    """The utilities give what is asked for; the encoder holds the limits of the application file."""
+    """The utilities allocate what is requested; the encoder checks the limits of the application file."""
     found = say(program("gcc"), "limit")
     assert found["fits"] == "30"
     assert found["above"] == "0 data 26 25"
@@ -209,7 +209,7 @@ def symbols(path: Path) -> str:
 
 
 def names(image: Path) -> set[str]:
-    """Return the symbols of an image but the one that stands for its plan."""
+    """Return the symbols of an image except for the one of its plan id."""
     found = {line.split()[-1] for line in symbols(image).splitlines()}
     return {name for name in found if "__plan_" not in name}
 

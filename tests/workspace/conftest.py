@@ -38,7 +38,7 @@ def tool(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def installed(tmp_path_factory: pytest.TempPathFactory) -> Installed:
-    """The wheel of this repository in an environment of its own, made once in a process."""
+    """The wheel of this repository in a separate environment, made once in a process."""
     return install_wheel(tmp_path_factory.mktemp("package"))
 
 

@@ -26,7 +26,7 @@ def project(tmp_path: Path) -> Project:
 
 
 def refused(project: Project, text: str, *options: str) -> str:
-    """Configure `text`, which has to fail; return what was said, in one line without CMake's breaks."""
+    """Configure `text`, which has to fail; return the messages, in one line without CMake's breaks."""
     (project.source / "CMakeLists.txt").write_text(BEGIN + text)
     done = project.configure(*options)
     assert done.returncode != 0, done.stdout

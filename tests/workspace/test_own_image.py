@@ -120,7 +120,7 @@ def test_without_a_map_symbols_tell(project: Project) -> None:
     hidden = linker_map.rename(linker_map.with_suffix(".hidden"))
     try:
         data = sized(project, project.build_folder)
-        assert "There is no map of it" in tool(project, "size", project.build_folder).stdout
+        assert "The linker map is missing" in tool(project, "size", project.build_folder).stdout
     finally:
         hidden.rename(linker_map)
     assert (data["mapped"], mapped["mapped"]) == (False, True)
@@ -179,7 +179,7 @@ def test_an_image_of_somebody_elses_archive(project: Project, tmp_path: Path) ->
 
 
 def test_budgets_are_those_of_build(project: Project) -> None:
-    """Each is an error at its place in the application file, until the file or the application is mended."""
+    """Each is an error at its place in the application file, until the file or the application is fixed."""
     config = project.source / "microros.yaml"
     before = config.read_text()
     config.write_text(before + BUDGETS)
@@ -279,7 +279,7 @@ nodes: [{name: n, publishers: [{topic: t, type: std_msgs/msg/Int32, qos: {reliab
 
 @pytest.mark.parametrize("generator", ["ninja", pytest.param("make", marks=pytest.mark.long)])
 def test_a_part_of_a_project_that_fetches_the_tool(generator: str, tmp_path: Path) -> None:
-    """In a folder of its own, so the linker runs elsewhere; its budget is checked there as well."""
+    """In a separate folder, so the linker runs elsewhere; its budget is checked there as well."""
     project = Project(tmp_path / "robots", generator)
     firmware = project.source / "firmware"
     firmware.mkdir(parents=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The wheel holds everything, and works where there is no repository and no ROS."""
+"""The wheel holds everything, and works without a repository and without ROS."""
 
 from __future__ import annotations
 

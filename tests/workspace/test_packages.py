@@ -27,7 +27,7 @@ ONLY_OURS = "find_package(rosidl_cmake REQUIRED)\nfind_package(rosidl_generator_
 
 
 def cmake(source: Path, prefix: Path, *options: str) -> str:
-    """Configure, build and install a package; return what was said."""
+    """Configure, build and install a package; return the messages."""
     build = prefix.parent / "build" / source.name
     environment = clean_environ(
         PATH=os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]]),

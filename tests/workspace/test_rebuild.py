@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a build makes anew after a change: what depends on it, as the compiler's own notes say, and nothing else."""
+"""What a build compiles after a change: only what depends on it, according to the compiler's dependency files."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ static const uint32_t control_transmit = 1u << 7; /* TXEIE */
 
 void usart2_interrupt(void);
 
-/* Two at most: one in the shift register, one behind it. */
+/* Two at most: one in the shift register, one waiting. */
 static void send_bytes(void)
 {
   uint8_t byte;
@@ -86,7 +86,7 @@ void port_uart_stop(void)
   PORT_CORTEX_M_REGISTER(USART2_CR1) = 0;
 }
 
-/* With room there, the interrupt comes at once, and again each time that there is room. It is pended as well for QEMU 7.2, whose
+/* If it has room, the interrupt occurs at once, and again each time it has room. It is pended as well for QEMU 7.2, whose
  * USART has no transmit interrupt; on the board the two are one. */
 void port_uart_send(void)
 {

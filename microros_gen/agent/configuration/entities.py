@@ -14,7 +14,7 @@ class PreconfiguredObject:
     """One object; `id` is (index << 4) | kind as in DDS-XRCE, `parent` that of what contains it.
 
     A participant has `name` and `domain`, a topic `name` and `type` (names of DDS), a data writer or reader `topic` (an
-    object id) and its quality of service; depth 0 stands for the default of 1. A requester or replier has the `name` of
+    object id) and its quality of service; depth 0 means the default of 1. A requester or replier has the `name` of
     its service and the DDS names of its types and topics; topics may be empty, then they follow from the name.
     """
 
@@ -38,7 +38,7 @@ class PreconfiguredObject:
 
 @dataclass(frozen=True)
 class PreconfiguredClient:
-    """A client by its key (4 bytes, None: every client without an entry of its own) and its objects, parents first.
+    """A client by its key (4 bytes, None: every client without its own entry) and its objects, parents first.
 
     `adopt`: the client never opens its session again, so its samples are taken when no session of it is known.
     """

@@ -16,7 +16,7 @@ The file is JSON, which YAML includes; every fault is told at its place in one r
 Subscribers and data readers are like publishers and data writers, requesters like repliers. The topics of these follow
 from the name (`rq/armRequest`, `rr/armReply`) unless `request_topic` and `reply_topic` name them.
 
-`key` "*" stands for every client without an entry of its own. `adopt: true` is for a client without liveliness, which
+`key` "*" applies to every client without its own entry. `adopt: true` is for a client without liveliness, which
 never opens its session again: the agent takes its samples also after a restart (agent/preconfigured.py).
 """
 
@@ -238,7 +238,7 @@ class _Objects:
             self._diagnostics.error(
                 f"the id {identifier:#06x} is there twice; first in line {self._line_of(identifier)}",
                 entry.span,
-                "Give each object an id of its own",
+                "Give each object a different id",
                 id="MG-9410",
             )
         return identifier

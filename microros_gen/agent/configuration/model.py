@@ -11,7 +11,7 @@ from microros_gen.records import dataclass
 
 @dataclass(frozen=True)
 class SocketChoice:
-    """A UDP or TCP transport: `kind` is udp4, udp6, tcp4 or tcp6; no `bind` stands for the loopback address.
+    """A UDP or TCP transport: `kind` is udp4, udp6, tcp4 or tcp6; without `bind` it listens on the loopback address.
 
     `limits` are those of TCP connections, by name.
     """

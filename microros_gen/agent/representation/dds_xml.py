@@ -124,7 +124,7 @@ def read_endpoint(element: Element, known: Known) -> Endpoint:
     name = element.get("topic_ref", "")
     topic = known.topics.get(name)
     if topic is None:
-        raise UnknownNameError(f"{element.tag} '{element.get('name', '')}': there is no topic '{name}'")
+        raise UnknownNameError(f"{element.tag} '{element.get('name', '')}': unknown topic '{name}'")
     writes = element.tag == "data_writer"
     qos = _qos(element.find(f"{element.tag}_qos"), WRITER if writes else READER, known)
     separation = _milliseconds(element, f"{element.tag}_qos/time_based_filter/minimum_separation")
@@ -199,7 +199,7 @@ def _profile(name: str, known: Known) -> QosProfile:
     library, _, profile = name.replace("::", ":").partition(":")  # the standard writes both
     found = known.profiles.get(f"{library}::{profile}")
     if found is None:
-        raise UnknownNameError(f"there is no quality of service '{name}'")
+        raise UnknownNameError(f"unknown quality of service '{name}'")
     return found
 
 

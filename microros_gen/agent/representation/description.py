@@ -19,7 +19,7 @@ class Durability(Enum):
 
 @dataclass(frozen=True)
 class Qos:
-    """Quality of service of an endpoint; depth 0 stands for the default of 1, times in ms, 0 for no limit."""
+    """Quality of service of an endpoint; depth 0 means the default of 1; times in ms, 0 for no limit."""
 
     reliable: bool = True
     durability: Durability = Durability.VOLATILE

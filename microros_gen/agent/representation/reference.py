@@ -26,7 +26,7 @@ class References:
     known: Mapping[tuple[int, str], Description] = field(default_factory=dict)
 
     def find(self, kind: int, name: str, domain: int) -> Description:
-        """Return what `name` stands for among objects of `kind`; UnknownReferenceError when there is nothing.
+        """Return the object of `kind` with this `name`; raise UnknownReferenceError if none has it.
 
         `domain` is what the client's CREATE says besides the name; a participant takes it from there.
         """

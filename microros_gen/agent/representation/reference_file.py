@@ -4,7 +4,7 @@
 The root is `profiles`, or `dds` with `profiles` in it. Each participant, topic, data_writer, data_reader, requester
 and replier has the attribute `profile_name`, by which a CREATE names it; publisher and subscriber are older names of
 data_writer and data_reader. Profiles of other things (transports, types, logs) are none of the agent's business.
-Beside them, or as the root, stand libraries of DDS-XML: `qos_library` and `application_library`, whose content a CREATE
+Libraries of DDS-XML may follow, or be the root: `qos_library` and `application_library`, whose content a CREATE
 names as `Library::Name` (DDS-XRCE 1.0, 7.7.3.2.1 and 7.7.3.5.1).
 
     <profiles>

@@ -142,7 +142,7 @@ class NoServer:
 
 @dataclass(frozen=True)
 class ServerFound:
-    """A service is there for which requests had come too early; `lost` of them were dropped."""
+    """A service appeared after requests to it; `lost` of them were dropped."""
 
     node: str
     endpoint: str
@@ -214,7 +214,7 @@ class Source(Protocol):
         """Names and types on the ROS side, for the log."""
 
     def unread(self) -> int:
-        """Return about how many have come since it was last seen empty; to be asked seldom."""
+        """Return about how many arrived since it was last empty; expensive."""
 
     def destroy(self) -> None:
         """Leave the ROS graph; nothing else is called afterwards."""

@@ -40,7 +40,7 @@ class Ros:
 
 
 class Entity:
-    """A handle of rclpy and the endpoints that it stands for. Destroying it again does nothing."""
+    """A handle of rclpy and the endpoints that it represents. Destroying it again does nothing."""
 
     def __init__(self, handle: Any, events: Events, endpoints: tuple[Endpoint, ...]) -> None:
         self._handle = handle

@@ -59,7 +59,7 @@ class Endpoint:
 
 @dataclass(eq=False)
 class _Watched:
-    """Events of an endpoint, and what was seen of them: ROS 2's own changes start anew when a callback is set."""
+    """Events of an endpoint, and what was seen of them: ROS 2's own changes start again when a callback is set."""
 
     matched: Any
     refused: Any

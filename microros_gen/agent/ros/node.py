@@ -134,7 +134,7 @@ class RawNode:
 
 @contextmanager
 def _translated() -> Iterator[None]:
-    """Give the client the error of a type that cannot be had."""
+    """Report the error of a type that is not available to the client."""
     try:
         yield
     except TypeLimitError as error:

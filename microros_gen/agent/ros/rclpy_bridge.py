@@ -170,7 +170,7 @@ class RclpyBridge:
             self.trim()
 
     def _known_hash(self, type_name: str, hash_of: HashOf | None) -> str | None:
-        """Return a type's hash: by the client's manifest, else by the interface files; None is told once."""
+        """Return a type's hash from the client's manifest, else from the interface files; report a missing one once."""
         for known in (hash_of, self._hash_of):
             found = known(type_name) if known else None
             if found is not None:

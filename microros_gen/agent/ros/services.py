@@ -79,7 +79,7 @@ class Held:
         return len(self._calls)
 
     def put(self, until: float, key: Any, serialized: bytes) -> bool:
-        """Hold a call; False when there is no room for it."""
+        """Hold a call; False when it does not fit."""
         size = len(serialized)
         if (
             len(self._calls) >= HELD_CALLS
@@ -170,7 +170,7 @@ class RawService(RawSource):
 class RawReplier(RawService):
     """See Replier.
 
-    ROS 2 waits (100 ms, and holds up the agent) for a client that it does not know, since it may be about to be
+    ROS 2 waits (100 ms, and delays the agent) for a client that it does not know, since it may be about to be
     discovered. So it only gets replies to clients that the graph has; one to somebody else is held until it has.
     """
 

@@ -38,7 +38,7 @@ class _Time(ctypes.Structure):
 
 
 class Wakeups(Generic[T]):
-    """An epoll descriptor and what its eventfds stand for."""
+    """An epoll descriptor and the objects that its eventfds wake."""
 
     def __init__(self) -> None:
         self._epoll = select.epoll()
@@ -49,7 +49,7 @@ class Wakeups(Generic[T]):
         return self._epoll.fileno()
 
     def add(self, what: T) -> int:
-        """Return a new eventfd that stands for `what`; BridgeError when the process has no descriptor left."""
+        """Return a new eventfd that wakes `what`; BridgeError when the process has no descriptor left."""
         try:
             descriptor = os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC)
         except OSError as error:
@@ -61,12 +61,12 @@ class Wakeups(Generic[T]):
         return descriptor
 
     def watch(self, descriptor: int, what: T) -> None:
-        """Let a descriptor stand for `what`; it is closed with the others."""
+        """Let a descriptor wake `what`; it is closed with the others."""
         self._known[descriptor] = what
         self._epoll.register(descriptor, select.EPOLLIN | select.EPOLLET)
 
     def add_timer(self, what: T) -> int:
-        """Return a timer that stands for `what` and rests until `set_timer`; BridgeError as above."""
+        """Return a timer that wakes `what` and rests until `set_timer`; BridgeError as above."""
         descriptor = int(_libc().timerfd_create(_CLOCK_MONOTONIC, os.O_NONBLOCK | os.O_CLOEXEC))
         if descriptor < 0:
             raise BridgeError("no file descriptor is left: raise the limit (ulimit -n)", Status.RESOURCES)

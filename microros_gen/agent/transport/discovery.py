@@ -53,7 +53,7 @@ class Discovery:
         port: int = PORT,
         addresses: Callable[[], Iterable[OwnAddress]] = own_addresses,
     ) -> None:
-        """Tell of `transports`; UserError when there are none or the port cannot be had."""
+        """Announce `transports`; raise UserError without any of them, or if the port is not available."""
         if not transports:
             reason = "discovery needs a UDP or TCP transport"
             raise UserError(
@@ -150,7 +150,7 @@ class Discovery:
         return asker.is_loopback or any(own.address == asker for own in self._own)
 
     def _reachable(self, host: Address, asker: Address) -> list[Address]:
-        """Return the addresses that `host` stands for; first the one from which `asker` would be answered."""
+        """Return the addresses of `host`; first the one from which `asker` would be answered."""
         if not host.is_unspecified:
             return [host]
         own = [o.address for o in self._own if o.address.version == host.version]

@@ -25,7 +25,7 @@ RETRY_S = 0.25
 """Seconds between two looks for a device that is not there."""
 
 Open = Callable[[], int]
-"""Opens the line: returns a descriptor that does not block; OSError when there is no line now."""
+"""Opens the line: returns a descriptor that does not block; OSError if the line does not exist now."""
 
 
 class Line:
@@ -158,7 +158,7 @@ class Line:
         self._give_back()
         self._outbox.clear()
         self._decoder.reset()
-        self._told = os.strerror(errno.ENOENT)  # the ordinary reason needs no line of its own
+        self._told = os.strerror(errno.ENOENT)  # the ordinary reason needs no separate line
         self._tell("device_lost", "serial {device} is gone ({why}); waiting for it", why=why)
 
     def _tell(self, event: str, text: str, **fields: str) -> None:

@@ -46,7 +46,7 @@ class Outbox:
         return bool(self._frames)
 
     def put(self, frame: bytes, sample: bool = False) -> bool:
-        """Add a frame, or the rest of one; False when there is no room for it. `sample`: see `is_sample`."""
+        """Add a frame, or the rest of one; False when it does not fit. `sample`: see `is_sample`."""
         size = len(frame)
         while sample and self._sample_bytes and self._sample_bytes + size > self._limit // SHARE:
             self._drop_oldest()

@@ -31,7 +31,7 @@ class Protocol:
 
     @property
     def everywhere(self) -> str:
-        """The address that stands for all of this machine."""
+        """The address that means every address of this machine."""
         return "0.0.0.0" if self.family == socket.AF_INET else "::"
 
     @property
@@ -81,7 +81,7 @@ def open_socket(protocol: Protocol, host: str, port: int) -> socket.socket:
 
 
 def open_twin(listener: socket.socket, peer: tuple[object, ...]) -> socket.socket:
-    """Return a socket at the port of `listener` (UDP) that takes what comes from `peer` alone; OSError: there is none.
+    """Return a socket at the port of `listener` (UDP) that receives only from `peer`; OSError if none is free.
 
     The port is shared among the sockets of this user alone (SO_REUSEPORT), and only from when the listener was bound: a
     second agent at the port is still refused. Between the two calls below the new one may get datagrams of others.

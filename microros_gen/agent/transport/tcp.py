@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TCP over IPv4 or IPv6: messages after their length, many connections, none of which can hold up another.
+"""TCP over IPv4 or IPv6: messages after their length, many connections, none of which can delay another.
 
-Each connection is an address of its own. What it may take is bounded: one unfinished message of at most 64 KiB in,
+Each connection has a separate address. Its memory is bounded: one unfinished message of at most 64 KiB in,
 `TcpLimits.output_bytes` out, a time for its first message, for a message that it began, and for reading what it is
 sent. A client whose connection ended keeps its session until the agent's time-out, and goes on over another one.
 """
@@ -33,8 +33,8 @@ WAITING = 4_096
 """Connections that may wait to be taken, if the system lets them (net.core.somaxconn); it makes who comes then try
 again later, after 1 s, 3 s, 7 s and so on: so there should always be room."""
 IDLE_S = 5.0
-"""A connection that was never answered, or on which nothing came for this long, may lose its place to a new one of its
-own host."""
+"""A connection that was never answered, or on which nothing came for this long, may be replaced by a new one of the
+same host."""
 CARE_S = 0.5
 """Seconds between two looks for connections whose time is up."""
 SYSTEM_BUFFER_BYTES = 131_072
@@ -276,7 +276,7 @@ class Tcp:
             self._watch(connection, writing=False)
 
     def _holds(self, connection: Connection) -> bool:
-        """Count what a connection has begun to say; one for which there is no room is closed."""
+        """Count the bytes of a connection's unfinished message; close the connection if they do not fit."""
         holder, unfinished = connection.holder, connection.decoder.unfinished
         if unfinished or holder.held:
             holder.clear()
@@ -341,7 +341,7 @@ class Tcp:
         """Return whether there is room for one more from `host`; the one that matters least may have to go for it.
 
         Who was never answered matters less than who was, and who was silent for longer less than others. From a host
-        that has all that it may have, one of its own has to go.
+        that has reached its limit, another of its connections is closed.
         """
         own = [connection for connection in self._connections.values() if connection.host == host]
         if len(own) >= self._limits.connections_per_host:
@@ -389,7 +389,7 @@ class Tcp:
 
 
 def host_of(address: str) -> str:
-    """Return what stands for the host at an address: of IPv6 the network of 64 bits, in which a host has its pick."""
+    """Return the key of the host at an address: for IPv6 its network of 64 bits, in which it may choose addresses."""
     if ":" not in address:
         return address
     return str(ipaddress.IPv6Network((address.partition("%")[0], 64), strict=False))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """UDP over IPv4 or IPv6: one message a datagram; an address is the transport and the peer's socket address.
 
-A client in session has a socket of its own at the same port, connected to its address: the system hands its datagrams
-to that one, so each client has a queue of its own. One that sends more than is its turn fills its own queue, and
+A client in session has its own socket at the same port, connected to its address: the system hands its datagrams
+to that one, so each client has its own queue. One that sends too fast fills its own queue, and
 nobody else's; and whose queue is read next is decided by what each has cost.
 """
 

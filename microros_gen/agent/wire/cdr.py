@@ -130,7 +130,7 @@ class Writer:
         self.little = little
 
     def content(self) -> bytes:
-        """Return what was written so far."""
+        """Return the bytes written so far."""
         return bytes(self._out)
 
     def raw(self, value: bytes) -> Writer:

@@ -180,7 +180,7 @@ class Acknack:
 
 @dataclass(frozen=True)
 class Heartbeat:
-    """HEARTBEAT: messages `first` to `last` of the stream can be had again; older ones cannot."""
+    """HEARTBEAT: messages `first` to `last` of the stream can be sent again, older ones cannot."""
 
     ID: ClassVar = SubmessageId.HEARTBEAT
     first: int

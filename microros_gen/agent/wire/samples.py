@@ -2,7 +2,7 @@
 """The five layouts of data in WRITE_DATA and DATA (DDS-XRCE 1.0, clauses 7.7.1 and 7.7.2, annex A).
 
 The standard leaves open what an XCDRSerializedBuffer is in bytes. A single sample (FORMAT_DATA, FORMAT_SAMPLE) is
-what is left of the submessage, as in examples B.3.1, B.3.3 and B.3.4. In a sequence each has its length in front
+the rest of the submessage, as in examples B.3.1, B.3.3 and B.3.4. In a sequence each has its length in front
 (u32), as in the types of the public client and agent; so it can be cut without knowing the type. Sequences without
 lengths, as in example B.3.2, are understood where all samples are of one size. Alignment counts from the end of the
 ids; the body of a sample is aligned for itself.
@@ -24,7 +24,7 @@ UNREGISTERED, DISPOSED, VIEW_NEW, READ = 1, 2, 4, 8
 LIFE_CYCLE = UNREGISTERED | DISPOSED
 """Either says that the sample ends an instance instead of being a value of it."""
 _SEQUENCE, _TIME = 1, 2
-"""SampleInfoFormat: what is there besides the state."""
+"""SampleInfoFormat: the optional fields after the state."""
 MILLISECONDS_A_DECISECOND = 100
 _OVERHEAD = MappingProxyType(
     {  # a SampleInfo has 12 bytes, a count or a length 4, a SampleInfoDelta 4; up to 3 align a length
@@ -77,7 +77,7 @@ def cut_samples(reader: Reader, form: int) -> Iterator[Sample]:
         for _ in range(reader.count()):
             yield _with_body(reader, _read_delta(reader, base))
     else:
-        raise MalformedError("data_format", f"there is no format {form:#04x}")
+        raise MalformedError("data_format", f"unknown format {form:#04x}")
 
 
 def write_samples(writer: Writer, form: int, samples: Sequence[Sample]) -> None:

@@ -149,7 +149,7 @@ def serial(devices: tuple[str, ...], baud: int, **common: Any) -> _Part:
     """Serve clients on serial lines: boards at a UART or USB, images in an emulator.
 
     A device that is not there yet, or is unplugged, is waited for; its clients go on when it is back. Each device is
-    this process's alone. Several clients may share a line if each has a source address of its own in its
+    this process only. Several clients may share a line if each has its own source address in its
     frames. What is between frames (the messages of a boot loader) is counted and ignored.
     Status 2: a path is not a serial device, is in use, may not be opened, or has no such speed; or ROS 2 is missing.
 

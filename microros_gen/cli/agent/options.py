@@ -254,7 +254,7 @@ def _limits(file: AgentFile, one: dict[str, Any]) -> Limits:
 
 
 def _limit(name: str, value: str, diagnostics: Diagnostics) -> float | None:
-    """Return the value of `--limit NAME=VALUE`, judged as in a file; an error where there is no such thing."""
+    """Return the value of `--limit NAME=VALUE`, checked as in a file; an error for an unknown name."""
     names = [field.name for field in fields(Limits)]
     if name not in names:
         hint = nearest(name, names) or f"Known are {', '.join(names)}"

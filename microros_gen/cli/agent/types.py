@@ -52,7 +52,7 @@ class ClientTypes:
 class TypeHashes:
     """Answers, for a type as `pkg/msg/Type`, which RIHS01 hash (REP-2011) it has; None: nobody here knows it.
 
-    It is asked where a client has no manifest of its own: manifests of no client in particular (`common`) come first,
+    It is asked where a client has its own manifest: manifests of no client in particular (`common`) come first,
     then interface files (`of_files`).
     """
 

@@ -134,7 +134,7 @@ def _headline(report: SizeReport) -> str:
         what = f"Library for {manifest['target']}, before unused parts are dropped (the target has no image)"
     flash, ram = totals["text"] + totals["data"], totals["data"] + totals["bss"]
     sizes = f"text {totals['text']}, data {totals['data']}, bss {totals['bss']}"
-    note = "" if report.mapped else f"There is no map of it: {UNMAPPED_NOTE}\n"
+    note = "" if report.mapped else f"The linker map is missing: {UNMAPPED_NOTE}\n"
     return f"{what}: {flash} bytes of flash, {ram} of RAM ({sizes})\n{note}"
 
 

@@ -257,7 +257,7 @@ def _endpoint(
 
 
 def _carried(qos: Qos) -> Qos:
-    """Return `qos` as rmw_qos_to_xrce reads it: what is left to the system becomes what it stands for."""
+    """Return `qos` as rmw_qos_to_xrce reads it: the system's defaults are replaced by their values."""
     return replace(
         qos,
         reliability="best_effort" if qos.reliability == "best_effort" else "reliable",

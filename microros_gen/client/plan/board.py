@@ -64,7 +64,7 @@ class BoardPlan:
 
     @property
     def has_serial_driver(self) -> bool:
-        """Whether this project has the serial line of the board, with a driver of its own or the application's."""
+        """Whether this project has the serial line of the board, with its own driver or the application's."""
         return self.serial_driver != "none"
 
     @property
@@ -162,7 +162,7 @@ def _check_unique_id(
             f"target {target.name} names no unique id",
             application.target.span,
             "Write where it is into the target file: `unique_id: {address: 0x1FFF7A10, words: 3}`, or give each "
-            f"board a key of its own: `session: {{key: 0x{runtime.session.client_key or 0:08X}}}`",
+            f"board its own key: `session: {{key: 0x{runtime.session.client_key or 0:08X}}}`",
             id="MG-7003",
         )
     if isinstance(application.session_key, str) and not target.has_unique_id:
@@ -170,7 +170,7 @@ def _check_unique_id(
             f"session.key: device needs a number that no other device has, and the target {target.name} names none",
             application.spans.get("session") or application.target.span,
             "Write where it is into the target file: `unique_id: {address: 0x1FFF7A10, words: 3}`, or give each "
-            "device a `session: {key: N}` of its own",
+            "device its own `session: {key: N}`",
             id="MG-7004",
         )
 
@@ -273,7 +273,7 @@ def _divisor(uart: Uart, target: Target, application: Application, diagnostics: 
 
 @dataclass(frozen=True)
 class _Divisor:
-    """A divisor, the rate that it gives, and how far that is from what was asked, as a share."""
+    """A divisor, the rate that it gives, and its relative deviation from the requested rate."""
 
     divisor: int
     nearest: int

@@ -72,7 +72,7 @@ def node_name(node: NodeDecl) -> str:
 
 
 def type_name(text: str, kind: str = "msg") -> TypeName:
-    """Return the name that `pkg/Type` or `pkg/msg/Type` stands for (already checked); `kind` is srv for services."""
+    """Return the full name of `pkg/Type` or `pkg/msg/Type` (already checked); `kind` is srv for services."""
     name = split_type_name(text, kind)
     assert name is not None, text
     return name

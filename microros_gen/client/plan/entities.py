@@ -104,7 +104,7 @@ class EntitiesPlan:
 
     @property
     def limited_headers(self) -> tuple[str, ...]:
-        """Headers that declare the types of what sends with limits of their own; none: no publisher has such."""
+        """Headers that declare the types of senders with their own limits; empty if there are no such senders."""
         senders: list[PublisherPlan | ServicePlan] = [
             *self.publishers.declared,
             *self.services.declared,

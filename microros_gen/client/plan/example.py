@@ -57,7 +57,7 @@ def example_topics(roots: Sequence[TypeName]) -> tuple[tuple[TypeName, str], ...
 def plan_filling(
     message: Message, messages: Mapping[TypeName, Message], text: str, limits: TypeLimits | None
 ) -> Filling:
-    """Fill every plain member of `message` without a default of its own; arrays and sequences stay.
+    """Fill every plain member of `message` without its own default; arrays and sequences stay.
 
     A string gets as much of `text` as its limit has room for; one whose type has a lower bound stays empty.
     """

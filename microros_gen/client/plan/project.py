@@ -87,7 +87,7 @@ class Project:
         return {plan.name: plan.message for plan in self.types}
 
     def own_limits(self, publisher: PublisherPlan) -> LimitSet | None:
-        """Return the limits that a publisher has of its own; None: those of its type."""
+        """Return the publisher's own limits; None: those of its type."""
         plan = next(plan for plan in self.types if plan.name == publisher.type)
         return plan.limit_set("publisher", publisher.index)
 
@@ -130,7 +130,7 @@ def plan_project(
     diagnostics: Diagnostics,
     services: tuple[TypeName, ...] = (),
 ) -> Project:
-    """Size and name everything. Errors are collected; the result is only valid when there are none.
+    """Size and name everything. Errors are collected; the result is only valid without errors.
 
     `roots` are the messages and `services` the services that an application without `nodes:` can have.
     """
@@ -156,7 +156,7 @@ def plan_project(
         selection.has("stream_reliable_input"),
         (*receiving.received, *serving.received),
         create_text,
-        # What is kept over a sleep ends before the input buffer.
+        # Memory that survives a sleep ends before the input buffer.
         lends_input=bool(nodes)
         and not selection.has("sleep_cycles")
         and all(queue.asked is None for queue in queues),

@@ -45,7 +45,7 @@ class NodePlan:
 class PublisherPlan:
     """A declared publisher; `topic` is the expanded ROS name (`/imu/data`), `dds_topic` is `rt` + topic.
 
-    `limited` begins the C names of its type under limits of its own (typesupport/plan/own_limits.py); empty: those
+    `limited` is the prefix of the C names of its type under own limits (typesupport/plan/own_limits.py); empty: those
     of the type. `given` is the expanded name that the source has, where `remap:` makes it `topic`.
     """
 

@@ -26,7 +26,7 @@ class ServicePlan:
     """A declared service or client, by `kind`; `index` counts those of its kind alone.
 
     `name` is the expanded ROS name (`/arm/set_bool`), `type` the service's. `limited` begins the C names of the type of
-    what it sends, where that has limits of its own. `stored`: what it receives, and what a service answers. `given` is
+    what it sends, where that has its own limits. `stored`: what it receives, and what a service answers. `given` is
     as of publishers.
     """
 

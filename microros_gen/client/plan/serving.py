@@ -97,11 +97,11 @@ def plan_serving(
 
 
 def _report_nothing(application: Application, diagnostics: Diagnostics) -> None:
-    """Report that there is no service at all: what receives would have no queue."""
+    """Report a selection without any service: the receiver would have no queue."""
     declares = "of a node" if application.nodes else "in `interfaces:`"
     span = None if application.nodes else application.spans.get("interfaces")
     hint = f"Add a service {declares}, or leave `services` out of `components:`"
-    diagnostics.error("'services' is selected, and there is no service", span, hint, id="MG-7019")
+    diagnostics.error("'services' is selected, but no service is declared", span, hint, id="MG-7019")
 
 
 def _check_names(application: Application, diagnostics: Diagnostics) -> None:

@@ -75,7 +75,7 @@ class TransportPlan:
 
     @property
     def input_is_free(self) -> bool:
-        """Whether the input buffer is free between two looks at the line, for what is asked over another one.
+        """Whether the input buffer is free between two polls of the line, for a request over another line.
 
         A session keeps the part of a message there that was received over a line of bytes. A board has one such
         line, and nothing else is asked while it is a session's.
@@ -99,7 +99,7 @@ class TransportPlan:
 class OutputPlan:
     """The output streams. `mtu`: the largest message that is sent.
 
-    `best_effort_size` 0 or `reliable_slots` 0: there is no such stream. `fragments`: some reliable message is larger
+    `best_effort_size` 0 or `reliable_slots` 0: the stream does not exist. `fragments`: some reliable message is larger
     than the MTU, `reliable_slot_size` holds it whole. `on_full`: what a write does when no slot is free.
     """
 
@@ -253,7 +253,7 @@ class MemoryPlan:
 
 @dataclass(frozen=True, kw_only=True)
 class ErrorsPlan:
-    """What is said of an error. `text_size` 0: codes only."""
+    """Form of the error reports. `text_size` 0: codes only."""
 
     text_size: int
 

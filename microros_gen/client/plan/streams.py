@@ -81,7 +81,7 @@ class Received:
         return _align4(WRITE_DATA_OVERHEAD + self.max_size)
 
     def piece(self, ceiling: int, pieces: int) -> int:
-        """Return the bytes of the largest message that brings it or, where it may come in pieces, one of so many."""
+        """Return the bytes of the largest message that contains it or, where fragments are allowed, of one fragment."""
         if self.alone and self.reliable and not self.best_effort:
             ceiling = min(ceiling, max(LEAST_PIECE, _align4(-(-self.whole // pieces))))
         return min(ceiling, self.whole)
@@ -91,7 +91,7 @@ class Received:
 class StreamSizes:
     """Bytes of each stream's storage; 0 or no slots where a stream is not needed.
 
-    `mtu`: the largest message that is sent. `fragments`: some reliable message is larger, and goes in pieces.
+    `mtu`: the largest message that is sent. `fragments`: some reliable message is larger and is sent in fragments.
     `creation_size`: of a request to create on the reliable stream. `reliable_input_slots`: messages of the agent's
     reliable stream that are held at a time; the one that is being handled is in the input buffer.
     `arrives_in_fragments`: some reliable DATA is larger than the input buffer; it is put together in the slot of its
@@ -156,7 +156,7 @@ def plan_streams(
 
     `transport` is the selected one. `create` is the size of the largest CREATE (client/plan/creation.py), 0 where the
     client creates nothing (entities: preconfigured), and `create_text` how much of it a serial line never
-    stuffs. With `creation: reliable` it has storage of its own, and the reliable stream is there for it. A
+    stuffs. With `creation: reliable` it has its own storage, and the reliable stream is there for it. A
     reliable message above the MTU goes in fragments, a best-effort one and a CREATE cannot. `reliable_input`:
     the agent's reliable stream is selected; a reliable DATA above the input buffer comes in fragments,
     for the agent is told the size of that buffer. `lends_input`: a best-effort sample may wait in the input buffer.

@@ -58,6 +58,6 @@ def board_view(project: Project) -> BoardView | None:
 
 
 def _os(project: Project) -> str:
-    """Return the operating system that has start-up code of its own; empty: the image has that of this project."""
+    """Return the operating system that has its own start-up code; empty if the image uses that of this project."""
     os = project.target.part("os")
     return "" if os is None or project.target.os.linker_script else os.component.name

@@ -209,7 +209,7 @@ def _executor(variable: str, handles: Sequence[_Handle], timeout: str, has_timer
 
 
 def _in_lines(call: str) -> str:
-    """Return a call as it stands in the function that makes it: its arguments in a line of their own if it is long."""
+    """Return a call as it is written in its function: with the arguments on a separate line if it is long."""
     return call if len(call) <= _WIDTH else call.replace("(", "(\n      ", 1)
 
 

@@ -185,7 +185,7 @@ def _shown(project: Project, entity: PublisherPlan | SubscriptionPlan | ServiceP
 
 def _own_limits(project: Project, publisher: PublisherPlan) -> str:
     own = project.own_limits(publisher)
-    return f", limits of its own: at most {own.max_encoded_size} bytes" if own else ""
+    return f", its own limits: at most {own.max_encoded_size} bytes" if own else ""
 
 
 def _declarations(project: Project) -> tuple[str, ...]:

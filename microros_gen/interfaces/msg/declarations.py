@@ -339,10 +339,10 @@ def _check_count(field_type: ArrayType | SequenceType, count: int, line: Line) -
 
 
 def _as_jazzy_reads(field_type: FieldType, line: Line, diagnostics: Diagnostics) -> FieldType:
-    """Return the type that rosidl_parser of Jazzy makes of it.
+    """Return the type that Jazzy's rosidl_parser derives from it.
 
-    It takes the bound of a wide string for the bound of the sequence around it where that has none of its
-    own, so the type hash and every peer have the bounded sequence.
+        It takes the bound of a wide string for the bound of the sequence around it if that has no
+    bound, so the type hash and every peer have the bounded sequence.
     """
     if not isinstance(field_type, SequenceType) or field_type.bound is not None:
         return field_type

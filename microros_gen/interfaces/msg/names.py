@@ -145,7 +145,7 @@ def _separated(name: str) -> str:
 
 
 def _suggestion(name: str, form: re.Pattern[str]) -> str | None:
-    """Return a hint with the name nearest to `name` that has the form, or None where there is none."""
+    """Return a hint with the name nearest to `name` that has the form, or None if none exists."""
     if name[0] in "<[":
         return "The type and its size are written without a space"
     better = re.sub(r"_+", "_", re.sub(r"[^A-Za-z0-9]", "_", name)).strip("_")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads .msg files, and the parts of .srv and .action files, as ROS 2 Jazzy does (rosidl_adapter and the
-readers behind it).
+readers after it).
 
 Such a text is line oriented: each line is taken apart into declaration and comment here, the grammar
 `msg.lark` parses the declaration, and what it may say is checked after that. So every faulty line is
@@ -218,7 +218,7 @@ def _syntax_hint(text: str, column: int, expected: set[str]) -> str | None:
     if not rest and " " not in text:
         return "A field is written 'type name', a constant 'type NAME=value'"
     if expected == {"_GAP"} and rest.startswith("["):
-        return "An array has one dimension; a message of its own can hold a second one"
+        return "An array has one dimension; put the second one into a separate message"
     if expected == {"_OPEN"}:
         return "The default of an array is written '[1, 2]'"
     if "_AT_MOST" in expected and rest.startswith(" "):

@@ -2,7 +2,7 @@
 """What .srv and .action files share: messages one below the other, with a line `---` between them.
 
 As rosidl_adapter of ROS 2 Jazzy reads them: the separator is a line of exactly these three characters, each
-part is read like a .msg file of its own (its comment at the top, its constants and names), and may be empty.
+part is read like a separate .msg file (its comment at the top, its constants and names), and may be empty.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def _names(parts: Sequence[str], count: int) -> list[str]:
 def _borders(
     source: Source, lines: Sequence[str], parts: Sequence[str], diagnostics: Diagnostics
 ) -> list[int]:
-    """Return the indices of the separators; report what stands for one and is none, too few and too many."""
+    """Return the indices of the separators; report malformed separators, too few and too many."""
     exact, near = [], []
     for index, line in enumerate(lines):
         if line == SEPARATOR:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Annotations of .idl files (OMG IDL 4.2, 7.4.15.4.2): documentation, units and defaults.
 
-Ranges stand in the C next to them. All others are read and mean nothing to ROS 2 Jazzy, which keeps none of them in C.
+Ranges are in the C code next to them. All others are read but have no effect: ROS 2 Jazzy keeps none of them in C.
 """
 
 from __future__ import annotations

@@ -235,7 +235,7 @@ def _warn_of_size(declarator: SyntaxNode, size: int, scope: Scope) -> None:
     scope.diagnostics.warning(
         f"ROS 2 Jazzy makes an array of {size} of '{declarator.children[0]}' too",
         span_of(declarator, scope.source),
-        "Write it as a member of its own",
+        "Write it as a separate member",
         id="MG-2035",
     )
 

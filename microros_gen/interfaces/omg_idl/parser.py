@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads .idl files as ROS 2 Jazzy does (rosidl_parser and the generators behind it).
+"""Reads .idl files as ROS 2 Jazzy does (rosidl_parser and the generators that use it).
 
 ROS 2 takes one interface a file: a struct `Name` is a message, two (`Name_Request`, `Name_Response`) are a
 service, three (`Name_Goal`, `Name_Result`, `Name_Feedback`) an action. Constants of a struct stand in a module
@@ -130,7 +130,7 @@ def _declaration(name: TypeName, messages: Sequence[Message], source: Source) ->
 
 
 def _check_surroundings(contents: Contents, scope: Scope) -> None:
-    """Check the modules of each struct, its name, and what stands in the file besides."""
+    """Check the modules of each struct, its name, and what else is in the file."""
     source, diagnostics = scope.source, scope.diagnostics
     for struct in contents.structs:
         span = span_of(struct.name, source)
@@ -173,7 +173,7 @@ def _stem(structs: Sequence[Placed], scope: Scope) -> str | None:
         span = span_of(structs[-1].name, source) if structs else Span(source, 1, 1)
         declared = _INTERFACE.get(_DECLARED_BY.get(len(structs), ""), "no interface")
         many = "one struct" if len(structs) == 1 else f"{len(structs) or 'no'} structs"
-        hint = f"Declare {expected}; a struct used by others has a file of its own"
+        hint = f"Declare {expected}; a struct used by others has its own file"
         diagnostics.error(f"{many} in a file of {kind}/: that is {declared}", span, hint, id="MG-2049")
         return None
     stems = []

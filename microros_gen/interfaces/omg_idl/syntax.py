@@ -92,7 +92,7 @@ def parse_syntax(source: Source, diagnostics: Diagnostics) -> Syntax | None:
             return Syntax(_grammar().parse(text), lost)
         except UnexpectedInput as fault:
             error = _error(fault, text)
-        # What is missing at the end of the file is said once.
+        # Missing parts at the end of the file are reported once.
         if error.start < len(source.text) or text == source.text:
             _report(source, text, error, diagnostics)
         start, end, filler = _repair(text, error)

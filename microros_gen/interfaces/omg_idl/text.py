@@ -187,7 +187,7 @@ def _member_type(field_type: FieldType) -> str:
 
 
 def _without_unit(comment: tuple[str, ...]) -> tuple[tuple[str, ...], str | None]:
-    """Return the comment and the unit in it: what stands in the only brackets, without a comma."""
+    """Return the comment and the unit in it: what is in the only brackets, without a comma."""
     found = _UNIT.findall("\n".join(comment))
     if len(found) != 1:
         return comment, None

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Types of .idl files: from the syntax tree to the types of the model, typedefs resolved as ROS 2 Jazzy does.
 
-rosidl_parser knows typedefs by their bare name, wherever they stand in the file, and looks through one of them
+rosidl_parser knows typedefs by their bare name, wherever they are in the file, and looks through one of them
 (through a second one below an array or a sequence). Enumerations are read and no member can be of one.
 """
 
@@ -107,7 +107,7 @@ def written_type(node: SyntaxNode, scope: Scope) -> Written:
         raise IdlError(
             span_of(element_node, scope.source),
             "ROS 2 has no sequence of sequences",
-            "Put the inner one into a struct of its own file",
+            "Put the inner one into a separate struct",
         )
     element = _element(element_node, scope)
     if len(node.children) > 2:
@@ -124,12 +124,10 @@ def declared_type(written: Written, declarator: SyntaxNode, scope: Scope) -> Wri
     span = span_of(declarator, scope.source)
     if len(sizes) > 1:
         raise IdlError(
-            span, "ROS 2 has arrays of one dimension only", "Put the inner one into a struct of its own file"
+            span, "ROS 2 has arrays of one dimension only", "Put the inner one into a separate struct"
         )
     if written.nested:
-        raise IdlError(
-            span, "ROS 2 has no array of sequences", "Put the sequence into a struct of its own file"
-        )
+        raise IdlError(span, "ROS 2 has no array of sequences", "Put the sequence into a separate struct")
     size = positive_bound(sizes[0], "the size of an array", scope.constants, scope.source)
     return Written(written.element, size=size)
 
@@ -149,7 +147,7 @@ def resolved(written: Written, scope: Scope) -> FieldType | None:
         raise IdlError(
             alias.span,
             f"'{alias.name}' is an array or a sequence itself: ROS 2 Jazzy makes no C of this",
-            "Put it into a struct of its own file",
+            "Put it into a separate struct",
         )
     if isinstance(target.element, Alias):
         if not target.nested:
@@ -171,7 +169,7 @@ def _second(alias: Alias, inner: Alias, scope: Scope) -> ElementType | None:
         raise IdlError(
             alias.span,
             f"behind '{alias.name}' stands '{inner.name}', which is not a single element: ROS 2 Jazzy makes no C",
-            "Put it into a struct of its own file",
+            "Put it into a separate struct",
         )
     return target.element
 
@@ -199,7 +197,7 @@ def _type_hint(name: str, scope: Scope) -> str | None:
     if name[0].isupper() and (near is None or near.strip("?'").rpartition("'")[2] not in scope.typedefs):
         return f"Another interface is written '{scope.modules[0]}::msg::{name}'"
     return near or (
-        "Write a type of IDL (boolean, octet, int32, double, string), a typedef that stands above, or another "
+        "Write a type of IDL (boolean, octet, int32, double, string), a typedef above it, or another "
         f"interface with its package ('{scope.modules[0]}::msg::Name')"
     )
 

@@ -95,7 +95,7 @@ class Messages:
 
 @dataclass(frozen=True)
 class Part:
-    """A nested message that has a decoder of its own."""
+    """A nested message with a separate decoder."""
 
     member: str
     type: TypeName

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Entities with limits of their own: which sets of limits a type has, and the names of what is made for each.
+"""Entities with their own limits: which sets of limits a type has, and the names of the C symbols of each.
 
 ROS 2 has one handle for each type, and it identifies no more than the type. What an entity's own limits decide
 (largest size, encoder) is therefore found through its declaration, in a set that entities with equal limits share.
@@ -42,7 +42,7 @@ TopicNames = Mapping[tuple[TypeName, str], str]
 
 
 def topic_names(capacities: Capacities) -> TopicNames:
-    """Return a name for each topic whose messages, or some of whose entities, have limits of their own.
+    """Return a name for each topic whose messages, or some of whose entities, have their own limits.
 
     Slashes are underscores; where that gives one name to two topics of a type, the later one ends in `__2`.
     """

@@ -22,7 +22,7 @@ class Place:
 class Limit:
     """A limit: a number, or (None) the member `table` of the table of limits that the function is given.
 
-    `bound`: that of the interface file, which the limit does not exceed; None: there is none.
+    `bound`: that of the interface file, which the limit does not exceed; None without a bound.
     """
 
     value: int | None
@@ -128,7 +128,7 @@ class Messages:
 
 @dataclass(frozen=True)
 class Part:
-    """A nested message that has an encoder of its own; `table` and `limits` as in `Messages`."""
+    """A nested message that has its own encoder; `table` and `limits` as in `Messages`."""
 
     place: Place
     member: str

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Static storage of a message under its limits: one typed struct, and the steps that bind a message to it.
 
-A topic whose own limits are lower than those of its type has a struct and a bind function of its own.
+A topic whose own limits are lower than those of its type has a separate struct and bind function.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Strings and sequences that nothing limits: what is said of them, and the lines that would set them all."""
+"""Strings and sequences without a limit: their messages, and the lines that would set all limits."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The encoding steps of each type: what is written where, which runs go at once, where alignment is computed.
+"""The encoding steps of each type: positions, runs that are copied at once, computed alignment.
 
 A position is a constant until the first part of variable length, and relative to the C variable `position`
 from there on. A nested type of few variable parts is written in place; elements of arrays and sequences, and
-larger nested types, have a function of their own (`called`), which starts at any position.
+larger nested types, have their own function (`called`), which starts at any position.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ def plan_wire(
 ) -> WirePlans:
     """Plan the encoders of the roots and of every type that they call.
 
-    `own_limits`: those of entities that send a root and have limits of their own, which call its `encode_at` too.
+    `own_limits`: those of entities that send a root and have their own limits, which call its `encode_at` too.
     """
     facts = _Facts(messages, plan_homes(messages, root_limits, own_limits))
     called = _called(facts, root_limits) | set(own_limits)
@@ -131,7 +131,7 @@ def _called_by(facts: _Facts, name: TypeName) -> Iterator[TypeName]:
 
 
 class _Facts(TypeFacts):
-    """What the emitter asks about types: with where limits differ, and what has a function of its own."""
+    """What the emitter asks about types: where limits differ, and which types have their own function."""
 
     def __init__(self, messages: Mapping[TypeName, Message], homes: Homes) -> None:
         super().__init__(messages)

@@ -114,7 +114,7 @@ class LargestSizes:
     def of(self, name: TypeName, limits: TypeLimits | None, c_name: str) -> LargestSize:
         """Return the conditions, in C, that hold where `c_name`__MAX_ENCODED_SIZE is the largest body of a type.
 
-        `limits`: those of a root itself, or of an entity with names of its own that begin with `c_name`.
+        `limits`: those of a root itself, or of an entity with its own names that begin with `c_name`.
         """
         if c_name == self.plans[name].c_name:
             return self._root(name)[0]
@@ -288,7 +288,7 @@ class _Listing:
             self._line(f"CDR_END_OF_MESSAGES({count}U, {first.text}, {second.text})", value)
 
     def part(self, step: Part, at: _At) -> None:
-        """Pass a nested message that has an encoder of its own."""
+        """Pass a nested message that has its own encoder."""
         self._message(step.type, self._argument(step), at)
 
     def _elements(self, count: int | None, sequence: Limit | None, at: _At) -> tuple[_At, int]:

@@ -158,7 +158,7 @@ class StepViews:
         }
 
     def part(self, step: Part) -> StepView:
-        """View of a nested message with an encoder of its own."""
+        """View of a nested message with its own encoder."""
         passed = self._passed(step.type, step.member, step.table, step.limits, False)
         name = c_name(step.type)
         at = position(step.place)

@@ -219,7 +219,7 @@ def functions_view(
 
 
 def pool_pointer(kind: str, pools: Collection[str]) -> str:
-    """Return the C expression of the pool of a kind of elements: NULL where there is none."""
+    """Return the C expression of the pool of a kind of elements: NULL if none exists."""
     return f"&microros_pool_{kind}" if kind in pools else "NULL"
 
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A program that a bootloader starts: with hooks, memories of its own, and what it saw of them in booted_report. */
+/* A program that a bootloader starts: with hooks, its own memories, and what it saw of them in booted_report. */
 #include <microros/port.h>
 #include <microros/port_cortex_m.h>
 #include <rcl/rcl.h>

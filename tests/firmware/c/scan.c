@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Takes sensor_msgs/msg/LaserScan at depth 1 into buffers of its own (storage: none): its RAM is a figure of
+ * Takes sensor_msgs/msg/LaserScan at depth 1 into its own buffers (storage: none): its RAM is a figure of
  * docs/verification/figures.md. SCAN_RANGES is the limit of both sequences, SCAN_INIT the function that opens the subscription.
  */
 #include <rcl/rcl.h>

@@ -177,7 +177,7 @@ static int32_t give(void * context)
   return (uint8_t)(source->first + source->given - 1u);
 }
 
-/* It goes after what was written before, and in front of what is written while it goes; it may be larger than the ring. */
+/* It is sent after earlier bytes and before bytes that are written meanwhile; it may be larger than the ring. */
 static void sends_what_it_does_not_copy_in_its_turn(void)
 {
   uint8_t text[PORT_BOARD_OUTPUT_SIZE] = {0};

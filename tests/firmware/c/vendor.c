@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A firmware as vendors' tools make it: names of CMSIS, a start-up of its own; it publishes nothing. */
+/* A firmware as vendors' tools make it: names of CMSIS, its own start-up; it publishes nothing. */
 #include <microros/port.h>
 #include <microros/port_bare.h>
 #include <rcl/rcl.h>

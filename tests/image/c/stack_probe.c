@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * How deep the stack really gets: runs the library on a painted stack against an agent of a few lines, in one process.
+ * How deep the stack really gets: runs the library on a stack filled with a pattern against an agent of a few lines, in one process.
  * It has the functions of the port itself, so no system call adds to the depth. Prints the bytes below work()'s caller.
  */
 #define _XOPEN_SOURCE 700 /* pthread_attr_setstack */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * One byte on its way out: from every number of bytes that a chunk may hold, with every byte, to a chunk that holds only
- * what was written to it. A message is such bytes one after the other.
+ * bytes written to it. A message is such bytes one after another.
  */
 #include "proof.h"
 

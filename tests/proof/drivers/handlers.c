@@ -208,7 +208,7 @@ static void check_client(void)
   }
 }
 
-/* --- what stands in the place of memcpy and of what has a proof of its own (within.h) --- */
+/* --- replacements of memcpy and of functions with a separate proof (within.h) --- */
 
 void proof_copy(void * to, const void * from, size_t size)
 {

@@ -244,7 +244,7 @@ int client_serve(char ** word, rcl_node_t * node_list);   /* client_serve.c, or 
 static rcl_ret_t call(const char * line)
 {
   static char nothing[] = "";
-  char command[COMMAND]; /* the line is read anew while the library sleeps */
+  char command[COMMAND]; /* the line is read again while the library sleeps */
   char * word[WORDS] = {nothing, nothing, nothing, nothing, nothing, nothing};
   char * at;
 

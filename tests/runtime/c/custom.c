@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * An application with a transport of its own, written as those for micro-ROS are: functions over a socket or a
+ * An application with its own transport, written as those for micro-ROS are: functions over a socket or a
  * pseudo-terminal, which return -1 for "nothing" as drivers do. Arguments: udp PORT | line PATH | none at all, for a
  * user who forgot to set one.
  */

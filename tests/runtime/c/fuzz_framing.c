@@ -39,7 +39,7 @@ size_t xrce_line_read(struct xrce_transport_t * from, uint8_t * buffer, size_t c
   return size;
 }
 
-/* Takes all there is; returns the size of the last message. */
+/* Takes all messages; returns the size of the last one. */
 static size_t take_all(xrce_framing_t * framing, uint8_t * buffer, size_t capacity)
 {
   size_t last = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * For libFuzzer: a client that is in session with an agent, and datagrams of anybody's between those of the agent, while it
+ * For libFuzzer: a client that is in session with an agent, and datagrams of other senders between those of the agent, while it
  * publishes, takes, sleeps and loses the session. An input is a list of actions, a byte each; the datagram of an action
  * follows as its size and its bytes.
  */

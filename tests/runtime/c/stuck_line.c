@@ -46,7 +46,7 @@ int main(int argc, char ** argv)
     return 3;
   }
   if (!port_serial_open(&other, argv[1], BAUD) || port_serial_room(&other) == 0u) {
-    return 4; /* another handle has a buffer of its own, and what waits in this one stays */
+    return 4; /* another handle has its own buffer, and what waits in this one stays */
   }
   port_serial_close(&other);
   printf("%u %u\n", (unsigned)size, (unsigned)worst_ms);

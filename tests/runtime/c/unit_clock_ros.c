@@ -194,7 +194,7 @@ static void test_a_node_comes_again(void)
   CHECK(calls_at(16 * s) >= 0);
 }
 
-/* A support takes its ROS clock, and gives it back. */
+/* A support takes its ROS clock, and releases it. */
 static void test_a_support_comes_again(void)
 {
   for (int i = 0; i < 5; ++i) {

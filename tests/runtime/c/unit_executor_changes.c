@@ -67,7 +67,7 @@ static void on_message(const void * message, void * context)
   called(SUBSCRIPTION, context == &subscriptions[ACTOR] ? ACTOR : TARGET);
 }
 
-/* A timer that was ended by its callback has no place of its own any more: the pointer tells them apart. */
+/* A timer that was ended by its callback has no slot any more: the pointer distinguishes them. */
 static void on_timer(rcl_timer_t * timer, int64_t last_call_time)
 {
   (void)last_call_time;
@@ -502,7 +502,7 @@ static void fill(void)
   }
 }
 
-/* A callback that publishes all that there is room for leaves the slot of its reply; the next request waits. */
+/* A callback that publishes until the stream is full leaves the slot of its reply; the next request waits. */
 static void test_a_reply_has_its_room(rclc_executor_semantics_t semantics)
 {
   actor_kind = SERVICE;

@@ -17,7 +17,7 @@ static uint16_t expected; /* of the last ACKNACK */
 static uint16_t missing;
 static uint32_t acknacks;
 
-/* Stands for the session: what is handed on carries its number after the header. */
+/* Replaces the session: a delivered message carries its number after the header. */
 bool xrce_session_take_submessages(xrce_client_t * taker, const uint8_t * message, size_t size, uint32_t now)
 {
   CHECK(taker == &client && now == 5u && size == MESSAGE && handed_on_count < 2 * MESSAGES);
@@ -165,11 +165,11 @@ static void test_heartbeats(void)
 {
   begin_at(0xfffe);
   CHECK(heartbeat(0xfffe, 0) && acknacks == 1u && expected == 0xfffeu && missing == 0x0007u);
-  CHECK(heartbeat(0xfffe, 0xfffd) && missing == 0u);      /* it says that there is nothing */
+  CHECK(heartbeat(0xfffe, 0xfffd) && missing == 0u);      /* an empty range */
   CHECK(heartbeat(0xfffe, 0x7000) && missing == 0xffffu); /* more than the bitmap has */
   CHECK(take(0xffff, 7) && handed_on_count == 0u);
   acknacks = 0;
-  /* as far as what is kept, which is handed on when the HEARTBEAT's message is done, not from within it */
+  /* up to the retained messages, which are delivered after the HEARTBEAT's message, not from within it */
   CHECK(heartbeat(2, 3) && expected == (MICROROS_RELIABLE_INPUT_SLOTS > 1u ? 0u : 2u) && acknacks == 1u);
   CHECK(heartbeat(2, 3) && expected == 2u && (missing & 3u) == 3u && acknacks == 2u);
   CHECK(handed_on_count == (MICROROS_RELIABLE_INPUT_SLOTS > 1u ? 1u : 0u)); /* what is here is not lost */

@@ -48,7 +48,7 @@ static void acknowledge(uint16_t expected)
   CHECK(xrce_stream_reliable_on_acknack(&stream, &session, payload, 5, XRCE_FLAG_LITTLE_ENDIAN, 0));
 }
 
-/* Takes what is there, and looks whether it is one frame of a message with `byte`, numbered `sequence`. */
+/* Takes the waiting bytes, and looks whether it is one frame of a message with `byte`, numbered `sequence`. */
 static void check_frame(uint8_t byte, uint16_t sequence)
 {
   uint8_t raw[MOST];

@@ -32,7 +32,7 @@ static void test_takes_and_gives_back(rcl_allocator_t a)
   for (size_t i = 0; i < count; i += 2u) {
     a.deallocate(piece[i], a.state);
   }
-  CHECK(a.allocate(200, a.state) == NULL); /* in pieces */
+  CHECK(a.allocate(200, a.state) == NULL); /* the free memory is fragmented */
   for (size_t i = 1; i < count; i += 2u) {
     a.deallocate(piece[i], a.state);
   }

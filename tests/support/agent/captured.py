@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bytes of the public client and agent (Micro-XRCE-DDS 2.4.3), captured on the wire.
 
-Pad bytes of the public client are uninitialised memory; they are zero here.
+Pad bytes of the public client are uninitialized memory; they are zero here.
 """
 
 from __future__ import annotations

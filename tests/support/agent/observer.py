@@ -81,7 +81,7 @@ class Observer:
 
 @contextmanager
 def observing(domain: int) -> Iterator[Observer]:
-    """Run an observer in a process of its own, in a ROS domain."""
+    """Run an observer in a separate process, in a ROS domain."""
     process = subprocess.Popen(
         [sys.executable, "-m", "tests.support.agent.observer"],
         env={**environment(domain), "PYTHONPATH": os.pathsep.join(p for p in sys.path if p)},
@@ -213,7 +213,7 @@ class _Peer:
         return True
 
     def feed(self) -> list[str]:
-        """Take what is there; return the bytes of the samples after their encapsulation."""
+        """Take the waiting samples; return the bytes of the samples after their encapsulation."""
         found = []
         while (taken := self._starved.take_message(None, True)) is not None:
             found.append(taken[0][4:].hex())

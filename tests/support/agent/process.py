@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An agent in a process of its own, for tests."""
+"""An agent in a separate process, for tests."""
 
 from __future__ import annotations
 

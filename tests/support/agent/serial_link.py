@@ -87,7 +87,7 @@ class SerialLink:
             data = data[os.write(self._fd, data) :]
 
     def recv(self, _size: int) -> bytes:
-        """Return the next message; TimeoutError when there is none in time."""
+        """Return the next message; raise TimeoutError if none arrives in time."""
         end = deadline(self._timeout_s)
         while True:
             for at, byte in enumerate(self._pending):

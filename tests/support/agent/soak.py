@@ -37,7 +37,7 @@ NODE, UP, DOWN, PUBLISHER, SUBSCRIBER, WRITER, READER, CALLER, SERVER = (
     0x11, 0x12, 0x22, 0x13, 0x14, 0x15, 0x16, 0x17, 0x18,
 )  # fmt: skip
 LATCHED = 1 | 2 | 8
-"""Reliable, keep last, transient local: what was said before the ledger's reader was found is told to it."""
+"""Reliable, keep last, transient local: its reader also gets messages published before it was discovered."""
 LITTLE = b"\0\1\0\0"
 IDENTITY = 24
 IDS = 4

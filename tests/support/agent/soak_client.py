@@ -49,7 +49,7 @@ class SoakClient:
         return not self._sent and not self._queue
 
     def introduce(self) -> None:
-        """Open the session; everything begins anew."""
+        """Open the session with a new state."""
         self._reset()
         key = self.key if self.session < 0x80 else b""
         hello = encode(CreateClient(self.key, self.session, self.mtu))

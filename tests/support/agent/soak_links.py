@@ -35,7 +35,7 @@ class Link(Protocol):
 
 
 class UdpLink:
-    """A socket with a port of its own."""
+    """A socket with its own port."""
 
     def __init__(self, port: int, take: Take) -> None:
         self._take = take

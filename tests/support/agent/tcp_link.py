@@ -24,7 +24,7 @@ class TcpLink:
         self.socket.sendall(len(payload).to_bytes(2, "little") + payload)
 
     def recv(self, _size: int) -> bytes:
-        """Return the next message; TimeoutError when there is none in time, ConnectionError at its end."""
+        """Return the next message; raise TimeoutError if none arrives in time, ConnectionError at its end."""
         while len(self._bytes) < 2 or len(self._bytes) < 2 + int.from_bytes(self._bytes[:2], "little"):
             piece = self.socket.recv(65536)
             if not piece:

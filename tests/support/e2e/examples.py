@@ -38,7 +38,7 @@ def commands(name: str) -> list[list[str]]:
 
 
 class Examples:
-    """Builds each example once, in a folder of its own."""
+    """Builds each example once, in a separate folder."""
 
     def __init__(self, folder: Path, port: int) -> None:
         """`port`: where the agent of all of them is."""

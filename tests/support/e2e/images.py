@@ -25,7 +25,7 @@ BUILD_S = 300.0
 """Time-out of a build, which takes some seconds where nobody else needs the machine."""
 
 PATIENT = "session: {connect_timeout: 20 s, create_timeout: 20 s}\n"
-"""For declared applications without times of their own: an agent on a busy test machine may stand still for seconds."""
+"""For declared applications without their own times: an agent on a busy test machine may stand still for seconds."""
 
 # What an application without `nodes:` declares for live.c.
 POOLS = """\

@@ -20,7 +20,7 @@ BITS_PER_BYTE = 10
 class LineRelay:
     """`device` and `agent` are the names of the two ends. Used as a context manager.
 
-    `noise`: the part of all pieces, of some ten bytes each, of which a byte is changed, and as many of which a few
+    `noise`: the share of all chunks, of about ten bytes each, in which a byte is changed, and from which a few
     bytes are missing.
     """
 

@@ -78,7 +78,7 @@ class _Waiting:
 
 
 class Relay:
-    """Listens on a port of its own from the start; used as a context manager."""
+    """Listens on a separate port from the start; used as a context manager."""
 
     def __init__(self) -> None:
         self.fault: Fault = no_fault

@@ -78,7 +78,7 @@ class Peer:
 
 
 def record(image: Path, still_time: Path, transport: str, duration_ms: int, agent: ServingAgent) -> list[str]:
-    """Run `image` for `duration_ms` of its own time; return its messages and the agent's, a line each."""
+    """Run `image` for `duration_ms` of the simulated time; return its messages and the agent's, a line each."""
     ours, theirs = socket.socketpair()
     peer = Peer(agent, WIRES[transport]())
     environment = {

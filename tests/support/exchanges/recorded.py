@@ -46,7 +46,7 @@ def exchange_of(name: str, folder: Path, still_time: Path) -> str:
     manifest = json.loads((tree.out / "manifest.json").read_text(encoding="utf-8"))
     image = folder / name / "image"
     includes = ["include", *sorted({str(Path(s).parent) for s in tree.sources if s.startswith("src/")})]
-    # tcc compiles all of it in a third of a second, and what is said does not depend on the compiler.
+    # tcc compiles all of it in a third of a second, and its messages do not depend on the compiler.
     flags = [*(f"-I{include}" for include in includes), "-o", str(image)]
     subprocess.run(["tcc", *flags, *tree.sources, "-lpthread"], cwd=tree.out, check=True)
     agent = ServingAgent(preconfigured="preconfigured" in name)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The reached figures, kept as ceilings in footprint.json: `make footprint` measures and writes them anew."""
+"""The reached figures, kept as ceilings in footprint.json: `make footprint` measures and updates them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tests.support.paths import ROOT, TESTS
 
 FILE = TESTS / "firmware" / "footprint.json"
 README = ROOT / "README.md"
-ROW = re.compile(r"(?m)^\| here \| [^|]* \| [^|]* \| (?P<painted>[^|]*) \| [^|]* \| [^|]* \|$")
+ROW = re.compile(r"(?m)^\| here \| [^|]* \| [^|]* \| (?P<peak>[^|]*) \| [^|]* \| [^|]* \|$")
 CORTEX_M4 = "qemu-mps2-an386"
 OTHER_COMPILER = 1.05
 """How much more another version of a compiler than the one of the ceilings may need."""
@@ -69,7 +69,7 @@ def update(builds: Builds) -> None:
 
 
 def readme_row(row: re.Match[str], figures: dict[str, Any]) -> str:
-    """Return the row of README.md with these figures; the painted stack, which is measured apart, is kept."""
+    """Return the row of README.md with these figures; the high-water mark, which is measured separately, is kept."""
     sender = figures[CORTEX_M4]["senders"][Sender().label]
     text, ram, ready, publish = (f"{sender[key]:,}" for key in ("text", "ram", "ready", "publish"))
-    return f"| here | {text} | {ram} | {row['painted']} | {ready} | {publish} |"
+    return f"| here | {text} | {ram} | {row['peak']} | {ready} | {publish} |"

@@ -28,7 +28,7 @@ AGENT_FUNCTIONS = (
     "answer_acknack",
     "answer_session",
 )
-"""Functions of c/measured.c that stand for the agent: their work does not count."""
+"""Functions of c/measured.c that simulate the agent: their work does not count."""
 _PAINT = 0xC5C5C5C5
 INTERRUPTS = (
     "port_bare_tick",
@@ -161,7 +161,7 @@ def _symbol_sizes(built: Built) -> str:
 
 def painted_stack(built: Built, samples: int = 5) -> int:
     """Return how many bytes of the stack the image has used when `samples` samples have left the board."""
-    agent = FakeAgent(objects={b"\0\5": b""})  # a preconfigured client writes to what is there
+    agent = FakeAgent(objects={b"\0\5": b""})  # a preconfigured client writes to existing objects
     with board(built) as running, scripted_agent(running.device, agent):
         running.go_on()
         running.wait_for(lambda: len(agent.values()) >= samples)

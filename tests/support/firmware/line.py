@@ -86,7 +86,7 @@ def _write(handle: int, data: bytes) -> None:
 
 
 class Relay:
-    """Joins a board's line to a pseudo-terminal of its own, `device`; used as a context manager."""
+    """Joins a board's line to its own pseudo-terminal, `device`; used as a context manager."""
 
     def __init__(self, board_device: str) -> None:
         self.fault: Fault = clean

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from elftools.elf.elffile import ELFFile
 
-# A back end that writes nothing: what is tested is what the compiler takes, not what it makes of it.
+# A back end that writes nothing: the test is about what the compiler accepts, not about its output.
 BACK_END = "int generate(const void * tree, const void * config) { (void)config; return tree == 0; }\n"
 WRITABLE = 2  # PF_W
 
@@ -42,7 +42,7 @@ class IdlCompiler:
 
 
 def idl_compiler(folder: Path) -> IdlCompiler:
-    """Return the compiler of the wheel, its program mended and with a back end made in `folder`."""
+    """Return the compiler of the wheel, with its program corrected and a back end in `folder`."""
     spec = importlib.util.find_spec("cyclonedds")
     assert spec is not None
     assert spec.origin is not None

@@ -107,7 +107,7 @@ def ros_cpp_compiles(folder: Path, output: Path) -> bool:
 
 
 def _generated(folder: Path, output: Path, generator: str) -> bool:
-    """Run one generator in a process of its own: after an exception the template engine is not usable again."""
+    """Run one generator in a separate process: after an exception the template engine is not usable again."""
     share = Path(sys.prefix) / "share"
     arguments: dict[str, Any] = {
         "package_name": "pkg_a",

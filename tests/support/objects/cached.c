@@ -167,7 +167,7 @@ static int run(const char * real, char ** arguments, int out, int errors)
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
 
-/* Copies a file; it appears under its name at once and whole. False: there is none, or it cannot be written. */
+/* Copies a file; it appears under its name complete. Returns false if the file does not exist or it cannot be written. */
 static bool publish(const char * from, const char * to)
 {
   char fresh[PATH_MAX];
@@ -238,7 +238,7 @@ static bool key_of(const char * real, const call_t * call, char * key)
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-/* Puts what is kept under `entry` where the call wants it, with what the compiler said; false: nothing is kept. */
+/* Copies the object cached under `entry` to its destination, with the compiler's messages; false if it is not cached. */
 static bool recall(const call_t * call, const char * entry)
 {
   char kept[PATH_MAX], place[PATH_MAX];

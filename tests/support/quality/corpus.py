@@ -246,7 +246,7 @@ def run(command: Sequence[str], folder: Path) -> subprocess.CompletedProcess[str
 
 @dataclass(frozen=True)
 class Unit:
-    """One C file of a tree; `key` stands for what it is, with everything that it includes."""
+    """One C file of a tree; `key` identifies its content with everything that it includes."""
 
     tree: Tree
     source: str
@@ -254,7 +254,7 @@ class Unit:
 
 
 def tree_key(tree: Tree) -> str:
-    """Return what stands for every C file and header of `tree`."""
+    """Return the key of every C file and header of `tree`."""
     digest = hashlib.sha256()
     for path in sorted(p for p in tree.out.rglob("*.[ch]") if p.is_file()):
         digest.update(f"{path.relative_to(tree.out).as_posix()}\0".encode() + path.read_bytes() + b"\0")
@@ -301,7 +301,7 @@ def units(trees: Sequence[Tree], is_header_a_difference: bool = True) -> list[Un
     return [Unit(tree, source, keys[identity]) for tree, source, identity in found]
 
 
-def analyse(tool: str, each: Sequence[Unit], check: Callable[[Unit], str]) -> dict[str, str]:
+def analyze(tool: str, each: Sequence[Unit], check: Callable[[Unit], str]) -> dict[str, str]:
     """Return what `check` says of each different unit, by key; answers are kept in build/quality.
 
     `tool` names the check, its version and its rules: another name, another answer.

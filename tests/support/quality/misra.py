@@ -20,7 +20,7 @@ from pathlib import Path
 import yaml
 
 from tests.support.paths import ROOT, TESTS
-from tests.support.quality.corpus import Tree, Unit, analyse, run
+from tests.support.quality.corpus import Tree, Unit, analyze, run
 
 DEVIATIONS = TESTS / "quality" / "misra-deviations.yaml"
 PAGE = ROOT / "docs" / "verification" / "quality.md"
@@ -98,7 +98,7 @@ def tool_version() -> str:
 
 
 def checked_rules(addon: Path) -> tuple[list[str], list[str]]:
-    """Return the rules that the addon checks, and those that cppcheck's own checks stand for."""
+    """Return the rules that the addon checks, and those that cppcheck's own checks cover."""
     table = run([sys.executable, str(addon), "-generate-table"], ROOT).stdout
     rows = re.findall(r"^([0-9]+\.[0-9]+) +X \((Addon|Cppcheck)\)", table, re.MULTILINE)
     return [r for r, by in rows if by == "Addon"], [r for r, by in rows if by == "Cppcheck"]
@@ -145,7 +145,7 @@ def check(trees: Sequence[Tree], every: Sequence[Unit]) -> Places:
     """Return what the addon finds in `trees`, whose files are `every`."""
     addon = find_addon()
     assert addon is not None, "cppcheck is not installed, or without its addons"
-    answers = analyse(f"misra {tool_version()} {OPTIONS}", every, lambda unit: _check(unit, addon))
+    answers = analyze(f"misra {tool_version()} {OPTIONS}", every, lambda unit: _check(unit, addon))
     places: Places = Counter()
     for tree in trees:
         parts = [answers[unit.key].split(SEPARATOR) for unit in every if unit.tree == tree]

@@ -13,7 +13,7 @@ AGENT_TIME = 20.0
 
 
 class UdpAgent(threading.Thread):
-    """Answers on a socket of its own until it is stopped."""
+    """Answers on a separate socket until it is stopped."""
 
     def __init__(self, host: str = "127.0.0.1") -> None:
         super().__init__(daemon=True)

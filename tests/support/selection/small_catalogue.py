@@ -100,7 +100,7 @@ def small_catalogue() -> Catalogue:
 
 @dataclass(frozen=True)
 class Outcome:
-    """A selection and what was said on the way."""
+    """A selection and its messages."""
 
     selection: Selection
     said: tuple[str, ...]

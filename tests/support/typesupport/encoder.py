@@ -74,7 +74,7 @@ class Encoder:
         assert size <= self.type.max_encoded_size
         body = ctypes.create_string_buffer(b"\xa5" * (size + 16), size + 16)
         assert self.type.encode(ctypes.addressof(value), ctypes.addressof(body), fault) == size
-        assert body.raw[size:] == b"\xa5" * 16, "wrote behind the body"
+        assert body.raw[size:] == b"\xa5" * 16, "wrote after the body"
         return body.raw[:size]
 
     def refusal(self, value: ctypes.Structure) -> tuple[str, int, int, int]:

@@ -81,7 +81,7 @@ class RosPackage:
         return room.raw[HEADER:size]
 
     def read(self, name: str, body: bytes, big: bool, message: ctypes.Structure) -> None:
-        """Read a body with Fast CDR into a message, which is initialised."""
+        """Read a body with Fast CDR into a message, which is initialized."""
         room = ctypes.create_string_buffer(bytes((0, 0 if big else 1, 0, 0)) + body)
         read = self.library[f"{self.package}__msg__{name}__read"]
         read.restype = ctypes.c_bool

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A project of a user with CMake: configures, builds, and tells what each build made anew."""
+"""A project of a user with CMake: configures, builds, and reports what each build compiled."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ class Project:
         return run(*command, cwd=self.source, env=self.environment)
 
     def rebuilt(self) -> frozenset[str]:
-        """Build, and return what that made anew: names below the build folder, objects by their source."""
+        """Build, and return what was built: names below the build folder, objects by their source."""
         before = self._made()
         done = self.build()
         assert done.returncode == 0, done.stdout + done.stderr

@@ -19,7 +19,7 @@ endmacro()
 
 # ament_microros_link_type_support(<target> <package>): links a program of this machine (a test, a tool) to the XRCE type
 # support that was installed with an interface package. It is whole: types that several packages share are in the library of
-# each. So a program links one; for the types of several, declare them in an application file and build a library of its own.
+# each. So a program links one; for the types of several, declare them in an application file and build a separate library.
 function(ament_microros_link_type_support target package)
   get_target_property(linked ${target} MICROROS_TYPE_SUPPORT)
   if(linked)

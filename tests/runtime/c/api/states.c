@@ -452,7 +452,7 @@ static void wait_sets(void)
   TELL(rcl_guard_condition_fini(&guard));
 }
 
-/* What is left behind a shutdown. */
+/* Calls after a shutdown. */
 static void shut_down(void)
 {
   const rosidl_message_type_support_t * type = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);

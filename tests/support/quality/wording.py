@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The prose of a file of this repository, and the phrases of wording.yaml in it."""
+
+from __future__ import annotations
+
+import io
+import re
+import tokenize
+from functools import cache
+from pathlib import Path
+
+import yaml
+
+from tests.support.paths import ROOT
+
+PHRASES = ROOT / "tests/quality/wording.yaml"
+SUFFIXES = {".md", ".py", ".c", ".h", ".j2", ".S", ".yaml", ".json", ".cmake", ".yml", ".toml"}
+FOLDERS = ("microros_gen", "tests", "docs", "examples", "cmake", "profiles")
+# Golden copies follow from the sources, dialogues and corpora are recordings, the list and its test contain the
+# phrases, and the type support stays byte for byte.
+EXCLUDED = (
+    "tests/golden/",
+    "tests/exchanges/golden",
+    "tests/agent/dialogues/",
+    "tests/runtime/corpus/",
+    "microros_gen/idl/",
+    "microros_gen/templates/types/",
+    "tests/quality/wording.yaml",
+    "tests/quality/test_wording.py",
+    "microros_gen/components/",
+    "microros_gen/templates/",
+    "microros_gen/platform/",
+    "tests/e2e/",
+    "tests/runtime/",
+)
+_PAGE_CODE = re.compile(
+    r"^( *)```.*?^\1```|`[^`\n]+`|\]\([^)]*\)|<!-- misra: begin.*?misra: end -->", re.M | re.S
+)
+_C_PROSE = re.compile(r'/\*.*?\*/|\{#.*?#\}|"(?:[^"\\\n]|\\.)*"|//[^\n]*', re.S)
+
+
+@cache
+def phrases() -> list[tuple[re.Pattern[str], str]]:
+    """Return each phrase to avoid, as a pattern whose spaces match any white space, with its replacement."""
+    entries = yaml.safe_load(PHRASES.read_text(encoding="utf-8"))
+    return [
+        (re.compile(entry["phrase"].replace(" ", r"\s+"), re.IGNORECASE), entry["write"]) for entry in entries
+    ]
+
+
+@cache
+def files() -> dict[str, Path]:
+    """Return the files with prose, by their path in the repository."""
+    found = {"README.md": ROOT / "README.md"}
+    for folder in FOLDERS:
+        for path in sorted((ROOT / folder).rglob("*")):
+            name = path.relative_to(ROOT).as_posix()
+            if path.suffix in SUFFIXES and path.is_file() and not name.startswith(EXCLUDED):
+                found[name] = path
+    return found
+
+
+def blanked(text: str) -> str:
+    """Return `text` as spaces, with its line breaks."""
+    return re.sub(r"[^\n]", " ", text)
+
+
+def prose_of_python(text: str) -> str:
+    """Return comments and strings of a Python file; lines kept, the quotes and `#` of adjacent ones blanked."""
+    lines = [blanked(line) for line in text.splitlines()]
+    kinds = {tokenize.COMMENT, tokenize.STRING, getattr(tokenize, "FSTRING_MIDDLE", -1)}
+    source = text.splitlines()
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type not in kinds:
+            continue
+        (first, start), (last, end) = token.start, token.end
+        for number in range(first, last + 1):
+            left, right = (
+                (start if number == first else 0),
+                (end if number == last else len(source[number - 1])),
+            )
+            piece = re.sub(
+                r"""^[rbfRBF]*(?:\"{1,3}|')|(?:\"{1,3}|')$|^#+""",
+                lambda m: " " * len(m[0]),
+                source[number - 1][left:right],
+            )
+            lines[number - 1] = lines[number - 1][:left] + piece + lines[number - 1][right:]
+    return "\n".join(lines)
+
+
+def prose_of_c(text: str) -> str:
+    """Return comments and strings of a C file or a template of one, lines kept."""
+    kept = [" "] * len(text)
+    for found in _C_PROSE.finditer(text):
+        kept[found.start() : found.end()] = re.sub(r"(?m)^\s*\*|/\*|\*/", lambda m: " " * len(m[0]), found[0])
+    return "".join(kept[at] if char != "\n" else "\n" for at, char in enumerate(text))
+
+
+def prose(path: Path, text: str) -> str:
+    """Return what people read in a file: a page without its code, comments and strings of code, all of a data file."""
+    if path.suffix == ".md":
+        return _PAGE_CODE.sub(lambda found: blanked(found[0]), text)
+    if path.suffix == ".py":
+        return prose_of_python(text)
+    if path.suffix in (".c", ".h", ".S") or path.name.endswith((".c.j2", ".h.j2")):
+        return prose_of_c(text)
+    return re.sub(r"(?m)^(\s*)#+", r"\1 ", text)
+
+
+def refused(text: str) -> list[str]:
+    """Return each phrase that `text` should not have, with its line and what to write instead."""
+    found = []
+    for pattern, instead in phrases():
+        for match in pattern.finditer(text):
+            line = text.count("\n", 0, match.start()) + 1
+            found.append(f"{line}: {' '.join(match[0].split())!r}: write {instead}")
+    return found
+
+
+@cache
+def _any_phrase() -> re.Pattern[str]:
+    return re.compile("|".join(pattern.pattern for pattern, _ in phrases()), re.IGNORECASE)
+
+
+def refused_in(path: Path) -> list[str]:
+    """Return each phrase in the prose of a file that it should not have."""
+    text = path.read_text(encoding="utf-8")
+    # Splitting code into tokens takes most of the time, and nearly no file has one of the phrases.
+    if not _any_phrase().search(re.sub(r"(?m)^\s*(?:#|\*|//)", " ", text)):
+        return []
+    return refused(prose(path, text))
