@@ -118,7 +118,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     "topic: empty": (topic("''"), "f:3:26: error: the topic name '' is empty. Write a name such as imu/data"),
     "topic: tilde inside": (
         topic("imu/~"),
-        "f:3:30: error: the topic name 'imu/~' has '~' behind its first character. "
+        "f:3:30: error: the topic name 'imu/~' has '~' after its first character. "
         "'~' means the node, and only at the beginning",
     ),
     "topic: tilde without slash": (

@@ -115,7 +115,7 @@ FAULTS = {
     "indent": ("- a\nb: 1\n", "f:2:1: error: not valid YAML: the indentation does not fit the lines above"),
     "dash": (
         "a: - b\n",
-        "f:1:4: error: not valid YAML: a '-' where no list can begin. Put the list on lines",
+        "f:1:4: error: not valid YAML: a '-' where no list can begin. Put the list on its own lines",
     ),
     "at": ("a: @x\n", "f:1:4: error: not valid YAML: a text cannot begin with this character. Put it into"),
     "escape": (
