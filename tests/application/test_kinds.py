@@ -15,7 +15,7 @@ from microros_gen.selection.find_components import load_catalogue
 
 PACKAGE = Path(microros_gen.__file__).parent
 PARTICULAR = {
-    "agent/operations.py": "operations of the wire: requester and replier have objects of their own",
+    "agent/operations.py": "operations of the wire: requester and replier have separate objects",
     "agent/ros/node.py": "calls of rclpy, which differ from kind to kind",
     "application/kinds.py": "the table",
     "client/plan/agent_files.py": "XML and JSON of the agent, which differ from kind to kind",

@@ -194,7 +194,7 @@ FAULTS = [
         "needs: [publisch]",
         "component.yaml:5:9: error: the component 'beacon' needs the unknown",
     ),
-    ("asks: [time]", "colour: red", "component.yaml:6:1: error: unknown key 'colour'"),
+    ("asks: [time]", "hue: red", "component.yaml:6:1: error: unknown key 'hue'"),
     (
         "component: beacon",
         "component: buoy",

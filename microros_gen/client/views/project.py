@@ -104,7 +104,7 @@ def _free(taken: frozenset[str], files: dict[str, bytes]) -> dict[str, bytes]:
     clashes = sorted(taken & files.keys())
     if clashes:
         message = f"a component has the file '{clashes[0]}', which belongs to a type"
-        hint = "Choose a folder of its own below include/ for its headers, and a name that no interface package has"
+        hint = "Choose a separate folder below include/ for its headers, and a name that no interface package has"
         raise UserError([Diagnostic(message, hint=hint, id="MG-7160")])
     return files
 
