@@ -12,6 +12,7 @@ from itertools import islice
 from pathlib import Path
 
 from microros_gen.application.model import Application
+from microros_gen.client.plan.changed_lines import changed_lines, joined
 from microros_gen.client.plan.levers import history_lever, limit_levers, queue_levers, shared_queue_levers
 from microros_gen.compiler.pipeline import Planned, plan_request, render_request
 from microros_gen.diagnostics import Diagnostics, UserError
@@ -60,11 +61,12 @@ def plan_advice(planned: Planned, folder: Folder) -> tuple[Advice, ...]:
             found = list(_tried(planned, trial, now))
     except (UserError, OSError):
         return ()
-    return tuple(sorted(found, key=lambda a: (-a.saves, a.change))[:_SHOWN])
+    return tuple(sorted(found, key=lambda a: (-a.saves, a.change, a.place))[:_SHOWN])
 
 
 def _tried(planned: Planned, trial: _Trial, now: int) -> Iterator[Advice]:
-    for change, application in _changes(planned):
+    before = planned.resolved.request.application
+    for application in _changes(planned):
         request = replace(planned.resolved.request, application=application)
         try:
             other = plan_request(replace(planned.resolved, request=request), Diagnostics())
@@ -72,10 +74,11 @@ def _tried(planned: Planned, trial: _Trial, now: int) -> Iterator[Advice]:
             continue  # a smaller number is not always possible
         saves = now - trial.ram(other)
         if saves > 0:
-            yield Advice(change, saves, exact=True)
+            changed = joined(changed_lines(before, application))
+            yield Advice(changed.line, changed.place, saves, exact=True)
 
 
-def _changes(planned: Planned) -> Iterator[tuple[str, Application]]:
+def _changes(planned: Planned) -> Iterator[Application]:
     """Yield what is tried: queues of one sample, or of the bytes of one; a shorter history; limits at a quarter."""
     application = planned.resolved.request.application
     history = history_lever(planned.project)
@@ -88,4 +91,4 @@ def _changes(planned: Planned) -> Iterator[tuple[str, Application]]:
         if lever.now >= _LOWERED
     ]
     for lever, value in tried:
-        yield lever.text(value), lever.put(application, value)
+        yield lever.put(application, value)

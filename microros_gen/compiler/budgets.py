@@ -33,7 +33,8 @@ def check_plan(planned: Planned, read: Callable[[], Folder], warnings: Diagnosti
     if any(line.exceeded and line.key == "ram_budget" for line in report.budgets):
         store_advice(folder, plan_advice(planned, folder))
         report = measure_folder(folder)
-    check_budgets(report.budgets, places)
+    keys = {key: span.line for key, span in planned.project.application.spans.items()}
+    check_budgets(report.budgets, places, keys)
 
 
 def check_manifest(folder: Folder, warnings: Diagnostics) -> None:
@@ -41,4 +42,4 @@ def check_manifest(folder: Folder, warnings: Diagnostics) -> None:
     report = measure_folder(folder)
     if "stack" in folder.manifest["memory"] and not report.stack.known:
         warnings.warning(f"memory.stack is not checked: {report.stack.why}", id="MG-8603")
-    check_budgets(report.budgets, {})
+    check_budgets(report.budgets, {}, {})

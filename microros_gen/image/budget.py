@@ -22,13 +22,18 @@ from microros_gen.toolchain.compile import OBJECTS
 ADVICE = f"{OBJECTS}/advice.json"
 _LIBRARY = ("component", "type support")
 _MOST = 3
+_MEMORY = "in `memory:`"
 
 
 @dataclass(frozen=True)
 class Advice:
-    """A change of the application file and what it saves at most, bytes. `exact`: planned again with it."""
+    """Lines of the application file, where they go (empty: at the top level), and what they save at most, bytes.
+
+    `exact`: built again with them.
+    """
 
     change: str
+    place: str
     saves: int
     exact: bool
 
@@ -95,7 +100,10 @@ def planned_advice(folder: Folder) -> tuple[Advice, ...]:
         data = read_json(folder.path / ADVICE, follow=False)
         if data["plan"] != folder.manifest["plan"]:
             return ()
-        return tuple(Advice(str(a["change"]), int(a["saves"]), bool(a["exact"])) for a in data["advice"])
+        return tuple(
+            Advice(str(a["change"]), str(a["place"]), int(a["saves"]), bool(a["exact"]))
+            for a in data["advice"]
+        )
     except (OSError, ValueError, KeyError, TypeError):
         return ()
 
@@ -107,13 +115,29 @@ def exceeded_message(line: BudgetLine) -> str:
     return f"{line.what}: {line.used} bytes, and memory.{line.key} is {line.budget} ({joined}: {names})"
 
 
-def advice_text(line: BudgetLine) -> str:
-    """Return the hint of an exceeded budget."""
+def advice_hint(line: BudgetLine) -> str:
+    """Return the hint of an exceeded budget, which precedes the lines of advice."""
     if line.key == "stack":
         name, most = max(line.largest, key=lambda part: part[1], default=("", 0))
         return f"Set memory.stack: {line.used}, or shorten the chain: {name} alone takes {most}"
-    texts = [f"`{a.change}` saves {'' if a.exact else 'up to '}{a.saves}" for a in line.advice]
-    return f"{'; '.join(texts)}; or raise the budget" if texts else "Raise the budget, or declare less"
+    if not line.advice:
+        return "Raise the budget, or declare less"
+    return f"Set {'this' if len(line.advice) == 1 else 'some of these'}, or raise the budget:"
+
+
+def advice_lines(line: BudgetLine, keys: Mapping[str, int]) -> tuple[str, ...]:
+    """Return the lines to paste, each with its place and what it saves.
+
+    `keys` are the lines of the application file's top-level keys, which its advice replaces.
+    """
+    return tuple(text for advice in line.advice for text in _pasted(advice, keys).splitlines())
+
+
+def _pasted(advice: Advice, keys: Mapping[str, int]) -> str:
+    key = advice.change.partition(":")[0]
+    place = advice.place or (f"instead of line {keys[key]}" if key in keys else "")
+    saves = f"saves {'' if advice.exact else 'up to '}{advice.saves} bytes"
+    return f"{advice.change}  # {place}{', ' if place else ''}{saves}"
 
 
 def _line(
@@ -124,7 +148,7 @@ def _line(
     if not line.exceeded:
         return line
     largest = tuple(sorted(sizes.items(), key=lambda s: (-s[1], s[0]))[:_MOST])
-    useful = tuple(sorted((a for a in advice if a.saves > 0), key=lambda a: (-a.saves, a.change)))
+    useful = tuple(sorted((a for a in advice if a.saves > 0), key=lambda a: (-a.saves, a.change, a.place)))
     return BudgetLine(key, what, used, allowed, line.place, largest, useful)
 
 
@@ -147,13 +171,13 @@ def _ram_advice(folder: Folder, parts: Iterable[RamPart]) -> tuple[Advice, ...]:
     uses = _sum((p.use, p.size) for p in parts if p.group == "component")
     pools, found = folder.manifest["pools"], []
     if pools["error_text"]:
-        found.append(Advice("errors: code", uses.get("error text", 0), False))
+        found.append(Advice("errors: code", "", uses.get("error text", 0), False))
     kept = int(folder.manifest.get("message_storage", {}).get("messages", 0))
     if kept and MESSAGE_STORAGE in uses:
         saves = uses[MESSAGE_STORAGE] // kept
-        found.append(Advice(f"memory.messages {kept} → {kept - 1}", saves, False))
+        found.append(Advice(f"messages: {kept - 1}", _MEMORY, saves, False))
     if pools["arena"]:
-        found.append(Advice(f"memory.arena {pools['arena']} → 0", int(pools["arena"]), False))
+        found.append(Advice("arena: 0", _MEMORY, int(pools["arena"]), False))
     return (
         *found,
         *_component_advice(folder, _sum((p.owner, p.size) for p in parts if p.group == "component")),
@@ -164,7 +188,7 @@ def _flash_advice(folder: Folder, pieces: Sequence[Piece]) -> tuple[Advice, ...]
     found = []
     if folder.manifest["pools"]["error_text"]:
         text = sum(p.flash for p in pieces if p.source == "src/support/error_text.c")
-        found.append(Advice("errors: code", text, False))
+        found.append(Advice("errors: code", "", text, False))
     sizes = _sum((p.owner.name, p.flash) for p in pieces if p.owner.group == "component")
     return (*found, *_component_advice(folder, sizes))
 
@@ -174,15 +198,15 @@ def _component_advice(folder: Folder, sizes: Mapping[str, int]) -> tuple[Advice,
     created = {n: s for n, s in sizes.items() if n.startswith("entities")}
     selection, found = folder.manifest["selection"], []
     if selection["liveliness"] == "ping" and selection["entities"] != "preconfigured":
-        found.append(Advice("liveliness: none", sizes.get("ping", 0), False))
+        found.append(Advice("liveliness: none", "", sizes.get("ping", 0), False))
     if selection["liveliness"] == "acknack":
-        found.append(Advice("liveliness: none", sizes.get("liveliness_acknack", 0), False))
+        found.append(Advice("liveliness: none", "", sizes.get("liveliness_acknack", 0), False))
     if selection["entities"] != "preconfigured":
-        found.append(Advice("entities: preconfigured", sum(created.values()), False))
+        found.append(Advice("entities: preconfigured", "", sum(created.values()), False))
     publishers = folder.manifest["entities"]["publishers"]
     if any(p["reliable"] for p in publishers):
         take = sizes.get("stream_reliable", 0)
-        found.append(Advice("qos: {reliability: best_effort} of every publisher", take, False))
+        found.append(Advice("qos: {reliability: best_effort}", "at every publisher", take, False))
     return tuple(found)
 
 

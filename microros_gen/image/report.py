@@ -11,7 +11,7 @@ from elftools.common.exceptions import DWARFError, ELFError
 
 from microros_gen.diagnostics import Diagnostic, Source, Span, UserError
 from microros_gen.image.attribution import Piece, attribute, attribute_library
-from microros_gen.image.budget import BudgetLine, advice_text, budget_lines, exceeded_message
+from microros_gen.image.budget import BudgetLine, advice_hint, advice_lines, budget_lines, exceeded_message
 from microros_gen.image.callgraph import CallGraph, build_call_graph
 from microros_gen.image.dwarf import Facts, Part, read_facts, read_variables
 from microros_gen.image.elf import Elf
@@ -106,11 +106,20 @@ def public_functions(folder: Folder, pieces: Iterable[Piece]) -> frozenset[str]:
     return frozenset(name for name in mine if shown_name(name) in declared)
 
 
-def check_budgets(budgets: Iterable[BudgetLine], places: Mapping[str, Span | None]) -> None:
-    """Raise UserError with status 1 when a budget is exceeded. `places` are where the application sets them."""
+def check_budgets(
+    budgets: Iterable[BudgetLine], places: Mapping[str, Span | None], keys: Mapping[str, int]
+) -> None:
+    """Raise UserError with status 1 when a budget is exceeded.
+
+    `places` are where the application sets them, `keys` the lines of its top-level keys.
+    """
     found = [
         Diagnostic(
-            exceeded_message(line), places.get(line.key) or _span(line), advice_text(line), id="MG-8415"
+            exceeded_message(line),
+            places.get(line.key) or _span(line),
+            advice_hint(line),
+            block=advice_lines(line, keys),
+            id="MG-8415",
         )
         for line in budgets
         if line.exceeded

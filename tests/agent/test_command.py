@@ -63,7 +63,7 @@ def test_a_port_in_use() -> None:
     with running_agent(DOMAIN) as agent:
         result = run("udp4", "--port", str(agent.port))
     assert result.returncode == 2
-    wanted = f"microros-gen: error: UDP port {agent.port} is in use; choose another with --port\n"
+    wanted = f"microros-gen: error: UDP port {agent.port} is in use; choose another with --port [MG-9436]\n"
     assert result.stderr == wanted
 
 

@@ -61,4 +61,4 @@ def test_declared_timers_publish_and_callbacks_take(
         process.terminate()
         _, errors = process.communicate(timeout=seconds(15))
     assert (wanted, errors) == (set(), "")
-    assert all(former < later for former, later in pairwise(counts))
+    assert all(former < later for former, later in pairwise(counts)), counts

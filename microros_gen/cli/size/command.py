@@ -82,4 +82,4 @@ def command(
         click.echo(text, nl=False)
     else:
         output.write_text(text, encoding="utf-8", newline="\n")
-    check_budgets(report.budgets, {})
+    check_budgets(report.budgets, {}, {})

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
+from dataclasses import asdict
 from typing import Any
 
 from microros_gen.cli.tables import format_table
@@ -123,7 +124,7 @@ def budget_data(line: BudgetLine) -> dict[str, Any]:
         "exceeded": line.exceeded,
         "place": line.place,
         "largest": [{"name": name, "bytes": size} for name, size in line.largest],
-        "advice": [{"change": a.change, "saves": a.saves, "exact": a.exact} for a in line.advice],
+        "advice": [asdict(a) for a in line.advice],
     }
 
 

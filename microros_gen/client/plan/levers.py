@@ -15,13 +15,9 @@ from microros_gen.typesupport.plan.capacity import Capacities, Capacity
 
 @dataclass(frozen=True)
 class Lever:
-    """A number of the application file, which is `now`.
-
-    `text` says that it is another one; `put` returns an application with another one.
-    """
+    """A number of the application file, which is `now`; `put` returns an application with another one."""
 
     now: int
-    text: Callable[[int], str]
     put: Callable[[Application, int], Application]
 
 
@@ -76,34 +72,27 @@ def limit_levers(capacities: Capacities) -> Iterator[Lever]:
 def _pool(key: str, now: int) -> Lever:
     return Lever(
         now,
-        lambda value: f"pools.{key} {now} → {value}",
         lambda application, value: replace(application, pools={**application.pools, key: value}),
     )
 
 
 def _queue(endpoint: EndpointDecl, now: int) -> Lever:
-    place = f"of the {endpoint.kind} {endpoint.given or endpoint.topic} (now {now})"
     return Lever(
         now,
-        lambda value: f"queue: {value} {place}",
         lambda application, value: _with_changed(application, endpoint, replace(endpoint, queue=value)),
     )
 
 
 def _queue_bytes(endpoint: EndpointDecl, now: int) -> Lever:
-    place = f"of the {endpoint.kind} {endpoint.given or endpoint.topic} (now {now})"
     return Lever(
         now,
-        lambda value: f"queue_bytes: {value} {place}",
         lambda application, value: _with_changed(application, endpoint, replace(endpoint, queue_bytes=value)),
     )
 
 
 def _limit(capacity: Capacity) -> Lever:
-    name = f"limits: {capacity.root} {'.'.join(capacity.path)} {capacity.kind} {capacity.value}"
     return Lever(
         capacity.value,
-        lambda value: f"{name} → {value}",
         lambda application, value: _with_limit(application, capacity, value),
     )
 

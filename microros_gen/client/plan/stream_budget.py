@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import islice
 
 from microros_gen.application.model import Application
+from microros_gen.client.plan.changed_lines import changed_lines
 from microros_gen.client.plan.levers import Lever, history_lever, limit_levers, queue_levers
 from microros_gen.client.plan.project import Project
 from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
 from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.capacity import Capacities
-from microros_gen.typesupport.plan.unset import type_line
 
 _LIMITS = 24
 _QUEUES = 6
@@ -135,25 +135,5 @@ def _largest(end: int, make: Callable[[int], Application], trial: _Trial) -> App
 def _lines(before: Application, after: Application, trial: _Trial) -> Iterator[str]:
     """Yield the lines of the application file that make the one of the other, with what is taken then."""
     taken = f"then {trial.taken(after)} bytes"
-    for place, line in _changed(before, after):
-        yield f"{line}  # {place}{', ' if place else ''}{taken}"
-
-
-def _changed(before: Application, after: Application) -> Iterator[tuple[str, str]]:
-    """Yield where each line goes that differs, and the line."""
-    if after.pools != before.pools:
-        span = before.spans.get("pools")
-        pools = ", ".join(f"{key}: {value}" for key, value in after.pools.items())
-        yield f"instead of `pools:` in line {span.line}" if span else "", f"pools: {{{pools}}}"
-    types = {rule.path[0] for rule in after.limits if rule not in before.limits}
-    below = "below `limits:`" if before.limits else ""
-    if types and not before.limits:
-        yield "", "limits:"
-    for name in sorted(types):
-        line, instead = type_line(name, before.limits, after.limits)
-        yield instead or below, line
-    for one, other in zip(before.nodes, after.nodes, strict=True):
-        for old, new in zip(one.endpoints, other.endpoints, strict=True):
-            if old != new:
-                line_number = f", line {old.span.line}" if old.span else ""
-                yield f"at the {old.kind} {old.given or old.topic}{line_number}", f"queue: {new.queue}"
+    for line in changed_lines(before, after):
+        yield line.text(taken)
