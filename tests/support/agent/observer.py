@@ -355,9 +355,13 @@ def _subscribe(node: Any, command: dict[str, Any], arrived: list[tuple[str, Any]
 
 
 def _plain(value: Any) -> Any:
-    """Return a message as dictionaries, lists and numbers."""
+    """Return a message as dictionaries, lists, texts and numbers; an octet is bytes of length 1 in rclpy."""
     if hasattr(value, "get_fields_and_field_types"):
         return {name: _plain(getattr(value, name)) for name in value.get_fields_and_field_types()}
+    if isinstance(value, list):
+        return [_plain(element) for element in value]
+    if isinstance(value, bytes):
+        return list(value) if len(value) != 1 else value[0]
     return value.tolist() if hasattr(value, "tolist") else value
 
 

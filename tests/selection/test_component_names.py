@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How many Python modules name a component: each is one that a component like it would have to edit."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import microros_gen
+from microros_gen.selection.find_components import load_catalogue
+
+PACKAGE = Path(microros_gen.__file__).parent
+_ASKS = ("has", "serves_only", "pick", "Demand", "EntityKind")
+"""Functions that are asked for a component by its name."""
+_OTHER_MEANING = {
+    *(
+        "cdr",
+        "clock",
+        "discovery",
+        "entities",
+        "executor",
+        "framing",
+        "lifecycle",
+        "logging",
+        "memory",
+        "node",
+    ),
+    *(
+        "parameters",
+        "ping",
+        "publish",
+        "qos",
+        "read",
+        "services",
+        "session",
+        "subscribe",
+        "support",
+        "timers",
+    ),
+    "write",
+}
+"""Names that are words of YAML files, too: they count only where a function is asked for the component."""
+MENTIONS = {
+    "cdr": 1,
+    "cdr_decode": 1,
+    "clock": 1,
+    "clock_ros": 3,
+    "discovery": 4,
+    "executor": 2,
+    "framing": 1,
+    "liveliness_acknack": 2,
+    "liveliness_hard": 2,
+    "micro_ros_utilities": 1,
+    "multithread": 3,
+    "node": 1,
+    "parameters": 1,
+    "publish": 6,
+    "read": 1,
+    "services": 5,
+    "session_state": 1,
+    "sleep_cycles": 2,
+    "stream_best_effort": 2,
+    "stream_best_effort_input": 1,
+    "stream_reliable": 3,
+    "stream_reliable_input": 2,
+    "subscribe": 4,
+    "time_sync": 3,
+    "timers": 2,
+}
+"""The modules that name each component today. A number may fall, then it is lowered here; none may rise."""
+
+
+def mentions(tree: ast.AST, names: set[str]) -> Iterator[str]:
+    """Yield each component that a module names."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and node.value in names - _OTHER_MEANING:
+            yield node.value
+        if isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] in _ASKS:
+            values = (*node.args, *(k.value for k in node.keywords if k.arg == "component"))
+            yield from (v.value for v in values if isinstance(v, ast.Constant) and v.value in names)
+
+
+def counted(package: Path) -> dict[str, int]:
+    """Return how many modules of `package` name each component; without those that none names."""
+    names = {c.name for c in load_catalogue().values() if c.layer != "port"}
+    found: dict[str, int] = {}
+    for path in sorted(package.rglob("*.py")):
+        if path.relative_to(package).parts[0] != "agent":  # it knows nothing of components
+            for name in set(mentions(ast.parse(path.read_text(encoding="utf-8")), names)):
+                found[name] = found.get(name, 0) + 1
+    return dict(sorted(found.items()))
+
+
+def test_no_component_is_named_by_more_modules() -> None:
+    assert counted(PACKAGE) == MENTIONS
+
+
+def test_most_components_are_named_by_few() -> None:
+    assert sum(MENTIONS.values()) <= 55
+    assert max(MENTIONS.values()) <= 6
+
+
+def test_a_new_mention_is_counted(tmp_path: Path) -> None:
+    (tmp_path / "x.py").write_text(
+        """a = selection.has("publish")\nb = "publish"\nc = "sleep_cycles"\nd = "read" """
+    )
+    assert counted(tmp_path) == {"publish": 1, "sleep_cycles": 1}
