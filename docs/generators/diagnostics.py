@@ -29,6 +29,8 @@ _SUBJECTS = {
     "agent": "The agent",
     "cli": "The command line",
 }
+_PLACE_FIRST = {"IdlError", "_DeclarationError", "self._error"}
+"""Calls whose first argument is the place and whose second one is the message."""
 _INTRODUCTION = """\
 Each error and warning ends with an id in brackets, `[MG-3012]`, which stays the same when the words change. Parts in
 braces are placeholders for names, numbers and paths. The hint says what to do."""
@@ -81,21 +83,39 @@ def _of_module(path: Path) -> Iterator[Told]:
     tree = ast.parse(path.read_text(encoding="utf-8"))
     functions = [n for n in ast.walk(tree) if isinstance(n, (ast.FunctionDef, ast.AsyncFunctionDef))]
     for function in functions:
-        texts = _texts(function)
         for node in ast.walk(function):
             if isinstance(node, ast.Call) and _owner(functions, node) is function:
-                yield from _of_call(node, texts, path.relative_to(PACKAGE).parts[0])
+                yield from _of_call(node, _texts(function, node), path.relative_to(PACKAGE).parts[0])
 
 
-def _texts(function: ast.AST) -> dict[str, ast.expr]:
-    """Return the variables of a function that get a value at one place."""
+def _texts(function: ast.AST, before: ast.Call) -> dict[str, ast.expr]:
+    """Return the variables with one value at a call: those set once, or last in a block that holds the call."""
     found: dict[str, list[ast.expr]] = {}
-    for node in ast.walk(function):
-        if isinstance(node, ast.Assign):
-            for target in node.targets:
+    nearest: dict[str, ast.expr] = {}
+    for block in _blocks(function):
+        reaches = any(_holds(statement, before) for statement in block)
+        for statement in block:
+            if not isinstance(statement, ast.Assign):
+                continue
+            for target in statement.targets:
                 if isinstance(target, ast.Name):
-                    found.setdefault(target.id, []).append(node.value)
-    return {name: values[0] for name, values in found.items() if len(values) == 1}
+                    found.setdefault(target.id, []).append(statement.value)
+                    if reaches and statement.lineno <= before.lineno:
+                        nearest[target.id] = statement.value
+    return {name: values[0] for name, values in found.items() if len(values) == 1} | nearest
+
+
+def _blocks(function: ast.AST) -> Iterator[list[ast.stmt]]:
+    """Yield each list of statements of a function, outer ones first."""
+    for node in ast.walk(function):
+        for name in ("body", "orelse", "finalbody"):
+            block = getattr(node, name, None)
+            if isinstance(block, list):
+                yield block
+
+
+def _holds(statement: ast.stmt, node: ast.Call) -> bool:
+    return statement.lineno <= node.lineno and (statement.end_lineno or 0) >= (node.end_lineno or 0)
 
 
 def _owner(functions: list[ast.FunctionDef | ast.AsyncFunctionDef], node: ast.Call) -> object:
@@ -112,10 +132,16 @@ def _of_call(node: ast.Call, texts: dict[str, ast.expr], subject: str) -> Iterat
     if not isinstance(identity, ast.Constant) or not str(identity.value).startswith("MG-"):
         return
     arguments = list(node.args)
+    if ast.unparse(node.func) in _PLACE_FIRST:
+        arguments[:2] = [arguments[1], arguments[0]]
+    if ast.unparse(node.func) == "NameFault":  # a predicate of the name
+        arguments[0] = ast.BinOp(ast.Constant("the name '{name}' "), ast.Add(), arguments[0])
+    if ast.unparse(node.func) == "InvalidValueError":
+        arguments.insert(1, ast.Constant(None))
     message = arguments[0] if arguments else named.get("message")
     hint = arguments[2] if len(arguments) > 2 else named.get("hint")
     warns = isinstance(node.func, ast.Attribute) and node.func.attr == "warning"
-    warns |= "severity" in named
+    warns |= "severity" in named or ast.unparse(node.func) == "Caveat"
     yield Told(str(identity.value), _pattern(message, texts), _pattern(hint, texts), not warns, subject)
 
 

@@ -57,7 +57,7 @@ def topic_fault(name: str) -> NameFault | None:
     after it.
     """
     if not name:
-        return NameFault("is empty", 0, "Write a name such as imu/data")
+        return NameFault("is empty", 0, "Write a name such as imu/data", id="MG-1015")
     return _braces_fault(name) or _shape_fault(name, "/~{}")
 
 
@@ -65,7 +65,7 @@ def expanded_fault(name: str, longest: int = LONGEST_TOPIC_NAME) -> NameFault | 
     """Return what is wrong with a fully qualified name, or None."""
     if len(name) > longest:
         message = f"is {len(name)} characters long as '{name[:40]}…'; {longest} are allowed"
-        return NameFault(message, 0, f"Shorten it by {len(name) - longest}")
+        return NameFault(message, 0, f"Shorten it by {len(name) - longest}", id="MG-3040")
     return _shape_fault(name, "/")
 
 
@@ -87,10 +87,10 @@ def absolute(namespace: str) -> str:
 def node_name_fault(name: str) -> NameFault | None:
     """Return what is wrong with the name of a node, or None."""
     if not name:
-        return NameFault("is empty", 0, "Write a name such as imu")
+        return NameFault("is empty", 0, "Write a name such as imu", id="MG-3041")
     if len(name) > LONGEST_NODE_NAME:
         message = f"is {len(name)} characters long; {LONGEST_NODE_NAME} are allowed"
-        return NameFault(message, LONGEST_NODE_NAME, "Shorten it")
+        return NameFault(message, LONGEST_NODE_NAME, "Shorten it", id="MG-3042")
     return _character_fault(name, "") or _digit_fault(name, 0)
 
 
@@ -99,12 +99,12 @@ def _braces_fault(name: str) -> NameFault | None:
     for match in _SUBSTITUTION.finditer(name):
         if match.group(1) not in SUBSTITUTIONS:
             message = f"has the substitution '{match.group()}', which ROS 2 does not know"
-            return NameFault(message, match.start(), "There are {node}, {ns} and {namespace}")
+            return NameFault(message, match.start(), "There are {node}, {ns} and {namespace}", id="MG-3043")
     index = next((i for i, c in enumerate(rest) if c in "{}"), None)
     return (
         None
         if index is None
-        else NameFault("has a brace without its other half", index, "Write {node} or {ns}")
+        else NameFault("has a brace without its other half", index, "Write {node} or {ns}", id="MG-3044")
     )
 
 
@@ -115,14 +115,17 @@ def _shape_fault(name: str, allowed: str) -> NameFault | None:
     tilde = name.rfind("~")
     if tilde > 0:
         return NameFault(
-            "has '~' after its first character", tilde, "'~' means the node, and only at the beginning"
+            "has '~' after its first character",
+            tilde,
+            "'~' means the node, and only at the beginning",
+            id="MG-3045",
         )
     if tilde == 0 and name[1:2] not in ("", "/"):
-        return NameFault("needs a slash behind '~'", 1, f"Write ~/{name[1:]}")
+        return NameFault("needs a slash behind '~'", 1, f"Write ~/{name[1:]}", id="MG-3046")
     if "//" in name:
-        return NameFault("has two slashes in a row", name.index("//") + 1, "Remove one of them")
+        return NameFault("has two slashes in a row", name.index("//") + 1, "Remove one of them", id="MG-3047")
     if name.endswith("/"):
-        return NameFault("ends with a slash", len(name) - 1, "Remove it")
+        return NameFault("ends with a slash", len(name) - 1, "Remove it", id="MG-3048")
     starts = (0, *(m.end() for m in re.finditer("/", name)))
     return next((fault for start in starts if (fault := _digit_fault(name, start))), None)
 
@@ -135,11 +138,11 @@ def _character_fault(name: str, allowed: str) -> NameFault | None:
                 + (f" and {' '.join(allowed)}" if allowed else "")
                 + " are allowed"
             )
-            return NameFault(f"has the character '{character}'", index, hint)
+            return NameFault(f"has the character '{character}'", index, hint, id="MG-3049")
     return None
 
 
 def _digit_fault(name: str, start: int) -> NameFault | None:
     if name[start : start + 1].isdigit():
-        return NameFault("has a part that begins with a digit", start, "Begin it with a letter")
+        return NameFault("has a part that begins with a digit", start, "Begin it with a letter", id="MG-3050")
     return None

@@ -112,7 +112,7 @@ def _check_expanded(name: YamlNode | None, what: str, node: NodeDecl, diagnostic
         if fault:
             full = expand_topic_name(text, node.name, node.namespace)
             shown = full if len(full) <= 60 else f"{full[:60]}…"
-            diagnostics.error(f"{what} '{shown}' {fault.message}", name.span, fault.hint, id="MG-3003")
+            diagnostics.error(f"{what} '{shown}' {fault.message}", name.span, fault.hint, id=fault.id)
 
 
 def _timer(item: YamlNode, diagnostics: Diagnostics) -> TimerDecl:

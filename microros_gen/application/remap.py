@@ -73,7 +73,10 @@ def rename_endpoints(node: NodeDecl, tree: YamlNode | None, diagnostics: Diagnos
 def _rule_fault(name: str) -> NameFault | None:
     if "{" in name:
         return NameFault(
-            "has a substitution, which a rule does not have", name.index("{"), "Write ~ or the name"
+            "has a substitution, which a rule does not have",
+            name.index("{"),
+            "Write ~ or the name",
+            id="MG-3051",
         )
     return topic_fault(name)
 
@@ -92,7 +95,7 @@ def _rules(node: NodeDecl, tree: YamlNode | None, diagnostics: Diagnostics) -> d
         fault = _rule_fault(entry.key)
         if fault:
             diagnostics.error(
-                f"the name '{entry.key}' {fault.message}", entry.key_span, fault.hint, id="MG-3028"
+                f"the name '{entry.key}' {fault.message}", entry.key_span, fault.hint, id=fault.id
             )
             continue
         if not report_name(entry.value, "the name", _rule_fault, diagnostics):

@@ -22,3 +22,4 @@ class NameFault:
     message: str
     index: int
     hint: str
+    id: str

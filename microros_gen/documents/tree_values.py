@@ -98,7 +98,7 @@ def report_name(
     if fault is None:
         return True
     diagnostics.error(
-        f"{what} '{text}' {fault.message}", _character_span(node, text, fault.index), fault.hint, id="MG-1015"
+        f"{what} '{text}' {fault.message}", _character_span(node, text, fault.index), fault.hint, id=fault.id
     )
     return False
 

@@ -167,10 +167,12 @@ class _Builder:
         if id(node) in self._sizes:
             return True
         if id(node) in path:
-            self._error(node, "this anchor contains an alias to itself", "Write the inner value out")
+            self._error(
+                node, "this anchor contains an alias to itself", "Write the inner value out", id="MG-1021"
+            )
             return False
         if len(path) >= DEEPEST_TREE:
-            self._error(node, f"nested more than {DEEPEST_TREE} levels deep", "Flatten it")
+            self._error(node, f"nested more than {DEEPEST_TREE} levels deep", "Flatten it", id="MG-1040")
             return False
         path.append(id(node))
         children = _children(node)
@@ -180,7 +182,7 @@ class _Builder:
         self._sizes[id(node)] = size = 1 + sum(self._sizes[id(child)] for child in children)
         if size > LARGEST_TREE:
             message = f"holds {size} values with its aliases written out; {LARGEST_TREE} are taken"
-            self._error(node, message, "Use fewer aliases of aliases")
+            self._error(node, message, "Use fewer aliases of aliases", id="MG-1041")
             return False
         return True
 
@@ -205,13 +207,18 @@ class _Builder:
     def _add_entry(self, entries: dict[str, Entry], key: yaml.Node, value: YamlNode) -> None:
         self._check_tag(key)
         if not isinstance(key, yaml.ScalarNode):
-            self._error(key, "a key must be a word", "Write `key: value`")
+            self._error(key, "a key must be a word", "Write `key: value`", id="MG-1042")
         elif key.value == "<<" and _is_plain(key):
-            self._error(key, "merge keys (<<) are not part of YAML 1.2", "Write the merged keys out")
+            self._error(
+                key, "merge keys (<<) are not part of YAML 1.2", "Write the merged keys out", id="MG-1043"
+            )
         elif key.value in entries:
             first = entries[key.value].key_span
             self._error(
-                key, f"the key '{key.value}' is there twice; first in line {first.line}", "Remove one of them"
+                key,
+                f"the key '{key.value}' is there twice; first in line {first.line}",
+                "Remove one of them",
+                id="MG-1044",
             )
         else:
             entries[key.value] = Entry(key.value, self._span(key), value)
@@ -219,16 +226,23 @@ class _Builder:
     def _scalar(self, node: yaml.ScalarNode) -> ScalarNode:
         span, text = self._span(node), str(node.value)
         if "\0" in text:
-            self._error(node, "a text with a NUL character", "Remove it")
+            self._error(node, "a text with a NUL character", "Remove it", id="MG-1045")
             return ScalarNode(None, text.replace("\0", ""), True, span)
         if not _is_plain(node):
             return ScalarNode(text, text, False, span)
         if _LEADING_ZERO.fullmatch(text):
             number = text.lstrip("+-").lstrip("0") or "0"
             hint = f"Write {number} (decimal), 0o{number} (octal) or '{text}' (text)"
-            self._error(node, f"'{text}' is octal to some readers of YAML and decimal to others", hint)
+            self._error(
+                node, f"'{text}' is octal to some readers of YAML and decimal to others", hint, id="MG-1046"
+            )
         if len(text) > LONGEST_NUMBER and (_INTEGER.fullmatch(text) or _FLOAT.fullmatch(text)):
-            self._error(node, f"a number of {len(text)} characters", "Write a smaller one, or quote a text")
+            self._error(
+                node,
+                f"a number of {len(text)} characters",
+                "Write a smaller one, or quote a text",
+                id="MG-1047",
+            )
             return ScalarNode(None, text, True, span)
         return ScalarNode(_plain_value(text), text, True, span)
 
@@ -239,15 +253,15 @@ class _Builder:
         match = _PROPERTIES.match(self._source.text, start)
         tag = next((w for w in match.group().split() if w.startswith("!")), None) if match else None
         if tag is not None:
-            self._error(node, f"tags ({tag}) are not taken here", "Remove it")
+            self._error(node, f"tags ({tag}) are not taken here", "Remove it", id="MG-1048")
 
     def _span(self, node: yaml.Node) -> Span:
         start, end = node.start_mark, node.end_mark
         same_line = start.line == end.line and end.column > start.column
         return Span(self._source, start.line + 1, start.column + 1, end.column + 1 if same_line else None)
 
-    def _error(self, node: yaml.Node, message: str, hint: str | None) -> None:
-        self._diagnostics.error(message, self._span(node), hint, id="MG-1021")
+    def _error(self, node: yaml.Node, message: str, hint: str | None, *, id: str) -> None:
+        self._diagnostics.error(message, self._span(node), hint, id=id)
 
 
 def _children(node: yaml.Node) -> list[yaml.Node]:

@@ -136,11 +136,14 @@ def take_extensions(
         folder = near / change.name
         extension = Extension(f"folder {own_name(folder)}", folder, change.span)
         if extension.is_empty:
-            what = "is not a folder" if not is_folder(folder) else "brings no component, profile or platform"
             hint = (
                 f"Add {change.name.rstrip('/')}/{COMPONENT_FILE}; a path is relative to the application file"
             )
-            diagnostics.error(f"'{change.name}' {what}", change.span, hint, id="MG-4061")
+            if is_folder(folder):
+                message = f"'{change.name}' brings no component, profile or platform"
+                diagnostics.error(message, change.span, hint, id="MG-4061")
+            else:
+                diagnostics.error(f"'{change.name}' is not a folder", change.span, hint, id="MG-4089")
             continue
         found.append(extension)
         if extension.is_component:

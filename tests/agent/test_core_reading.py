@@ -165,7 +165,7 @@ def test_one_that_floods_lets_others_have_their_turn() -> None:
     ("more", "status", "reason"),
     [
         ({"content_filter": "x > 5"}, "86", "cannot filter by content: 'x > 5'"),
-        ({"format": 3}, "85", "no data format 0x03"),
+        ({"format": 3}, "85", "unknown data format 0x03"),
     ],
 )
 def test_what_cannot_be_read_is_refused(more: dict[str, Any], status: str, reason: str) -> None:

@@ -34,7 +34,7 @@ def test_services_beside_a_message(run: Runner, folder: Path) -> None:
 def test_without_a_message_the_default_one_is_published(run: Runner, folder: Path, name: str) -> None:
     outcome = run(*ARGUMENTS, name)
     assert outcome.status == 0
-    assert "no message to publish among the interfaces, so std_msgs/msg/Int32 is added" in outcome.err
+    assert "no message to publish among the interfaces: std_msgs/msg/Int32 is added" in outcome.err
     assert f"--interface {name}" in outcome.err
     assert "publishes  up to 1 of std_msgs/msg/Int32" in outcome.out
 

@@ -12,6 +12,7 @@ from lark import Token, Tree
 
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
 from microros_gen.interfaces.msg import names as msg_names
+from microros_gen.interfaces.msg.fault import Fault
 from microros_gen.interfaces.msg.values import (
     InvalidValueError,
     positive_integer,
@@ -100,9 +101,9 @@ class Declaration:
 class _DeclarationError(Exception):
     """One error in a declaration: its place, what is wrong and a hint."""
 
-    def __init__(self, span: Span, message: str, hint: str | None = None) -> None:
+    def __init__(self, span: Span, message: str, hint: str | None = None, *, id: str) -> None:
         super().__init__(message)
-        self.span, self.message, self.hint = span, message, hint
+        self.span, self.message, self.hint, self.id = span, message, hint, id
 
 
 def read_declaration(
@@ -125,7 +126,7 @@ def _constant(tree: SyntaxNode, line: Line, diagnostics: Diagnostics) -> Declara
         return None
     warning = msg_names.constant_name_warning(str(name))
     if warning is not None:
-        diagnostics.warning(warning[0], line.span_of(name), warning[1], id="MG-2013")
+        diagnostics.warning(warning.message, line.span_of(name), warning.hint, id=warning.id)
     with _reported(diagnostics):
         value = _scalar(kind, rest[0] if rest else None, line, diagnostics)
         return Declaration(Constant(str(name), kind, value, span=_whole(line, name)), line.span_of(name))
@@ -144,14 +145,14 @@ def _field(tree: SyntaxNode, line: Line, package: str, diagnostics: Diagnostics)
         return None
     warning = msg_names.field_name_warning(str(name))
     if warning is not None:
-        diagnostics.warning(warning[0], line.span_of(name), warning[1], id="MG-2014")
+        diagnostics.warning(warning.message, line.span_of(name), warning.hint, id=warning.id)
     with _reported(diagnostics):
         default = _default(field_type, rest[0], line, diagnostics) if rest else None
         field_type = _as_jazzy_reads(field_type, line, diagnostics)
         warning = None if default is None else msg_names.value_warning(field_type, default)
         if warning is not None:
             place = line.span(line.text.rindex("[") + 1, len(line.text) + 1)
-            diagnostics.warning(warning[0], place, warning[1], id="MG-2015")
+            diagnostics.warning(warning.message, place, warning.hint, id=warning.id)
         return Declaration(Field(str(name), field_type, default, span=_whole(line, name)), line.span_of(name))
     return None
 
@@ -162,7 +163,7 @@ def _reported(diagnostics: Diagnostics) -> Iterator[None]:
     try:
         yield
     except _DeclarationError as fault:
-        diagnostics.error(fault.message, fault.span, fault.hint, id="MG-2016")
+        diagnostics.error(fault.message, fault.span, fault.hint, id=fault.id)
 
 
 def _whole(line: Line, name: Token) -> Span:
@@ -170,10 +171,10 @@ def _whole(line: Line, name: Token) -> Span:
     return line.span(1, _column(name) + len(name))
 
 
-def _check_name(name: Token, line: Line, fault_of: Callable[[str], tuple[str, str | None] | None]) -> bool:
+def _check_name(name: Token, line: Line, fault_of: Callable[[str], Fault | None]) -> bool:
     fault = fault_of(str(name))
     if fault is not None:
-        raise _DeclarationError(line.span_of(name), *fault)
+        raise _DeclarationError(line.span_of(name), fault.message, fault.hint, id=fault.id)
     return True
 
 
@@ -194,16 +195,22 @@ def _constant_type(node: SyntaxNode, line: Line) -> Primitive | StringType:
     start = _token(node)
     if node.data == "array":
         raise _DeclarationError(
-            line.span_of(start), "a constant cannot be an array", "Declare one constant for each element"
+            line.span_of(start),
+            "a constant cannot be an array",
+            "Declare one constant for each element",
+            id="MG-2107",
         )
     if node.data == "string" and len(node.children) > 1:
         raise _DeclarationError(
-            line.span_of(start), "the type of a constant has no bound", f"Write '{start}'"
+            line.span_of(start), "the type of a constant has no bound", f"Write '{start}'", id="MG-2108"
         )
     element = _element_type(node, line, "")
     if isinstance(element, NamedType):
         raise _DeclarationError(
-            line.span_of(start), "a constant has a primitive type or is a string", "Take another type"
+            line.span_of(start),
+            "a constant has a primitive type or is a string",
+            "Take another type",
+            id="MG-2109",
         )
     return element
 
@@ -224,19 +231,22 @@ def _type_name(parts: list[Token], line: Line, package: str) -> TypeName:
     span = line.span(_column(first), _column(last) + len(last))
     written = "/".join(parts)
     if len(parts) > 2:
-        raise _DeclarationError(span, f"'{written}' is not a type", f"Write '{parts[0]}/{parts[-1]}'")
+        raise _DeclarationError(
+            span, f"'{written}' is not a type", f"Write '{parts[0]}/{parts[-1]}'", id="MG-2110"
+        )
     if written in _ONCE_PRIMITIVE:
         raise _DeclarationError(
-            span, f"'{written}' is not a type of ROS 2", f"Write '{_ONCE_PRIMITIVE[written]}'"
+            span, f"'{written}' is not a type of ROS 2", f"Write '{_ONCE_PRIMITIVE[written]}'", id="MG-2111"
         )
     if len(parts) == 2:
         fault = msg_names.package_name_fault(str(first))
         if fault is not None:
-            raise _DeclarationError(line.span_of(first), fault)
+            raise _DeclarationError(line.span_of(first), fault.message, id=fault.id)
         package = str(first)
     fault = msg_names.type_name_fault(str(last))
     if fault is not None:
-        raise _DeclarationError(span, fault, _type_hint(str(last)) if len(parts) == 1 else None)
+        hint = _type_hint(str(last)) if len(parts) == 1 else None
+        raise _DeclarationError(span, fault.message, hint, id=fault.id)
     return TypeName(package, "msg", str(last))
 
 
@@ -251,10 +261,12 @@ def _bound(token: Token, line: Line, what: str) -> int:
     if number is None:
         hint = "Write '<=N' for at most N elements" if token[0] in "<>" else None
         raise _DeclarationError(
-            line.span_of(token), f"{what} is a whole number above zero, not '{token}'", hint
+            line.span_of(token), f"{what} is a whole number above zero, not '{token}'", hint, id="MG-2114"
         )
     if number > LARGEST_BOUND:
-        raise _DeclarationError(line.span_of(token), f"{what} is at most {LARGEST_BOUND}, not {number}")
+        raise _DeclarationError(
+            line.span_of(token), f"{what} is at most {LARGEST_BOUND}, not {number}", id="MG-2115"
+        )
     return number
 
 
@@ -264,7 +276,9 @@ def _default(field_type: FieldType, node: SyntaxNode | Token, line: Line, diagno
         return _scalar(field_type, node, line, diagnostics)
     if isinstance(field_type, NamedType) or isinstance(field_type.element, NamedType):
         assert isinstance(node, Token)
-        raise _DeclarationError(line.span_of(node), "a field of a message's type has no default", "Remove it")
+        raise _DeclarationError(
+            line.span_of(node), "a field of a message's type has no default", "Remove it", id="MG-2116"
+        )
     assert isinstance(node, Tree)  # the grammar has no other default for these arrays
     tokens: list[Any] = node.children
     values = _elements(field_type.element, tokens, line)
@@ -280,6 +294,7 @@ def _check_no_equal(line: Line) -> None:
             line.span(column, column + 1),
             "a default cannot hold '=': ROS 2 takes this line for a constant",
             "A constant is written 'type NAME=value'",
+            id="MG-2117",
         )
 
 
@@ -291,13 +306,16 @@ def _scalar(
         if isinstance(kind, StringType):
             return ""
         raise _DeclarationError(
-            line.span(len(line.text) + 1, 0), "the constant has no value", "Write it behind the '='"
+            line.span(len(line.text) + 1, 0),
+            "the constant has no value",
+            "Write it behind the '='",
+            id="MG-2118",
         )
     text = str(node)
     try:
         value = scalar_value(kind, text)
     except InvalidValueError as fault:
-        raise _DeclarationError(line.span_of(node), fault.message, fault.hint) from None
+        raise _DeclarationError(line.span_of(node), fault.message, fault.hint, id=fault.id) from None
     if isinstance(kind, StringType) and text[0] in "\"'" and (text[-1] != text[0] or text in "\"'"):
         reason = "The '#' begins a comment, inside of quotes too" if line.commented else "Close it"
         diagnostics.warning(
@@ -311,14 +329,14 @@ def _elements(kind: ElementType, tokens: list[Token], line: Line) -> tuple[Scala
         try:
             return string_elements(kind, [str(token) for token in tokens])
         except InvalidValueError as fault:
-            raise _DeclarationError(_over(tokens, line), fault.message, fault.hint) from None
+            raise _DeclarationError(_over(tokens, line), fault.message, fault.hint, id=fault.id) from None
     assert isinstance(kind, Primitive)
     values = []
     for token in tokens:
         try:
             values.append(primitive_value(kind, token.strip()))
         except InvalidValueError as fault:
-            raise _DeclarationError(line.span_of(token), fault.message, fault.hint) from None
+            raise _DeclarationError(line.span_of(token), fault.message, fault.hint, id=fault.id) from None
     return tuple(values)
 
 
@@ -331,10 +349,12 @@ def _check_count(field_type: ArrayType | SequenceType, count: int, line: Line) -
     span = line.span(len(line.text), len(line.text) + 1)
     if isinstance(field_type, ArrayType):
         if count != field_type.size:
-            raise _DeclarationError(span, f"the default has {count} elements and the array {field_type.size}")
+            raise _DeclarationError(
+                span, f"the default has {count} elements and the array {field_type.size}", id="MG-2122"
+            )
     elif field_type.bound is not None and count > field_type.bound:
         raise _DeclarationError(
-            span, f"the default has {count} elements and the sequence takes {field_type.bound}"
+            span, f"the default has {count} elements and the sequence takes {field_type.bound}", id="MG-2123"
         )
 
 

@@ -7,6 +7,7 @@ import keyword
 import re
 from collections.abc import Collection
 
+from microros_gen.interfaces.msg.fault import Caveat, Fault
 from microros_gen.interfaces.types import FieldType, Primitive, Value, element_of
 
 _LOWER = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
@@ -60,83 +61,89 @@ def is_type_name(name: str) -> bool:
     return _CAMEL.fullmatch(name) is not None
 
 
-def package_name_fault(name: str) -> str | None:
+def package_name_fault(name: str) -> Fault | None:
     """Return what is wrong with a package's name, or None."""
     if is_package_name(name):
         return None
-    return (
-        f"'{name}' is not a package name: lower case letters, digits and single underscores, a letter first"
-    )
+    rule = "lower case letters, digits and single underscores, a letter first"
+    return Fault(f"'{name}' is not a package name: {rule}", hint=None, id="MG-2020")
 
 
-def type_name_fault(name: str) -> str | None:
+def type_name_fault(name: str) -> Fault | None:
     """Return what is wrong with a message type's name, or None."""
     if is_type_name(name):
         return None
-    return f"'{name}' is not a message type: CamelCase, letters and digits only, a capital letter first"
+    rule = "CamelCase, letters and digits only, a capital letter first"
+    return Fault(f"'{name}' is not a message type: {rule}", hint=None, id="MG-2130")
 
 
-def field_name_fault(name: str) -> tuple[str, str | None] | None:
+def field_name_fault(name: str) -> Fault | None:
     """Return what is wrong with a field's name and a hint, or None."""
     if _LOWER.fullmatch(name) is None:
         rule = "lower case letters, digits and single underscores, a letter first, no underscore last"
-        return f"'{name}' is not a field name: {rule}", _suggestion(_separated(name).lower(), _LOWER)
+        hint = _suggestion(_separated(name).lower(), _LOWER)
+        return Fault(f"'{name}' is not a field name: {rule}", hint=hint, id="MG-2016")
     language = "C" if name in C_KEYWORDS else "C++" if name in CPP_KEYWORDS else None
     if language is not None:
-        return (
+        return Fault(
             f"'{name}' is a keyword of {language}, so no field can have this name",
-            f"For example '{name}_value'",
+            hint=f"For example '{name}_value'",
+            id="MG-2131",
         )
     return None
 
 
-def field_name_warning(name: str) -> tuple[str, str] | None:
+def field_name_warning(name: str) -> Caveat | None:
     """Return a warning and its hint for a name that some nodes of ROS 2 cannot use, or None."""
     if name in _MACROS:
-        return f"'{name}' is {_MACROS[name]}", "Take another name"
+        return Caveat(f"'{name}' is {_MACROS[name]}", hint="Take another name", id="MG-2014")
     if keyword.iskeyword(name):
-        return f"'{name}' is a keyword of Python: rclpy cannot use this message", "Take another name"
+        message = f"'{name}' is a keyword of Python: rclpy cannot use this message"
+        return Caveat(message, hint="Take another name", id="MG-2132")
     return None
 
 
-def constant_name_warning(name: str) -> tuple[str, str] | None:
+def constant_name_warning(name: str) -> Caveat | None:
     """Return a warning and its hint for a constant whose name C++ takes for a macro, or None."""
     if name in CONSTANT_MACROS or _LARGEST.fullmatch(name) is not None:
-        return (
-            f"'{name}' is a macro of C: the C++ that ROS 2 Jazzy makes does not compile",
-            "Take another name",
-        )
+        message = f"'{name}' is a macro of C: the C++ that ROS 2 Jazzy makes does not compile"
+        return Caveat(message, hint="Take another name", id="MG-2013")
     return None
 
 
-def interface_name_warning(name: str, parts: Collection[str]) -> tuple[str, str] | None:
+def interface_name_warning(name: str, parts: Collection[str]) -> Caveat | None:
     """Return a warning and its hint for a service or action that has the name of one of its parts, or None."""
     if name in {*parts, "Event"} and parts:
-        return f"the C++ that ROS 2 Jazzy makes of an interface named '{name}' does not compile", "Rename it"
+        message = f"the C++ that ROS 2 Jazzy makes of an interface named '{name}' does not compile"
+        return Caveat(message, hint="Rename it", id="MG-2025")
     return None
 
 
-def value_warning(kind: FieldType, value: Value) -> tuple[str, str] | None:
+def value_warning(kind: FieldType, value: Value) -> Caveat | None:
     """Return a warning and its hint for a constant or default that rosidl_generator_py stops at, or None.
 
     C and C++ come out of it; Python, which a package has unless it leaves it out, does not.
     """
     if kind is Primitive.WCHAR:
-        return "ROS 2 Jazzy makes no Python of a value of type wchar", "Take uint16, which has the same bytes"
+        message = "ROS 2 Jazzy makes no Python of a value of type wchar"
+        return Caveat(message, hint="Take uint16, which has the same bytes", id="MG-2015")
     if kind is Primitive.IDL_CHAR and isinstance(value, int) and value < 0:
-        return "ROS 2 Jazzy makes no Python of a char below 0", "Take int8, which has the same bytes"
+        message = "ROS 2 Jazzy makes no Python of a char below 0"
+        return Caveat(message, hint="Take int8, which has the same bytes", id="MG-2133")
     element = element_of(kind)
     if value == () and isinstance(element, Primitive) and element not in _PYTHON_LISTS:
-        return "the Python that ROS 2 Jazzy makes of an empty default is none", "Remove it: it says nothing"
+        message = "the Python that ROS 2 Jazzy makes of an empty default is none"
+        return Caveat(message, hint="Remove it: it says nothing", id="MG-2134")
     return None
 
 
-def constant_name_fault(name: str) -> tuple[str, str | None] | None:
+def constant_name_fault(name: str) -> Fault | None:
     """Return what is wrong with a constant's name and a hint, or None."""
     if _UPPER.fullmatch(name) is not None:
         return None
     rule = "upper case letters, digits and single underscores, a letter first, no underscore last"
-    return f"'{name}' is not a constant name: {rule}", _suggestion(_separated(name).upper(), _UPPER)
+    hint = _suggestion(_separated(name).upper(), _UPPER)
+    return Fault(f"'{name}' is not a constant name: {rule}", hint=hint, id="MG-2135")
 
 
 def _separated(name: str) -> str:

@@ -92,10 +92,10 @@ def checked_source(source: Source, package: str, names: Iterable[str], diagnosti
     for fault in (package_name_fault(package), *map(type_name_fault, names)):
         if fault is not None:
             diagnostics.error(
-                fault,
+                fault.message,
                 Span(source, 1, 1),
                 "ROS 2 takes no other names for folders and files of interfaces",
-                id="MG-2020",
+                id=fault.id,
             )
     return source
 

@@ -30,7 +30,7 @@ def parse_parts(
     source = checked_source(source, name.package, (f"{name.name}_{part}" for part in parts), found)
     warning = interface_name_warning(name.name, parts)
     if warning is not None:
-        found.warning(warning[0], Span(source, 1, 1), warning[1], id="MG-2025")
+        found.warning(warning.message, Span(source, 1, 1), warning.hint, id=warning.id)
     lines = source.text.splitlines()
     borders = _borders(source, lines, parts, found)
     starts = [0, *(border + 1 for border in borders)]

@@ -45,10 +45,11 @@ _IDL_SECOND = re.compile(r'\\(["\\])')
 class InvalidValueError(Exception):
     """A text that is no value of its type: what is wrong, and a hint."""
 
-    def __init__(self, message: str, hint: str | None = None) -> None:
+    def __init__(self, message: str, hint: str | None = None, *, id: str) -> None:
         super().__init__(message)
         self.message = message
         self.hint = hint
+        self.id = id
 
 
 def scalar_value(kind: Primitive | StringType, text: str) -> ScalarValue:
@@ -61,10 +62,10 @@ def scalar_value(kind: Primitive | StringType, text: str) -> ScalarValue:
 def primitive_value(kind: Primitive, text: str) -> bool | int | float:
     """Return the number or truth value of `text`. Raises InvalidValueError."""
     if not text:
-        raise InvalidValueError("a value is missing")
+        raise InvalidValueError("a value is missing", id="MG-2140")
     if kind is Primitive.BOOL:
         if text.lower() not in _BOOLEANS:
-            raise InvalidValueError(f"'{text}' is not a bool", "Write true, false, 1 or 0")
+            raise InvalidValueError(f"'{text}' is not a bool", "Write true, false, 1 or 0", id="MG-2141")
         return _BOOLEANS[text.lower()]
     if kind in (Primitive.FLOAT32, Primitive.FLOAT64):
         return _float_value(kind, text)
@@ -86,11 +87,14 @@ def string_elements(kind: StringType, texts: list[str]) -> tuple[str, ...]:
         raise InvalidValueError(
             "letters beyond ASCII is not allowed in the default of a string array",
             "ROS 2 Jazzy refuses it too; set the value in the program",
+            id="MG-2142",
         ) from None
     try:
         elements: tuple[str, ...] = python_literal(_resolve_idl_escapes(literal))
     except ValueError:
-        raise InvalidValueError("a backslash in a string array is not a complete escape", _FOUR) from None
+        raise InvalidValueError(
+            "a backslash in a string array is not a complete escape", _FOUR, id="MG-2143"
+        ) from None
     for element in elements:
         _check_characters(element, kind)
     return elements
@@ -113,9 +117,12 @@ def _integer_value(kind: Primitive, text: str) -> int:
         raise InvalidValueError(
             f"'{text}' is not an integer",
             f"The type {kind.value} takes {low} to {high}, written in decimal or as 0x…, 0o… or 0b…",
+            id="MG-2144",
         ) from None
     if not low <= number <= high:
-        raise InvalidValueError(f"{text} does not fit {kind.value}", f"Its range is {low} to {high}")
+        raise InvalidValueError(
+            f"{text} does not fit {kind.value}", f"Its range is {low} to {high}", id="MG-2145"
+        )
     return number
 
 
@@ -131,19 +138,21 @@ def _float_value(kind: Primitive, text: str) -> float:
         number = float(text)
     except ValueError:
         raise InvalidValueError(
-            f"'{text}' is not a number", "A number is written like 1, -0.5 or 1.5e-3"
+            f"'{text}' is not a number", "A number is written like 1, -0.5 or 1.5e-3", id="MG-2146"
         ) from None
     if not math.isfinite(number):
         reason = "it is too large" if any(c.isdigit() for c in text) else "C has no literal for it"
         raise InvalidValueError(
-            f"'{text}' cannot be a {kind.value}: {reason}", "Set the value in the program"
+            f"'{text}' cannot be a {kind.value}: {reason}", "Set the value in the program", id="MG-2147"
         )
     if kind is Primitive.FLOAT32:
         try:
             struct.pack("<f", number)
         except OverflowError:
             raise InvalidValueError(
-                f"{text} does not fit float32", "Its largest value is 3.4028235e38; take float64"
+                f"{text} does not fit float32",
+                "Its largest value is 3.4028235e38; take float64",
+                id="MG-2148",
             ) from None
     return number
 
@@ -155,6 +164,7 @@ def _checked_string(kind: StringType, text: str) -> str:
         raise InvalidValueError(
             f"the string has {len(value)} characters and its type takes {kind.bound}",
             f"Shorten it, or raise the bound to <={len(value)}",
+            id="MG-2149",
         )
     return value
 
@@ -165,7 +175,7 @@ def _unquoted(text: str) -> str:
             inner = text[1:-1]
             if re.search(rf"(?<!\\){quote}", inner):
                 raise InvalidValueError(
-                    f"a quote inside of the string is not escaped: {text}", f"Write \\{quote}"
+                    f"a quote inside of the string is not escaped: {text}", f"Write \\{quote}", id="MG-2150"
                 )
             return inner.replace("\\" + quote, quote)
     return text
@@ -188,13 +198,14 @@ def _through_idl(value: str, kind: StringType) -> str:
         raise InvalidValueError(
             "an escape names a character beyond ASCII, which ROS 2 Jazzy refuses",
             "Write the character itself",
+            id="MG-2151",
         ) from None
     if "\n" in literal or "\r" in literal:
         raise InvalidValueError(
-            "a string cannot hold a line end here", "ROS 2 Jazzy takes \\\\n for a line feed"
+            "a string cannot hold a line end here", "ROS 2 Jazzy takes \\\\n for a line feed", id="MG-2152"
         )
     if not _closes(literal):
-        raise InvalidValueError("a backslash stands where it would end the string", _FOUR)
+        raise InvalidValueError("a backslash stands where it would end the string", _FOUR, id="MG-2153")
     result = _resolve_idl_escapes(literal)
     _check_characters(result, kind)
     return result
@@ -210,12 +221,12 @@ def _python_escape(match: re.Match[str]) -> str:
     if digits is not None:
         code = int(digits, 16)
         if code > 0x10FFFF:
-            raise InvalidValueError(f"'\\U{digits}' is no character", "Unicode ends at 10FFFF")
+            raise InvalidValueError(f"'\\U{digits}' is no character", "Unicode ends at 10FFFF", id="MG-2154")
         return chr(code)
     if not other:
-        raise InvalidValueError("the string ends with a single backslash", _FOUR)
+        raise InvalidValueError("the string ends with a single backslash", _FOUR, id="MG-2155")
     if other in "xuUN":
-        raise InvalidValueError(f"'\\{other}' is not a complete escape", _FOUR)
+        raise InvalidValueError(f"'\\{other}' is not a complete escape", _FOUR, id="MG-2156")
     return match.group(0)
 
 
@@ -236,10 +247,13 @@ def _resolve_idl_escapes(literal: str) -> str:
 
 def _check_characters(value: str, kind: StringType) -> None:
     if "\0" in value:
-        raise InvalidValueError("a string cannot hold the character NUL", "It ends the string in C")
+        raise InvalidValueError(
+            "a string cannot hold the character NUL", "It ends the string in C", id="MG-2157"
+        )
     octets = len(value) if kind.wide else len(value.encode("utf-8", "surrogatepass"))
     if kind.bound is not None and octets > kind.bound:
         raise InvalidValueError(
             f"the string takes {octets} bytes in UTF-8 and its type takes {kind.bound}",
             f"Shorten it, or raise the bound to <={octets}",
+            id="MG-2158",
         )

@@ -60,7 +60,10 @@ def read_annotations(
             defaults.append(Default(_default_value(values, span), _value_span(annotation, source)))
     if len(defaults) > 1:
         raise IdlError(
-            defaults[1].span, "there are two defaults: ROS 2 Jazzy takes none of them", "Remove one"
+            defaults[1].span,
+            "there are two defaults: ROS 2 Jazzy takes none of them",
+            "Remove one",
+            id="MG-2033",
         )
     lines = (*_with_unit(comment, units), *_range(limits))
     return Annotations(lines, defaults[0] if defaults else None)
@@ -80,12 +83,14 @@ def _parameters(
 
 def _verbatim(values: Mapping[str, ScalarValue | None], span: Span) -> list[str]:
     if not values:
-        raise IdlError(span, "@verbatim without a text", 'Write @verbatim (language="comment", text="…")')
+        raise IdlError(
+            span, "@verbatim without a text", 'Write @verbatim (language="comment", text="…")', id="MG-2060"
+        )
     text = values.get("text")
     if values.get("language") != "comment" or "text" not in values:
         return []
     if not isinstance(text, str):
-        raise IdlError(span, "the text of @verbatim is a string", "Write it in quotes")
+        raise IdlError(span, "the text of @verbatim is a string", "Write it in quotes", id="MG-2061")
     return text.splitlines()
 
 
@@ -112,10 +117,12 @@ def _value_span(annotation: SyntaxNode, source: Source) -> Span:
 
 def _default_value(values: Mapping[str, ScalarValue | None], span: Span) -> ScalarValue:
     if "value" not in values:
-        raise IdlError(span, "@default has no parameter 'value'", "Write @default (value=…)")
+        raise IdlError(span, "@default has no parameter 'value'", "Write @default (value=…)", id="MG-2062")
     value = values["value"]
     if value is None:
-        raise IdlError(span, "ROS 2 Jazzy cannot take a name for a default", "Write the value itself")
+        raise IdlError(
+            span, "ROS 2 Jazzy cannot take a name for a default", "Write the value itself", id="MG-2063"
+        )
     return value
 
 

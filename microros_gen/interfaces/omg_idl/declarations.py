@@ -11,6 +11,7 @@ from lark import Token
 
 from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.interfaces.msg.declarations import SyntaxNode
+from microros_gen.interfaces.msg.fault import Fault
 from microros_gen.interfaces.msg.names import (
     C_KEYWORDS,
     CPP_KEYWORDS,
@@ -110,7 +111,7 @@ def scope_of(contents: Contents, syntax: Syntax, source: Source, scope: Scope) -
             written = _typedef(placed.node, scope, source)
         except IdlError as error:
             scope.broken.add(name)
-            scope.diagnostics.error(error.message, error.span, error.hint, id="MG-2030")
+            scope.diagnostics.error(error.message, error.span, error.hint, id=error.id)
             continue
         if scope.typedefs.setdefault(name, written) != written:
             span = span_of(placed.node.children[1], source)
@@ -153,17 +154,18 @@ def reported(diagnostics: Diagnostics) -> Iterator[None]:
     try:
         yield
     except IdlError as error:
-        diagnostics.error(error.message, error.span, error.hint, id="MG-2033")
+        diagnostics.error(error.message, error.span, error.hint, id=error.id)
 
 
-def name_fault(name: str) -> tuple[str, str] | None:
+def name_fault(name: str) -> Fault | None:
     """Return what is wrong with a name of an .idl file and a hint, or None: a keyword compiles nowhere."""
     language = "C" if name in C_KEYWORDS else "C++" if name in CPP_KEYWORDS else None
     if language is None:
         return None
-    return (
+    return Fault(
         f"'{name}' is a keyword of {language}, so nothing can have this name",
-        f"For example '{name}_value'",
+        hint=f"For example '{name}_value'",
+        id="MG-2037",
     )
 
 
@@ -174,7 +176,9 @@ def _words(text: str) -> set[str]:
 def _typedef(node: SyntaxNode, scope: Scope, source: Source) -> Written:
     type_node, declarator, *more = node.children
     if more:
-        raise IdlError(span_of(more[0], source), "a typedef declares one name", "Write a second typedef")
+        raise IdlError(
+            span_of(more[0], source), "a typedef declares one name", "Write a second typedef", id="MG-2064"
+        )
     return declared_type(written_type(type_node, scope), declarator, scope)
 
 
@@ -221,13 +225,14 @@ def _check_type_support(field_type: FieldType, span: Span) -> None:
             "ROS 2 Jazzy has single members of type wchar only: its type support for C stops at an array or a "
             "sequence of them",
             "Take uint16, which has the same bytes, or wstring for text",
+            id="MG-2065",
         )
 
 
 def _warn_of_value(kind: FieldType, value: Value, span: Span, scope: Scope) -> None:
     warning = value_warning(kind, value)
     if warning is not None:
-        scope.diagnostics.warning(warning[0], span, warning[1], id="MG-2034")
+        scope.diagnostics.warning(warning.message, span, warning.hint, id=warning.id)
 
 
 def _warn_of_size(declarator: SyntaxNode, size: int, scope: Scope) -> None:
@@ -256,7 +261,7 @@ def _constant(node: SyntaxNode, scope: Scope) -> Constant | None:
         if _check_name(name, scope):
             warning = constant_name_warning(str(name))
             if warning is not None:
-                scope.diagnostics.warning(warning[0], span_of(name, source), warning[1], id="MG-2036")
+                scope.diagnostics.warning(warning.message, span_of(name, source), warning.hint, id=warning.id)
             return Constant(str(name), kind, checked, annotations.comment, span_of(name, source))
     return None
 
@@ -270,6 +275,7 @@ def _constant_type(node: SyntaxNode, scope: Scope) -> Primitive | StringType:
         span_of(node, scope.source),
         "a constant has a basic type or is a string",
         "ROS 2 Jazzy looks up no typedef here: write the type itself",
+        id="MG-2066",
     )
 
 
@@ -277,11 +283,11 @@ def _check_name(name: Token, scope: Scope) -> bool:
     span = span_of(name, scope.source)
     fault = name_fault(str(name))
     if fault is not None:
-        scope.diagnostics.error(fault[0], span, fault[1], id="MG-2037")
+        scope.diagnostics.error(fault.message, span, fault.hint, id=fault.id)
         return False
     warning = field_name_warning(str(name))
     if warning is not None:
-        scope.diagnostics.warning(warning[0], span, warning[1], id="MG-2038")
+        scope.diagnostics.warning(warning.message, span, warning.hint, id=warning.id)
     return True
 
 

@@ -91,7 +91,7 @@ def _checked_source(source: Source, package: str, kind: str, diagnostics: Diagno
     fault = package_name_fault(package)
     if fault is not None:
         hint = "ROS 2 takes no other names for folders of interfaces"
-        diagnostics.error(fault, Span(source, 1, 1), hint, id="MG-2041")
+        diagnostics.error(fault.message, Span(source, 1, 1), hint, id=fault.id)
     if kind not in KINDS:
         diagnostics.error(
             f"'{kind}' is not a folder of interfaces",
@@ -118,7 +118,7 @@ def _declarations(contents: Contents, scope: Scope) -> tuple[Declaration, ...]:
     warning = interface_name_warning(stem, [part for part in _PARTS[scope.modules[1]] if part])
     if warning is not None:
         scope.diagnostics.warning(
-            warning[0], span_of(structs[0].name, scope.source), warning[1], id="MG-2043"
+            warning.message, span_of(structs[0].name, scope.source), warning.hint, id=warning.id
         )
     return (_declaration(TypeName(*scope.modules, stem), messages, scope.source),)
 
@@ -144,7 +144,7 @@ def _check_surroundings(contents: Contents, scope: Scope) -> None:
             )
         fault = name_fault(str(struct.name))
         if fault is not None:
-            diagnostics.error(fault[0], span, fault[1], id="MG-2045")
+            diagnostics.error(fault.message, span, fault.hint, id=fault.id)
     for forward in contents.forwards:
         if forward.node.children[0].children:
             diagnostics.error(

@@ -108,6 +108,7 @@ def written_type(node: SyntaxNode, scope: Scope) -> Written:
             span_of(element_node, scope.source),
             "ROS 2 has no sequence of sequences",
             "Put the inner one into a separate struct",
+            id="MG-2067",
         )
     element = _element(element_node, scope)
     if len(node.children) > 2:
@@ -124,10 +125,15 @@ def declared_type(written: Written, declarator: SyntaxNode, scope: Scope) -> Wri
     span = span_of(declarator, scope.source)
     if len(sizes) > 1:
         raise IdlError(
-            span, "ROS 2 has arrays of one dimension only", "Put the inner one into a separate struct"
+            span,
+            "ROS 2 has arrays of one dimension only",
+            "Put the inner one into a separate struct",
+            id="MG-2068",
         )
     if written.nested:
-        raise IdlError(span, "ROS 2 has no array of sequences", "Put the sequence into a separate struct")
+        raise IdlError(
+            span, "ROS 2 has no array of sequences", "Put the sequence into a separate struct", id="MG-2069"
+        )
     size = positive_bound(sizes[0], "the size of an array", scope.constants, scope.source)
     return Written(written.element, size=size)
 
@@ -148,6 +154,7 @@ def resolved(written: Written, scope: Scope) -> FieldType | None:
             alias.span,
             f"'{alias.name}' is an array or a sequence itself: ROS 2 Jazzy makes no C of this",
             "Put it into a separate struct",
+            id="MG-2070",
         )
     if isinstance(target.element, Alias):
         if not target.nested:
@@ -155,6 +162,7 @@ def resolved(written: Written, scope: Scope) -> FieldType | None:
                 alias.span,
                 f"'{alias.name}' is a typedef of a typedef: ROS 2 Jazzy makes no C of this",
                 f"Write '{target.element.name}'",
+                id="MG-2071",
             )
         element = _second(alias, target.element, scope)
         return None if element is None else _model_type(target, element)
@@ -170,6 +178,7 @@ def _second(alias: Alias, inner: Alias, scope: Scope) -> ElementType | None:
             alias.span,
             f"behind '{alias.name}' stands '{inner.name}', which is not a single element: ROS 2 Jazzy makes no C",
             "Put it into a separate struct",
+            id="MG-2072",
         )
     return target.element
 
@@ -184,9 +193,13 @@ def _target(alias: Alias, scope: Scope) -> Written | None:
             alias.span,
             f"'{alias.name}' is an enumeration: ROS 2 reads them and makes no type of them",
             "Take uint8 and constants in a module that ends with '_Constants'",
+            id="MG-2073",
         )
     raise IdlError(
-        alias.span, f"'{alias.name}' is not a type and no typedef of this file", _type_hint(alias.name, scope)
+        alias.span,
+        f"'{alias.name}' is not a type and no typedef of this file",
+        _type_hint(alias.name, scope),
+        id="MG-2074",
     )
 
 
@@ -220,7 +233,10 @@ def _element(node: SyntaxNode, scope: Scope) -> ElementType | Alias:
     if node.data == "name":
         return _name(node, scope)
     raise IdlError(
-        span_of(node, scope.source), "ROS 2 has no fixed-point type", "Take double, or an integer and a scale"
+        span_of(node, scope.source),
+        "ROS 2 has no fixed-point type",
+        "Take double, or an integer and a scale",
+        id="MG-2075",
     )
 
 
@@ -231,6 +247,7 @@ def _base(node: SyntaxNode, source: Source) -> Primitive:
             span_of(node, source),
             "ROS 2 Jazzy cannot describe a long double: its type description has no name for it",
             "Take double",
+            id="MG-2076",
         )
     return _BASES[words]
 
@@ -244,16 +261,17 @@ def _name(node: SyntaxNode, scope: Scope) -> NamedType | Alias:
     written = "::".join(parts)
     if len(parts) != 3 or parts[1] not in KINDS:
         hint = f"Write '{parts[-1]}'" if parts[-1] in scope.typedef_names else "Write 'package::msg::Name'"
-        raise IdlError(span, f"'{written}' is not the full name of an interface", hint)
+        raise IdlError(span, f"'{written}' is not the full name of an interface", hint, id="MG-2077")
     if (*scope.modules, parts[2]) == tuple(parts) and parts[2] in scope.typedef_names | scope.enumerations:
         raise IdlError(
             span,
             f"'{written}' is not a struct, and ROS 2 Jazzy finds no file for it",
             f"Write '{parts[2]}'" if parts[2] in scope.typedef_names else "Take an integer and constants",
+            id="MG-2078",
         )
     fault = package_name_fault(parts[0])
     if fault is not None:
-        raise IdlError(span, fault)
+        raise IdlError(span, fault.message, id=fault.id)
     return NamedType(TypeName(parts[0], parts[1], parts[2]))
 
 

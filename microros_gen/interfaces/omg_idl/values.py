@@ -56,9 +56,9 @@ _SECOND_ESCAPE = re.compile(r'\\(["\\])')
 class IdlError(Exception):
     """One error in a declaration: its place, what is wrong and a hint."""
 
-    def __init__(self, span: Span, message: str, hint: str | None = None) -> None:
+    def __init__(self, span: Span, message: str, hint: str | None = None, *, id: str) -> None:
         super().__init__(message)
-        self.span, self.message, self.hint = span, message, hint
+        self.span, self.message, self.hint, self.id = span, message, hint, id
 
 
 def span_of(node: SyntaxNode | Token, source: Source) -> Span:
@@ -136,10 +136,10 @@ def positive_bound(node: SyntaxNode, what: str, constants: Mapping[str, SyntaxNo
         value = computed(node, constants)
         hint = f"Write {value}" if value is not None and value > 0 else "Write a number above zero"
         reason = "ROS 2 Jazzy computes nothing here" if value is not None else "this is none"
-        raise IdlError(span, f"{what} is a decimal number: {reason}", hint)
+        raise IdlError(span, f"{what} is a decimal number: {reason}", hint, id="MG-2080")
     number = _decimal(inner.children[0], source)
     if not 0 < number <= LARGEST_BOUND:
-        raise IdlError(span, f"{what} is 1 to {LARGEST_BOUND}, not {number}")
+        raise IdlError(span, f"{what} is 1 to {LARGEST_BOUND}, not {number}", id="MG-2081")
     return number
 
 
@@ -157,12 +157,12 @@ def literal_value(
         raise _no_literal(node, constants, source)
     if literal.data == "strings":
         if node is not literal and sign == "-":
-            raise IdlError(span_of(node, source), "a string has no sign", "Remove it")
+            raise IdlError(span_of(node, source), "a string has no sign", "Remove it", id="MG-2082")
         return "".join(_string(token, source) for token in literal.children)
     token = literal.children[0]
     if token.type in ("TRUE", "FALSE"):
         if node is not literal:
-            raise IdlError(span_of(node, source), "a boolean has no sign", "Remove it")
+            raise IdlError(span_of(node, source), "a boolean has no sign", "Remove it", id="MG-2083")
         return bool(token.type == "TRUE")
     number = _number(token, node, constants, source)
     return -number if sign == "-" else number
@@ -173,13 +173,13 @@ def checked_scalar(kind: Primitive | StringType, value: ScalarValue, span: Span)
     if isinstance(kind, StringType):
         return _checked_string(kind, value, span)
     if isinstance(value, str):
-        raise IdlError(span, f"a string is no {_idl_name(kind)}", "Write it without quotes")
+        raise IdlError(span, f"a string is no {_idl_name(kind)}", "Write it without quotes", id="MG-2084")
     if kind is Primitive.BOOL:
         if value not in (0, 1):
-            raise IdlError(span, f"{value} is no boolean", "Write TRUE or FALSE")
+            raise IdlError(span, f"{value} is no boolean", "Write TRUE or FALSE", id="MG-2085")
         return bool(value)
     if isinstance(value, bool):
-        raise IdlError(span, f"a boolean is no {_idl_name(kind)}", "Write a number")
+        raise IdlError(span, f"a boolean is no {_idl_name(kind)}", "Write a number", id="MG-2086")
     if kind in _FLOATS:
         return _checked_float(kind, value, span)
     return _checked_integer(kind, value, span)
@@ -192,7 +192,7 @@ def checked_default(field_type: FieldType, value: ScalarValue, span: Span) -> Va
     if not isinstance(field_type, (ArrayType, SequenceType)) or not isinstance(
         field_type.element, (Primitive, StringType)
     ):
-        raise IdlError(span, "a member of a struct's type has no default", "Remove it")
+        raise IdlError(span, "a member of a struct's type has no default", "Remove it", id="MG-2087")
     elements = _elements(value, span)
     _check_count(field_type, len(elements), span)
     return tuple(checked_scalar(field_type.element, element, span) for element in elements)
@@ -205,7 +205,9 @@ def _integer(token: Token) -> int | None:
 
 def _decimal(token: Token, source: Source) -> int:
     if len(token) > _MOST_DIGITS:
-        raise IdlError(span_of(token, source), f"the number has {len(token)} digits", "Write a smaller one")
+        raise IdlError(
+            span_of(token, source), f"the number has {len(token)} digits", "Write a smaller one", id="MG-2088"
+        )
     return int(token)
 
 
@@ -224,7 +226,7 @@ def _no_literal(node: SyntaxNode, constants: Mapping[str, SyntaxNode], source: S
     value = computed(node, constants)
     what = "the name of a constant" if node.data == "name" else "an expression"
     hint = "Write its value" if value is None else f"Write {value}"
-    return IdlError(span_of(node, source), f"ROS 2 Jazzy cannot take {what} for a value", hint)
+    return IdlError(span_of(node, source), f"ROS 2 Jazzy cannot take {what} for a value", hint, id="MG-2089")
 
 
 def _number(
@@ -239,11 +241,12 @@ def _number(
             span_of(token, source),
             "ROS 2 Jazzy cannot take a character for a value",
             "Write its number, such as 65 for 'A'",
+            id="MG-2090",
         )
     base = "octal" if token.type == "OCTAL" else "hexadecimal"
     value = computed(node, constants)
     hint = "Write it in decimal" if value is None else f"Write {value}"
-    raise IdlError(span_of(token, source), f"ROS 2 Jazzy cannot take a number in {base}", hint)
+    raise IdlError(span_of(token, source), f"ROS 2 Jazzy cannot take a number in {base}", hint, id="MG-2091")
 
 
 def _string(token: Token, source: Source) -> str:
@@ -260,7 +263,9 @@ def _string(token: Token, source: Source) -> str:
             return match.group()
         if len(digits) != (2 if hexadecimal else 4):
             message = f"'{match.group()}' is not a complete escape"
-            raise IdlError(span_of(token, source), message, "Write \\x and two digits, or \\u and four")
+            raise IdlError(
+                span_of(token, source), message, "Write \\x and two digits, or \\u and four", id="MG-2092"
+            )
         return chr(int(digits, 16))
 
     text = token[2:-1] if wide else token[1:-1]
@@ -270,16 +275,23 @@ def _string(token: Token, source: Source) -> str:
 def _checked_string(kind: StringType, value: ScalarValue, span: Span) -> str:
     if not isinstance(value, str):
         written = str(value).upper() if isinstance(value, bool) else value
-        raise IdlError(span, f"{written} is no string", "Write it in quotes")
+        raise IdlError(span, f"{written} is no string", "Write it in quotes", id="MG-2093")
     if "\0" in value:
-        raise IdlError(span, "a string cannot hold the character NUL", "It ends the string in C")
+        raise IdlError(
+            span, "a string cannot hold the character NUL", "It ends the string in C", id="MG-2094"
+        )
     if any("\ud800" <= character <= "\udfff" for character in value):
-        raise IdlError(span, "an escape names half of a character", "Write the character itself")
+        raise IdlError(
+            span, "an escape names half of a character", "Write the character itself", id="MG-2095"
+        )
     length = len(value.encode("utf-16-le")) // 2 if kind.wide else len(value.encode("utf-8"))
     if kind.bound is not None and length > kind.bound:
         unit = "characters" if kind.wide else "bytes in UTF-8"
         raise IdlError(
-            span, f"the string takes {length} {unit} and its type takes {kind.bound}", "Shorten it"
+            span,
+            f"the string takes {length} {unit} and its type takes {kind.bound}",
+            "Shorten it",
+            id="MG-2096",
         )
     return value
 
@@ -287,25 +299,36 @@ def _checked_string(kind: StringType, value: ScalarValue, span: Span) -> str:
 def _checked_float(kind: Primitive, value: int | float, span: Span) -> float:
     if isinstance(value, int) and kind is Primitive.FLOAT32:
         raise IdlError(
-            span, "ROS 2 Jazzy makes C of a whole number that does not compile", f"Write {value}.0"
+            span,
+            "ROS 2 Jazzy makes C of a whole number that does not compile",
+            f"Write {value}.0",
+            id="MG-2097",
         )
     try:
         number = float(value)
         struct.pack("<f" if kind is Primitive.FLOAT32 else "<d", number)
     except OverflowError:
-        raise IdlError(span, f"{value} does not fit {_idl_name(kind)}", "Take a smaller value") from None
+        raise IdlError(
+            span, f"{value} does not fit {_idl_name(kind)}", "Take a smaller value", id="MG-2098"
+        ) from None
     if not math.isfinite(number):
-        raise IdlError(span, f"the value is too large for {_idl_name(kind)}", "Take a smaller value")
+        raise IdlError(
+            span, f"the value is too large for {_idl_name(kind)}", "Take a smaller value", id="MG-2099"
+        )
     return number
 
 
 def _checked_integer(kind: Primitive, value: int | float, span: Span) -> int:
     if isinstance(value, float):
-        raise IdlError(span, f"{value} is not an integer", "Write it without a point and an exponent")
+        raise IdlError(
+            span, f"{value} is not an integer", "Write it without a point and an exponent", id="MG-2100"
+        )
     bits = 8 * kind.size
     low, high = (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) if kind in _SIGNED else (0, 2**bits - 1)
     if not low <= value <= high:
-        raise IdlError(span, f"{value} does not fit {_idl_name(kind)}", f"Its range is {low} to {high}")
+        raise IdlError(
+            span, f"{value} does not fit {_idl_name(kind)}", f"Its range is {low} to {high}", id="MG-2101"
+        )
     return value
 
 
@@ -317,20 +340,24 @@ def _elements(value: ScalarValue, span: Span) -> tuple[ScalarValue, ...]:
     except ValueError:
         found = None
     if not isinstance(found, (tuple, list)):
-        raise IdlError(span, "the default of an array or sequence is a list in a string", hint)
+        raise IdlError(span, "the default of an array or sequence is a list in a string", hint, id="MG-2102")
     if not all(isinstance(element, (bool, int, float, str)) for element in found):
-        raise IdlError(span, "an element of the default is no literal", hint)
+        raise IdlError(span, "an element of the default is no literal", hint, id="MG-2103")
     if any(isinstance(element, int) and abs(element) >= 10**_MOST_DIGITS for element in found):
-        raise IdlError(span, "a number of the default is too long", "Write a smaller one")
+        raise IdlError(span, "a number of the default is too long", "Write a smaller one", id="MG-2104")
     return tuple(found)
 
 
 def _check_count(field_type: ArrayType | SequenceType, count: int, span: Span) -> None:
     if isinstance(field_type, ArrayType):
         if count != field_type.size:
-            raise IdlError(span, f"the default has {count} elements and the array {field_type.size}")
+            raise IdlError(
+                span, f"the default has {count} elements and the array {field_type.size}", id="MG-2105"
+            )
     elif field_type.bound is not None and count > field_type.bound:
-        raise IdlError(span, f"the default has {count} elements and the sequence takes {field_type.bound}")
+        raise IdlError(
+            span, f"the default has {count} elements and the sequence takes {field_type.bound}", id="MG-2106"
+        )
 
 
 def _idl_name(kind: Primitive) -> str:
