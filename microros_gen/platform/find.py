@@ -40,7 +40,7 @@ def read_target(
     """Read a target by its name, or a file by its path (relative to `near`) with all that it extends.
 
     Parts that it names and that are not built in come from `extensions`. None and errors in
-    `diagnostics` where there is none or one of its files does not hold.
+    `diagnostics` if it does not exist or one of its files is invalid.
     """
     found = Diagnostics()
     reader = _Reader(found)

@@ -100,7 +100,7 @@ class Os:
     """What an operating system adds to its component.
 
     `hosted`: programs have standard input and output, and are started. `linker_script`: it makes images with a
-    start-up and a linker script of its own (a file of the component). `tick` is called each millisecond.
+    its own start-up code and linker script (a file of the component). `tick` is called each millisecond.
     """
 
     hosted: bool = False

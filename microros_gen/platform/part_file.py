@@ -53,7 +53,7 @@ def read_part(
 ) -> Part | None:
     """Read a part by its name, or a folder of the user's by its path relative to `near` (with a / in it).
 
-    A name that is not built in is looked for in `extensions`. None and errors in `diagnostics` where there is none, or
+    A name that is not built in is looked for in `extensions`. None and errors in `diagnostics` if it does not exist, or
     one of its files does not hold.
     """
     is_path = "/" in name or "\\" in name

@@ -67,7 +67,7 @@ def _ports() -> MappingNode:
 
 
 def _with_parts(node: MappingNode, diagnostics: Diagnostics) -> MappingNode:
-    """Write `port:` out as the parts that it stands for (ports.yaml), at the same place."""
+    """Write `port:` out as its parts (ports.yaml), at the same place."""
     port = node.entries.get("port")
     if port is None:
         return node

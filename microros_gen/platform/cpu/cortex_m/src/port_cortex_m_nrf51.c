@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The UART of Nordic's nRF51 (Reference Manual, "UART"). It holds six bytes of input, and asks for an interrupt anew
+/* The UART of Nordic's nRF51 (Reference Manual, "UART"). It holds six bytes of input, and requests an interrupt again
  * as long as there is one. */
 #include "microros/port_board.h"
 #include "microros/port_cortex_m.h"
@@ -19,7 +19,7 @@
 #define UART_BAUD (PORT_BOARD_UART + 0x524u)
 
 static const uint32_t enabled = 4;
-static const uint32_t interrupts = 1u << 2 | 1u << 7; /* a byte has come, a byte has gone */
+static const uint32_t interrupts = 1u << 2 | 1u << 7; /* byte received, byte sent */
 static const uint32_t error_overrun = 1u << 0;
 
 static bool nrf51_sends; /* of the interrupt, and of port_uart_start: a byte is on its way out */
