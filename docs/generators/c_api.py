@@ -6,10 +6,15 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 from types import SimpleNamespace
+from typing import cast
 
 from generators.c_headers import Item, Section, read_header
 from generators.markdown import cell
+from microros_gen.client.plan.runtime import WAITED_KINDS
+from microros_gen.client.plan.values import Values
+from microros_gen.client.views.contributions import Contributed, contributed
 from microros_gen.documents.templates import make_environment
 from microros_gen.selection.find_components import components_folder, load_catalogue
 
@@ -68,16 +73,34 @@ def _sections(component: str, name: str, everything: frozenset[str]) -> list[Sec
     if path.is_file():
         return read_header(path.read_text(encoding="utf-8"))
     environment = make_environment([folder])
+    shared = _contributed()
+    included = [_include(h) for h in shared.includes[name] if h.startswith("microros/")]
     seen: dict[str, list[Section]] = {}
     for transport in _TRANSPORTS:
         view = {
             "headers": everything,
+            "contributed": shared,
+            "waits": SimpleNamespace(present=WAITED_KINDS, absent=()),
             "selection": SimpleNamespace(has=lambda _name: True),
             "plan": SimpleNamespace(transport=SimpleNamespace(kind=transport, device="/dev/ttyUSB0")),
         }
         text = _REFUSAL.sub("", environment.get_template(f"{name}.j2").render(view))
         seen[text] = read_header(text)
-    return _joined(list(seen.values()))
+    return [*_joined(list(seen.values())), *(section for text in included for section in read_header(text))]
+
+
+@cache
+def _contributed() -> Contributed:
+    """Return what all components contribute, as if every condition held."""
+    values = SimpleNamespace(holds=lambda _when: True, value=lambda _path: 0)
+    ready = [component for component in load_catalogue().values() if component.ready]
+    return contributed(ready, cast(Values, values))
+
+
+def _include(header: str) -> str:
+    """Return the text of a header that another one includes for its component."""
+    (path,) = components_folder().glob(f"*/include/{header}")
+    return path.read_text(encoding="utf-8")
 
 
 def _joined(variants: list[list[Section]]) -> list[Section]:
@@ -155,8 +178,10 @@ def _configuration() -> Iterator[str]:
         "Component `support`. The plan as constants; the values are in OUT/include/microros_config.h. "
         "Sizes are bytes, times milliseconds; a constant is there when the selection needs it."
     )
+    config = _contributed().config
     for part in text.split("\n/* ")[2:]:
-        names = dict.fromkeys(re.findall(r"^#define (MICROROS_\w+)", part, re.MULTILINE))
         title = part.split(" */")[0].split(":")[0]
+        lines = "\n".join([part, *config.get(title, ())])
+        names = dict.fromkeys(re.findall(r"^#define (MICROROS_\w+)", lines, re.MULTILINE))
         if names and "." not in title:
             yield f"{cell(title)}: " + ", ".join(f"`{name}`" for name in names)

@@ -16,13 +16,12 @@ _APPLICATION = """\
 version: 1
 profiles: [pure_sender, pure_reader]
 components: [{components}]
-errors: {mode}
+errors: text
 pools: {{publishers: 1, subscriptions: 1, services: 1, clients: 1}}
 """
 _TEXT = re.compile(
     r'^const char microros_error_(\w+)\[\] =\s*((?:"[^"\n]*"(?: XRCE_\w+)?\s*)+);', re.MULTILINE
 )
-_CODE = re.compile(r"^  microros_error_(\w+) = (\d+)", re.MULTILINE)
 _INTRODUCTION = """\
 # Error texts
 
@@ -34,10 +33,17 @@ name, `%d` a detail, `%n` what was found and `%m` what fits; the library replace
 
 def page() -> str:
     """Return the page: the number of each error, and its text."""
-    texts = dict(_TEXT.findall(_sources("text", "error_text*.c")))
-    numbers = _CODE.findall(_sources("code", "error.h"))
-    rows = [(f"E{int(number):02}", f"`{_words(texts[name])}`") for name, number in numbers]
+    texts = dict(_TEXT.findall(_sources("error_text*.c")))
+    errors = [error for component in load_catalogue().values() for error in component.contributes.errors]
+    rows = [
+        (f"E{error.code:02}", f"`{_shown(error.text) if error.text else _words(texts[error.name])}`")
+        for error in sorted(errors, key=lambda error: error.code)
+    ]
     return _INTRODUCTION + "\n" + table(("number", "text"), rows) + "\n"
+
+
+def _shown(text: str) -> str:
+    return text.replace("|", "\\|")
 
 
 def _words(literals: str) -> str:
@@ -46,10 +52,10 @@ def _words(literals: str) -> str:
     return re.sub(r'"\s*"|^"|"$', "", text.replace('AGENT"', "AGENT")).replace("|", "\\|")
 
 
-def _sources(mode: str, files: str) -> str:
-    """Return the named files of a library with every component of the micro-ROS layer."""
+def _sources(files: str) -> str:
+    """Return the named files, with texts, of a library with every component of the micro-ROS layer."""
     ready = [c.name for c in load_catalogue().values() if c.ready and c.layer == "micro-ROS"]
-    text = _APPLICATION.format(components=", ".join(f"+{name}" for name in ready), mode=mode)
+    text = _APPLICATION.format(components=", ".join(f"+{name}" for name in ready))
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "microros.yaml").write_text(text, encoding="utf-8")
         command = [sys.executable, "-m", "microros_gen", "generate", "-c", f"{folder}/microros.yaml"]

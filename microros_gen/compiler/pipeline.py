@@ -21,10 +21,10 @@ from microros_gen.client.plan.declared import (
     type_name,
 )
 from microros_gen.client.plan.project import Project, plan_project
-from microros_gen.client.plan.provisions import holds
 from microros_gen.client.plan.service_limits import service_roots
 from microros_gen.client.plan.stream_budget import check_stream_budget
 from microros_gen.client.plan.streams import DEFAULT_MTU, WRITE_DATA_OVERHEAD
+from microros_gen.client.plan.values import Values
 from microros_gen.compiler.request import Request
 from microros_gen.diagnostics import Diagnostic, Diagnostics
 from microros_gen.documents.named import Named
@@ -38,7 +38,7 @@ from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
 from microros_gen.selection.clock import CLOCK_ROS, with_clock
 from microros_gen.selection.component import Catalogue, Profile
-from microros_gen.selection.component_sources import ComponentFile, read_headers, read_sources
+from microros_gen.selection.component_sources import ComponentFile, component_files
 from microros_gen.selection.extension import files_of, folders_below
 from microros_gen.selection.find_components import load_catalogue
 from microros_gen.selection.find_profiles import load_middleware, load_profiles
@@ -343,12 +343,6 @@ def _root(name: TypeName, application: Application, room: int) -> Root:
 
 
 def _component_files(project: Project) -> tuple[ComponentFile, ...]:
-    files: list[ComponentFile] = []
-    for chosen in project.selection.components:
-        component = chosen.component
-        plans = (project.runtime, project.board, project.target)
-        names = [source.path for source in component.sources if holds(source.when, *plans)]
-        names += [path for part, path in project.provisions.files if part == component.name]
-        files += read_headers(component)
-        files += read_sources(component, tuple(names))
-    return tuple(files)
+    values = Values(project.runtime, project.selection, project.board, project.target)
+    components = (c.component for c in project.selection.components)
+    return component_files(components, values.holds, project.provisions.files)

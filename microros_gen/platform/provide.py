@@ -8,7 +8,8 @@ from dataclasses import replace
 
 from microros_gen.platform.capabilities import Capability, capabilities
 from microros_gen.records import dataclass
-from microros_gen.selection.component import Ask, Component, Conditions, Provision
+from microros_gen.selection.component import Ask, Component, Provision
+from microros_gen.selection.contribution import Conditions
 
 APPLICATION = "application"
 """The provider of what the target file leaves to the application (`provides:`)."""

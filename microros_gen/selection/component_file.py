@@ -8,8 +8,10 @@ from microros_gen.application.model import Qos
 from microros_gen.diagnostics import Diagnostics, Source, reads
 from microros_gen.documents.tree_read import check_keys, expect_mapping, read_choice, read_names, read_text
 from microros_gen.documents.tree_values import bool_of, entries, int_of, items, text_of
-from microros_gen.documents.yaml_tree import MappingNode, ScalarNode, SequenceNode, YamlNode, parse_yaml
-from microros_gen.selection.component import Ask, Component, Conditions, Implied, Provision, SourceFile
+from microros_gen.documents.yaml_tree import MappingNode, SequenceNode, YamlNode, parse_yaml
+from microros_gen.selection.component import Ask, Component, Implied, Provision, SourceFile
+from microros_gen.selection.contribution import Conditions
+from microros_gen.selection.contribution_file import KEYS, read_conditions, read_contributions
 from microros_gen.selection.xrce import OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
 
 LAYERS = ("micro-ROS", "middleware", "port")
@@ -28,7 +30,7 @@ def parse_component(source: Source, diagnostics: Diagnostics) -> Component | Non
         if not diagnostics.has_errors():
             diagnostics.error(f"the component file '{source.name}' is empty", id="MG-4004")
         return None
-    check_keys(node, (*_REQUIRED, *_LISTS, "provides"), _REQUIRED, diagnostics)
+    check_keys(node, (*_REQUIRED, *_LISTS, "provides", *KEYS), _REQUIRED, diagnostics)
     layer = read_choice(node, "layer", LAYERS, diagnostics)
     status = read_choice(node, "status", _STATUS, diagnostics)
     component = Component(
@@ -46,6 +48,7 @@ def parse_component(source: Source, diagnostics: Diagnostics) -> Component | Non
         asks=_asks(node, diagnostics),
         provides=_provides(node, diagnostics),
         implies=_implies(node, diagnostics),
+        contributes=read_contributions(node, diagnostics),
     )
     return component if before or not diagnostics.has_errors() else None
 
@@ -142,19 +145,8 @@ def _conditional(item: YamlNode, key: str) -> tuple[str, Conditions] | None:
     if not isinstance(item, MappingNode):
         text = text_of(item)
         return (text, ()) if text else None
-    text, when = text_of(item.get(key)), _conditions(item.get("when"))
+    text, when = text_of(item.get(key)), read_conditions(item.get("when"))
     return (text, when) if text and when and set(item.entries) == {key, "when"} else None
-
-
-def _conditions(when: YamlNode | None) -> Conditions | None:
-    """Return the conditions of `when`, none where it is missing; None where it is no mapping of plain values."""
-    if when is None:
-        return ()
-    if not isinstance(when, MappingNode):
-        return None
-    values = [(e.key, e.value.value) for e in when if isinstance(e.value, ScalarNode)]
-    found = tuple((k, v) for k, v in values if isinstance(v, (str, int)))
-    return found if len(found) == len(when.entries) else None
 
 
 def _names(

@@ -15,7 +15,7 @@ from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.streams import LARGEST_MTU
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.documents.templates import make_environment
-from microros_gen.selection.find_components import components_folder
+from microros_gen.selection.find_components import components_folder, load_catalogue
 from tests.support.ids import without_id
 from tests.support.plans import POOL, changed
 
@@ -36,8 +36,9 @@ POOL_KEYS = (
 
 
 def texts() -> dict[str, str]:
-    """Return every error text of the library that stands in a plain file."""
-    found: dict[str, str] = {}
+    """Return every error text of the library: of component.yaml, and those in plain files."""
+    errors = [error for component in load_catalogue().values() for error in component.contributes.errors]
+    found = {f"microros_error_{error.name}": error.text for error in errors if error.text}
     for path in sorted(components_folder().rglob("*.c")):
         for name, literals in TEXT.findall(path.read_text(encoding="utf-8")):
             found[name] = "".join(re.findall(r'"([^"]*)"', literals))
@@ -103,7 +104,7 @@ def test_the_schema_has_the_numbers_that_advice_stops_at() -> None:
         (components_folder().parent / "application/application.schema.json").read_text(encoding="utf-8")
     )
     assert schema["properties"]["pools"]["properties"]["history"]["maximum"] == MOST_HISTORY
-    template = (components_folder() / "support/include/microros/error.h.j2").read_text(encoding="utf-8")
+    template = (components_folder() / "support/variants/error_code.h.j2").read_text(encoding="utf-8")
     most = re.search(r"MICROROS_POOL_MOST (\d+)u", template)
     assert most
     assert int(most[1]) == LARGEST_POOL

@@ -14,7 +14,8 @@ from microros_gen.client.plan.board import BoardPlan
 from microros_gen.diagnostics import UserError
 from microros_gen.platform.target import Target
 from microros_gen.selection.component import Ask, Catalogue, Component, Middleware, Provision, SourceFile
-from microros_gen.selection.find_components import load_catalogue
+from microros_gen.selection.contribution import Conditional
+from microros_gen.selection.find_components import components_folder, load_catalogue
 from microros_gen.selection.xrce import MICRO_ROS_COMPONENTS
 from tests.support.ids import without_id
 from tests.support.plans import POOL
@@ -157,21 +158,39 @@ def test_files_of_components_are_there(real_catalogue: Catalogue) -> None:
             assert not component.sources, component.name
         for source in component.files:
             assert (folder / "src" / source.path).is_file(), f"{component.name}: {source.path}"
+        for variant in component.contributes.variants:
+            assert (folder / "variants" / variant.file).is_file(), f"{component.name}: {variant.file}"
+        for replacement in component.contributes.replaces:
+            assert (folder / "include" / replacement.header).is_file(), (
+                f"{component.name}: {replacement.header}"
+            )
         for path in conditions(component):
             assert is_of_the_plan(path), f"{component.name}: {path}"
 
 
 def conditions(component: Component) -> Iterator[str]:
     """Yield the paths of all conditions of a component."""
-    parts: list[SourceFile | Ask] = [*component.sources, *component.asks]
+    parts: list[SourceFile | Ask | Conditional] = [
+        *component.sources,
+        *component.asks,
+        *contributed_parts(component),
+    ]
     for provision in component.provides:
         parts += [*provision.sources, *provision.asks]
     yield from (path for part in parts for path, _ in part.when)
 
 
+def contributed_parts(component: Component) -> Iterator[Conditional]:
+    """Yield everything that a component contributes."""
+    for field in fields(component.contributes):
+        yield from getattr(component.contributes, field.name)
+
+
 def is_of_the_plan(path: str) -> bool:
     """Whether a condition names a value of a slice of the plan, of the board or of the target."""
     first, _, name = path.partition(".")
+    if first == "component":
+        return (components_folder() / name / "component.yaml").is_file()
     others = {"board": BoardPlan, "target": Target}
     if first in others:
         return name in {*dir(others[first]), *(field.name for field in fields(others[first]))}
@@ -179,7 +198,7 @@ def is_of_the_plan(path: str) -> bool:
         value = attrgetter(path)(POOL)
     except AttributeError:
         return False
-    return isinstance(value, (str, int))
+    return isinstance(value, (str, int, tuple))
 
 
 @pytest.mark.parametrize(

@@ -75,6 +75,11 @@ class EntitiesPlan:
         return self.services.any or self.clients.any
 
     @property
+    def node_places(self) -> int:
+        """Places of nodes; a table needs one place at least."""
+        return max(self.nodes.max, 1)
+
+    @property
     def publisher_places(self) -> int:
         """Places of publishers, which come first among the endpoints; a table needs one place at least."""
         receives = self.subscriptions.any or self.serves

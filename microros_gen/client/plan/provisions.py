@@ -13,7 +13,7 @@ from microros_gen.diagnostics import Diagnostic, Diagnostics, Severity
 from microros_gen.platform.capabilities import declarations
 from microros_gen.platform.provide import Provisions, provide
 from microros_gen.platform.target import Target
-from microros_gen.selection.component import Conditions
+from microros_gen.selection.contribution import Conditions
 from microros_gen.selection.model import Selection
 
 

@@ -19,6 +19,12 @@ from microros_gen.client.plan.slices import (
 )
 from microros_gen.records import dataclass
 
+WAITED_KINDS = ("subscription", "guard_condition", "timer", "client", "service")
+"""What one can wait for, in the order of rcl_wait_set_init."""
+RECEIVERS = {"subscription": "subscription", "client": "requester", "service": "replier"}
+"""Kind of entity that receives → its name in rmw."""
+HANDLE_POINTERS = ("subscription", "timer", "client", "service")
+
 
 @dataclass(frozen=True, kw_only=True)
 class RuntimePlan:
@@ -39,15 +45,36 @@ class RuntimePlan:
     clock: ClockPlan = field(default_factory=ClockPlan)
 
     @property
-    def waited_kinds(self) -> tuple[tuple[str, bool], ...]:
-        """What one can wait for, and whether there are places for any."""
-        return (
-            ("subscription", self.entities.subscriptions.any),
-            ("guard_condition", self.executor.guard_conditions_max > 0),
-            ("timer", self.timers.any),
-            ("client", self.entities.clients.any),
-            ("service", self.entities.services.any),
-        )
+    def waited(self) -> tuple[str, ...]:
+        """What one can wait for: the kinds that have places."""
+        places = {
+            "subscription": self.entities.subscriptions.max,
+            "guard_condition": self.executor.guard_conditions_max,
+            "timer": self.timers.max,
+            "client": self.entities.clients.max,
+            "service": self.entities.services.max,
+        }
+        return tuple(kind for kind in WAITED_KINDS if places[kind] > 0)
+
+    @property
+    def waited_receivers(self) -> tuple[tuple[str, str], ...]:
+        """Those of them that wait for samples, and how functions of rmw name them."""
+        return tuple((kind, RECEIVERS[kind]) for kind in RECEIVERS if kind in self.waited)
+
+    @property
+    def waited_clocked(self) -> tuple[str, ...]:
+        """Those of them that a clock makes ready."""
+        return tuple(kind for kind in self.waited if kind == "timer")
+
+    @property
+    def waited_entities(self) -> tuple[str, ...]:
+        """Those of them to which a handle has a pointer of their name, in the order in which it is looked for."""
+        return tuple(kind for kind in HANDLE_POINTERS if kind in self.waited)
+
+    @property
+    def wait_limits(self) -> tuple[tuple[str, str], ...]:
+        """Every kind, and how many of it one wait set takes at most, as C."""
+        return tuple((k, f"MICROROS_{k.upper()}S_MAX" if k in self.waited else "0") for k in WAITED_KINDS)
 
     @property
     def requests_max(self) -> int:

@@ -32,6 +32,16 @@ class SessionPlan:
     has_time_sync: bool = False
 
     @property
+    def key_of_device(self) -> bool:
+        """Whether the port supplies the key."""
+        return self.client_key is None
+
+    @property
+    def key_constant(self) -> str:
+        """The key as C: a constant, or the port's function."""
+        return "port_unique_id()" if self.client_key is None else f"0x{self.client_key:08x}u"
+
+    @property
     def has_device_key(self) -> bool:
         """Whether the port supplies the client key."""
         return self.client_key is None
@@ -62,6 +72,11 @@ class TransportPlan:
     line_input: int = 64
     line_chunk: int = LINE_CHUNK
     own_line: bool = False
+
+    @property
+    def has_handle(self) -> bool:
+        """Whether there is a handle of the port that one can wait for."""
+        return self.kind != "custom"
 
     @property
     def has_sockets(self) -> bool:
@@ -178,6 +193,11 @@ class InputPlan:
         return sum(queue.size for queue in queues)
 
     @property
+    def queues_room(self) -> int:
+        """Bytes of the table for all slots: C has no empty ones."""
+        return max(self.queues_size, 4)
+
+    @property
     def lends(self) -> bool:
         """Whether a sample waits in the input buffer."""
         return self.reader is not None
@@ -215,6 +235,11 @@ class CreationPlan:
     entities: str = "binary"
     stream: str = "best_effort"
     size: int = 0
+
+    @property
+    def preconfigured(self) -> bool:
+        """Whether the agent has the entities before the client comes."""
+        return self.entities == "preconfigured"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -256,6 +281,11 @@ class ErrorsPlan:
     """Form of the error reports. `text_size` 0: codes only."""
 
     text_size: int
+
+    @property
+    def room(self) -> int:
+        """Bytes for the text of the last error, with its NUL; a number needs few."""
+        return self.text_size or 8
 
     @property
     def mode(self) -> str:

@@ -13,11 +13,12 @@ from microros_gen.application.model import Memory
 from microros_gen.client.plan.project import Project
 from microros_gen.client.plan.runtime_entities import PublisherPlan, SubscriptionPlan
 from microros_gen.client.plan.services import ServicePlan
+from microros_gen.client.plan.values import Values
 from microros_gen.client.views.agent_files import render_agent_files
 from microros_gen.client.views.board import BoardView, board_view, render_toolchain
+from microros_gen.client.views.components import render_components
 from microros_gen.client.views.example import example_view
 from microros_gen.diagnostics import Diagnostic, UserError
-from microros_gen.documents.own_templates import render_own
 from microros_gen.platform.capabilities import declarations
 from microros_gen.records import dataclass
 from microros_gen.selection.component import Component
@@ -76,7 +77,10 @@ def render_project(
     `files` are those of the selected components; `unselected` are the others, whose public headers become one
     `#error` each.
     """
-    rendered = _component_files(project, files, environment)
+    values = Values(project.runtime, project.selection, project.board, project.target)
+    rendered = render_components(
+        files, values, environment, (*project.provisions.functions(), *project.board.hooks)
+    )
     of_components = frozenset(rendered)
     pools = frozenset(pool.kind for pool in project.runtime.memory.message_pools)
     rendered |= _free(
@@ -118,30 +122,6 @@ def _budgets(memory: Memory) -> str:
 def library_sources(files: Iterable[str]) -> tuple[str, ...]:
     """Return the C and assembly files of the library among `files`, sorted."""
     return tuple(sorted(f for f in files if f.startswith("src/") and f.endswith((".c", ".S"))))
-
-
-def _component_files(
-    project: Project, files: Iterable[ComponentFile], environment: Environment
-) -> dict[str, bytes]:
-    context = {
-        "plan": project.runtime,
-        "selection": project.selection,
-        "target": project.target,
-        "board": project.board,
-        "functions": (*project.provisions.functions(), *project.board.hooks),
-        "headers": tuple(sorted(h for c in project.selection.components for h in c.component.headers)),
-    }
-    return {
-        file.path: file.content if file.template is None else _rendered(file, environment, context).encode()
-        for file in files
-    }
-
-
-def _rendered(file: ComponentFile, environment: Environment, context: Mapping[str, object]) -> str:
-    """Render a template by its name, or from the text of one that does not ship with the tool."""
-    if file.template:
-        return environment.get_template(file.template).render(context)
-    return render_own(file.source, environment, context)
 
 
 def _unselected_headers(

@@ -10,11 +10,13 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-from microros_gen.client.plan.provisions import holds
 from microros_gen.client.plan.runtime import RuntimePlan
-from microros_gen.documents.templates import TEMPLATE_FOLDERS, make_environment
+from microros_gen.client.plan.values import Values
+from microros_gen.client.views.components import render_components
+from microros_gen.documents.templates import make_environment
 from microros_gen.interfaces.types import TypeName
 from microros_gen.platform.provide import provide
+from microros_gen.selection.component_sources import component_files
 from microros_gen.selection.find_components import load_catalogue
 from microros_gen.selection.model import ChosenComponent, Selection
 from microros_gen.toolchain.toolchain import LIBRARY_FLAGS, WARNINGS
@@ -91,27 +93,16 @@ def render(out: Path, plan: RuntimePlan, names: Sequence[str]) -> Tree:
     selection = Selection(
         ("test",), chosen, plan.creation.entities, plan.transport.kind, "ping", (), (), (), (), ()
     )
-    headers = [header for c in chosen for header in c.component.headers]
-    environment = make_environment()
+    values = Values(plan, selection)
+    provisions = provide((c.component for c in chosen), PORTS, (), values.holds)
+    files = component_files((c.component for c in chosen), values.holds, provisions.files)
     sources = []
-    provisions = provide((c.component for c in chosen), PORTS, (), lambda when: holds(when, plan))
-    for component in (c.component for c in chosen):
-        root = component.folder
-        files = [(p, p.relative_to(root)) for p in sorted((root / "include").rglob("*")) if p.is_file()]
-        own = [source.path for source in component.sources if holds(source.when, plan)]
-        own += [path for part, path in provisions.files if part == component.name]
-        files += [(root / "src" / path, Path("src", component.name, path)) for path in own]
-        for path, place in files:
-            target = out / str(place).removesuffix(".j2")
-            target.parent.mkdir(parents=True, exist_ok=True)
-            if path.suffix == ".j2":
-                folder = next(f for f in TEMPLATE_FOLDERS if path.is_relative_to(f))
-                template = environment.get_template(path.relative_to(folder).as_posix())
-                target.write_text(template.render(plan=plan, selection=selection, headers=headers))
-            else:
-                shutil.copyfile(path, target)
-            if target.suffix == ".c":
-                sources.append(target)
+    for place, content in render_components(files, values, make_environment()).items():
+        target = out / place
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_bytes(content)
+        if target.suffix == ".c":
+            sources.append(target)
     return Tree(out, tuple(sources))
 
 

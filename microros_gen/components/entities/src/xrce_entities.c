@@ -248,8 +248,9 @@ void xrce_entities_step(xrce_client_t * client, uint32_t now)
   }
 }
 
-void xrce_entities_on_status(xrce_client_t * client, const uint8_t * payload, size_t size, uint32_t now)
+void xrce_entities_on_status(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {
+  const uint8_t * payload = xrce_payload_of(submessage);
   xrce_entities_t * entities = &client->entities;
   xrce_object_state_t * state = &client->states[entities->cursor];
 

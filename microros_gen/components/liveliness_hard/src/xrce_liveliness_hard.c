@@ -31,7 +31,10 @@ void xrce_liveliness_hard_step(xrce_client_t * client, uint32_t now)
   }
 }
 
-void xrce_liveliness_hard_on_get_info(xrce_client_t * client, uint32_t now)
+void xrce_liveliness_hard_on_get_info(
+  xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {
+  (void)submessage;
+  (void)size;
   client->hard.due_ms = now;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Names are expanded here, and go down fully qualified. */
-#include "microros/rcl_names.h"
+#include "microros/rcl_names_take.h"
 #include "microros/rcl_names_expand.h"
 #include "rcl/validate_topic_name.h"
 

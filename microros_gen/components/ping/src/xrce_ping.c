@@ -58,8 +58,7 @@ static void ping_hasten(xrce_session_t * session, uint32_t now)
   }
 }
 
-void xrce_ping_on_info(
-  xrce_client_t * client, const uint8_t * payload, size_t size, bool in_session, uint32_t now)
+void xrce_ping_on_info(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {
   if (size < INFO_SIZE) {
     ++client->session.statistics.malformed;
@@ -69,7 +68,8 @@ void xrce_ping_on_info(
   if (client->session.state == XRCE_CONNECTING) {
     ping_hasten(&client->session, now);
   } else if (
-    in_session && payload[5] == IMPLEMENTATION_OUT_OF_SESSION && client->session.state == XRCE_READY) {
+    client->session.in_session && xrce_payload_of(submessage)[5] == IMPLEMENTATION_OUT_OF_SESSION &&
+    client->session.state == XRCE_READY) {
     xrce_session_lose(client, now);
   } else {
     /* it was asked because it was silent, or by the application */

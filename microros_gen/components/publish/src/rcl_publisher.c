@@ -2,7 +2,7 @@
 #include "rcl/publisher.h"
 
 #include "microros/error.h"
-#include "microros/rcl_names.h"
+#include "microros/rcl_names_take.h"
 #include "microros/rcl_publisher_open.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_publisher.h"

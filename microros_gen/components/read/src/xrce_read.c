@@ -179,19 +179,23 @@ static void read_arrived(xrce_reading_t * reading)
   ++reading->sequence;
 }
 
-void xrce_read_on_acknack(xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags)
+void xrce_read_on_acknack(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {
+  const uint8_t * payload = xrce_payload_of(submessage);
   xrce_reading_t * reading = &client->reading;
 
+  (void)now;
   if (
     size >= XRCE_ACKNACK_SIZE && payload[4] == XRCE_STREAM_READING && client->session.state == XRCE_READY &&
-    reading->outstanding && xrce_get_u16(&payload[0], flags) == (uint16_t)(reading->sequence + 1u)) {
+    reading->outstanding &&
+    xrce_get_u16(&payload[0], xrce_flags_of(submessage)) == (uint16_t)(reading->sequence + 1u)) {
     read_arrived(reading);
   }
 }
 
-void xrce_read_on_status(xrce_client_t * client, const uint8_t * payload, size_t size, uint32_t now)
+void xrce_read_on_status(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {
+  const uint8_t * payload = xrce_payload_of(submessage);
   xrce_reading_t * reading = &client->reading;
   xrce_receiver_t * receiver;
   uint16_t request;
@@ -246,14 +250,14 @@ xrce_receiver_t * xrce_read_asked(xrce_client_t * client, uint16_t request, uint
   return receiver;
 }
 
-void xrce_read_on_data(
-  xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags, uint32_t now)
+void xrce_read_on_data(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {
+  const uint8_t * payload = xrce_payload_of(submessage);
   xrce_sample_t sample;
   xrce_receiver_t * receiver;
   uint16_t request;
 
-  if (size <= XRCE_OBJECT_PREFIX || (flags & XRCE_READ_FORMATS) != 0u) {
+  if (size <= XRCE_OBJECT_PREFIX || (xrce_flags_of(submessage) & XRCE_READ_FORMATS) != 0u) {
     ++client->session.statistics.malformed;
     return;
   }
@@ -266,7 +270,7 @@ void xrce_read_on_data(
   sample.data = &payload[XRCE_OBJECT_PREFIX];
   sample.arrived_ms = now;
   sample.size = (uint16_t)(size - XRCE_OBJECT_PREFIX);
-  sample.big_endian = (flags & XRCE_FLAG_LITTLE_ENDIAN) == 0u;
+  sample.big_endian = (xrce_flags_of(submessage) & XRCE_FLAG_LITTLE_ENDIAN) == 0u;
   if (sample.size > xrce_read_largest(client, receiver)) {
     read_refuse(client, receiver, sample.size);
   } else {

@@ -2,7 +2,7 @@
 #include "rcl/service.h"
 
 #include "microros/error.h"
-#include "microros/rcl_names.h"
+#include "microros/rcl_names_take.h"
 #include "microros/rmw_service.h"
 
 #include <string.h>

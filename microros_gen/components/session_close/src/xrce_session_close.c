@@ -44,10 +44,13 @@ void xrce_session_leave(xrce_client_t * client, uint32_t timeout_ms)
   }
 }
 
-void xrce_session_leave_on_status(xrce_client_t * client, const uint8_t * payload, size_t size)
+void xrce_session_leave_on_status(
+  xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {
+  const uint8_t * payload = xrce_payload_of(submessage);
   xrce_session_t * session = &client->session;
 
+  (void)now;
   if (
     session->state == XRCE_CLOSING && size >= STATUS_SIZE &&
     xrce_get_be16(&payload[0]) == XRCE_REQUEST_LOGOUT && xrce_get_be16(&payload[2]) == XRCE_OBJECT_CLIENT) {

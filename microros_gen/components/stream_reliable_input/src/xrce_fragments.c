@@ -77,8 +77,7 @@ static void fragments_finish(xrce_client_t * client, uint32_t now)
   }
 }
 
-void xrce_fragments_on_piece(
-  xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags, uint32_t now)
+void xrce_fragments_on_piece(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {
   xrce_fragments_t * fragments = &client->fragments;
   const uint16_t number = (uint16_t)(client->reliable_input.next - 1u);
@@ -88,9 +87,9 @@ void xrce_fragments_on_piece(
   }
   fragments->next = (uint16_t)(number + 1u);
   if (!fragments->skipping) {
-    fragments->skipping = !fragments_take(client, payload, size);
+    fragments->skipping = !fragments_take(client, xrce_payload_of(submessage), size);
   }
-  if ((flags & XRCE_FLAG_LAST_FRAGMENT) != 0u) {
+  if ((xrce_flags_of(submessage) & XRCE_FLAG_LAST_FRAGMENT) != 0u) {
     if (!fragments->skipping) {
       fragments_finish(client, now);
     }

@@ -26,14 +26,13 @@ static void fragments_refuse(xrce_client_t * client, const uint8_t * begin, size
     (uint16_t)(length - XRCE_OBJECT_PREFIX));
 }
 
-void xrce_fragments_on_piece(
-  xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags, uint32_t now)
+void xrce_fragments_on_piece(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {
   xrce_fragments_t * fragments = &client->fragments;
 
   (void)now;
   if (!fragments->skipping) {
-    fragments_refuse(client, payload, size);
+    fragments_refuse(client, xrce_payload_of(submessage), size);
   }
-  fragments->skipping = (flags & XRCE_FLAG_LAST_FRAGMENT) == 0u;
+  fragments->skipping = (xrce_flags_of(submessage) & XRCE_FLAG_LAST_FRAGMENT) == 0u;
 }

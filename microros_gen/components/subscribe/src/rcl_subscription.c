@@ -2,7 +2,7 @@
 #include "rcl/subscription.h"
 
 #include "microros/error.h"
-#include "microros/rcl_names.h"
+#include "microros/rcl_names_take.h"
 #include "microros/rcl_subscription_open.h"
 #include "microros/rmw_subscription.h"
 

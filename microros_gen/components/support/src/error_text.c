@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* errors: text. The words of the library are here, but for those of a component that brings its own. */
+/* errors: text. How the words of error_texts.c become a message; those that name the transport are here. */
 #include "microros/error.h"
 #include "microros/error_state.h"
 #include "microros/lock.h"
@@ -12,53 +12,9 @@
  * %s name, %d detail, %n found, %m fits; %t name is a DDS type, written as ROS does, %D detail is one; %a
  * found is a status of the agent; %y where to change that.
  */
-const char microros_error_argument[] = "%s: NULL or not initialized";
-const char microros_error_context_in_use[] = "a context is open already: there is one session";
 const char microros_error_transport[] = "no transport to " XRCE_PLACE_N;
 const char microros_error_agent_silent[] = "no agent answers at " XRCE_PLACE_N " within %m ms";
 const char microros_error_agent_refused[] = "the agent at " XRCE_PLACE_M " refuses the session: %a";
-const char microros_error_address[] = "address %s or port %d is not valid (host: up to %m bytes)";
-const char microros_error_name[] = "name '%s': %d";
-const char microros_error_name_long[] = "name '%s' takes %n bytes: set pools: {name_size: %m}%y";
-const char microros_error_node_undeclared[] = "node not declared: add to nodes:%y: {name: %s, namespace: %d}";
-const char microros_error_node_open[] = "node %s is open already";
-const char microros_error_nodes_full[] = "all %n nodes are open: set pools: {nodes: %m}%y";
-const char microros_error_publisher_undeclared[] =
-  "publisher not declared: add to its node's publishers:%y: {topic: %s, type: %D}";
-const char microros_error_publisher_open[] = "publisher %s is open already";
-const char microros_error_publishers_full[] = "all %n publishers are open: set pools: {publishers: %m}%y";
-const char microros_error_stream_small[] =
-  "%t takes %n bytes and its stream holds %m: declare the publisher with its qos%y";
-const char microros_error_qos[] = "publisher %s: XRCE carries no such QoS: %d";
-const char microros_error_entity_silent[] = "%d %s: no answer of the agent within %m ms";
-const char microros_error_entity_refused[] = "%d %s: the agent refuses it: %a (entities%y)";
-const char microros_error_field[] = "%t.%d: %n, limit %m: raise limits%y";
-const char microros_error_field_bound[] = "%t.%d: %n, and its interface file allows %m";
-const char microros_error_field_capacity[] =
-  "%t.%d: %n, capacity for %m: raise limits%y, or that of your buffer";
-const char microros_error_field_data[] = "%t.%d has a size, %n, and no data: NULL";
-const char microros_error_no_session[] = "publisher %s: no session with the agent";
-const char microros_error_not_sent[] = "publisher %s: the transport has no room for it";
-const char microros_error_arena[] = "no memory for %n bytes: raise memory: {arena: %m}%y";
-const char microros_error_block_large[] =
-  "%n bytes of a string or sequence: no message that is sent has more than %m: raise limits%y";
-const char microros_error_blocks_taken[] =
-  "all blocks of %n bytes are taken: give one back, or set memory: {messages: %m}%y";
-const char microros_error_serialized[] = "serialized message: not little endian CDR, or %n bytes above %m";
-const char microros_error_domain[] = "domain %n is above %m";
-const char microros_error_device[] = "serial device %s: more than %m bytes, or none";
-const char microros_error_custom_unset[] =
-  "rmw_uros_set_custom_transport was not called before, or refused its arguments";
-const char microros_error_encapsulation[] = "%t: representation %n is not plain CDR (0 or %m)";
-const char microros_error_not_received[] = "%t has no decoder: no profile that receives it";
-const char microros_error_body_end[] = "%t.%d: the message ends: %n bytes needed, %m left";
-const char microros_error_value[] = "%t.%d: %n is above %m";
-const char microros_error_memory_rule[] = "memory rule '%d' names no string or sequence of %t";
-const char microros_error_memory_given[] = "the allocator gives no memory for %n bytes";
-const char microros_error_pool_full[] = "%n %s are all there are: set pools: {%s: %m}%y";
-const char microros_error_pool_most[] = "%s: all %n places are taken, and a session has no more of a kind";
-const char microros_error_memory_buffer[] = "the buffer has %n bytes and the message takes %m";
-const char microros_error_framing[] = "custom transport: set transport: {framing: %d}%y";
 
 /* From status 0x80 on (OMG DDS-XRCE 1.0, 7.7.2). */
 static const char * const statuses[] = {"DDS_ERROR",         "MISMATCH",     "ALREADY_EXISTS", "DENIED",

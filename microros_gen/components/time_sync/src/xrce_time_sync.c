@@ -65,14 +65,17 @@ void xrce_time_sync_ask(xrce_client_t * client)
     &client->session, message, sizeof(message)); /* a loss is what the repetition is for */
 }
 
-void xrce_time_sync_on_reply(xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags)
+void xrce_time_sync_on_reply(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {
+  const uint8_t * payload = xrce_payload_of(submessage);
+  const uint8_t flags = xrce_flags_of(submessage);
   const int64_t now_ns = port_time_steady_ns();
   xrce_time_sync_t * sync = &client->time_sync;
   int64_t transmitted_ns;
   int64_t received_ns;
   int64_t originated_ns;
 
+  (void)now;
   if (
     size < REPLY_SIZE || !time_get_moment(&payload[TRANSMIT], flags, &transmitted_ns) ||
     !time_get_moment(&payload[RECEIVE], flags, &received_ns) ||

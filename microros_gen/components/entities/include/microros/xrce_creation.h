@@ -13,6 +13,7 @@
 
 #include "microros/xrce_entities.h"
 #include "microros/xrce_objects.h"
+#include "microros/xrce_forward.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -41,7 +42,7 @@ static inline bool xrce_entities_waits(const xrce_entities_t * entities)
 /* What xrce_routes.c calls. */
 void xrce_entities_renew(xrce_client_t * client);
 void xrce_entities_step(xrce_client_t * client, uint32_t now);
-void xrce_entities_on_status(xrce_client_t * client, const uint8_t * payload, size_t size, uint32_t now);
+void xrce_entities_on_status(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
 /* Whether every wanted entity is at the agent. */
 bool xrce_entities_settled(const xrce_client_t * client);

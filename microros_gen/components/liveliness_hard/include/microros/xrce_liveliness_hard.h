@@ -26,7 +26,8 @@ typedef struct xrce_liveliness_hard_t {
 void xrce_liveliness_hard_step(xrce_client_t * client, uint32_t now);
 
 /* The agent asks: the next step answers. */
-void xrce_liveliness_hard_on_get_info(xrce_client_t * client, uint32_t now);
+void xrce_liveliness_hard_on_get_info(
+  xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
 #ifdef __cplusplus
 }

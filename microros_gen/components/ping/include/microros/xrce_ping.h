@@ -32,8 +32,7 @@ void xrce_ping_step(xrce_client_t * client, uint32_t now);
 
 /* An answer that says "not in a session" loses it, too: the agent has started anew. One that comes while the session is
  * looked for brings the next CREATE_CLIENT forward. */
-void xrce_ping_on_info(
-  xrce_client_t * client, const uint8_t * payload, size_t size, bool in_session, uint32_t now);
+void xrce_ping_on_info(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
 #ifdef __cplusplus
 }

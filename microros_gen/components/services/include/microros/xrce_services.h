@@ -11,15 +11,12 @@
 
 #include "microros/service_type.h"
 #include "microros/xrce_objects.h"
+#include "microros/xrce_wire.h"
 #include "microros/xrce_write.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/* In front of a request that comes (OMG DDS-XRCE 1.0, 7.7.14: SampleIdentity), and of a reply: the number and the object of
- * the request. */
-enum { XRCE_IDENTITY_SIZE = 24, XRCE_RELATED_SIZE = 4 };
 
 /* What the endpoint of a service has beside xrce_endpoint_t, whose `type` is that of what it receives. */
 typedef struct xrce_service_t {

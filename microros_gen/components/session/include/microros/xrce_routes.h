@@ -19,11 +19,12 @@ extern "C" {
  * header's. False: it is not what it should be. */
 bool xrce_route_message(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now);
 
-/* Hands a received submessage to the part that understands it; the others are ignored. `in_session` is false
- * for one that came outside of a session. */
-void xrce_route_submessage(
-  xrce_client_t * client, uint8_t id, uint8_t flags, const uint8_t * payload, size_t size, bool in_session,
-  uint32_t now);
+/*
+ * Hands a received submessage to the parts that understand it; one that nobody does is ignored. It begins at its header and
+ * lies in the input during the call; `size` is that of its payload, `now` when the pump began. What component.yaml names
+ * below `on:` has the same parameters.
+ */
+void xrce_route_submessage(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
 /* Lets every part do what is due. */
 void xrce_route_step(xrce_client_t * client, uint32_t now);

@@ -44,7 +44,8 @@ typedef struct xrce_session_t {
   uint8_t state;     /* xrce_state_t */
   uint8_t refusal;   /* status that the agent refused the session with, or 0 */
   bool transport_open;
-  bool was_ready; /* the next session is a reconnection */
+  bool was_ready;  /* the next session is a reconnection */
+  bool in_session; /* the message that is being handled came within a session */
   xrce_statistics_t statistics;
 } xrce_session_t;
 
@@ -57,6 +58,10 @@ bool xrce_session_await(xrce_client_t * client, uint32_t timeout_ms);
 
 /* Closes at once, on this side alone; xrce_route_close takes leave of the agent before. */
 void xrce_session_close(xrce_client_t * client);
+
+/* Lets what was handed to the line leave it, what was written last too, for at most client->close_timeout_ms. False: some of
+ * it is still there, or there was no session. Only xrce_session_close may follow. */
+bool xrce_session_drain(xrce_client_t * client);
 
 /* Gives the session up and connects again. */
 void xrce_session_lose(xrce_client_t * client, uint32_t now);
@@ -97,7 +102,8 @@ uint16_t xrce_session_next_request(xrce_session_t * session);
 bool xrce_session_take_submessages(
   xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now);
 void xrce_session_step(xrce_client_t * client, uint32_t now);
-void xrce_session_on_status_agent(xrce_client_t * client, const uint8_t * payload, size_t size, uint32_t now);
+void xrce_session_on_status_agent(
+  xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
 #ifdef __cplusplus
 }

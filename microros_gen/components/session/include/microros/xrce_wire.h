@@ -80,6 +80,10 @@ enum {
   XRCE_KIND_REPLIER = 0x08
 };
 
+/* In front of a request that comes (OMG DDS-XRCE 1.0, 7.7.14: SampleIdentity), and of a reply: the number and the object of
+ * the request. */
+enum { XRCE_IDENTITY_SIZE = 24, XRCE_RELATED_SIZE = 4 };
+
 enum { XRCE_OBJECT_AGENT = 0xfffd, XRCE_OBJECT_CLIENT = 0xfffe };
 
 enum { XRCE_QOS_RELIABLE = 0x01, XRCE_QOS_KEEP_LAST = 0x02, XRCE_QOS_TRANSIENT_LOCAL = 0x08 };
@@ -138,6 +142,17 @@ static inline void xrce_put_submessage(uint8_t * at, uint8_t id, uint8_t flags, 
   xrce_put_le16(&at[2], size);
 }
 
+/* Parts of a submessage that is received: it begins at its header, and its size is that of the payload alone. */
+static inline uint8_t xrce_flags_of(const uint8_t * submessage)
+{
+  return submessage[1];
+}
+
+static inline const uint8_t * xrce_payload_of(const uint8_t * submessage)
+{
+  return &submessage[XRCE_SUBMESSAGE_HEADER];
+}
+
 enum { XRCE_GET_INFO_SIZE = 16, XRCE_INFO_ACTIVITY = 2 };
 
 /* Writes a message that asks the agent whether it is there (XRCE_GET_INFO_SIZE bytes). */
@@ -161,6 +176,14 @@ static inline uint16_t xrce_size_between(const uint8_t * begin, const uint8_t * 
 static inline bool xrce_is_due(uint32_t now, uint32_t deadline)
 {
   return now - deadline < 0x80000000u;
+}
+
+/* Returns the sooner of two: in `left` ms, or at `due`. What is overdue was tried in vain just now: it has a millisecond. */
+static inline uint32_t xrce_sooner(uint32_t left, uint32_t due, uint32_t now)
+{
+  const uint32_t until = xrce_is_due(now, due) ? 1u : due - now;
+
+  return until < left ? until : left;
 }
 
 #ifdef __cplusplus

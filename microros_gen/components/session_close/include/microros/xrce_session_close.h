@@ -16,7 +16,8 @@ extern "C" {
  * nothing. What is open stays: xrce_session_close follows. */
 void xrce_session_leave(xrce_client_t * client, uint32_t timeout_ms);
 
-void xrce_session_leave_on_status(xrce_client_t * client, const uint8_t * payload, size_t size);
+void xrce_session_leave_on_status(
+  xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
 #ifdef __cplusplus
 }

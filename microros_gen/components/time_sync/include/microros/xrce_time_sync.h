@@ -36,7 +36,7 @@ void xrce_time_sync_ask(xrce_client_t * client);
  * Takes an answer to any question of those who wait; of several, that with the shortest round trip, since half of it is
  * what the offset may be wrong by. Others are ignored, what is none counts as malformed.
  */
-void xrce_time_sync_on_reply(xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags);
+void xrce_time_sync_on_reply(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Several tasks, and a transport of the application: its read function cannot wait, since it would with the lock. */
+#include "microros/xrce_wait.h"
+
+#include "microros/lock.h"
+#include "microros/xrce_wait_left.h"
+
+void xrce_wait(xrce_client_t * client, uint32_t timeout_ms)
+{
+  uint32_t left;
+
+  microros_lock();
+  left = xrce_wait_left(client, timeout_ms);
+  microros_unlock();
+  port_sleep_ms(left != 0u ? 1u : 0u);
+}

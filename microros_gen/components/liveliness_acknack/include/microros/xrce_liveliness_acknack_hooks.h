@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What the session calls of this component, in the functions that component.yaml names. Internal. */
+#ifndef MICROROS_XRCE_LIVELINESS_ACKNACK_HOOKS_H
+#define MICROROS_XRCE_LIVELINESS_ACKNACK_HOOKS_H
+
+#include "microros/xrce_client.h"
+#include "microros/xrce_wire.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Returns how long the client can be left alone: `left`, or until the session is lost for want of an acknowledgement. */
+static inline uint32_t xrce_liveliness_acknack_left(const xrce_client_t * client, uint32_t left, uint32_t now)
+{
+  if (xrce_stream_reliable_is_idle(&client->reliable)) {
+    return left;
+  }
+  return xrce_sooner(left, xrce_liveliness_acknack_due(&client->liveliness), now);
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_XRCE_LIVELINESS_ACKNACK_HOOKS_H */

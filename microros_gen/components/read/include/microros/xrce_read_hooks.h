@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What the session calls of this component, in the functions that component.yaml names. Internal. */
+#ifndef MICROROS_XRCE_READ_HOOKS_H
+#define MICROROS_XRCE_READ_HOOKS_H
+
+#include "microros/xrce_client.h"
+#include "microros/xrce_wire.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Returns how long the client can be left alone: `left`, or until a READ_DATA is due. */
+static inline uint32_t xrce_read_left(const xrce_client_t * client, uint32_t left, uint32_t now)
+{
+  uint32_t least = left;
+
+  if (client->reading.outstanding) {
+    least = xrce_sooner(least, client->reading.due_ms, now);
+  }
+  for (uint16_t i = 0; i < (uint16_t)XRCE_RECEIVERS; ++i) {
+    if (client->receivers[i].resting) {
+      least = xrce_sooner(least, client->receivers[i].due_ms, now);
+    }
+  }
+  return least;
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_XRCE_READ_HOOKS_H */

@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Service clients. */
+#include "microros/lock.h"
+#include "microros/rmw_client.h"
+#include "microros/rmw_node.h"
+#include "microros/rmw_service.h"
+#include "microros/xrce_client.h"
+#include "microros/xrce_place.h"
+#include "microros/xrce_wire.h"
+
+#include <stddef.h>
+#include <string.h>
+
+static rmw_ret_t requester_open(
+  const rmw_node_t * node, const rosidl_service_type_support_t * type_support, const char * name,
+  const rmw_qos_profile_t * qos, rmw_client_t ** client)
+{
+  static rmw_client_t clients[MICROROS_CLIENTS_MAX]; /* handed out by place */
+  const microros_service_type_t * type = type_support->data;
+  const xrce_service_t opened = {type, type->request};
+  const rmw_section_t section = {
+    XRCE_REQUESTERS_AT - MICROROS_NODES_MAX,
+    MICROROS_CLIENTS_MAX,
+    microros_error_client_undeclared,
+    microros_error_client_open,
+    microros_error_of_pool(microros_error_clients_full, MICROROS_CLIENTS_MAX),
+    type->dds_type_name};
+  xrce_endpoint_t wanted = {
+    .client = node->context->impl, .type = type->response, .participant = rmw_node_index(node)};
+  const rmw_ret_t result = rmw_service_open(&wanted, &opened, &section, node, name, qos);
+
+  if (result == RMW_RET_OK) {
+    xrce_endpoint_t * endpoint = &wanted.client->endpoints[wanted.index];
+
+    if (!xrce_place_took_up(endpoint->client, (uint16_t)(MICROROS_NODES_MAX + endpoint->index))) {
+      xrce_requests_open(endpoint);
+    }
+    *client = &clients[wanted.index - section.first];
+    (*client)->implementation_identifier = rmw_implementation_identifier;
+    (*client)->data = endpoint;
+    (*client)->service_name = endpoint->name;
+  }
+  return result;
+}
+
+rmw_ret_t rmw_requester_open(
+  const rmw_node_t * node, const rosidl_service_type_support_t * type_support, const char * name,
+  const rmw_qos_profile_t * qos, rmw_client_t ** client)
+{
+  rmw_ret_t result;
+
+  microros_lock();
+  result = requester_open(node, type_support, name, qos, client);
+  microros_unlock();
+  return result;
+}
+
+void rmw_requester_close(rmw_client_t * client)
+{
+  rmw_receiver_close(client->data);
+}
+
+bool rmw_requester_is_open(const rmw_client_t * client)
+{
+  return client != NULL && client->data != NULL && rmw_receiver_is_open(client->data);
+}
+
+static bool requester_is_ready(const rmw_client_t * client)
+{
+  return xrce_read_is_ready(client->data) || xrce_requests_of(client->data)->untold != 0u;
+}
+
+bool rmw_requester_is_ready(const rmw_client_t * client)
+{
+  bool result;
+
+  microros_lock();
+  result = requester_is_ready(client);
+  microros_unlock();
+  return result;
+}
+
+void rmw_requester_pump(const rmw_client_t * client)
+{
+  const xrce_endpoint_t * endpoint = client->data;
+
+  microros_lock();
+  xrce_session_pump(endpoint->client);
+  microros_unlock();
+}
+
+/* Finds out which request a reply is for; false: nobody waits for it, or it is none. */
+static bool requester_match(
+  const xrce_endpoint_t * endpoint, const xrce_sample_t * sample, rmw_request_id_t * request)
+{
+  const uint16_t object = xrce_object_id(endpoint->index, XRCE_KIND_REQUESTER);
+
+  if (
+    sample->size < XRCE_RELATED_SIZE || xrce_get_be16(&sample->data[2]) != object ||
+    !xrce_requests_take(endpoint, xrce_get_be16(sample->data), &request->sequence_number)) {
+    return false;
+  }
+  (void)memset(request->writer_guid, 0, sizeof(request->writer_guid));
+  xrce_put_be16(request->writer_guid, object); /* XRCE does not carry the GUID that DDS gave us */
+  return true;
+}
+
+/* Tells once that requests were under way when a session was lost. */
+static bool requester_report(const xrce_endpoint_t * endpoint)
+{
+  xrce_requester_t * requester = xrce_requests_of(endpoint);
+
+  if (requester->untold == 0u) {
+    return rmw_receiver_report(endpoint);
+  }
+  microros_error_set(microros_error_requests_lost, endpoint->name, NULL, requester->untold, 0);
+  requester->untold = 0;
+  return true;
+}
+
+static rmw_ret_t requester_take(
+  const rmw_client_t * client, rmw_service_info_t * info, void * ros_response, bool * taken)
+{
+  const xrce_endpoint_t * endpoint = client->data;
+  xrce_sample_t sample;
+  rmw_ret_t result;
+
+  *taken = false;
+  if (requester_report(endpoint)) {
+    return RMW_RET_ERROR;
+  }
+  while (xrce_read_peek(endpoint, &sample)) {
+    if (requester_match(endpoint, &sample, &info->request_id)) {
+      rmw_service_describe(&sample, info);
+      result = rmw_service_decode(endpoint, &sample, XRCE_RELATED_SIZE, ros_response);
+      *taken = result == RMW_RET_OK;
+      return result;
+    }
+    xrce_read_pop(endpoint, true);
+  }
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_requester_take(
+  const rmw_client_t * client, rmw_service_info_t * info, void * ros_response, bool * taken)
+{
+  rmw_ret_t result;
+
+  microros_lock();
+  result = requester_take(client, info, ros_response, taken);
+  microros_unlock();
+  return result;
+}
+
+static rmw_ret_t requester_send(
+  const rmw_client_t * client, const void * ros_request, int64_t * sequence_number)
+{
+  cdr_fault_t fault; /* filled where the message is refused */
+  xrce_endpoint_t * endpoint = client->data;
+  const uint16_t request = xrce_session_next_request(&endpoint->client->session);
+  const xrce_write_t outcome = xrce_service_write(endpoint, request, NULL, ros_request, &fault);
+
+  if (outcome == XRCE_WRITTEN) {
+    *sequence_number = xrce_requests_add(endpoint, request);
+  }
+  return rmw_service_report(endpoint, outcome, &fault);
+}
+
+rmw_ret_t rmw_requester_send(const rmw_client_t * client, const void * ros_request, int64_t * sequence_number)
+{
+  rmw_ret_t result;
+
+  microros_lock();
+  result = requester_send(client, ros_request, sequence_number);
+  microros_unlock();
+  return result;
+}

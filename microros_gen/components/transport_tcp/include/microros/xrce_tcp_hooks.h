@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What the session calls of this component, in the functions that component.yaml names. Internal. */
+#ifndef MICROROS_XRCE_TCP_HOOKS_H
+#define MICROROS_XRCE_TCP_HOOKS_H
+
+#include "microros/xrce_client.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A connection that broke off ends its session; the next CREATE_CLIENT goes over another one. */
+static inline void xrce_tcp_check(xrce_client_t * client, uint32_t now)
+{
+  xrce_session_t * session = &client->session;
+
+  if (session->transport_open && xrce_transport_is_gone(&session->transport)) {
+    session->transport_open = false;
+    if (session->state == (uint8_t)XRCE_READY) {
+      xrce_session_lose(client, now);
+    }
+  }
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_XRCE_TCP_HOOKS_H */

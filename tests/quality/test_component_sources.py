@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Who refers to whom in the C of components, and how much their templates decide."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from jinja2 import Environment, nodes
+
+from microros_gen.selection.component import Component
+from microros_gen.selection.find_components import components_folder, load_catalogue
+
+ROOT = components_folder()
+CATALOGUE = load_catalogue()
+_INCLUDE = re.compile(r'^\s*#include "([^"]+)"', re.MULTILINE)
+SELECTING_FILTERS = {"select", "selectattr", "reject", "rejectattr", "default", "d"}
+"""Filters that leave something out: a condition in another form."""
+
+
+def templates() -> list[Path]:
+    return sorted(ROOT.rglob("*.j2"))
+
+
+def conditions(text: str) -> int:
+    """Return how many conditions a template has: if, elif, inline if, a loop's if or else, a filter that selects."""
+    tree = Environment(autoescape=True).parse(text)
+    count = len(list(tree.find_all((nodes.If, nodes.CondExpr))))
+    count += sum((loop.test is not None) + bool(loop.else_) for loop in tree.find_all(nodes.For))
+    return count + sum(f.name in SELECTING_FILTERS for f in tree.find_all(nodes.Filter))
+
+
+def test_conditions_are_counted_in_every_form() -> None:
+    text = "{% if a %}{% elif b %}{% endif %}{{ 1 if c }}{% for d in e if f %}{% else %}h{% endfor %}{{ g | select }}"
+    assert conditions(text) == 6
+
+
+def test_templates_decide_little() -> None:
+    """The goal is 100; from 396 it is down to this."""
+    assert sum(conditions(path.read_text(encoding="utf-8")) for path in templates()) <= 168
+
+
+def headers() -> dict[str, set[str]]:
+    """Return which components bring each header; one that stands in for another's does not count."""
+    found: dict[str, set[str]] = {}
+    for component in CATALOGUE.values():
+        replaces = {r.header for r in component.contributes.replaces}
+        folder = ROOT / component.name / "include"
+        paths = [
+            p.relative_to(folder).as_posix().removesuffix(".j2") for p in folder.rglob("*") if p.is_file()
+        ]
+        for header in (*paths, *(variant.header for variant in component.contributes.variants)):
+            if header not in replaces:
+                found.setdefault(header, set()).add(component.name)
+    return found
+
+
+def includes(component: Component) -> Iterator[tuple[str, str]]:
+    """Yield each file of a component with the component whose header it includes; a choice of several has no owner."""
+    owners = headers()
+    for path in sorted((ROOT / component.name).rglob("*")):
+        if path.suffix in (".c", ".h", ".j2", ".S"):
+            for header in _INCLUDE.findall(path.read_text(encoding="utf-8")):
+                owner = owners.get(header, set())
+                if len(owner) == 1 and component.name not in owner:
+                    yield path.name, next(iter(owner))
+
+
+def groups(edges: Iterable[tuple[str, str]]) -> list[set[str]]:
+    """Return the sets of components that include each other, directly or by way of others."""
+    reached: dict[str, set[str]] = {}
+    graph: dict[str, set[str]] = {}
+    for source, target in edges:
+        graph.setdefault(source, set()).add(target)
+    for name in graph:
+        seen: set[str] = set()
+        waiting = [name]
+        while waiting:
+            for target in graph.get(waiting.pop(), ()):
+                if target not in seen:
+                    seen.add(target)
+                    waiting.append(target)
+        reached[name] = seen
+    found: list[set[str]] = []
+    for name, seen in reached.items():
+        group = {other for other in seen if name in reached.get(other, ())}
+        if name in seen and group not in found:
+            found.append(group)
+    return found
+
+
+def test_groups_are_found() -> None:
+    assert groups([("a", "b"), ("b", "c"), ("c", "b"), ("c", "d")]) == [{"b", "c"}]
+
+
+BASE = {"framing", "memory", "rosidl_runtime", "session", "support", "transport_custom"}
+"""What everything stands on; its components include each other."""
+
+
+def test_components_do_not_include_each_other() -> None:
+    edges = {(c.name, owner) for c in CATALOGUE.values() for _, owner in includes(c)}
+    assert [group for group in groups(edges) if not group <= BASE] == []
+
+
+def needed(component: Component) -> set[str]:
+    """Return what a component may include: what it needs, and what they need; what a condition names; the base."""
+    found = set(BASE)
+    waiting = [component.name]
+    while waiting:
+        for need in CATALOGUE[waiting.pop()].needs:
+            if need not in found:
+                found.add(need)
+                waiting.append(need)
+    parts = component.contributes
+    conditional = [*component.sources, *parts.hooks, *parts.handlers, *parts.state, *parts.replaces]
+    names = [path for part in conditional for path, _ in part.when if path.startswith("component.")]
+    return found | {name.partition(".")[2] for name in names}
+
+
+def test_what_is_included_is_needed() -> None:
+    wrong = {
+        f"{c.name}/{file}: {owner}"
+        for c in CATALOGUE.values()
+        for file, owner in includes(c)
+        if owner not in needed(c)
+    }
+    assert wrong == set()
+
+
+def test_calls_go_down() -> None:
+    """rclc_* → rcl_* → rmw_* → xrce_*: a file includes internal headers of its own layer and of those below."""
+    layers = ("rclc", "rcl", "rmw", "xrce")
+    order = {layer: i for i, layer in enumerate(layers)}
+    wrong = []
+    for path in sorted(ROOT.rglob("*")):
+        layer = order.get(path.name.partition("_")[0])
+        if layer is None or path.suffix not in (".c", ".h", ".j2"):
+            continue
+        for header in _INCLUDE.findall(path.read_text(encoding="utf-8")):
+            name = header.removeprefix("microros/")
+            other = order.get(name.partition("_")[0]) if name != header else None
+            if other is not None and other < layer:
+                wrong.append(f"{path.relative_to(ROOT)}: {header}")
+    assert wrong == []
+
+
+def mentions(component: str) -> list[str]:
+    """Return the files of other components and the shared templates that name a component."""
+    word = re.compile(rf"(?:has\(['\"]|component\.|\"){component}\b")
+    folders = (ROOT, ROOT.parent / "templates")
+    paths = [
+        p for folder in folders for p in sorted(folder.rglob("*")) if p.suffix in (".c", ".h", ".j2", ".yaml")
+    ]
+    return [
+        p.relative_to(ROOT.parent).as_posix()
+        for p in paths
+        if p.relative_to(ROOT.parent).parts[1] != component and word.search(p.read_text(encoding="utf-8"))
+    ]
+
+
+MOST_MENTIONS = 9
+
+
+def test_few_places_name_a_component() -> None:
+    named = {name: len(mentions(name)) for name in CATALOGUE}
+    assert {name: count for name, count in named.items() if count > MOST_MENTIONS} == {}
