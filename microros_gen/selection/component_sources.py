@@ -61,7 +61,7 @@ def _replaced(components: Iterable[Component], holds: Holds) -> dict[str, str]:
                 continue
             if header in found:
                 message = f"the components '{found[header]}' and '{component.name}' both replace '{header}'"
-                diagnostics.error(message, None, "Select one of them")
+                diagnostics.error(message, None, "Select one of them", id="MG-4043")
             found[header] = component.name
     diagnostics.check()
     return found

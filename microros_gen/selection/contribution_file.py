@@ -140,11 +140,13 @@ def _hooks(node: MappingNode, diagnostics: Diagnostics) -> Iterator[Hook]:
         point = HOOK_POINTS.get(name)
         if point is None:
             message = f"unknown hook point '{name}'"
-            diagnostics.error(message, entry.key_span, nearest(name, HOOK_POINTS))
+            diagnostics.error(message, entry.key_span, nearest(name, HOOK_POINTS), id="MG-4044")
             continue
         if phase not in point.phases:
             phases = " or ".join(f"{name}/{p}" if p else name for p in point.phases)
-            diagnostics.error(f"'{name}' has no phase '{phase}'", entry.key_span, f"Write {phases}")
+            diagnostics.error(
+                f"unknown phase '{phase}' of '{name}'", entry.key_span, f"Write {phases}", id="MG-4045"
+            )
         call, test = _value(entry, "call"), _text(value, "test")
         for text in (call, test) if test else (call,):
             _check_call(text, point.variables, value, diagnostics)
@@ -154,11 +156,11 @@ def _hooks(node: MappingNode, diagnostics: Diagnostics) -> Iterator[Hook]:
 def _check_call(call: str, variables: tuple[str, ...], node: YamlNode, diagnostics: Diagnostics) -> None:
     example = f"Write a call such as `xrce_x_step({', '.join(variables)})`"
     if not _CALL.fullmatch(call):
-        diagnostics.error(f"'{call}' is no call of a C function", node.span, example)
+        diagnostics.error(f"'{call}' is not a call of a C function", node.span, example, id="MG-4046")
         return
     for word in _WORD.findall(call.removeprefix("(void)").partition("(")[2]):
         if word not in variables:
-            diagnostics.error(f"the hook has no variable '{word}'", node.span, example)
+            diagnostics.error(f"unknown variable '{word}' of the hook", node.span, example, id="MG-4047")
 
 
 def _output(entry: Entry) -> Output:

@@ -113,8 +113,9 @@ def needed(component: Component) -> set[str]:
                 found.add(need)
                 waiting.append(need)
     parts = component.contributes
-    conditional = [*component.sources, *parts.hooks, *parts.handlers, *parts.state, *parts.replaces]
-    names = [path for part in conditional for path, _ in part.when if path.startswith("component.")]
+    conditions = [part.when for part in (*parts.hooks, *parts.handlers, *parts.state, *parts.replaces)]
+    conditions += [source.when for source in component.sources]
+    names = [path for when in conditions for path, _ in when if path.startswith("component.")]
     return found | {name.partition(".")[2] for name in names}
 
 

@@ -77,9 +77,17 @@ def test_contributions_are_read(tmp_path: Path) -> None:
     ("before", "after", "told"),
     [
         ("step/receive", "stop/receive", "x/component.yaml:9:3: error: unknown hook point 'stop'"),
-        ("step/receive", "step/recieve", "x/component.yaml:9:3: error: 'step' has no phase 'recieve'"),
-        ("(client, now)", "(client, then)", "x/component.yaml:9:17: error: the hook has no variable 'then'"),
-        ("xrce_x_step(client, now)", "xrce_x_step", "x/component.yaml:9:17: error: 'xrce_x_step' is no call"),
+        ("step/receive", "step/recieve", "x/component.yaml:9:3: error: unknown phase 'recieve' of 'step'"),
+        (
+            "(client, now)",
+            "(client, then)",
+            "x/component.yaml:9:17: error: unknown variable 'then' of the hook",
+        ),
+        (
+            "xrce_x_step(client, now)",
+            "xrce_x_step",
+            "x/component.yaml:9:17: error: 'xrce_x_step' is not a call",
+        ),
     ],
 )
 def test_a_faulty_hook_is_refused(before: str, after: str, told: str, tmp_path: Path) -> None:
@@ -104,8 +112,8 @@ def test_the_schema_refuses_the_same(before: str, after: str) -> None:
 
 
 def test_every_component_fits_the_schema(real_catalogue: Catalogue) -> None:
-    for name in real_catalogue:
-        text = (components_folder() / name / "component.yaml").read_text(encoding="utf-8")
+    for name, component in real_catalogue.items():
+        text = (component.folder / "component.yaml").read_text(encoding="utf-8")
         assert schema_words(name, text) == []
 
 

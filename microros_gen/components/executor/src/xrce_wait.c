@@ -8,6 +8,5 @@ void xrce_wait(xrce_client_t * client, uint32_t timeout_ms)
 {
   const uint32_t left = xrce_wait_left(client, timeout_ms);
 
-  port_wait(
-    client->session.transport_open ? xrce_transport_handle(&client->session.transport) : -1, left);
+  port_wait(client->session.transport_open ? xrce_transport_handle(&client->session.transport) : -1, left);
 }

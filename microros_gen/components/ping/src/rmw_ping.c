@@ -15,7 +15,8 @@
 static rmw_ret_t ping_silent(const xrce_transport_t * transport, uint32_t waited_ms)
 {
   microros_error_set(
-    microros_error_agent_silent, xrce_transport_name(transport), NULL, xrce_transport_port(transport), waited_ms);
+    microros_error_agent_silent, xrce_transport_name(transport), NULL, xrce_transport_port(transport),
+    waited_ms);
   return RMW_RET_ERROR;
 }
 
@@ -63,12 +64,12 @@ static rmw_ret_t ping_place(
     xrce_transport_is_same_line(&transport, &client->session.transport)) {
     return ping_session(client, timeout_ms, attempts);
   }
-  return rmw_inquiry_ask(&transport, timeout_ms, attempts)
-           ? RMW_RET_OK
-           : ping_silent(&transport, timeout_ms * attempts);
+  return rmw_inquiry_ask(&transport, timeout_ms, attempts) ? RMW_RET_OK
+                                                           : ping_silent(&transport, timeout_ms * attempts);
 }
 
-static rmw_ret_t ping_agent(const rmw_uxrce_transport_params_t * params, uint32_t timeout_ms, uint8_t attempts)
+static rmw_ret_t ping_agent(
+  const rmw_uxrce_transport_params_t * params, uint32_t timeout_ms, uint8_t attempts)
 {
   if (rmw_ping_searches(params)) {
     return rmw_ping_search(params, timeout_ms * attempts);

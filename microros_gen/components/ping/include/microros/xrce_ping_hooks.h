@@ -14,7 +14,9 @@ extern "C" {
 static inline uint32_t xrce_ping_left(const xrce_client_t * client, uint32_t left, uint32_t now)
 {
   return xrce_sooner(
-    left, client->ping.unanswered != 0u ? client->ping.due_ms : client->session.heard_ms + MICROROS_LIVELINESS_PERIOD_MS,
+    left,
+    client->ping.unanswered != 0u ? client->ping.due_ms
+                                  : client->session.heard_ms + MICROROS_LIVELINESS_PERIOD_MS,
     now);
 }
 
