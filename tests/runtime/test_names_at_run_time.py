@@ -21,6 +21,7 @@ pytestmark = pytest.mark.ros
 PROBE = """\
 #include <stdlib.h>
 #include "microros/rcl_names.h"
+#include "microros/rcl_names_take.h"
 #include "microros/rmw_names.h"
 #include "rcl/expand_topic_name.h"
 #include "rcl/validate_topic_name.h"
