@@ -65,13 +65,19 @@ def declared_functions(catalogue: Catalogue) -> Mapping[str, str]:
     found: dict[str, str] = {}
     for component in catalogue.values():
         folder = component.folder / "include"
-        for header in component.headers if component.ready else ():
+        for header in _public_headers(component) if component.ready else ():
             path = folder / header
             path = path if path.exists() else path.with_name(f"{path.name}.j2")
             if path.exists():
                 for name in _FUNCTION.findall(_COMMENT.sub("", read_text(path))):
                     found.setdefault(name, component.name)
     return MappingProxyType(found)
+
+
+def _public_headers(component: Component) -> tuple[str, ...]:
+    """Return the headers that applications include, and those that such a header includes for this component."""
+    included = component.contributes.includes
+    return (*component.headers, *(i.header for i in included if not i.into.startswith("microros/")))
 
 
 def _read(path: Path, root: Path, diagnostics: Diagnostics, prefix: str = "") -> Component | None:
