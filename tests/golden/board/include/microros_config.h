@@ -17,10 +17,10 @@
 
 /* transport */
 #define RMW_UXRCE_TRANSPORT_SERIAL
+#define MICROROS_FRAMING_CHUNK 8u /* what is read of the line at a time */
 #define MICROROS_SERIAL_DEVICE ""
 #define MICROROS_SERIAL_BAUD 115200u
 #define MICROROS_SEND_BUFFER 124u
-#define MICROROS_FRAMING_CHUNK 8u /* what is read of the line at a time */
 #define MICROROS_MTU 71u
 
 /* session */

@@ -17,10 +17,10 @@
 
 /* transport */
 #define RMW_UXRCE_TRANSPORT_SERIAL
+#define MICROROS_FRAMING_CHUNK 32u /* what is read of the line at a time */
 #define MICROROS_SERIAL_DEVICE "/dev/ttyACM0"
 #define MICROROS_SERIAL_BAUD 115200u
 #define MICROROS_SEND_BUFFER 124u
-#define MICROROS_FRAMING_CHUNK 32u /* what is read of the line at a time */
 #define MICROROS_MTU 71u
 
 /* session */
@@ -33,6 +33,7 @@
 #define MICROROS_LIVELINESS_PERIOD_MS 1000u
 #define MICROROS_LIVELINESS_WAIT_MS 1000u /* for each answer */
 #define MICROROS_LIVELINESS_ATTEMPTS 3u
+#define MICROROS_CLIENT_KEY_OF_DEVICE 1u /* 1: a key of 0 is the one that it had */
 
 /* streams */
 #define MICROROS_INPUT_SIZE 64u

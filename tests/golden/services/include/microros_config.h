@@ -52,12 +52,12 @@
 #define MICROROS_SUBSCRIPTIONS_MAX 0u
 #define MICROROS_SERVICES_MAX 1u
 #define MICROROS_CLIENTS_MAX 1u
-#define MICROROS_REQUESTS_MAX 2u /* under way, of all clients */
 #define MICROROS_TASKS_SHARE 0u /* several tasks may call the library */
 #define MICROROS_EXECUTORS_MAX 1u
 #define MICROROS_HANDLES_MAX 2u /* of each executor */
 #define MICROROS_GUARD_CONDITIONS_MAX 0u
 #define MICROROS_WAIT_SETS_MAX 1u
+#define MICROROS_REQUESTS_MAX 2u /* under way, of all clients */
 
 /* memory */
 #define MICROROS_ARENA_SIZE 0u

@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A client: the parts that are selected, side by side, with the storage that the plan gives them. One session with one
- * agent; the only state of the library besides the nodes and publishers that were handed out.
+ * A client: the state that the selected components declare, side by side, with the storage that the plan gives them. One
+ * session with one agent; the only state of the library besides the nodes and publishers that were handed out.
  */
 #ifndef MICROROS_XRCE_CLIENT_H
 #define MICROROS_XRCE_CLIENT_H
 
 #include "microros/xrce_creation.h"
-#include "microros/xrce_objects.h"
 #include "microros/xrce_ping.h"
-#include "microros/xrce_session.h"
-#include "microros/xrce_session_close.h"
 #include "microros/xrce_stream_best_effort.h"
 #include "microros/xrce_stream_reliable.h"
+#include "microros/xrce_objects.h"
+#include "microros/xrce_session.h"
 #include "microros_config.h"
 
 #include <stdint.h>
@@ -28,7 +27,7 @@ struct xrce_client_t {
   xrce_object_state_t states[XRCE_PLACES];
   xrce_participant_t participants[MICROROS_NODES_MAX];
   xrce_endpoint_t endpoints[XRCE_ENDPOINTS];
-  uint8_t input[MICROROS_INPUT_BUFFER_SIZE]; /* last: nothing of it outlives a pump */
+  uint8_t input[MICROROS_INPUT_BUFFER_SIZE]; /* last: nothing of it outlives a pump, but for a sample that lies at its end */
 };
 
 #endif /* MICROROS_XRCE_CLIENT_H */

@@ -11,6 +11,7 @@
 
 #include "microros/message_type.h"
 #include "microros/xrce_forward.h"
+#include "microros/xrce_object_state.h"
 #include "microros_config.h"
 
 /*
@@ -34,13 +35,6 @@ enum {
 /* Levels of a participant, of a writer or reader with its topic, and of a replier or requester. */
 enum { XRCE_PARTICIPANT_COMPLETE = 1, XRCE_ENDPOINT_COMPLETE = 3, XRCE_SERVICE_COMPLETE = 1 };
 
-/* `level` counts the objects that exist at the agent, in the order of their creation. */
-typedef struct xrce_object_state_t {
-  uint8_t level;
-  bool wanted; /* the application has it open */
-  bool stale;  /* what is at the agent belongs to a former owner of this place: delete it first */
-} xrce_object_state_t;
-
 /* A node's participant. The strings live as long as the place is taken. */
 typedef struct xrce_participant_t {
   const char * name;
@@ -59,12 +53,6 @@ typedef struct xrce_endpoint_t {
   uint16_t participant; /* its node's place */
   uint8_t qos;          /* XRCE_QOS_ */
 } xrce_endpoint_t;
-
-/* Whether the application can open a place. */
-static inline bool xrce_place_is_free(const xrce_object_state_t * state)
-{
-  return !state->wanted;
-}
 
 /* Whether a place is a participant's, a data reader's, or one of a service. */
 static inline bool xrce_place_is_participant(uint16_t place)

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Times and clocks: types and macros. The functions of clocks come with the component `clock`. */
+/*
+ * Times and clocks. Times are nanoseconds; a clock is the user's and must stay where it is while timers and callbacks use
+ * it. The functions of clocks come with the component `clock`.
+ */
 #ifndef MICROROS_RCL_TIME_H
 #define MICROROS_RCL_TIME_H
 

@@ -2,7 +2,7 @@
 #include "rcl/node.h"
 
 #include "microros/error.h"
-#include "microros/rcl_names.h"
+#include "microros/rcl_names_given.h"
 #include "microros/rcl_node_open.h"
 #include "microros/rmw_node.h"
 #include "microros/xrce_client.h"
@@ -18,13 +18,13 @@ rcl_node_t rcl_get_zero_initialized_node(void)
 
 static rcl_ret_t node_check_names(const char * name, const char * namespace_)
 {
-  const char * fault = rcl_names_check_node(name);
+  const char * fault = rcl_names_given_node(name);
 
   if (fault != NULL) {
     microros_error_set(microros_error_name, name, fault, 0, 0);
     return RCL_RET_NODE_INVALID_NAME;
   }
-  fault = rcl_names_check_namespace(namespace_);
+  fault = rcl_names_given_namespace(namespace_);
   if (fault != NULL) {
     microros_error_set(microros_error_name, namespace_, fault, 0, 0);
     return RCL_RET_NODE_INVALID_NAMESPACE;

@@ -1,34 +1,37 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* What each component of this selection contributes to the session: component.yaml names it. */
 #include "microros/xrce_routes.h"
 
 #include "microros/xrce_client.h"
+#include "microros/xrce_entities_hooks.h"
+#include "microros/xrce_ping_hooks.h"
+#include "microros/xrce_session_close.h"
+#include "microros/xrce_stream_reliable_hooks.h"
 #include "microros/xrce_wire.h"
 
 bool xrce_route_message(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
 {
-  return xrce_session_take_submessages(client, message, size, now);
+  if (!xrce_session_take_submessages(client, message, size, now)) {
+    return false;
+  }
+  return true;
 }
 
-void xrce_route_submessage(
-  xrce_client_t * client, uint8_t id, uint8_t flags, const uint8_t * payload, size_t size, bool in_session,
-  uint32_t now)
+void xrce_route_submessage(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {
-  (void)flags;
-  switch (id) {
+  switch (submessage[0]) {
     case XRCE_STATUS_AGENT:
-      xrce_session_on_status_agent(client, payload, size, now);
+      xrce_session_on_status_agent(client, submessage, size, now);
       break;
     case XRCE_STATUS:
-      xrce_session_leave_on_status(client, payload, size);
-      xrce_entities_on_status(client, payload, size, now);
+      xrce_session_leave_on_status(client, submessage, size, now);
+      xrce_entities_on_status(client, submessage, size, now);
       break;
     case XRCE_INFO:
-      xrce_ping_on_info(client, payload, size, in_session, now);
+      xrce_ping_on_info(client, submessage, size, now);
       break;
     case XRCE_ACKNACK:
-      if (!xrce_stream_reliable_on_acknack(&client->reliable, &client->session, payload, size, flags, now)) {
-        ++client->session.statistics.malformed;
-      }
+      xrce_stream_reliable_take_acknack(client, submessage, size, now);
       break;
     default:
       break;
@@ -53,7 +56,7 @@ void xrce_route_connected(xrce_client_t * client, uint32_t now)
 
 void xrce_route_close(xrce_client_t * client)
 {
-  xrce_session_leave(client, client->close_timeout_ms); /* whose answer comes behind all that was sent */
+  xrce_session_leave(client, client->close_timeout_ms);
   xrce_session_close(client);
 }
 
@@ -65,11 +68,8 @@ uint8_t * xrce_route_reserve(xrce_client_t * client, bool reliable)
 
 bool xrce_route_commit(xrce_client_t * client, bool reliable, size_t size)
 {
-  if (reliable) {
-    xrce_stream_reliable_commit(&client->reliable, &client->session, size, client->session.now_ms);
-    return true;
-  }
-  return xrce_stream_best_effort_commit(&client->best_effort, &client->session, size);
+  return reliable ? xrce_stream_reliable_put(client, size)
+                  : xrce_stream_best_effort_commit(&client->best_effort, &client->session, size);
 }
 
 size_t xrce_route_capacity(bool reliable)

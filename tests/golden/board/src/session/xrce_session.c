@@ -9,7 +9,11 @@
 
 #include <string.h>
 
-enum { CREATE_CLIENT_SIZE = 24 };
+/* Whether there are properties of the client (0: none), and what they are: names and values, strings of which each begins
+ * at a multiple of four of the message. */
+static const uint8_t properties[] = {0};
+
+enum { PROPERTIES_AT = 21, CREATE_CLIENT_SIZE = PROPERTIES_AT + sizeof(properties) + 2 };
 
 /* One pump takes no more datagrams than this: who floods us must not stop us. */
 enum { DATAGRAMS_PER_PUMP = 32 };
@@ -65,8 +69,8 @@ static void session_send_create_client(xrce_session_t * session)
   xrce_put_be16(&message[16], (uint16_t)(session->key >> 16));
   xrce_put_be16(&message[18], (uint16_t)(session->key & 0xffffu));
   message[20] = XRCE_SESSION_ID;
-  message[21] = 0; /* no properties */
-  xrce_put_le16(&message[22], MICROROS_INPUT_SIZE);
+  (void)memcpy(&message[PROPERTIES_AT], properties, sizeof(properties));
+  xrce_put_le16(&message[PROPERTIES_AT + sizeof(properties)], MICROROS_INPUT_SIZE);
   (void)xrce_session_send(session, message, sizeof(message)); /* a loss is what the retry is for */
 }
 
@@ -102,8 +106,10 @@ void xrce_session_lose(xrce_client_t * client, uint32_t now)
   session->due_ms = now;
 }
 
-void xrce_session_on_status_agent(xrce_client_t * client, const uint8_t * payload, size_t size, uint32_t now)
+void xrce_session_on_status_agent(
+  xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {
+  const uint8_t * payload = xrce_payload_of(submessage);
   xrce_session_t * session = &client->session;
 
   if (size < 2u) {
@@ -129,9 +135,9 @@ void xrce_session_on_status_agent(xrce_client_t * client, const uint8_t * payloa
 
 bool xrce_session_take_submessages(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
 {
-  const bool in_session = message[0] == XRCE_SESSION_ID;
   size_t at = XRCE_MESSAGE_HEADER;
 
+  client->session.in_session = message[0] == XRCE_SESSION_ID;
   while (at < size) {
     size_t length;
 
@@ -142,8 +148,7 @@ bool xrce_session_take_submessages(xrce_client_t * client, const uint8_t * messa
     if (length > size - at - XRCE_SUBMESSAGE_HEADER) {
       return false;
     }
-    xrce_route_submessage(
-      client, message[at], message[at + 1u], &message[at + XRCE_SUBMESSAGE_HEADER], length, in_session, now);
+    xrce_route_submessage(client, &message[at], length, now);
     at = (at + XRCE_SUBMESSAGE_HEADER + length + 3u) & ~(size_t)3u;
   }
   return true;

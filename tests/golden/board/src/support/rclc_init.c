@@ -9,12 +9,14 @@
 
 static rcl_ret_t support_prepare(rclc_support_t * support, rcl_allocator_t * allocator)
 {
+  rcl_ret_t result = RCL_RET_OK;
+
   if (support == NULL || allocator == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "support or allocator");
   }
   (void)memset(support, 0, sizeof(*support));
   support->allocator = allocator;
-  return RCL_RET_OK;
+  return result;
 }
 
 rcl_ret_t rclc_support_init_with_options(

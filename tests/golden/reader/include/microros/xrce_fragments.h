@@ -31,8 +31,7 @@ typedef struct xrce_fragments_t {
 void xrce_fragments_reset(xrce_fragments_t * fragments);
 
 /* Takes the payload of a FRAGMENT, whose message has just had its turn; hands on what it completes. */
-void xrce_fragments_on_piece(
-  xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags, uint32_t now);
+void xrce_fragments_on_piece(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
 #ifdef __cplusplus
 }

@@ -21,6 +21,7 @@
 #include <stdint.h>
 
 #include "microros/xrce_objects.h"
+#include "microros/xrce_forward.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -122,11 +123,10 @@ xrce_read_counters_t xrce_read_counters(const xrce_endpoint_t * endpoint);
 
 void xrce_read_renew(xrce_client_t * client);
 void xrce_read_step(xrce_client_t * client, uint32_t now);
-void xrce_read_on_data(
-  xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags, uint32_t now);
-void xrce_read_on_status(xrce_client_t * client, const uint8_t * payload, size_t size, uint32_t now);
+void xrce_read_on_data(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
+void xrce_read_on_status(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
-void xrce_read_on_acknack(xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags);
+void xrce_read_on_acknack(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
 /* A sample that comes in fragments is larger than what can be kept of it: its reader is told. */
 void xrce_read_refuse(xrce_client_t * client, uint16_t request, uint16_t object, uint16_t size);

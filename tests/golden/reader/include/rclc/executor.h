@@ -88,24 +88,6 @@ rcl_ret_t rclc_executor_set_semantics(rclc_executor_t * executor, rclc_executor_
 /* RCL_RET_OK for an executor that is not initialized, too. */
 rcl_ret_t rclc_executor_fini(rclc_executor_t * executor);
 
-/*
- * `msg` is the user's and decoded into; if none of its strings and sequences has a buffer, they get the storage of the
- * subscription's declaration. The callback has it until it returns. RCL_RET_INVALID_ARGUMENT for NULL, RCL_RET_ERROR when
- * all handles are in use.
- */
-rcl_ret_t rclc_executor_add_subscription(
-  rclc_executor_t * executor, rcl_subscription_t * subscription, void * msg,
-  rclc_subscription_callback_t callback, rclc_executor_handle_invocation_t invocation);
-
-/* `context` goes to the callback and may be NULL. */
-rcl_ret_t rclc_executor_add_subscription_with_context(
-  rclc_executor_t * executor, rcl_subscription_t * subscription, void * msg,
-  rclc_subscription_callback_with_context_t callback, void * context,
-  rclc_executor_handle_invocation_t invocation);
-
-rcl_ret_t rclc_executor_remove_subscription(
-  rclc_executor_t * executor, const rcl_subscription_t * subscription);
-
 rcl_ret_t rclc_executor_add_guard_condition(
   rclc_executor_t * executor, rcl_guard_condition_t * gc, rclc_gc_callback_t callback);
 
@@ -151,5 +133,7 @@ bool rclc_executor_trigger_one(rclc_executor_handle_t * handles, unsigned int si
 #ifdef __cplusplus
 }
 #endif
+
+#include "microros/executor_subscription.h"
 
 #endif /* MICROROS_RCLC_EXECUTOR_H */

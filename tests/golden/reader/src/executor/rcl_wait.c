@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
 #include "microros/rcl_guard_condition.h"
+#include "microros/rmw_subscription.h"
 #include "microros/rcl_wait_set.h"
 #include "microros/rcl_waiting.h"
-#include "microros/rmw_subscription.h"
 
 /* What is waited for; `settle`: what is not ready shall be NULL. */
 typedef struct wait_look_t {
@@ -43,11 +43,13 @@ static void look_at_guard_conditions(const rcl_wait_set_t * wait_set, wait_look_
 
 static rcl_ret_t wait_look(const rcl_wait_set_t * wait_set, wait_look_t * look)
 {
+  rcl_ret_t result = RCL_RET_OK;
+
   look->any = false;
   look->look_again_ns = INT64_MAX;
   look_at_subscriptions(wait_set, look);
   look_at_guard_conditions(wait_set, look);
-  return RCL_RET_OK;
+  return result;
 }
 
 rcl_ret_t rcl_wait(rcl_wait_set_t * wait_set, int64_t timeout)

@@ -4,6 +4,7 @@
 #include "microros/lock.h"
 #include "microros/rmw_node.h"
 #include "microros/xrce_client.h"
+#include "microros/xrce_place.h"
 #include "microros/xrce_read.h"
 
 #include <stddef.h>
@@ -18,7 +19,9 @@ rmw_ret_t rmw_receiver_start(const xrce_endpoint_t * wanted)
   xrce_endpoint_t * place = &wanted->client->endpoints[wanted->index];
 
   *place = *wanted;
-  xrce_read_open(place);
+  if (!xrce_place_is_kept(place->client, receiver_place(place))) {
+    xrce_read_open(place);
+  }
   return rmw_place_open(place->client, receiver_place(place), place->name);
 }
 

@@ -1,22 +1,21 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A client: the parts that are selected, side by side, with the storage that the plan gives them. One session with one
- * agent; the only state of the library besides the nodes and publishers that were handed out.
+ * A client: the state that the selected components declare, side by side, with the storage that the plan gives them. One
+ * session with one agent; the only state of the library besides the nodes and publishers that were handed out.
  */
 #ifndef MICROROS_XRCE_CLIENT_H
 #define MICROROS_XRCE_CLIENT_H
 
 #include "microros/xrce_creation.h"
 #include "microros/xrce_fragments.h"
-#include "microros/xrce_objects.h"
 #include "microros/xrce_ping.h"
 #include "microros/xrce_read.h"
-#include "microros/xrce_session.h"
-#include "microros/xrce_session_close.h"
 #include "microros/xrce_stream_best_effort.h"
 #include "microros/xrce_stream_best_effort_input.h"
 #include "microros/xrce_stream_reliable.h"
 #include "microros/xrce_stream_reliable_input.h"
+#include "microros/xrce_objects.h"
+#include "microros/xrce_session.h"
 #include "microros_config.h"
 
 #include <stdint.h>
@@ -25,9 +24,9 @@ struct xrce_client_t {
   xrce_session_t session;
   xrce_stream_best_effort_t best_effort;
   xrce_stream_reliable_t reliable;
+  xrce_stream_best_effort_input_t best_effort_input;
   xrce_stream_reliable_input_t reliable_input;
   xrce_fragments_t fragments;
-  xrce_stream_best_effort_input_t best_effort_input;
   xrce_entities_t entities;
   xrce_ping_t ping;
   uint32_t create_timeout_ms;
@@ -39,7 +38,7 @@ struct xrce_client_t {
   xrce_receiver_t receivers[XRCE_RECEIVERS];
   xrce_slot_t slots[MICROROS_QUEUE_SLOTS];
   uint8_t queues[MICROROS_QUEUES_SIZE];
-  uint8_t input[MICROROS_INPUT_BUFFER_SIZE]; /* last: nothing of it outlives a pump */
+  uint8_t input[MICROROS_INPUT_BUFFER_SIZE]; /* last: nothing of it outlives a pump, but for a sample that lies at its end */
 };
 
 #endif /* MICROROS_XRCE_CLIENT_H */

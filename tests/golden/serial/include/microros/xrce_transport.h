@@ -36,6 +36,12 @@ static inline uint16_t xrce_transport_port(const xrce_transport_t * transport)
   return 0;
 }
 
+/* Returns what port_wait waits for. */
+static inline intptr_t xrce_transport_handle(const xrce_transport_t * transport)
+{
+  return transport->serial.handle;
+}
+
 /* Whether two transports share one line. */
 static inline bool xrce_transport_is_same_line(const xrce_transport_t * a, const xrce_transport_t * b)
 {

@@ -5,6 +5,7 @@
 #include "microros/text.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_routes.h"
+#include "microros/xrce_ping_hooks.h"
 #include "microros/xrce_wire.h"
 
 uint32_t xrce_sleep_check(uint32_t before, const uint8_t * bytes, size_t size)
@@ -100,9 +101,7 @@ void xrce_sleep_resume(xrce_client_t * client)
   const uint32_t now = port_time_ms();
 
   sleep_shift(client, now - session->now_ms);
-  session->heard_ms = now - MICROROS_LIVELINESS_PERIOD_MS; /* the agent is asked in the first pump */
-  client->ping.unanswered = 0;
-  client->ping.due_ms = now;
+  xrce_ping_wake(client, now);
   session->state = (uint8_t)XRCE_READY;
   session->transport_open = xrce_sleep_open(&session->transport, client->sleep.local);
   if (!session->transport_open) {

@@ -88,33 +88,6 @@ rcl_ret_t rclc_executor_set_semantics(rclc_executor_t * executor, rclc_executor_
 /* RCL_RET_OK for an executor that is not initialized, too. */
 rcl_ret_t rclc_executor_fini(rclc_executor_t * executor);
 
-/* The callback gets each reply in `response_msg`, as a subscription its message. */
-rcl_ret_t rclc_executor_add_client(
-  rclc_executor_t * executor, rcl_client_t * client, void * response_msg, rclc_client_callback_t callback);
-
-rcl_ret_t rclc_executor_add_client_with_request_id(
-  rclc_executor_t * executor, rcl_client_t * client, void * response_msg,
-  rclc_client_callback_with_request_id_t callback);
-
-rcl_ret_t rclc_executor_remove_client(rclc_executor_t * executor, const rcl_client_t * client);
-
-/* The callback fills `response_msg`, which is sent when it returns, also where it removed the service. A request waits until
- * the reliable stream has room for its reply, which is kept back while the callback runs: what it publishes never takes
- * the last slot. */
-rcl_ret_t rclc_executor_add_service(
-  rclc_executor_t * executor, rcl_service_t * service, void * request_msg, void * response_msg,
-  rclc_service_callback_t callback);
-
-rcl_ret_t rclc_executor_add_service_with_request_id(
-  rclc_executor_t * executor, rcl_service_t * service, void * request_msg, void * response_msg,
-  rclc_service_callback_with_request_id_t callback);
-
-rcl_ret_t rclc_executor_add_service_with_context(
-  rclc_executor_t * executor, rcl_service_t * service, void * request_msg, void * response_msg,
-  rclc_service_callback_with_context_t callback, void * context);
-
-rcl_ret_t rclc_executor_remove_service(rclc_executor_t * executor, const rcl_service_t * service);
-
 rcl_ret_t rclc_executor_add_guard_condition(
   rclc_executor_t * executor, rcl_guard_condition_t * gc, rclc_gc_callback_t callback);
 
@@ -160,5 +133,9 @@ bool rclc_executor_trigger_one(rclc_executor_handle_t * handles, unsigned int si
 #ifdef __cplusplus
 }
 #endif
+
+#include "microros/executor_client.h"
+
+#include "microros/executor_service.h"
 
 #endif /* MICROROS_RCLC_EXECUTOR_H */

@@ -1,12 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* What each component of this selection contributes to the session: component.yaml names it. */
 #include "microros/xrce_routes.h"
 
 #include "microros/xrce_client.h"
+#include "microros/xrce_entities_hooks.h"
+#include "microros/xrce_ping_hooks.h"
+#include "microros/xrce_read_hooks.h"
+#include "microros/xrce_services_hooks.h"
+#include "microros/xrce_session_close.h"
+#include "microros/xrce_stream_reliable_hooks.h"
+#include "microros/xrce_stream_reliable_input_hooks.h"
 #include "microros/xrce_wire.h"
 
 bool xrce_route_message(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
 {
-  if (message[1] >= XRCE_STREAM_RELIABLE && message[0] == XRCE_SESSION_ID) {
+  if (xrce_stream_reliable_input_owns(message)) {
     return xrce_stream_reliable_input_take(client, message, size, now);
   }
   if (!xrce_session_take_submessages(client, message, size, now)) {
@@ -16,39 +24,32 @@ bool xrce_route_message(xrce_client_t * client, const uint8_t * message, size_t 
   return true;
 }
 
-void xrce_route_submessage(
-  xrce_client_t * client, uint8_t id, uint8_t flags, const uint8_t * payload, size_t size, bool in_session,
-  uint32_t now)
+void xrce_route_submessage(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {
-  (void)flags;
-  switch (id) {
+  switch (submessage[0]) {
     case XRCE_STATUS_AGENT:
-      xrce_session_on_status_agent(client, payload, size, now);
+      xrce_session_on_status_agent(client, submessage, size, now);
       break;
     case XRCE_STATUS:
-      xrce_session_leave_on_status(client, payload, size);
-      xrce_entities_on_status(client, payload, size, now);
-      xrce_read_on_status(client, payload, size, now);
-      break;
-    case XRCE_DATA:
-      xrce_read_on_data(client, payload, size, flags, now);
+      xrce_session_leave_on_status(client, submessage, size, now);
+      xrce_entities_on_status(client, submessage, size, now);
+      xrce_read_on_status(client, submessage, size, now);
       break;
     case XRCE_INFO:
-      xrce_ping_on_info(client, payload, size, in_session, now);
+      xrce_ping_on_info(client, submessage, size, now);
+      break;
+    case XRCE_DATA:
+      xrce_read_on_data(client, submessage, size, now);
       break;
     case XRCE_ACKNACK:
-      xrce_read_on_acknack(client, payload, size, flags);
-      if (!xrce_stream_reliable_on_acknack(&client->reliable, &client->session, payload, size, flags, now)) {
-        ++client->session.statistics.malformed;
-      }
+      xrce_stream_reliable_take_acknack(client, submessage, size, now);
+      xrce_read_on_acknack(client, submessage, size, now);
       break;
     case XRCE_HEARTBEAT:
-      if (!xrce_stream_reliable_input_on_heartbeat(client, payload, size, flags)) {
-        ++client->session.statistics.malformed;
-      }
+      xrce_stream_reliable_input_take_heartbeat(client, submessage, size, now);
       break;
     case XRCE_FRAGMENT:
-      xrce_fragments_on_piece(client, payload, size, flags, now);
+      xrce_fragments_on_piece(client, submessage, size, now);
       break;
     default:
       break;
@@ -70,21 +71,21 @@ void xrce_route_connected(xrce_client_t * client, uint32_t now)
   xrce_stream_reliable_hold(&client->reliable, now);
   xrce_stream_reliable_input_reset(&client->reliable_input);
   xrce_fragments_reset(&client->fragments);
+  xrce_entities_renew(client);
   xrce_read_renew(client);
   xrce_requests_renew(client);
-  xrce_entities_renew(client);
   xrce_ping_reset(&client->ping);
 }
 
 void xrce_route_close(xrce_client_t * client)
 {
-  xrce_session_leave(client, client->close_timeout_ms); /* whose answer comes behind all that was sent */
+  xrce_session_leave(client, client->close_timeout_ms);
   xrce_session_close(client);
 }
 
 uint8_t * xrce_route_reserve(xrce_client_t * client, bool reliable)
 {
-  if (reliable && (uint32_t)client->reliable.count + client->owed >= MICROROS_RELIABLE_SLOTS) {
+  if (xrce_services_keep_back(client, reliable)) {
     return NULL;
   }
   return reliable ? xrce_stream_reliable_reserve(&client->reliable, &client->session)
@@ -93,11 +94,8 @@ uint8_t * xrce_route_reserve(xrce_client_t * client, bool reliable)
 
 bool xrce_route_commit(xrce_client_t * client, bool reliable, size_t size)
 {
-  if (reliable) {
-    xrce_stream_reliable_commit(&client->reliable, &client->session, size, client->session.now_ms);
-    return true;
-  }
-  return xrce_stream_best_effort_commit(&client->best_effort, &client->session, size);
+  return reliable ? xrce_stream_reliable_put(client, size)
+                  : xrce_stream_best_effort_commit(&client->best_effort, &client->session, size);
 }
 
 size_t xrce_route_capacity(bool reliable)

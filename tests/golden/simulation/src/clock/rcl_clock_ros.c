@@ -2,8 +2,8 @@
 /* ROS time: the system's, until somebody takes it over. */
 #include "microros/error.h"
 #include "microros/rcl_clock.h"
+#include "microros/rcl_clock_follow.h"
 #include "microros/time_math.h"
-#include "microros/rcl_clock_source.h"
 #include "microros/rcl_timer.h"
 #include "microros_config.h"
 
@@ -23,7 +23,7 @@ static rcl_time_point_value_t ros_value(const rcl_ros_time_t * time)
 
 static rcl_ret_t ros_now(void * data, rcl_time_point_value_t * now)
 {
-  rcl_clock_source_follow();
+  rcl_clock_follow();
   *now = ros_value(data);
   return RCL_RET_OK;
 }
@@ -54,8 +54,7 @@ static rcl_ros_time_t * ros_take(rcl_clock_t * clock)
     return NULL;
   }
   time->clock = clock;
-  time->active = true;
-  time->now = rcl_clock_source_time();
+  rcl_clock_first_time(time);
   return time;
 }
 

@@ -2,9 +2,9 @@
 #include "microros/error.h"
 #include "microros/rcl_guard_condition.h"
 #include "microros/rcl_timer.h"
+#include "microros/rmw_subscription.h"
 #include "microros/rcl_wait_set.h"
 #include "microros/rcl_waiting.h"
-#include "microros/rmw_subscription.h"
 
 /* What is waited for; `settle`: what is not ready shall be NULL. */
 typedef struct wait_look_t {
@@ -66,11 +66,14 @@ static rcl_ret_t look_at_timers(const rcl_wait_set_t * wait_set, wait_look_t * l
 
 static rcl_ret_t wait_look(const rcl_wait_set_t * wait_set, wait_look_t * look)
 {
+  rcl_ret_t result = RCL_RET_OK;
+
   look->any = false;
   look->look_again_ns = INT64_MAX;
   look_at_subscriptions(wait_set, look);
   look_at_guard_conditions(wait_set, look);
-  return look_at_timers(wait_set, look);
+  result = look_at_timers(wait_set, look);
+  return result;
 }
 
 rcl_ret_t rcl_wait(rcl_wait_set_t * wait_set, int64_t timeout)

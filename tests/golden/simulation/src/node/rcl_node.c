@@ -2,11 +2,11 @@
 #include "rcl/node.h"
 
 #include "microros/error.h"
-#include "microros/rcl_clock_source.h"
-#include "microros/rcl_names.h"
+#include "microros/rcl_names_given.h"
 #include "microros/rcl_node_open.h"
 #include "microros/rmw_node.h"
 #include "microros/xrce_client.h"
+#include "microros/rcl_clock_source.h"
 
 #include <stddef.h>
 
@@ -19,13 +19,13 @@ rcl_node_t rcl_get_zero_initialized_node(void)
 
 static rcl_ret_t node_check_names(const char * name, const char * namespace_)
 {
-  const char * fault = rcl_names_check_node(name);
+  const char * fault = rcl_names_given_node(name);
 
   if (fault != NULL) {
     microros_error_set(microros_error_name, name, fault, 0, 0);
     return RCL_RET_NODE_INVALID_NAME;
   }
-  fault = rcl_names_check_namespace(namespace_);
+  fault = rcl_names_given_namespace(namespace_);
   if (fault != NULL) {
     microros_error_set(microros_error_name, namespace_, fault, 0, 0);
     return RCL_RET_NODE_INVALID_NAMESPACE;
@@ -53,6 +53,7 @@ rcl_ret_t rcl_node_open(
     result = rcl_clock_source_open(node);
     if (result != RCL_RET_OK) {
       (void)rcl_node_fini(node); /* it was opened just now */
+      return result;
     }
   }
   return result;

@@ -1,20 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A client: the parts that are selected, side by side, with the storage that the plan gives them. One session with one
- * agent; the only state of the library besides the nodes and publishers that were handed out.
+ * A client: the state that the selected components declare, side by side, with the storage that the plan gives them. One
+ * session with one agent; the only state of the library besides the nodes and publishers that were handed out.
  */
 #ifndef MICROROS_XRCE_CLIENT_H
 #define MICROROS_XRCE_CLIENT_H
 
 #include "microros/xrce_creation.h"
-#include "microros/xrce_objects.h"
 #include "microros/xrce_ping.h"
-#include "microros/xrce_session.h"
-#include "microros/xrce_session_close.h"
 #include "microros/xrce_stream_best_effort.h"
 #include "microros/xrce_stream_reliable.h"
 #include "microros/xrce_time_sync.h"
 #include "microros/xrce_watch.h"
+#include "microros/xrce_objects.h"
+#include "microros/xrce_session.h"
 #include "microros_config.h"
 
 #include <stdint.h>
@@ -25,14 +24,14 @@ struct xrce_client_t {
   xrce_stream_reliable_t reliable;
   xrce_entities_t entities;
   xrce_ping_t ping;
-  xrce_time_sync_t time_sync;
   xrce_watch_t watch;
+  xrce_time_sync_t time_sync;
   uint32_t create_timeout_ms;
   uint32_t close_timeout_ms;
   xrce_object_state_t states[XRCE_PLACES];
   xrce_participant_t participants[MICROROS_NODES_MAX];
   xrce_endpoint_t endpoints[XRCE_ENDPOINTS];
-  uint8_t input[MICROROS_INPUT_BUFFER_SIZE]; /* last: nothing of it outlives a pump */
+  uint8_t input[MICROROS_INPUT_BUFFER_SIZE]; /* last: nothing of it outlives a pump, but for a sample that lies at its end */
 };
 
 #endif /* MICROROS_XRCE_CLIENT_H */

@@ -44,6 +44,12 @@ static inline uint16_t xrce_transport_port(const xrce_transport_t * transport)
   return transport->port;
 }
 
+/* Returns what port_wait waits for. */
+static inline intptr_t xrce_transport_handle(const xrce_transport_t * transport)
+{
+  return transport->tcp.handle;
+}
+
 /* Whether two transports would share one line: sockets never do. */
 static inline bool xrce_transport_is_same_line(const xrce_transport_t * a, const xrce_transport_t * b)
 {

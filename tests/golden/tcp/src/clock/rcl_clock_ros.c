@@ -2,6 +2,7 @@
 /* ROS time: the system's, until somebody takes it over. */
 #include "microros/error.h"
 #include "microros/rcl_clock.h"
+#include "microros/rcl_clock_follow.h"
 #include "microros/time_math.h"
 #include "microros_config.h"
 
@@ -21,6 +22,7 @@ static rcl_time_point_value_t ros_value(const rcl_ros_time_t * time)
 
 static rcl_ret_t ros_now(void * data, rcl_time_point_value_t * now)
 {
+  rcl_clock_follow();
   *now = ros_value(data);
   return RCL_RET_OK;
 }
@@ -51,8 +53,7 @@ static rcl_ros_time_t * ros_take(rcl_clock_t * clock)
     return NULL;
   }
   time->clock = clock;
-  time->active = false;
-  time->now = 0;
+  rcl_clock_first_time(time);
   return time;
 }
 
@@ -158,4 +159,13 @@ rcl_ret_t rcl_set_ros_time_override(rcl_clock_t * clock, rcl_time_point_value_t 
     time->now = time_value;
   }
   return result;
+}
+
+void rcl_ros_clocks_set(rcl_time_point_value_t time_value)
+{
+  for (size_t i = 0; i < MICROROS_ROS_CLOCKS_MAX; ++i) {
+    if (ros_times[i].clock != NULL) {
+      (void)rcl_set_ros_time_override(ros_times[i].clock, time_value); /* it is a ROS clock */
+    }
+  }
 }

@@ -88,11 +88,6 @@ rcl_ret_t rclc_executor_set_semantics(rclc_executor_t * executor, rclc_executor_
 /* RCL_RET_OK for an executor that is not initialized, too. */
 rcl_ret_t rclc_executor_fini(rclc_executor_t * executor);
 
-/* A timer's callback is the one that it was initialized with. */
-rcl_ret_t rclc_executor_add_timer(rclc_executor_t * executor, rcl_timer_t * timer);
-
-rcl_ret_t rclc_executor_remove_timer(rclc_executor_t * executor, const rcl_timer_t * timer);
-
 rcl_ret_t rclc_executor_add_guard_condition(
   rclc_executor_t * executor, rcl_guard_condition_t * gc, rclc_gc_callback_t callback);
 
@@ -138,5 +133,7 @@ bool rclc_executor_trigger_one(rclc_executor_handle_t * handles, unsigned int si
 #ifdef __cplusplus
 }
 #endif
+
+#include "microros/executor_timer.h"
 
 #endif /* MICROROS_RCLC_EXECUTOR_H */

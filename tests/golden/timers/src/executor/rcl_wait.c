@@ -52,10 +52,13 @@ static rcl_ret_t look_at_timers(const rcl_wait_set_t * wait_set, wait_look_t * l
 
 static rcl_ret_t wait_look(const rcl_wait_set_t * wait_set, wait_look_t * look)
 {
+  rcl_ret_t result = RCL_RET_OK;
+
   look->any = false;
   look->look_again_ns = INT64_MAX;
   look_at_guard_conditions(wait_set, look);
-  return look_at_timers(wait_set, look);
+  result = look_at_timers(wait_set, look);
+  return result;
 }
 
 rcl_ret_t rcl_wait(rcl_wait_set_t * wait_set, int64_t timeout)

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* How long the session can be left alone, by all components of this selection that have something to do in time. For
+ * xrce_wait*.c alone. */
+#ifndef MICROROS_XRCE_WAIT_LEFT_H
+#define MICROROS_XRCE_WAIT_LEFT_H
+
+#include "microros/port.h"
+#include "microros/xrce_client.h"
+#include "microros/xrce_entities_hooks.h"
+#include "microros/xrce_ping_hooks.h"
+#include "microros/xrce_read_hooks.h"
+#include "microros/xrce_stream_reliable_hooks.h"
+#include "microros/xrce_wire.h"
+
+/* Returns how long the session can be left alone, `most` at most. */
+static inline uint32_t xrce_wait_left(const xrce_client_t * client, uint32_t most)
+{
+  const xrce_session_t * session = &client->session;
+  const uint32_t now = port_time_ms();
+  uint32_t left = most;
+
+  if (session->state != (uint8_t)XRCE_READY) {
+    return session->state == (uint8_t)XRCE_CONNECTING ? xrce_sooner(left, session->due_ms, now) : left;
+  }
+  left = xrce_entities_left(client, left, now);
+  left = xrce_stream_reliable_left(client, left, now);
+  left = xrce_ping_left(client, left, now);
+  left = xrce_read_left(client, left, now);
+  return left;
+}
+
+#endif /* MICROROS_XRCE_WAIT_LEFT_H */

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* errors: text. The words of the selected components, each an object of its own, so that what nobody names is not
+ * linked; what % and a letter stand for is said in error_text.c. */
+#include "microros/error.h"
+
+const char microros_error_argument[] = "%s: NULL or not initialized";
+const char microros_error_context_in_use[] = "a context is open already: there is one session";
+const char microros_error_address[] = "address %s or port %d is not valid (host: up to %m bytes)";
+const char microros_error_name[] = "name '%s': %d";
+const char microros_error_name_long[] = "name '%s' takes %n bytes: set pools: {name_size: %m}%y";
+const char microros_error_node_undeclared[] = "node not declared: add to nodes:%y: {name: %s, namespace: %d}";
+const char microros_error_node_open[] = "node %s is open already";
+const char microros_error_nodes_full[] = "all %n nodes are open: set pools: {nodes: %m}%y";
+const char microros_error_publisher_undeclared[] = "publisher not declared: add to its node's publishers:%y: {topic: %s, type: %D}";
+const char microros_error_publisher_open[] = "publisher %s is open already";
+const char microros_error_publishers_full[] = "all %n publishers are open: set pools: {publishers: %m}%y";
+const char microros_error_stream_small[] = "%t takes %n bytes and its stream holds %m: declare the publisher with its qos%y";
+const char microros_error_qos[] = "publisher %s: XRCE carries no such QoS: %d";
+const char microros_error_entity_silent[] = "%d %s: no answer of the agent within %m ms";
+const char microros_error_entity_refused[] = "%d %s: the agent refuses it: %a (entities%y)";
+const char microros_error_field[] = "%t.%d: %n, limit %m: raise limits%y";
+const char microros_error_no_session[] = "publisher %s: no session with the agent";
+const char microros_error_not_sent[] = "publisher %s: the transport has no room for it";
+const char microros_error_arena[] = "no memory for %n bytes: raise memory: {arena: %m}%y";
+const char microros_error_serialized[] = "serialized message: not little endian CDR, or %n bytes above %m";
+const char microros_error_domain[] = "domain %n is above %m";
+const char microros_error_memory_given[] = "the allocator gives no memory for %n bytes";
+const char microros_error_pool_full[] = "%n %s are all there are: set pools: {%s: %m}%y";
+const char microros_error_clock[] = "clock: %s";
+const char microros_error_field_bound[] = "%t.%d: %n, and its interface file allows %m";
+const char microros_error_field_data[] = "%t.%d has a size, %n, and no data: NULL";
+const char microros_error_pool_most[] = "%s: all %n places are taken, and a session has no more of a kind";
+const char microros_error_block_large[] = "%n bytes of a string or sequence: no message that is sent has more than %m: raise limits%y";
+const char microros_error_blocks_taken[] = "all blocks of %n bytes are taken: give one back, or set memory: {messages: %m}%y";
