@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import importlib.util
 import os
+import sys
 
 import pytest
 from hypothesis import settings
@@ -18,9 +19,14 @@ settings.load_profile(
 
 
 def pytest_configure() -> None:
-    """Let all tests and what they start share one cache of objects."""
+    """Let all tests and what they start share one cache of objects, and compile each Python module once.
+
+    The suite starts the tool some thousand times: without bytecode, that takes longer than most tests.
+    """
     from tests.support.objects.cache import put_into_path
 
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    sys.dont_write_bytecode = False
     put_into_path()
 
 

@@ -71,6 +71,7 @@ def test_they_are_planned_in_front_of_the_declared_ones(made_up: Path) -> None:
     assert (entities.services.max, entities.services.implied) == (3, 2)
 
 
+@pytest.mark.builds
 def test_what_is_built_has_them_and_the_example_leaves_them_to_the_library(made_up: Path) -> None:
     result = planned(made_up, APPLICATION + NODES)
     files = compiler.render(result)

@@ -27,6 +27,7 @@ def _nothing_is_printed(
     assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.builds
 def test_the_steps_one_by_one(tmp_path: Path) -> None:
     request = compiler.read(OPTIONS)
     resolved = compiler.resolve(request)

@@ -212,6 +212,7 @@ def compiles(compiler: list[str], word: str) -> bool:
     return run.returncode == 0
 
 
+@pytest.mark.builds
 @pytest.mark.parametrize(
     ("compiler", "words"),
     [

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from tests.support.runtime.harness import FIXTURES, compile_objects, link
+from tests.support.runtime.harness import FIXTURES, compile_merged, link
 from tests.support.runtime.returns import FLAGS, FOLDER, said
 from tests.support.runtime.surface import write_application
 
@@ -61,7 +61,7 @@ def ros_node() -> Iterator[Any]:
 def test_a_remapped_node_resolves_as_ros(tmp_path: Path) -> None:
     tree = write_application(tmp_path / "ours", APPLICATION)
     sources = [s for s in tree.sources if not s.parent.name.startswith("port_posix")]
-    objects = compile_objects(tree, [FOLDER / "resolve.c", FIXTURES / "port_agent.c", *sources], "gcc", FLAGS)
+    objects = compile_merged(tree, sources, [FOLDER / "resolve.c", FIXTURES / "port_agent.c"], "gcc", FLAGS)
     mine = said(tmp_path, link(objects, "gcc", (), tmp_path / "mine"), *NAMES)
     with ros_node() as node:
         expected = [

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.runtime.harness import FIXTURES, Tree, compile_objects, link
+from tests.support.runtime.harness import FIXTURES, Tree, compile_merged, link
 from tests.support.runtime.returns import FLAGS, FOLDER, returned, said
 from tests.support.runtime.surface import generate, write_application
 
@@ -73,7 +73,7 @@ def of_librcl(source: Path, folder: Path, *packages: str) -> list[tuple[str, int
 
 def of_ours(source: Path, tree: Tree, folder: Path, more: Iterable[Path] = ()) -> list[tuple[str, int]]:
     """Return what the program says over a generated library."""
-    objects = compile_objects(tree, [source, *more, *tree.sources], "gcc", FLAGS)
+    objects = compile_merged(tree, tree.sources, [source, *more], "gcc", FLAGS)
     return said(folder, link(objects, "gcc", (), folder / "mine"))
 
 

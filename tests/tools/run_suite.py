@@ -23,15 +23,16 @@ UNITS = (
 
 @dataclass(frozen=True)
 class Run:
-    """What pytest is told: the expression of markers, and folders below tests/ (none: all)."""
+    """What pytest is told: the expression of markers, folders below tests/ (none: all), processes beyond the cores."""
 
     markers: str
     folders: tuple[str, ...] = ()
+    more_processes: int = 1
 
 
 RUNS: Mapping[str, Run] = {
     "test": Run("not long and not lint and not system"),
-    "quick": Run("not long and not lint and not system and not ros and not builds", UNITS),
+    "quick": Run("not long and not lint and not system and not ros and not builds", UNITS, more_processes=0),
     "system": Run("system and not long"),
     "lint": Run("lint and not long"),
 }
@@ -40,9 +41,9 @@ NO_TESTS = 5
 
 
 def command(name: str, options: Sequence[str]) -> list[str]:
-    """Return the call of pytest: one process more than there are cores, many tests wait for an agent."""
+    """Return the call of pytest: one process more than there are cores where tests wait for an agent."""
     run = RUNS[name]
-    workers = str(1 + max(1, os.cpu_count() or 1))
+    workers = str(max(1, os.cpu_count() or 1) + run.more_processes)
     call = [sys.executable, "-m", "pytest", "-n", workers, "--dist", "worksteal", "-q", "--durations=10"]
     folders = [f"tests/{folder}" for folder in run.folders if (TESTS / folder).is_dir()]
     return [*call, "-m", run.markers, *folders, *options]

@@ -22,6 +22,7 @@ from microros_gen.selection.model import ChosenComponent, Selection
 from microros_gen.toolchain.toolchain import LIBRARY_FLAGS, WARNINGS
 from tests.support.objects.made import digest, headers_digest, made, version
 from tests.support.paths import TESTS
+from tests.support.runtime.merged import merged, text_of
 
 FIXTURES = TESTS / "runtime" / "c"
 STRING = TypeName("std_msgs", "msg", "String")
@@ -117,25 +118,44 @@ def compile_objects(
 
     With the same source, headers and flags as before a file is not compiled again.
     """
+    return compile_units(tree, [(source,) for source in sources], compiler, flags)
+
+
+def compile_units(
+    tree: Tree, units: Iterable[Sequence[Path]], compiler: str, flags: Sequence[str]
+) -> tuple[Path, ...]:
+    """Compile each group of sources as one translation unit, as compile_objects."""
     common = [*WARNINGS, *LIBRARY_FLAGS, *flags, f"-I{tree.include}", f"-I{FIXTURES}"]
     made_with = (version(compiler), *WARNINGS, *LIBRARY_FLAGS, *flags)
     headers = headers_digest(tree.include, FIXTURES)
 
-    def compile_one(source: Path) -> tuple[Path, str]:
-        key = digest(compiler, made_with, source.name, source.read_bytes(), headers)
+    def compile_one(unit: Sequence[Path]) -> tuple[Path, str]:
+        first = unit[0]
+        texts = [(source.name, source.read_bytes()) for source in unit]
+        key = digest(compiler, made_with, texts, headers)
 
         def make(target: Path) -> str:
+            source = first if len(unit) == 1 else target.with_suffix(".c")
+            if len(unit) > 1:
+                source.write_text(text_of(unit), encoding="utf-8")
             command = [compiler, *common, "-c", str(source), "-o", str(target)]
             done = subprocess.run(command, capture_output=True, text=True, check=False)
             return f"{compiler} {source}:\n{done.stderr}" if done.returncode else ""
 
-        return made(key, f"{source.parent.name}_{source.stem}.o", make)
+        return made(key, f"{first.parent.name}_{first.stem}.o", make)
 
     with ThreadPoolExecutor(2) as pool:
-        compiled = list(pool.map(compile_one, sources))
+        compiled = list(pool.map(compile_one, units))
     failed = [words for _, words in compiled if words]
     assert not failed, "\n".join(failed)
     return tuple(target for target, _ in compiled)
+
+
+def compile_merged(
+    tree: Tree, sources: Iterable[Path], application: Iterable[Path], compiler: str, flags: Sequence[str]
+) -> tuple[Path, ...]:
+    """Compile many sources as few units; those of the application may declare types that the tree has, too."""
+    return compile_units(tree, (*merged(sources), *merged(application)), compiler, flags)
 
 
 def link(objects: Sequence[Path], compiler: str, flags: Sequence[str], program: Path) -> Path:
@@ -155,8 +175,7 @@ def build(
     link_flags: Sequence[str] = (),
 ) -> Path:
     """Compile the tree and the named C files of c/, and link them to a program."""
-    sources = [*tree.sources, *(FIXTURES / name for name in fixtures)]
-    objects = compile_objects(tree, sources, compiler, flags)
+    objects = compile_merged(tree, tree.sources, [FIXTURES / name for name in fixtures], compiler, flags)
 
     def make(target: Path) -> str:
         link(objects, compiler, link_flags or flags, target)
