@@ -55,7 +55,7 @@ def write_tree(out: Path, files: Mapping[str, bytes]) -> WriteReport:
         owned = _owned_files(out)
         _refuse_links(out, files)
         out.mkdir(parents=True, exist_ok=True)
-        changed = _changed(out, files)
+        changed = _changed(out, files) if any(out.iterdir()) else tuple(sorted(files))
         others = sorted(p for p in owned if p not in files and os.path.lexists(out / p) and not _link(out, p))
         stale = tuple(p for p in others if _is_as_written(out / p, owned[p]))
         if changed or stale or (out / JOURNAL).exists():
@@ -89,7 +89,7 @@ def write_files(folder: Path, files: Mapping[str, bytes]) -> tuple[str, ...]:
         changed = _changed(folder, files)
         for name in changed:
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            _replace(folder / name, files[name])
+            _replace(f"{folder}/{name}", files[name])
     return changed
 
 
@@ -185,15 +185,16 @@ def _folders_of(names: Iterable[str]) -> set[str]:
 
 def _changed(folder: Path, files: Mapping[str, bytes]) -> tuple[str, ...]:
     """Return the names of the files that are not there with these bytes, sorted."""
-    return tuple(sorted(name for name, content in files.items() if _differs(folder / name, content)))
+    base = f"{folder}/"
+    return tuple(sorted(name for name, content in files.items() if _differs(base + name, content)))
 
 
-def _differs(path: Path, content: bytes) -> bool:
+def _differs(path: str, content: bytes) -> bool:
     try:
-        found = path.lstat()
+        found = os.lstat(path)
         if not stat.S_ISREG(found.st_mode) or found.st_size != len(content):
             return True
-        return read_bytes(path, _LARGEST_FILE, follow=False) != content
+        return read_bytes(Path(path), _LARGEST_FILE, follow=False) != content
     except FileNotFoundError:
         return True
 
@@ -208,29 +209,35 @@ def _replace_all(
     digests = {name: {*owned.get(name, ()), hashlib.sha256(files[name]).hexdigest()} for name in changed}
     listed = {name: sorted(digests.get(name, owned.get(name, ()))) for name in sorted({*files, *owned})}
     journal = {"files": listed, "generator": {"name": "microros-gen"}}
-    _replace(out / JOURNAL, (json.dumps(journal, indent=1) + "\n").encode())
+    _replace(f"{out}/{JOURNAL}", (json.dumps(journal, indent=1) + "\n").encode())
     _remove_temporaries(out, [f for f in _folders_of(listed) if _link(out, f"{f}/file") is None])
     for folder in sorted(_folders_of(changed)):
         (out / folder).mkdir(parents=True, exist_ok=True)
+    base = f"{out}/"
     for name in changed:
         if name != MANIFEST:
-            _replace(out / name, files[name])
+            _replace(base + name, files[name])
     for name in stale:
         (out / name).unlink(missing_ok=True)
         _remove_empty_parents(out, out / name)
     if MANIFEST in changed:
-        _replace(out / MANIFEST, files[MANIFEST])
+        _replace(f"{out}/{MANIFEST}", files[MANIFEST])
     (out / JOURNAL).unlink()
 
 
-def _replace(path: Path, content: bytes) -> None:
-    temporary = path.with_name(f".{path.name}.{os.getpid()}{TEMPORARY_SUFFIX}")
+def _replace(path: str, content: bytes) -> None:
+    """Write a file so that it appears whole. A Path for each of a thousand files takes longer than to write them."""
+    folder, _, name = path.rpartition("/")
+    temporary = f"{folder}/.{name}.{os.getpid()}{TEMPORARY_SUFFIX}"
     try:
-        temporary.write_bytes(content)
-        temporary.replace(path)
+        with open(temporary, "wb", buffering=0) as file:  # noqa: PTH123
+            written = file.write(content)
+            while written < len(content):
+                written += file.write(content[written:])
+        os.replace(temporary, path)  # noqa: PTH105
     except BaseException:
         with suppress(OSError):
-            temporary.unlink()
+            os.unlink(temporary)  # noqa: PTH108
         raise
 
 

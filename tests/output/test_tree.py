@@ -208,10 +208,10 @@ def test_an_interrupted_run_leaves_old_or_new_files_and_the_next_run_mends_it(
     calls = 0
     real = tree._replace
 
-    def replace(path: Path, content: bytes) -> None:
+    def replace(path: str, content: bytes) -> None:
         nonlocal calls
         if calls == after:
-            (path.parent / f".half{tree.TEMPORARY_SUFFIX}").write_bytes(b"half")
+            (Path(path).parent / f".half{tree.TEMPORARY_SUFFIX}").write_bytes(b"half")
             raise Interrupted
         calls += 1
         real(path, content)
@@ -236,8 +236,8 @@ def test_a_first_run_that_was_interrupted_can_be_taken_up(
     files = tree_of(src__a_c="a", src__b_c="b")
     real = tree._replace
 
-    def replace(path: Path, content: bytes) -> None:
-        if path.name == "b.c":
+    def replace(path: str, content: bytes) -> None:
+        if Path(path).name == "b.c":
             raise Interrupted
         real(path, content)
 

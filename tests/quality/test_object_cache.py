@@ -118,3 +118,14 @@ def test_a_call_that_makes_no_object_passes_through(workshop: Workshop, tmp_path
     assert subprocess.run([tmp_path / "main"], check=False).returncode == 7
     version = subprocess.run(["gcc", "--version"], capture_output=True, text=True, check=True).stdout
     assert version.startswith("gcc")
+
+
+def test_the_frames_of_functions_come_with_an_object_that_is_kept(workshop: Workshop) -> None:
+    flags = ("-O1", "-fstack-usage", "-w")
+    compiled, _, home = workshop.compile("one", *flags)
+    assert compiled
+    first = (home / "x.su").read_text()
+    (home / "x.su").unlink()
+    compiled, _, home = workshop.compile("one", *flags)
+    assert not compiled
+    assert (home / "x.su").read_text() == first

@@ -4,15 +4,14 @@ parts."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any, Protocol
-
-from lark import Token, Tree
+from typing import Any
 
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
 from microros_gen.interfaces.msg import names as msg_names
 from microros_gen.interfaces.msg.fault import Fault
+from microros_gen.interfaces.msg.syntax import Node, Word
 from microros_gen.interfaces.msg.values import (
     InvalidValueError,
     positive_integer,
@@ -54,18 +53,6 @@ _OTHER_LANGUAGES = {
 _ONCE_PRIMITIVE = {"time": "builtin_interfaces/Time", "duration": "builtin_interfaces/Duration"}
 
 
-class SyntaxNode(Protocol):
-    """A node of lark's tree, as lark 1.x and lark-parser 0.12 both type it."""
-
-    @property
-    def data(self) -> str:
-        """The name of the rule or its alias."""
-
-    @property
-    def children(self) -> list[Any]:
-        """Nodes and tokens."""
-
-
 @dataclass(frozen=True)
 class Line:
     """One declaration as text; `commented` says whether a comment follows it."""
@@ -79,7 +66,7 @@ class Line:
         """Return the place from `column` up to `end` (exclusive) in this line."""
         return Span(self.source, self.number, column, max(end, column + 1))
 
-    def span_of(self, token: Token) -> Span:
+    def span_of(self, token: Word) -> Span:
         """Return the place of `token` without the space around it."""
         column = _column(token) + len(token) - len(token.lstrip())
         return self.span(column, column + len(token.strip()))
@@ -106,16 +93,14 @@ class _DeclarationError(Exception):
         self.span, self.message, self.hint, self.id = span, message, hint, id
 
 
-def read_declaration(
-    tree: SyntaxNode, line: Line, package: str, diagnostics: Diagnostics
-) -> Declaration | None:
+def read_declaration(tree: Node, line: Line, package: str, diagnostics: Diagnostics) -> Declaration | None:
     """Return what `tree` declares, or None with errors in `diagnostics`; `package` is that of the file."""
     if tree.data == "constant":
         return _constant(tree, line, diagnostics)
     return _field(tree, line, package, diagnostics)
 
 
-def _constant(tree: SyntaxNode, line: Line, diagnostics: Diagnostics) -> Declaration | None:
+def _constant(tree: Node, line: Line, diagnostics: Diagnostics) -> Declaration | None:
     type_node, name, *rest = tree.children
     kind, name_ok = None, False
     with _reported(diagnostics):
@@ -133,7 +118,7 @@ def _constant(tree: SyntaxNode, line: Line, diagnostics: Diagnostics) -> Declara
     return None
 
 
-def _field(tree: SyntaxNode, line: Line, package: str, diagnostics: Diagnostics) -> Declaration | None:
+def _field(tree: Node, line: Line, package: str, diagnostics: Diagnostics) -> Declaration | None:
     type_node, name, *rest = tree.children
     field_type, name_ok = None, False
     with _reported(diagnostics):
@@ -166,19 +151,19 @@ def _reported(diagnostics: Diagnostics) -> Iterator[None]:
         diagnostics.error(fault.message, fault.span, fault.hint, id=fault.id)
 
 
-def _whole(line: Line, name: Token) -> Span:
+def _whole(line: Line, name: Word) -> Span:
     """Return the place of a declaration: type and name."""
     return line.span(1, _column(name) + len(name))
 
 
-def _check_name(name: Token, line: Line, fault_of: Callable[[str], Fault | None]) -> bool:
+def _check_name(name: Word, line: Line, fault_of: Callable[[str], Fault | None]) -> bool:
     fault = fault_of(str(name))
     if fault is not None:
         raise _DeclarationError(line.span_of(name), fault.message, fault.hint, id=fault.id)
     return True
 
 
-def _field_type(node: SyntaxNode, line: Line, package: str) -> FieldType:
+def _field_type(node: Node, line: Line, package: str) -> FieldType:
     if node.data != "array":
         return _element_type(node, line, package)
     element_node, extent = node.children
@@ -191,7 +176,7 @@ def _field_type(node: SyntaxNode, line: Line, package: str) -> FieldType:
     return ArrayType(element, size) if extent.data == "fixed" else SequenceType(element, size)
 
 
-def _constant_type(node: SyntaxNode, line: Line) -> Primitive | StringType:
+def _constant_type(node: Node, line: Line) -> Primitive | StringType:
     start = _token(node)
     if node.data == "array":
         raise _DeclarationError(
@@ -215,7 +200,7 @@ def _constant_type(node: SyntaxNode, line: Line) -> Primitive | StringType:
     return element
 
 
-def _element_type(node: SyntaxNode, line: Line, package: str) -> ElementType:
+def _element_type(node: Node, line: Line, package: str) -> ElementType:
     if node.data == "primitive":
         return _PRIMITIVES[str(node.children[0])]
     if node.data == "string":
@@ -226,7 +211,7 @@ def _element_type(node: SyntaxNode, line: Line, package: str) -> ElementType:
     return NamedType(_type_name(node.children, line, package))
 
 
-def _type_name(parts: list[Token], line: Line, package: str) -> TypeName:
+def _type_name(parts: Sequence[Word], line: Line, package: str) -> TypeName:
     first, last = parts[0], parts[-1]
     span = line.span(_column(first), _column(last) + len(last))
     written = "/".join(parts)
@@ -256,7 +241,7 @@ def _type_hint(name: str) -> str | None:
     return nearest(name, [*_PRIMITIVES, "string", "wstring"])
 
 
-def _bound(token: Token, line: Line, what: str) -> int:
+def _bound(token: Word, line: Line, what: str) -> int:
     number = positive_integer(str(token))
     if number is None:
         hint = "Write '<=N' for at most N elements" if token[0] in "<>" else None
@@ -270,18 +255,17 @@ def _bound(token: Token, line: Line, what: str) -> int:
     return number
 
 
-def _default(field_type: FieldType, node: SyntaxNode | Token, line: Line, diagnostics: Diagnostics) -> Value:
+def _default(field_type: FieldType, node: Node | Word, line: Line, diagnostics: Diagnostics) -> Value:
     if isinstance(field_type, (Primitive, StringType)):
-        assert isinstance(node, Token)
+        assert isinstance(node, Word)
         return _scalar(field_type, node, line, diagnostics)
     if isinstance(field_type, NamedType) or isinstance(field_type.element, NamedType):
-        assert isinstance(node, Token)
+        assert isinstance(node, Word)
         raise _DeclarationError(
             line.span_of(node), "a field of a message's type has no default", "Remove it", id="MG-2116"
         )
-    assert isinstance(node, Tree)  # the grammar has no other default for these arrays
-    tokens: list[Any] = node.children
-    values = _elements(field_type.element, tokens, line)
+    assert isinstance(node, Node)  # the grammar has no other default for these arrays
+    values = _elements(field_type.element, node.children, line)
     _check_count(field_type, len(values), line)
     return values
 
@@ -299,7 +283,7 @@ def _check_no_equal(line: Line) -> None:
 
 
 def _scalar(
-    kind: Primitive | StringType, node: Token | None, line: Line, diagnostics: Diagnostics
+    kind: Primitive | StringType, node: Word | None, line: Line, diagnostics: Diagnostics
 ) -> ScalarValue:
     """Return the value of a constant or default; `node` is None where nothing follows the `=`."""
     if node is None:
@@ -324,7 +308,7 @@ def _scalar(
     return value
 
 
-def _elements(kind: ElementType, tokens: list[Token], line: Line) -> tuple[ScalarValue, ...]:
+def _elements(kind: ElementType, tokens: Sequence[Word], line: Line) -> tuple[ScalarValue, ...]:
     if isinstance(kind, StringType):
         try:
             return string_elements(kind, [str(token) for token in tokens])
@@ -340,7 +324,7 @@ def _elements(kind: ElementType, tokens: list[Token], line: Line) -> tuple[Scala
     return tuple(values)
 
 
-def _over(tokens: list[Token], line: Line) -> Span:
+def _over(tokens: Sequence[Word], line: Line) -> Span:
     first, last = line.span_of(tokens[0]), line.span_of(tokens[-1])
     return line.span(first.column, last.end_column or last.column + 1)
 
@@ -378,14 +362,14 @@ def _as_jazzy_reads(field_type: FieldType, line: Line, diagnostics: Diagnostics)
     return SequenceType(element, element.bound)
 
 
-def _token(node: SyntaxNode) -> Token:
+def _token(node: Node) -> Word:
     """Return the first token below `node`."""
     first: Any = node
-    while isinstance(first, Tree):
+    while isinstance(first, Node):
         first = first.children[0]
-    token: Token = first
+    token: Word = first
     return token
 
 
-def _column(token: Token) -> int:
+def _column(token: Word) -> int:
     return token.column or 1

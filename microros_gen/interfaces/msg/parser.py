@@ -3,8 +3,8 @@
 readers after it).
 
 Such a text is line oriented: each line is taken apart into declaration and comment here, the grammar
-`msg.lark` parses the declaration, and what it may say is checked after that. So every faulty line is
-reported in one run.
+`msg.lark` parses the declaration (the plainest ones `syntax.py`, to the same tree), and what it may say is
+checked after that. So every faulty line is reported in one run.
 """
 
 from __future__ import annotations
@@ -16,35 +16,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
-from lark import Lark, Token
-from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedToken
-
 from microros_gen.diagnostics import Diagnostics, Source, Span, reads
-from microros_gen.interfaces.msg.declarations import Declaration, Line, SyntaxNode, read_declaration
+from microros_gen.interfaces.msg.declarations import Declaration, Line, read_declaration
 from microros_gen.interfaces.msg.names import package_name_fault, type_name_fault
+from microros_gen.interfaces.msg.syntax import Node, plain_declaration
 from microros_gen.interfaces.types import Field, Message, TypeName
 
 _BYTE_ORDER_MARK = "\ufeff"
-_WORDS = {
-    "PRIMITIVE": "a type",
-    "STRING": "a type",
-    "TYPE_NAME": "a type",
-    "NAME": "a name",
-    "BOUND": "a number above zero",
-    "TEXT": "a value",
-    "NUMBER": "a value",
-    "QUOTED": "a string",
-    "BARE": "a string",
-    "_GAP": "a space",
-    "_EQUAL": "'='",
-    "_AT_MOST": "'<='",
-    "_SLASH": "'/'",
-    "_OPEN": "'['",
-    "_CLOSE": "']'",
-    "_LAST_CLOSE": "']'",
-    "_COMMA": "','",
-    "$END": "the end of the line",
-}
 
 
 @dataclass
@@ -166,68 +144,25 @@ def _check_comment(source: Source, number: int, line: str, diagnostics: Diagnost
 
 
 def _parse_line(line: Line, package: str, diagnostics: Diagnostics) -> Declaration | None:
-    try:
-        tree = _tree(line.text)
-    except UnexpectedInput as fault:
-        _report_syntax(line, fault, diagnostics)
+    tree = _tree(line.text)
+    if tree is None:
+        from microros_gen.interfaces.msg.grammar import report_syntax
+
+        report_syntax(line, diagnostics)
         return None
     return read_declaration(tree, line, package, diagnostics)
 
 
 @lru_cache(maxsize=1024)
-def _tree(text: str) -> SyntaxNode:
+def _tree(text: str) -> Node | None:
     """Return the syntax of a declaration; packages say `std_msgs/Header header` and `string name` again and again."""
-    return _grammar().parse(text)
+    plain = plain_declaration(text)
+    if plain is not None:
+        return plain
+    # Few lines need it, and to build its tables takes longer than to read hundreds of the others.
+    from microros_gen.interfaces.msg.grammar import parse
 
-
-@lru_cache(maxsize=1)
-def _grammar() -> Lark:
-    """Return the parser of one declaration, built when the first one is read."""
-    return Lark.open("msg.lark", rel_to=__file__, parser="lalr", lexer="contextual", maybe_placeholders=False)
-
-
-def _report_syntax(line: Line, fault: UnexpectedInput, diagnostics: Diagnostics) -> None:
-    expected: set[str] = set()
-    column = len(line.text) + 1
-    if isinstance(fault, UnexpectedCharacters):
-        expected, column = set(fault.allowed or ()), fault.column
-    elif isinstance(fault, UnexpectedToken):
-        expected = set(fault.accepts or fault.expected)
-        token: Token = getattr(fault, "token")  # noqa: B009 (the stubs of lark-parser lack it)
-        if token.type != "$END":
-            column = token.column or column
-    found = line.text[column - 1 : column]
-    if column == 1 and found == " ":
-        span = line.span(1, len(line.text) - len(line.text.lstrip()) + 1)
-        diagnostics.error(
-            "a declaration begins in the first column", span, "Remove the space before it", id="MG-2022"
-        )
-        return
-    words = sorted({_WORDS[name] for name in expected if name in _WORDS})
-    what = {"": "the end of the line", " ": "a space"}.get(found, f"'{found}'")
-    diagnostics.error(
-        f"expected {' or '.join(words)}, found {what}",
-        line.span(column, column + 1),
-        _syntax_hint(line.text, column, expected),
-        id="MG-2023",
-    )
-
-
-def _syntax_hint(text: str, column: int, expected: set[str]) -> str | None:
-    rest = text[column - 1 :]
-    if not rest and " " not in text:
-        return "A field is written 'type name', a constant 'type NAME=value'"
-    if expected == {"_GAP"} and rest.startswith("["):
-        return "An array has one dimension; put the second one into a separate message"
-    if expected == {"_OPEN"}:
-        return "The default of an array is written '[1, 2]'"
-    if "_AT_MOST" in expected and rest.startswith(" "):
-        return "The type and its size are written without a space"
-    if "_GAP" in expected and rest.startswith("<"):
-        return "Only strings have a bound here, written 'string<=10'; that of a sequence is 'type[<=10]'"
-    if "QUOTED" in expected and rest[:1] in ("'", '"'):
-        return "The quote is not closed"
-    return None
+    return parse(text)
 
 
 def _check_duplicates(entries: list[_Entry], diagnostics: Diagnostics) -> None:

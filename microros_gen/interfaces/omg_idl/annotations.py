@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from microros_gen.diagnostics import Source, Span
-from microros_gen.interfaces.msg.declarations import SyntaxNode
+from microros_gen.interfaces.msg.syntax import SyntaxNode
 from microros_gen.interfaces.omg_idl.values import IdlError, literal_value, span_of, tokens_of
 from microros_gen.interfaces.types import ScalarValue
 from microros_gen.records import dataclass

@@ -10,7 +10,6 @@ from dataclasses import field
 from lark import Token
 
 from microros_gen.diagnostics import Diagnostics, Source, Span
-from microros_gen.interfaces.msg.declarations import SyntaxNode
 from microros_gen.interfaces.msg.fault import Fault
 from microros_gen.interfaces.msg.names import (
     C_KEYWORDS,
@@ -19,6 +18,7 @@ from microros_gen.interfaces.msg.names import (
     field_name_warning,
     value_warning,
 )
+from microros_gen.interfaces.msg.syntax import SyntaxNode
 from microros_gen.interfaces.omg_idl.annotations import Annotations, read_annotations
 from microros_gen.interfaces.omg_idl.syntax import Syntax
 from microros_gen.interfaces.omg_idl.types import Scope, Written, declared_type, resolved, written_type

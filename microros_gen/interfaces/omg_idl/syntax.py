@@ -14,7 +14,7 @@ from lark import Lark, Token
 from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedToken
 
 from microros_gen.diagnostics import Diagnostics, Source, Span
-from microros_gen.interfaces.msg.declarations import SyntaxNode
+from microros_gen.interfaces.msg.syntax import SyntaxNode
 from microros_gen.records import dataclass
 
 _MOST_ERRORS = 20

@@ -12,8 +12,8 @@ from dataclasses import field
 from lark import Token
 
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
-from microros_gen.interfaces.msg.declarations import SyntaxNode
 from microros_gen.interfaces.msg.names import package_name_fault
+from microros_gen.interfaces.msg.syntax import SyntaxNode
 from microros_gen.interfaces.omg_idl.values import IdlError, first_token, positive_bound, span_of
 from microros_gen.interfaces.types import (
     ArrayType,

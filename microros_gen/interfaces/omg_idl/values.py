@@ -19,7 +19,8 @@ from lark import Token
 
 from microros_gen.diagnostics import Source, Span
 from microros_gen.documents.python_literal import python_literal
-from microros_gen.interfaces.msg.declarations import LARGEST_BOUND, SyntaxNode
+from microros_gen.interfaces.msg.declarations import LARGEST_BOUND
+from microros_gen.interfaces.msg.syntax import SyntaxNode
 from microros_gen.interfaces.types import (
     ArrayType,
     FieldType,

@@ -32,6 +32,7 @@ typedef struct call
   bool has_depfile;
   bool has_debug;
   bool has_call_graph;
+  bool has_stack_usage;
   bool is_one_object;
 } call_t;
 
@@ -100,6 +101,12 @@ static bool is_beside(const char * object, const char * depfile)
   return depfile == NULL || (strncmp(object, depfile, stem) == 0 && strcmp(depfile + stem, ".d") == 0);
 }
 
+/* Whether files are named in what the compiler makes: a list of dependencies, debug information, frames. */
+static bool names_places(const call_t * call)
+{
+  return call->has_depfile || call->has_debug || call->has_stack_usage;
+}
+
 static void read_call(int count, char ** arguments, call_t * call)
 {
   static char folder[PATH_MAX], map[2 * PATH_MAX];
@@ -130,6 +137,7 @@ static void read_call(int count, char ** arguments, call_t * call)
     }
     call->has_debug = call->has_debug || (begins(word, "-g") && strcmp(word, "-g0") != 0);
     call->has_call_graph = call->has_call_graph || begins(word, "-fcallgraph-info");
+    call->has_stack_usage = call->has_stack_usage || strcmp(word, "-fstack-usage") == 0;
     known = known && word[0] != '@' && strcmp(word, "-") != 0 && !begins(word, "-save-temps") &&
             strcmp(word, "--coverage") != 0 && strcmp(word, "-x") != 0 && strcmp(word, "-E") != 0;
     call->preprocess[kept++] = word;
@@ -143,8 +151,8 @@ static void read_call(int count, char ** arguments, call_t * call)
     call->preprocess[kept++] = "-fno-working-directory";
   }
   call->preprocess[kept++] = "-E";
-  /* Where neither a list of dependencies nor debug information names files, their places do not count. */
-  call->preprocess[kept] = call->has_depfile || call->has_debug ? NULL : "-P";
+  /* Where nothing that is made names files, their places do not count. */
+  call->preprocess[kept] = names_places(call) ? NULL : "-P";
 }
 
 /* Runs the compiler, with standard output to `out` and errors to `errors` where these are not negative. */
@@ -215,7 +223,7 @@ static bool key_of(const char * real, const call_t * call, char * key)
       continue;
     }
     const bool is_place = begins(*word, "-I") || strcmp(*word, call->source) == 0 || strcmp(*word, call->object) == 0;
-    if (call->has_depfile || call->has_debug || !is_place) {
+    if (names_places(call) || !is_place) {
       hash = hashed_text(hash, *word);
     }
   }
@@ -279,10 +287,10 @@ static int compile(const char * real, call_t * call, const char * entry)
   close(errors);
   bool good = status == 0;
   for (size_t i = 0; good && i < sizeof endings / sizeof endings[0]; i++) {
-    const bool wanted = i == 0 || (i == 1 ? call->has_depfile : i == 2 && call->has_call_graph);
+    const bool makes[] = {true, call->has_depfile, call->has_call_graph, call->has_stack_usage};
     snprintf(kept, sizeof kept, "%s%s", entry, endings[i]);
     beside(call, endings[i], place);
-    good = !wanted || publish(place, kept);
+    good = !makes[i] || publish(place, kept);
   }
   snprintf(kept, sizeof kept, "%s.err", entry); /* Last: with it the entry is whole. */
   if (!good || rename(words, kept) != 0) {
