@@ -169,7 +169,7 @@ def test_bytes_that_do_not_fit_are_refused_by_name(
     "header", [b"", b"\0", b"\0\1\0", b"\0\2\0\0", b"\0\3\0\0", b"\0\7\0\0", b"\1\1\0\0"]
 )
 def test_other_encapsulations_are_refused(own: InterfaceSet, header: bytes) -> None:
-    with pytest.raises(CodecError, match="is no encapsulation header of plain CDR"):
+    with pytest.raises(CodecError, match="is not an encapsulation header of plain CDR"):
         Codec(own).decode(REPORT, header + full_bytes("little")[4:] if len(header) == 4 else header)
 
 
