@@ -92,7 +92,7 @@ OUTPUT_FUNCTIONS: Mapping[str, str] = MappingProxyType(
         "unacknowledged": "0",
     }
 )
-"""What an output stream offers, and what stands for it where a stream of the kind is not selected."""
+"""The operations of an output stream, and their replacements if no stream of the kind is selected."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -200,7 +200,7 @@ class Property(Conditional):
 
 @dataclass(frozen=True, kw_only=True)
 class Variant(Conditional):
-    """A header for some plans: the file of the folder variants/ that stands for it there."""
+    """A header for some plans, and the file of the folder variants/ that replaces it there."""
 
     header: str
     file: str

@@ -130,7 +130,7 @@ def test_what_is_included_is_needed() -> None:
 
 
 def test_calls_go_down() -> None:
-    """rclc_* → rcl_* → rmw_* → xrce_*: a file includes internal headers of its own layer and of those below."""
+    """rclc_* → rcl_* → rmw_* → xrce_*: a file includes internal headers of its layer and of lower ones."""
     layers = ("rclc", "rcl", "rmw", "xrce")
     order = {layer: i for i, layer in enumerate(layers)}
     wrong = []

@@ -56,7 +56,7 @@ _CALLERS: Mapping[str, tuple[str, ...]] = {
     **_ELSEWHERE,
     "routes": ("on", *(set(HOOK_POINTS) - {name for points in _ELSEWHERE.values() for name in points})),
 }
-"""File that calls → the hook points that it has; `on` stands for submessages and output streams."""
+"""File that calls → its hook points; `on` means submessages and output streams."""
 _RELIABLE_ALONE = ("drop_oldest", "unacknowledged")
 
 
