@@ -10,6 +10,7 @@ from pathlib import Path
 from microros_gen.application.kinds import KIND, NAMES
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
 from microros_gen.documents.files import is_file, read_text
+from microros_gen.documents.schema import load_schema, validate
 from microros_gen.documents.tree_values import child, items, span_of, text_of
 from microros_gen.documents.yaml_tree import MappingNode, YamlNode, parse_yaml
 from microros_gen.interfaces.closure import split_type_name
@@ -17,6 +18,8 @@ from microros_gen.selection.component import Component
 from microros_gen.selection.component_file import parse_component
 from microros_gen.selection.extension import Extension, digest_of, own_name
 from microros_gen.selection.find_components import COMPONENT_FILE
+
+SCHEMA = Path(__file__).with_name("component.schema.json")
 
 
 def read_outside(
@@ -35,8 +38,10 @@ def read_outside(
         reason = error.strerror if isinstance(error, OSError) else error
         diagnostics.error(f"cannot read '{path}': {reason}", extension.span, id="MG-4062")
         return None
-    component = parse_component(source, found)
-    tree = parse_yaml(source, Diagnostics())
+    tree = parse_yaml(source, found)
+    if not found.has_errors():
+        validate(tree, source, load_schema(SCHEMA), found)
+    component = None if found.has_errors() else parse_component(source, found)
     if component is not None and isinstance(tree, MappingNode):
         _check(component, folder, tree, tuple(capabilities), found)
     diagnostics.extend(found)
@@ -86,8 +91,10 @@ def _check_files(tree: MappingNode, folder: Path, diagnostics: Diagnostics) -> N
     def is_source(name: str) -> bool:
         return is_file(src / name)
 
+    variants = {text_of(child(item, "header")) for item in items(tree.get("variants"))}
+
     def is_header(name: str) -> bool:
-        return is_file(include / name) or is_file(include / f"{name}.j2")
+        return name in variants or is_file(include / name) or is_file(include / f"{name}.j2")
 
     checks: tuple[tuple[str, str, Callable[[str], bool]], ...] = (
         ("sources", "src", is_source),

@@ -100,8 +100,9 @@ def _check_headers(builtin: Catalogue, found: dict[str, Component], diagnostics:
     """Report each header of a component from outside that another component has."""
     owners: dict[str, str] = {}
     for component in (*builtin.values(), *found.values()):
-        for name in (n for n, _ in files_of(component.folder) if n.startswith("include/")):
-            header = name.removesuffix(".j2")
+        replaced = {f"include/{r.header}" for r in component.contributes.replaces}
+        names = (name.removesuffix(".j2") for name, _ in files_of(component.folder))
+        for header in (name for name in names if name.startswith("include/") and name not in replaced):
             owner = owners.setdefault(header, component.name)
             if owner != component.name and component.name in found:
                 message = f"the components '{owner}' and '{component.name}' both have '{header}'"

@@ -187,14 +187,18 @@ def test_two_packages_with_one_name_are_refused(
 
 
 FAULTS = [
-    ("layer: middleware", "layer: lower", "component.yaml:3:8: error: 'layer' must be one of"),
+    (
+        "layer: middleware",
+        "layer: lower",
+        "component.yaml:3:8: error: 'layer' must be micro-ROS, middleware or port",
+    ),
     ("asks: [time]", "asks: [tides]", "component.yaml:6:8: error: unknown capability 'tides'"),
     (
         "needs: [publish]",
         "needs: [publisch]",
         "component.yaml:5:9: error: the component 'beacon' needs the unknown",
     ),
-    ("asks: [time]", "hue: red", "component.yaml:6:1: error: unknown key 'hue'"),
+    ("asks: [time]", "hue: red", "component.yaml:6:1: error: the file has no key 'hue'"),
     (
         "component: beacon",
         "component: buoy",
@@ -203,6 +207,11 @@ FAULTS = [
     ("[beacon.c,", "[sea.c,", "component.yaml:8:11: error: missing file 'src/sea.c'"),
     ("[beacon.c,", "[../../x.c,", "component.yaml:8:11: error: '../../x.c' is outside the component's src/"),
     ("beacon/beacon.h]", "beacon/sea.h]", "component.yaml:7:11: error: missing file 'include/beacon/sea.h'"),
+    (
+        "asks: [time]",
+        "hooks: {due: beacon_left(message)}",
+        "component.yaml:6:14: error: unknown variable 'message' of the hook",
+    ),
     ("layer: middleware", "layer: port", "component.yaml:3:1: error: a part of a platform is no component"),
     (
         "asks: [time]",
