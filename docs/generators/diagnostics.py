@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import microros_gen
+from generators import markdown
 from microros_gen.records import dataclass
 
 PACKAGE = Path(microros_gen.__file__).parent
@@ -65,18 +66,18 @@ def page() -> str:
 
 
 def _table(rows: list[Told]) -> str:
-    cells = [
-        f'| <span id="{told.id.lower()}">{told.id}</span> | {"error" if told.is_error else "warning"} |'
-        f" {_plain(told.message)} | {_plain(told.hint)} |"
-        for told in rows
-    ]
-    return "\n".join(["| id | kind | message | hint |", "|---|---|---|---|", *cells])
-
-
-def _plain(text: str) -> str:
-    """Return a text in which Markdown finds nothing to format."""
-    text = " ".join(text.split())
-    return "".join(f"\\{c}" if c in "\\`*_{}[]<>#|" else c for c in text)
+    return markdown.table(
+        ("id", "kind", "message", "hint"),
+        (
+            (
+                f'<span id="{told.id.lower()}">{told.id}</span>',
+                "error" if told.is_error else "warning",
+                markdown.cell(told.message),
+                markdown.cell(told.hint),
+            )
+            for told in rows
+        ),
+    )
 
 
 def _of_module(path: Path) -> Iterator[Told]:

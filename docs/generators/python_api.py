@@ -6,6 +6,7 @@ from __future__ import annotations
 import dataclasses
 import inspect
 
+from generators.markdown import table
 from microros_gen import compiler
 
 EXAMPLE = """\
@@ -52,7 +53,7 @@ def _class(name: str, member: type) -> str:
     if not dataclasses.is_dataclass(member):
         return f"### {name}\n\n{text}"
     rows = [
-        f"| `{field.name}` | `{str(field.type).replace('|', chr(92) + '|')}` |"
+        (f"`{field.name}`", f"`{str(field.type).replace('|', chr(92) + '|')}`")
         for field in dataclasses.fields(member)
     ]
-    return "\n".join([f"### {name}", "", text, "", "| field | type |", "|---|---|", *rows])
+    return f"### {name}\n\n{text}\n\n{table(('field', 'type'), rows)}"

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, TypeVar
@@ -17,8 +16,10 @@ from microros_gen.agent.ros.requesters import RawRequester
 from microros_gen.agent.ros.services import Patience, RawReplier
 from microros_gen.agent.wire.constants import Status
 from microros_gen.interfaces.dds_names import dds_type
+from microros_gen.ros import qos as ros_qos
 from microros_gen.ros.errors import RosError, TypeLimitError
 from microros_gen.ros.libraries import FAILURES, first_line
+from microros_gen.ros.qos import c_profile
 
 Entity = TypeVar("Entity", RawWriter, RawReader, RawReplier, RawRequester)
 SERVICE_DEPTH = 1000
@@ -146,23 +147,16 @@ def _translated() -> Iterator[None]:
 
 
 def _profile(qos: Qos) -> Any:
-    module = importlib.import_module("rclpy.qos")
-    duration = importlib.import_module("rclpy.duration").Duration
-    lasting = qos.durability is not Durability.VOLATILE  # ROS has no more than transient local
-    profile = module.QoSProfile(
-        reliability=module.ReliabilityPolicy.RELIABLE
-        if qos.reliable
-        else module.ReliabilityPolicy.BEST_EFFORT,
-        durability=module.DurabilityPolicy.TRANSIENT_LOCAL if lasting else module.DurabilityPolicy.VOLATILE,
-        history=module.HistoryPolicy.KEEP_LAST if qos.keep_last else module.HistoryPolicy.KEEP_ALL,
-        depth=qos.depth or 1,
+    return c_profile(
+        ros_qos.Qos(
+            qos.reliable,
+            qos.durability is not Durability.VOLATILE,  # ROS has no more than transient local
+            (qos.depth or 1) if qos.keep_last else None,
+            qos.deadline_ms or 0,
+            qos.lifespan_ms or 0,
+        )
     )
-    if qos.deadline_ms:
-        profile.deadline = duration(nanoseconds=qos.deadline_ms * 1_000_000)
-    if qos.lifespan_ms:
-        profile.lifespan = duration(nanoseconds=qos.lifespan_ms * 1_000_000)
-    return profile.get_c_qos_profile()
 
 
 def _service_profile() -> Any:
-    return importlib.import_module("rclpy.qos").QoSProfile(depth=SERVICE_DEPTH).get_c_qos_profile()
+    return c_profile(ros_qos.Qos(depth=SERVICE_DEPTH))
