@@ -25,8 +25,8 @@ PLAN = changed(
     POOL,
     transport__agent_host=DISCOVERY_GROUP,
     transport__has_discovery=True,
-    times__connect_timeout_ms=3000,
-    times__create_timeout_ms=3000,
+    times__connect_timeout_ms=20_000,
+    times__create_timeout_ms=20_000,
     times__liveliness_period_ms=50,
 )
 QUESTION = bytes.fromhex("80000000 02010800 0009fffd 03000000")
@@ -157,7 +157,7 @@ def test_answers_that_are_none(kind: str, tmp_path: Path) -> None:
         return [*spoiled[:6], good] if rounds[0] > 1 else spoiled
 
     with answering(answers) as group:
-        done = run(group, tmp_path, times__connect_timeout_ms=9000)
+        done = run(group, tmp_path, times__connect_timeout_ms=30_000)
     agent.socket.close()
     assert (done.returncode, done.stderr) == (0, ""), done.stdout
     assert agent.agent.values() == list(range(100))

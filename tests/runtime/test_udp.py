@@ -14,10 +14,10 @@ from tests.support.plans import INT32, POOL, changed
 from tests.support.runtime.harness import build, components, render
 from tests.support.runtime.udp import UdpAgent
 
-PLAN = changed(POOL, times__create_timeout_ms=3000, times__liveliness_period_ms=50)
+PLAN = changed(POOL, times__create_timeout_ms=20_000, times__liveliness_period_ms=50)
 
 
-def _program(tmp_path: Path, port: int, connect_timeout_ms: int = 3000) -> Path:
+def _program(tmp_path: Path, port: int, connect_timeout_ms: int = 20_000) -> Path:
     plan = changed(PLAN, transport__agent_port=port, times__connect_timeout_ms=connect_timeout_ms)
     tree = render(tmp_path, plan, components(plan))
     return build(tree, ["types.c", "udp.c"], "udp")
@@ -58,7 +58,7 @@ def test_two_programs_on_one_machine_have_two_keys(tmp_path: Path) -> None:
     agent = UdpAgent()
     agent.start()
     plan = changed(
-        PLAN, transport__agent_port=agent.port, times__connect_timeout_ms=3000, session__client_key=None
+        PLAN, transport__agent_port=agent.port, times__connect_timeout_ms=20_000, session__client_key=None
     )
     program = build(render(tmp_path, plan, components(plan)), ["types.c", "udp.c"], "udp")
     keys = []
