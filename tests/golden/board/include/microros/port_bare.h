@@ -4,7 +4,7 @@
  *
  * In a vendor's firmware nothing of this collides: no name of CMSIS is taken, the start-up is linked by its own linker
  * script only, and each function is linked when something calls it. Such a firmware calls port_bare_tick() from its
- * own timer interrupt (Cortex-M: SysTick_Handler), or brings a port_time_ms() of its own.
+ * own timer interrupt (Cortex-M: SysTick_Handler), or provides its own port_time_ms().
  */
 #ifndef MICROROS_PORT_BARE_H
 #define MICROROS_PORT_BARE_H
@@ -43,13 +43,13 @@ typedef struct port_bare_fault_t {
   uint32_t caller;
 } port_bare_fault_t;
 
-/* After a reset: returns true once, with what was kept, when a fault was the reason of the reset. */
+/* After a reset caused by a fault: returns true once, with the record of the fault. */
 bool port_bare_fault_take(port_bare_fault_t * fault);
 
 /* Keeps `fault` over the reset that follows. For the handlers of a port. */
 void port_bare_fault_keep(const port_bare_fault_t * fault);
 
-/* Sleeps until an interrupt has come. Each port has its own. */
+/* Sleeps until an interrupt occurs. Each processor implements it. */
 void port_bare_wait(void);
 
 /* Restarts the board; does not return. Each port has its own. */

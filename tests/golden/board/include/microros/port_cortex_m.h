@@ -15,7 +15,7 @@ extern "C" {
 /* The first code after a reset: paints the stack and goes on to port_bare_start(). */
 void port_cortex_m_reset(void);
 
-/* Every exception and interrupt without a handler of its own: keeps the cause and restarts the board. */
+/* Every exception and interrupt without its own handler: keeps the cause and restarts the board. */
 void port_cortex_m_fault(void);
 
 /* Its second half: `frame` is where the processor saved its registers, NULL where that is not readable. */
@@ -33,7 +33,7 @@ static inline void port_cortex_m_interrupt_pend(uint32_t number)
   PORT_CORTEX_M_REGISTER(0xe000e200u + 4u * (number / 32u)) = (uint32_t)1 << (number % 32u);
 }
 
-/* Waits until all accesses to memory are done and what follows is fetched anew (DSB, ISB). */
+/* Waits until all memory accesses are complete and later instructions are fetched again (DSB, ISB). */
 void port_cortex_m_barrier(void);
 
 #ifdef __cplusplus

@@ -28,17 +28,16 @@ void port_uart_stop(void);
  * way; does not wait. */
 void port_uart_send(void);
 
-/* For the driver's interrupt: takes the next byte to send out of the ring. False: there is none. */
+/* For the driver's interrupt: takes the next byte to send out of the ring. Returns false if it is empty. */
 bool port_uart_next(uint8_t * byte);
 
-/* The same for DMA. The first says where the next bytes to send are, and returns how many lie side by side, 0 when there
- * are none: all of them are one transfer. They stay where they are until the second, called by the interrupt at its end, frees
- * the room of these `count`. */
+/* For DMA: sets `bytes` to the next bytes to send and returns how many are contiguous, 0 if there is nothing to send. They
+ * are one transfer and stay valid until the interrupt at its end calls port_uart_sent(), which frees `count` of them. */
 uint32_t port_uart_unsent(const volatile uint8_t ** bytes);
 void port_uart_sent(uint32_t count);
 
-/* For the driver's interrupt: a byte has come; a full ring counts it as lost. One byte an interrupt: between two of them
- * others have their turn, however fast the line is. */
+/* For the driver's interrupt: takes a received byte; a full ring counts it as lost. Takes one byte per interrupt, so other
+ * interrupts run in between, however fast the line is. */
 void port_uart_received(uint8_t byte);
 
 /* For the driver's interrupt: the hardware lost a byte. */

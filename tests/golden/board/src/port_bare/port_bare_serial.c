@@ -80,7 +80,7 @@ bool port_serial_open(port_serial_t * serial, const char * device, uint32_t baud
   return true;
 }
 
-/* What was not sent is given up: whoever opens the line again begins a new session. */
+/* Unsent bytes are dropped, because opening the line again begins a new session. */
 void port_serial_close(port_serial_t * serial)
 {
   serial->handle = 0;
@@ -145,7 +145,7 @@ bool port_serial_is_idle(port_serial_t * serial)
   return port_output.sent == port_output.put && !port_serial_has_kept(serial);
 }
 
-/* Takes a byte of a message that is not copied, when its turn has come. */
+/* Takes the next byte of a message that is not copied. */
 static bool kept_next(uint32_t sent, uint8_t * byte)
 {
   const port_serial_next_t next = port_kept.next;

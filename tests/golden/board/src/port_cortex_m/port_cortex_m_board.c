@@ -17,7 +17,7 @@ static const uint32_t fpu_access = 0x00f00000u;    /* CP10 and CP11 */
 
 void port_bare_board_init(void)
 {
-  if (PORT_BOARD_VECTORS != 0u) { /* after a bootloader, with a table of its own */
+  if (PORT_BOARD_VECTORS != 0u) { /* after a bootloader, which has another table */
     PORT_CORTEX_M_REGISTER(SCB_VTOR) = PORT_BOARD_VECTORS;
     port_cortex_m_barrier();
   }

@@ -39,7 +39,7 @@ static void wake_open(void)
   wake_pipe[IN] = ends[IN];
 }
 
-/* Returns an end of the one pipe, which is opened by whoever comes first; -1: there is none. */
+/* Returns an end of the only pipe, which the first caller opens; -1 on failure. */
 static int wake_end(int end)
 {
   static pthread_once_t once = PTHREAD_ONCE_INIT;

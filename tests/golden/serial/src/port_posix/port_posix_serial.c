@@ -21,7 +21,7 @@ enum { LINES = 2 }; /* that of the session, and one to another agent that is ask
 
 static serial_line_t lines[LINES] = {{-1, 0, {0}}, {-1, 0, {0}}};
 
-/* Returns the line with this handle, -1 a free one; NULL: there is none. */
+/* Returns the line with this handle, for -1 a free one; NULL if there is no such line. */
 static serial_line_t * line_of(int handle)
 {
   for (size_t i = 0; i < LINES; ++i) {
