@@ -8,8 +8,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import microros_gen
-from generators import markdown
 from microros_gen.records import dataclass
+
+from . import markdown
 
 PACKAGE = Path(microros_gen.__file__).parent
 _SUBJECTS = {
