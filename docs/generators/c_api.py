@@ -14,12 +14,13 @@ from generators.c_headers import Item, Section, read_header
 from generators.markdown import cell
 from microros_gen.client.plan.runtime import WAITED_KINDS
 from microros_gen.client.plan.values import Values
+from microros_gen.client.views.components import umbrellas
 from microros_gen.client.views.contributions import Contributed, contributed
 from microros_gen.documents.templates import make_environment
 from microros_gen.selection.find_components import components_folder, load_catalogue
 
 PORT_HEADERS = {
-    "microros/port.h": "support",
+    "microros/port.h": "base",
     "microros/port_uart.h": "port_bare",
     "microros/port_cortex_m.h": "port_cortex_m",
     "microros/port_riscv.h": "port_riscv",
@@ -79,6 +80,7 @@ def _sections(component: str, name: str, everything: frozenset[str]) -> list[Sec
     for transport in _TRANSPORTS:
         view = {
             "headers": everything,
+            "umbrellas": umbrellas(tuple(sorted(everything))),
             "contributed": shared,
             "waits": SimpleNamespace(present=WAITED_KINDS, absent=()),
             "selection": SimpleNamespace(has=lambda _name: True),
@@ -172,10 +174,10 @@ def _link(found: re.Match[str], where: Mapping[str, str]) -> str:
 
 def _configuration() -> Iterator[str]:
     """Yield the section of the plan's constants: names alone, since each plan has its own values."""
-    text = (components_folder() / "support" / "include" / f"{CONFIG}.j2").read_text(encoding="utf-8")
+    text = (components_folder() / "base" / "include" / f"{CONFIG}.j2").read_text(encoding="utf-8")
     yield f"## {CONFIG}"
     yield (
-        "Component `support`. The plan as constants; the values are in OUT/include/microros_config.h. "
+        "Component `base`. The plan as constants; the values are in OUT/include/microros_config.h. "
         "Sizes are bytes, times milliseconds; a constant is there when the selection needs it."
     )
     config = _contributed().config

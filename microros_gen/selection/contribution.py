@@ -80,7 +80,8 @@ HOOK_POINTS: Mapping[str, HookPoint] = MappingProxyType(
 
 STATE_SECTIONS = ("streams", "input_streams", "parts", "tables", "queues", "services", "input")
 HANDLE_SECTIONS = ("handle", "handle_callbacks", "handle_data")
-"""Sections of members of the client, and of a handle of the executor."""
+TRANSPORT_SECTIONS = ("transport", "line")
+"""Sections of members of the client, of a handle of the executor, and of the transport."""
 CONFIG_SECTIONS = ("errors", "transport", "session", "streams", "places", "memory")
 OUTPUT_STREAMS = ("reliable", "best_effort")
 OUTPUT_FUNCTIONS: Mapping[str, str] = MappingProxyType(

@@ -33,8 +33,8 @@ SANITIZE = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 def test_time_sleep_epoch_and_ring(tmp_path: Path) -> None:
     (tmp_path / "microros").mkdir()
     (tmp_path / "microros" / "port_board.h").write_text(BOARD)
-    bare, support = BARE, COMPONENTS / "support"
-    includes = [f"-I{path}" for path in (tmp_path, bare / "src", bare / "include", support / "include")]
+    bare, base = BARE, COMPONENTS / "base"
+    includes = [f"-I{path}" for path in (tmp_path, bare / "src", bare / "include", base / "include")]
     program = tmp_path / "unit"
     check(["gcc", *WARNINGS, *SANITIZE, *includes, str(C_FILES / "unit_bare.c"), "-o", str(program)])
     check([str(program)])
@@ -42,8 +42,8 @@ def test_time_sleep_epoch_and_ring(tmp_path: Path) -> None:
 
 def test_timers_and_steady_time_over_sixty_days(tmp_path: Path) -> None:
     (tmp_path / "microros_config.h").write_text("#define MICROROS_TIMERS_MAX 2u\n")
-    bare, support = BARE, COMPONENTS / "support"
-    includes = [f"-I{path}" for path in (tmp_path, bare / "src", bare / "include", support / "include")]
+    bare, base = BARE, COMPONENTS / "base"
+    includes = [f"-I{path}" for path in (tmp_path, bare / "src", bare / "include", base / "include")]
     program = tmp_path / "unit"
     check(["gcc", *WARNINGS, *SANITIZE, *includes, str(C_FILES / "unit_bare_timers.c"), "-o", str(program)])
     check([str(program)])

@@ -104,7 +104,7 @@ def test_the_schema_has_the_numbers_that_advice_stops_at() -> None:
         (components_folder().parent / "application/application.schema.json").read_text(encoding="utf-8")
     )
     assert schema["properties"]["pools"]["properties"]["history"]["maximum"] == MOST_HISTORY
-    template = (components_folder() / "support/variants/error_code.h.j2").read_text(encoding="utf-8")
+    template = (components_folder() / "base/variants/error_code.h.j2").read_text(encoding="utf-8")
     most = re.search(r"MICROROS_POOL_MOST (\d+)u", template)
     assert most
     assert int(most[1]) == LARGEST_POOL

@@ -75,6 +75,27 @@ class EntitiesPlan:
         return self.services.any or self.clients.any
 
     @property
+    def limits_services(self) -> bool:
+        """Whether what some declared service or client sends has limits of its own."""
+        return any(s.limited for s in (*self.services.declared, *self.clients.declared))
+
+    @property
+    def stores_of_services(self) -> bool:
+        """Whether the library has storage for messages of some declared service."""
+        return any(service.stored for service in self.services.declared)
+
+    @property
+    def stores_of_clients(self) -> bool:
+        """Whether the library has storage for messages of some declared client."""
+        return any(client.stored for client in self.clients.declared)
+
+    @property
+    def service_storage_headers(self) -> tuple[str, ...]:
+        """Headers with the storage of messages of declared services and clients, sorted."""
+        served = (*self.services.declared, *self.clients.declared)
+        return tuple(sorted({message.header for s in served for message in s.stored}))
+
+    @property
     def node_places(self) -> int:
         """Places of nodes; a table needs one place at least."""
         return max(self.nodes.max, 1)

@@ -39,6 +39,11 @@ class ServicePlan:
     stored: tuple[StoredMessage, ...] = ()
     given: str = ""
 
+    def binder(self, part: str) -> str:
+        """Return the C function that binds its request or response to storage: NULL without such."""
+        stored = any(message.part == part for message in self.stored)
+        return f"bind_{self.kind}_{self.index}_{part}" if stored else "NULL"
+
     @property
     def dds_type(self) -> str:
         """The type's name on the wire, in front of that of its messages: `std_srvs::srv::dds_::SetBool_`."""

@@ -99,6 +99,38 @@ class TransportPlan:
         return not lines_of_bytes and (self.kind != "custom" or self.framing == "off")
 
     @property
+    def reading_waits(self) -> str:
+        """When a custom read function waits for a message: never, always, or unframed (chosen at run time)."""
+        if self.read_polls or self.framing == "on":
+            return "never"
+        return "always" if self.framing == "off" else "unframed"
+
+    @property
+    def reads_may_wait(self) -> bool:
+        """Whether a custom transport's read function may wait for a message."""
+        return self.reading_waits != "never"
+
+    @property
+    def framing_is_fixed(self) -> bool:
+        """Whether the application file says whether a custom transport has framing."""
+        return self.framing != "either"
+
+    @property
+    def framing_is_on(self) -> bool:
+        """Whether a custom transport always has framing."""
+        return self.framing == "on"
+
+    @property
+    def host_format(self) -> str:
+        """How a text of C prints the agent's host: an IPv6 address in brackets."""
+        return "[%s]" if ":" in self.agent_host else "%s"
+
+    @property
+    def host_size(self) -> int:
+        """Bytes for a host in digits, with its NUL: an IPv6 address where the plan has one."""
+        return 46 if ":" in self.agent_host else 32
+
+    @property
     def discovers(self) -> bool:
         """Whether a session searches for its agent by itself."""
         return self.agent_host == DISCOVERY_GROUP

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from types import MappingProxyType
 
 from jinja2 import Environment
 
@@ -21,6 +22,53 @@ class _Waits:
 
     present: tuple[str, ...]
     absent: tuple[str, ...]
+
+
+_GATHERED: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "rcl/rcl.h": (
+            "client",
+            "error_handling",
+            "graph",
+            "guard_condition",
+            "init",
+            "init_options",
+            "node",
+            "publisher",
+            "service",
+            "subscription",
+            "time",
+            "timer",
+            "wait",
+        ),
+        "rclc/rclc.h": (
+            "action_client",
+            "action_server",
+            "client",
+            "init",
+            "node",
+            "publisher",
+            "service",
+            "sleep",
+            "subscription",
+            "timer",
+            "types",
+        ),
+    }
+)
+"""What ROS 2's umbrella headers include, of their own folders."""
+_UMBRELLA = "rmw_microros/rmw_microros.h"
+"""Includes every selected header of its folder."""
+
+
+def umbrellas(headers: tuple[str, ...]) -> dict[str, tuple[str, ...]]:
+    """Return what each umbrella header includes of the selected `headers`."""
+    found = {
+        umbrella: tuple(h for name in names if (h := f"{umbrella.partition('/')[0]}/{name}.h") in headers)
+        for umbrella, names in _GATHERED.items()
+    }
+    folder = _UMBRELLA.partition("/")[0]
+    return found | {_UMBRELLA: tuple(h for h in headers if h.startswith(f"{folder}/") and h != _UMBRELLA)}
 
 
 def _waits(headers: tuple[str, ...]) -> _Waits:
@@ -46,6 +94,7 @@ def render_components(
         "target": values.target,
         "board": values.board,
         "headers": headers,
+        "umbrellas": umbrellas(headers),
         "waits": _waits(headers),
         "functions": functions,
         "contributed": contributed(components, values),

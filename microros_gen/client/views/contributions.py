@@ -21,6 +21,7 @@ from microros_gen.selection.contribution import (
     OUTPUT_FUNCTIONS,
     OUTPUT_STREAMS,
     STATE_SECTIONS,
+    TRANSPORT_SECTIONS,
     Conditional,
     Contributions,
     ErrorCode,
@@ -188,7 +189,7 @@ def contributed(components: Iterable[Component], values: Values) -> Contributed:
         ),
         state={
             section: _members(s for s in states if s.section == section)
-            for section in (*STATE_SECTIONS, *HANDLE_SECTIONS)
+            for section in (*STATE_SECTIONS, *HANDLE_SECTIONS, *TRANSPORT_SECTIONS)
         },
         state_headers=tuple(sorted({s.header for s in states if s.header and s.section in STATE_SECTIONS})),
         moments=tuple(Moments(_member(s), s.clocks) for s in states if s.clocks),

@@ -8,14 +8,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-{% set reading_waits = plan.transport.framing != 'on' and not plan.transport.read_polls %}
-{% if reading_waits %}
-#include "microros/port.h"
-{% endif %}
-{% if plan.transport.framing != 'off' %}
-#include "microros/xrce_framing.h"
-{% endif %}
-#include "uxr/client/transport.h"
+#include "microros/xrce_custom_reading.h"
+#include "microros/xrce_transport_state.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -24,20 +18,6 @@ extern "C" {
 /* How texts name the other end. */
 #define XRCE_PLACE_N "the custom transport"
 #define XRCE_PLACE_M "the custom transport"
-
-typedef struct xrce_transport_t {
-  uxrCustomTransport custom;
-{% if reading_waits %}
-  uint32_t read_ms; /* when the read function was called last */
-{% endif %}
-  bool turn_taken; /* a stream has sent since the last pump began */
-{% if plan.transport.framing != 'off' %}
-  xrce_framing_t framing;
-{% endif %}
-{% if plan.executor.any %}
-  uint8_t wait_ms; /* how long the next call of the read function may wait */
-{% endif %}
-} xrce_transport_t;
 
 static inline const char * xrce_transport_name(const xrce_transport_t * transport)
 {
@@ -72,20 +52,6 @@ static inline bool xrce_transport_take_turn(xrce_transport_t * transport)
   return may_send;
 }
 
-/* Whether who sends may leave received messages to others for now{{ ': reading never waits' if not reading_waits else ': reading waits for them, and was done less than `pause_ms` ago' }}. */
-static inline bool xrce_transport_may_skip_reading(const xrce_transport_t * transport, uint32_t pause_ms)
-{
-{% if not reading_waits %}
-  (void)transport;
-  (void)pause_ms;
-  return false;
-{% elif plan.transport.framing == 'off' %}
-  return port_time_ms() - transport->read_ms < pause_ms;
-{% else %}
-  return !transport->custom.framing && port_time_ms() - transport->read_ms < pause_ms;
-{% endif %}
-}
-
 /* Whether nothing waits to be sent. */
 static inline bool xrce_transport_is_idle(xrce_transport_t * transport)
 {
@@ -102,16 +68,14 @@ void xrce_transport_close(xrce_transport_t * transport);
 bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, size_t size);
 
 /*
- * Takes one message; {{ 'this never waits for it' if not reading_waits else 'without framing this waits a millisecond for it' }}, as long as the application's function keeps to
- * that. Returns its size, 0 when there is none, -1 for one that had to be thrown away. `buffer` keeps the part that
+ * Takes one message; without framing this waits a millisecond for it, unless the application says that its function only
+ * looks. Returns its size, 0 when there is none, -1 for one that had to be thrown away. `buffer` keeps the part that
  * is there: give the same one until a message came.
  */
 int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity);
-{% if plan.input.lends %}
 
 /* Returns how many bytes of the buffer the message on its way has touched at most. */
 uint32_t xrce_transport_arrived(const xrce_transport_t * transport);
-{% endif %}
 
 #ifdef __cplusplus
 }

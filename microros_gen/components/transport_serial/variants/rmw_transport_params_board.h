@@ -4,18 +4,10 @@
 #define MICROROS_RMW_TRANSPORT_PARAMS_H
 
 #include <stdint.h>
-{% if plan.transport.device %}
-
-/* Room for a path with its NUL. */
-#define RMW_UXRCE_MAX_SERIAL_DEVICE_SIZE 64
-{% endif %}
 
 /* 0 or empty: as the plan says. */
 typedef struct rmw_uxrce_transport_params_t {
   uint32_t client_key;
-{% if plan.transport.device %}
-  char serial_device[RMW_UXRCE_MAX_SERIAL_DEVICE_SIZE];
-{% endif %}
 } rmw_uxrce_transport_params_t;
 
 #endif /* MICROROS_RMW_TRANSPORT_PARAMS_H */

@@ -2,6 +2,7 @@
 #include "rmw_microros/custom_transport.h"
 
 #include "microros/error.h"
+#include "microros/rmw_custom_framing.h"
 #include "microros/rmw_transport.h"
 
 #include <string.h>
@@ -16,17 +17,9 @@ static rmw_ret_t custom_set(
   if (open_cb == NULL || close_cb == NULL || write_cb == NULL || read_cb == NULL) {
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "a function of the transport");
   }
-{% if plan.transport.framing == 'on' %}
-  if (!framing) {
-    microros_error_set(microros_error_framing, NULL, "false", 0, 0);
+  if (!rmw_custom_takes_framing(framing)) {
     return RMW_RET_UNSUPPORTED;
   }
-{% elif plan.transport.framing == 'off' %}
-  if (framing) {
-    microros_error_set(microros_error_framing, NULL, "true", 0, 0);
-    return RMW_RET_UNSUPPORTED;
-  }
-{% endif %}
   custom->framing = framing;
   custom->open = open_cb;
   custom->close = close_cb;

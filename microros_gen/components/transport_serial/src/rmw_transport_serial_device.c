@@ -1,14 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rmw_transport.h"
-{% if plan.transport.device %}
 
 #include "microros/error.h"
 #include "microros_config.h"
 #include "rmw_microros/init_options.h"
-{% endif %}
 
 #include <string.h>
-{% if plan.transport.device %}
 
 rmw_ret_t rmw_uros_options_set_serial_device(const char * dev, rmw_init_options_t * rmw_options)
 {
@@ -22,15 +19,10 @@ rmw_ret_t rmw_uros_options_set_serial_device(const char * dev, rmw_init_options_
   (void)memcpy(rmw_options->transport_params.serial_device, dev, strlen(dev) + 1u);
   return RMW_RET_OK;
 }
-{% endif %}
 
 bool rmw_transport_prepare(xrce_transport_t * transport, const rmw_uxrce_transport_params_t * params)
 {
   (void)memset(transport, 0, sizeof(*transport));
-{% if plan.transport.device %}
   transport->device = params->serial_device[0] != '\0' ? params->serial_device : MICROROS_SERIAL_DEVICE;
-{% else %}
-  (void)params;
-{% endif %}
   return true;
 }

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The transport sends from the slots. */
+#ifndef MICROROS_XRCE_STREAM_RELIABLE_SEND_H
+#define MICROROS_XRCE_STREAM_RELIABLE_SEND_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "microros/xrce_session.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* For this component alone: sends a message of a slot, which stays as it is until the slot is reserved again. */
+static inline bool xrce_stream_reliable_send(xrce_session_t * session, const uint8_t * message, size_t size)
+{
+  if (!session->transport_open || !xrce_transport_send_kept(&session->transport, message, size)) {
+    return false;
+  }
+  ++session->statistics.sent;
+  return true;
+}
+
+/* For this component alone: a slot is going to have another message; the one that it had may be on its way again. */
+static inline void xrce_stream_reliable_reclaim(xrce_session_t * session, const uint8_t * message)
+{
+  xrce_transport_take_back(&session->transport, message);
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_XRCE_STREAM_RELIABLE_SEND_H */

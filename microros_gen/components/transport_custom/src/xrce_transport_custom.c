@@ -1,0 +1,7 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/xrce_transport.h"
+
+void xrce_transport_close(xrce_transport_t * transport)
+{
+  (void)transport->custom.close(&transport->custom); /* there is nothing to be done about a failure */
+}
