@@ -76,9 +76,11 @@ def cli() -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command line and exit; shows a traceback only where MICROROS_GEN_TRACEBACK asks for one."""
-    words = sys.argv[1:] if arguments is None else arguments
-    if words and words[0] in _UNCOLLECTED:
+    """Run the command line and exit; shows a traceback only where MICROROS_GEN_TRACEBACK asks for one.
+
+    `arguments` come from a caller in the same process, whose garbage collection goes on; None: this is the program.
+    """
+    if arguments is None and sys.argv[1:2] and sys.argv[1] in _UNCOLLECTED:
         gc.disable()
     sys.exit(_status(arguments))
 

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "27f02f8f58b97e81"
-#define rcl_init rcl_init__plan_27f02f8f58b97e81
-#define rclc_support_init rclc_support_init__plan_27f02f8f58b97e81
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_27f02f8f58b97e81
+#define MICROROS_PLAN_ID "1e29a58384ebe70b"
+#define rcl_init rcl_init__plan_1e29a58384ebe70b
+#define rclc_support_init rclc_support_init__plan_1e29a58384ebe70b
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_1e29a58384ebe70b
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "815a56d5171911b1"
-#define rcl_init rcl_init__plan_815a56d5171911b1
-#define rclc_support_init rclc_support_init__plan_815a56d5171911b1
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_815a56d5171911b1
+#define MICROROS_PLAN_ID "acdf9d490ff1f4e3"
+#define rcl_init rcl_init__plan_acdf9d490ff1f4e3
+#define rclc_support_init rclc_support_init__plan_acdf9d490ff1f4e3
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_acdf9d490ff1f4e3
 
 /* errors: code */
 #define MICROROS_ERROR_TEXT_SIZE 8u

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "e1b69666a35549b7"
-#define rcl_init rcl_init__plan_e1b69666a35549b7
-#define rclc_support_init rclc_support_init__plan_e1b69666a35549b7
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_e1b69666a35549b7
+#define MICROROS_PLAN_ID "406e07894c73d7f2"
+#define rcl_init rcl_init__plan_406e07894c73d7f2
+#define rclc_support_init rclc_support_init__plan_406e07894c73d7f2
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_406e07894c73d7f2
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "67141bef5f053710"
-#define rcl_init rcl_init__plan_67141bef5f053710
-#define rclc_support_init rclc_support_init__plan_67141bef5f053710
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_67141bef5f053710
+#define MICROROS_PLAN_ID "97748130a8b4fa21"
+#define rcl_init rcl_init__plan_97748130a8b4fa21
+#define rclc_support_init rclc_support_init__plan_97748130a8b4fa21
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_97748130a8b4fa21
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "a5be67372099dee4"
-#define rcl_init rcl_init__plan_a5be67372099dee4
-#define rclc_support_init rclc_support_init__plan_a5be67372099dee4
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_a5be67372099dee4
+#define MICROROS_PLAN_ID "d9cdb6fe4670a9cc"
+#define rcl_init rcl_init__plan_d9cdb6fe4670a9cc
+#define rclc_support_init rclc_support_init__plan_d9cdb6fe4670a9cc
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_d9cdb6fe4670a9cc
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

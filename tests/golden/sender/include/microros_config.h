@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "aa3442ccb1ee2d37"
-#define rcl_init rcl_init__plan_aa3442ccb1ee2d37
-#define rclc_support_init rclc_support_init__plan_aa3442ccb1ee2d37
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_aa3442ccb1ee2d37
+#define MICROROS_PLAN_ID "fab7a67fe23f76ac"
+#define rcl_init rcl_init__plan_fab7a67fe23f76ac
+#define rclc_support_init rclc_support_init__plan_fab7a67fe23f76ac
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_fab7a67fe23f76ac
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

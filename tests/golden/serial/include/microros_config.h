@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "32971d2697910a4f"
-#define rcl_init rcl_init__plan_32971d2697910a4f
-#define rclc_support_init rclc_support_init__plan_32971d2697910a4f
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_32971d2697910a4f
+#define MICROROS_PLAN_ID "f582660d692364dc"
+#define rcl_init rcl_init__plan_f582660d692364dc
+#define rclc_support_init rclc_support_init__plan_f582660d692364dc
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_f582660d692364dc
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "57248017677553a8"
-#define rcl_init rcl_init__plan_57248017677553a8
-#define rclc_support_init rclc_support_init__plan_57248017677553a8
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_57248017677553a8
+#define MICROROS_PLAN_ID "0ee2676edbc8be16"
+#define rcl_init rcl_init__plan_0ee2676edbc8be16
+#define rclc_support_init rclc_support_init__plan_0ee2676edbc8be16
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_0ee2676edbc8be16
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "a39bb725f6fd4255"
-#define rcl_init rcl_init__plan_a39bb725f6fd4255
-#define rclc_support_init rclc_support_init__plan_a39bb725f6fd4255
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_a39bb725f6fd4255
+#define MICROROS_PLAN_ID "2710d77614c5b82b"
+#define rcl_init rcl_init__plan_2710d77614c5b82b
+#define rclc_support_init rclc_support_init__plan_2710d77614c5b82b
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_2710d77614c5b82b
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "63f0c96d4ca0da3a"
-#define rcl_init rcl_init__plan_63f0c96d4ca0da3a
-#define rclc_support_init rclc_support_init__plan_63f0c96d4ca0da3a
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_63f0c96d4ca0da3a
+#define MICROROS_PLAN_ID "ed89a88c0fd4df4b"
+#define rcl_init rcl_init__plan_ed89a88c0fd4df4b
+#define rclc_support_init rclc_support_init__plan_ed89a88c0fd4df4b
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_ed89a88c0fd4df4b
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

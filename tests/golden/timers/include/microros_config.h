@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "44e7622e8a29ee82"
-#define rcl_init rcl_init__plan_44e7622e8a29ee82
-#define rclc_support_init rclc_support_init__plan_44e7622e8a29ee82
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_44e7622e8a29ee82
+#define MICROROS_PLAN_ID "32175ea30344a481"
+#define rcl_init rcl_init__plan_32175ea30344a481
+#define rclc_support_init rclc_support_init__plan_32175ea30344a481
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_32175ea30344a481
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* An application that was compiled against another plan does not link. */
-#define MICROROS_PLAN_ID "247ad6dbee899edf"
-#define rcl_init rcl_init__plan_247ad6dbee899edf
-#define rclc_support_init rclc_support_init__plan_247ad6dbee899edf
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_247ad6dbee899edf
+#define MICROROS_PLAN_ID "05b979acb39e7816"
+#define rcl_init rcl_init__plan_05b979acb39e7816
+#define rclc_support_init rclc_support_init__plan_05b979acb39e7816
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_05b979acb39e7816
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

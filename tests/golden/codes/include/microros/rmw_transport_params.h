@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-/* Room for an address in digits, IPv4 or a shorter one of IPv6, and for "65535", each with its NUL. */
+/* Room for an address in digits, of IPv6 in full where the plan's is one, and for "65535", each with its NUL. */
 #define RMW_UXRCE_MAX_HOST_SIZE 32
 #define RMW_UXRCE_MAX_PORT_SIZE 6
 

@@ -102,6 +102,9 @@ bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, 
  */
 int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity);
 
+/* Returns how many bytes of the buffer the message on its way has touched at most. */
+uint32_t xrce_transport_arrived(const xrce_transport_t * transport);
+
 /* Whether the connection is gone, with the session that the agent had over it. Another one is opened by xrce_transport_open. */
 static inline bool xrce_transport_is_gone(const xrce_transport_t * transport)
 {

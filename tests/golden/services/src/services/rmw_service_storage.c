@@ -1,15 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the declarations of services and clients have: types under limits of their own, and storage of messages. */
+/* Storage of messages that the declarations of services and clients have. */
 #include "microros/rmw_service.h"
 #include "std_srvs/srv/detail/set_bool__storage.h"
 
 #include <stddef.h>
-
-const microros_message_type_t * rmw_service_sent(uint16_t index, const microros_message_type_t * of_handle)
-{
-  (void)index;
-  return of_handle;
-}
 
 typedef void (*bind_t)(void * ros_message);
 
