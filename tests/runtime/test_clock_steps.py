@@ -366,6 +366,7 @@ ELSEWHERE = {
     "timers": "unit_days.c",
 }
 TIMELESS = {
+    "base": "constants, and a lock that sleeps a millisecond; no state",
     "entities_binary": "the deadline of a QoS is a number for the agent",
     "entities_preconfigured": "hands a time-out on to the session",
     "multithread": "sleeps a millisecond",

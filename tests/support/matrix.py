@@ -125,6 +125,17 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         "serial-sleep": _POOL + "components: [+sleep_cycles]\ntransport: {type: serial}\n",
         "custom-framed-sleep": _POOL
         + "components: [+sleep_cycles]\ntransport: {type: custom, framing: true}\n",
+        "custom-framed-reader": _LENT + "transport: {type: custom, framing: true}\n",
+        "custom-packets-reader": _LENT + "transport: {type: custom, framing: false}\n",
+        "custom-either-reader": _LENT + "transport: {type: custom}\n",
+        "custom-either-own-limits": _BUSY
+        + "    services: [{name: on, type: std_srvs/srv/SetBool, limits: {message: 9}}]\n"
+        + "    clients: [{name: ask, type: std_srvs/srv/SetBool, limits: {message: 20}}]\n"
+        + "profiles: [pure_reader]\ncomponents: [-subscribe, +services, +executor]\ntransport: {type: custom}\n",
+        "custom-packets-threads": _BUSY
+        + _ASKS
+        + "profiles: [pure_sender]\ncomponents: [-publish, +services, +executor, +multithread]\n"
+        + "transport: {type: custom, framing: false}\n",
     }
 )
 """Application files by name."""

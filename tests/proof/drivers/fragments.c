@@ -12,7 +12,7 @@ enum { SLOT = 8 };
 
 static xrce_client_t client;
 static uint8_t slot[SLOT];
-static uint8_t piece[MICROROS_INPUT_SIZE];
+static uint8_t submessage[XRCE_SUBMESSAGE_HEADER + MICROROS_INPUT_SIZE];
 
 bool xrce_read_begin(xrce_client_t * taker, const xrce_arrival_t * arrival)
 {
@@ -49,7 +49,7 @@ static void take(uint16_t whole, uint16_t here, size_t least, size_t most)
 {
   const size_t size = Frama_C_size_t_interval(least, most);
 
-  proof_any(piece, sizeof(piece));
+  proof_any(submessage, sizeof(submessage));
   proof_any(&client.fragments.sample, sizeof(client.fragments.sample));
   client.fragments.sample.size = whole;
   client.fragments.arrived = here;
@@ -58,7 +58,7 @@ static void take(uint16_t whole, uint16_t here, size_t least, size_t most)
   client.fragments.skipping = proof_bool();
   client.reliable_input.next = proof_u16();
   client.session.statistics.malformed = proof_u32();
-  xrce_fragments_on_piece(&client, piece, size, proof_u8(), proof_u32());
+  xrce_fragments_on_piece(&client, submessage, size, proof_u32());
   //@ check !client.fragments.begun || client.fragments.skipping || client.fragments.sample.size <= SLOT;
   //@ check !client.fragments.begun || client.fragments.skipping || client.fragments.arrived <= SLOT;
 }
@@ -70,7 +70,7 @@ int main(void)
     //@ loop unroll SLOT + 1;
     for (uint32_t here = 0; here <= whole; ++here) {
       take((uint16_t)whole, (uint16_t)here, 0, 7); /* less than what a sample begins with */
-      take((uint16_t)whole, (uint16_t)here, 8, sizeof(piece));
+      take((uint16_t)whole, (uint16_t)here, 8, MICROROS_INPUT_SIZE);
     }
   }
   return 0;

@@ -15,7 +15,7 @@ enum { RECEIVERS = XRCE_RECEIVERS };
 enum { MOST_REFUSALS = 16 }; /* that xrce_entities.c counts in a row */
 
 static xrce_client_t client;
-static uint8_t payload[LAST];
+static uint8_t submessage[XRCE_SUBMESSAGE_HEADER + LAST];
 static const microros_message_type_t any_type = {.dds_type_name = "any::msg::dds_::Type_"};
 static const microros_service_type_t any_service = {.dds_type_name = "any::srv::dds_::Type_"};
 
@@ -168,6 +168,7 @@ static void any_receivers(void)
 static void any_client(void)
 {
   xrce_session_open(&client, proof_u32());
+  client.session.in_session = proof_bool();
   client.session.transport.host = "host";
   client.participants[0].name = "any";
   client.participants[0].namespace_ = "/";
@@ -253,7 +254,8 @@ enum { ANY = 0xff };
 
 static void take(const case_t * is, size_t size)
 {
-  uint8_t * const begin = &payload[LAST - size];
+  uint8_t * const begin = &submessage[LAST - size];
+  uint8_t * const payload = &begin[XRCE_SUBMESSAGE_HEADER];
 
   any_client();
   if (is->kept != ANY) {
@@ -270,14 +272,13 @@ static void take(const case_t * is, size_t size)
     client.states[is->cursor].level =
       (uint8_t)Frama_C_interval(is->deleting ? 1 : 0, is->deleting ? complete : complete - 1);
   }
-  proof_any(payload, sizeof(payload));
+  proof_any(submessage, sizeof(submessage));
+  begin[0] = (uint8_t)Frama_C_interval(ID_FIRST, ID_LAST);
   if (size >= XRCE_OBJECT_PREFIX && (is->far || is->object[1] != 0u)) {
-    begin[2] = (uint8_t)Frama_C_interval(is->far ? 1 : 0, is->far ? UINT8_MAX : 0);
-    begin[3] = (uint8_t)Frama_C_interval(is->object[0], is->object[1]);
+    payload[2] = (uint8_t)Frama_C_interval(is->far ? 1 : 0, is->far ? UINT8_MAX : 0);
+    payload[3] = (uint8_t)Frama_C_interval(is->object[0], is->object[1]);
   }
-  xrce_route_submessage(
-    &client, (uint8_t)Frama_C_interval(ID_FIRST, ID_LAST), proof_u8(), begin, size, proof_bool(),
-    proof_u32());
+  xrce_route_submessage(&client, begin, size, proof_u32());
   check_client();
 }
 

@@ -27,6 +27,7 @@ from tests.support.runtime.merged import merged, text_of
 FIXTURES = TESTS / "runtime" / "c"
 STRING = TypeName("std_msgs", "msg", "String")
 CORE = (
+    "base",
     "support",
     "session",
     "memory",
