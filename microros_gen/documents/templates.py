@@ -15,7 +15,7 @@ from jinja2.bccache import Bucket
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 TEMPLATE_FOLDERS = (_PACKAGE / "templates", _PACKAGE / "components", _PACKAGE / "platform")
-"""Where templates are found: `types/struct.h.j2`, `publish/src/rcl_publisher.c.j2`, `os/bare/src/image.ld.j2`."""
+"""Where templates are found: `types/struct.h.j2`, `publish/src/rcl_publisher.c.j2`, `os/NAME/src/image.ld.j2`."""
 
 
 def make_environment(folders: Sequence[Path] = TEMPLATE_FOLDERS, compiled: Path | None = None) -> Environment:

@@ -242,7 +242,7 @@ def test_the_usual_reconnecting_sender(
         for _ in range(2):
             with running_agent(domain, "--domain", str(domain)) as agent:
                 relay.connect(agent.port)
-                values = [value["data"] for _, value in observer.got(20)]
+                values = [value["data"] for _, value in observer.got(20, topic="/usual_count")]
                 assert values[0] > last
                 assert values == sorted(set(values))  # DDS may lose one on a busy machine: best effort
                 last = values[-1]

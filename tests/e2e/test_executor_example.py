@@ -51,7 +51,7 @@ def test_declared_timers_publish_and_callbacks_take(
             assert time.monotonic() < end, "nobody subscribes"
             time.sleep(0.05)
         observer.ask(do="publish", topic=ORDER, type="std_msgs/msg/Int32", values=[{"data": 7}])
-        counts = [value["data"] for _, value in observer.got(20)]
+        counts = [value["data"] for _, value in observer.got(20, topic=COUNT)]
         assert process.stdout is not None
         for line in process.stdout:  # it goes on printing requests and replies
             wanted -= {line.strip().partition(": ")[0], line.strip()}

@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
 
+import microros_gen
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.platform.find import read_target
 from microros_gen.platform.part import Fraction
@@ -19,6 +21,7 @@ from microros_gen.selection.component import Ask, Component, Provision, SourceFi
 from tests.support.command_line import Runner
 from tests.support.ids import without_id
 
+PACKAGE = Path(microros_gen.__file__).parent
 PART = """\
 component: port_demo
 summary: "A made-up kernel"
@@ -290,3 +293,12 @@ def test_the_first_part_provides_and_brings_what_it_asks_for() -> None:
     sleeper = Component("y", "", "middleware", True, asks=(Ask("sleep"),))
     clash = provide((sleeper, both), ("port_both",), ("sleep",), lambda _: True)
     assert clash.clashes == (Clash("port_both", "a.c", "time", "sleep"),)
+
+
+def test_no_python_module_names_a_part() -> None:
+    """A port is its own folder: nothing about one stands in code that they share."""
+    parts = {path.parent.name for path in (PACKAGE / "platform").glob("*/*/component.yaml")}
+    assert {"bare", "cortex_m", "posix", "posix_sockets", "riscv"} <= parts
+    quoted = re.compile(rf"""["'/](port_)?({"|".join(sorted(parts))})["'/.]""")
+    named = {path.name for path in PACKAGE.rglob("*.py") if quoted.search(path.read_text(encoding="utf-8"))}
+    assert named == set()

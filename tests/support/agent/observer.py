@@ -68,12 +68,15 @@ class Observer:
             assert time.monotonic() < end, f"not seen: {graph}"
             time.sleep(0.05)
 
-    def got(self, count: int, timeout_s: float = 15.0) -> list[tuple[str, Any]]:
-        """Wait for `count` samples; return them."""
+    def got(self, count: int, timeout_s: float = 15.0, topic: str | None = None) -> list[tuple[str, Any]]:
+        """Wait for `count` samples; return them.
+
+        With `topic` samples of others are discarded, as those that an earlier test left.
+        """
         end = deadline(timeout_s)
         found: list[tuple[str, Any]] = []
         while len(found) < count:
-            found += [(topic, value) for topic, value in self.ask(do="samples")]
+            found += [(name, value) for name, value in self.ask(do="samples") if topic in (None, name)]
             assert time.monotonic() < end, f"{len(found)} of {count} samples came: {found[-3:]}"
             time.sleep(0.02)
         return found
