@@ -12,6 +12,7 @@ from microros_gen.toolchain.compile import object_name
 
 _ENDINGS = re.compile(r"(\.(c|S|s))?\.(o|obj|lo|rel)$")
 _WORD = re.compile(r"[A-Za-z_]\w*")
+_INCLUDE = re.compile(r'^#include "([^"]+)"$', re.MULTILINE)
 _SUFFIX = re.compile(r"(__plan_[0-9a-f]{16})?(\..*)?$")
 """What ties a symbol to its plan, and what compilers add to a name: `.constprop.0`, `.1234`."""
 
@@ -45,10 +46,18 @@ class Sources:
         return best
 
     def _words_of(self, source: str) -> frozenset[str]:
+        """Return the words of a source and of the headers that it includes: they have inline functions."""
         if source not in self._words:
-            try:
-                text = read_text(self._folder / source, errors="replace")
-            except OSError:
-                text = ""
-            self._words[source] = frozenset(_WORD.findall(text))
+            found: set[str] = set()
+            waiting, seen = [source], {source}
+            while waiting:
+                try:
+                    text = read_text(self._folder / waiting.pop(), errors="replace")
+                except OSError:
+                    continue
+                found.update(_WORD.findall(text))
+                headers = {f"include/{header}" for header in _INCLUDE.findall(text)} - seen
+                seen |= headers
+                waiting += sorted(headers)
+            self._words[source] = frozenset(found)
         return self._words[source]

@@ -39,6 +39,7 @@ _OTHER_MEANING = {
         "timers",
     ),
     "write",
+    "base",
 }
 """Names that are words of YAML files, too: they count only where a function is asked for the component."""
 MENTIONS = {

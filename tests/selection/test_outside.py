@@ -249,7 +249,7 @@ def test_names_of_others_are_refused(folder: Path, run: Runner) -> None:
     application(folder)
     done = run("generate", "-o", "out")
     assert done.status == 2
-    assert "the components 'support' and 'beacon' both have 'include/microros/port.h'" in done.err
+    assert "the components 'base' and 'beacon' both have 'include/microros/port.h'" in done.err
 
     (folder / "beacon/include/microros/port.h").unlink()
     write_files(folder / "beacon", {"include/std_msgs/msg/int32.h": "\n"})

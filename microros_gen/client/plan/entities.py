@@ -76,7 +76,7 @@ class EntitiesPlan:
 
     @property
     def limits_services(self) -> bool:
-        """Whether what some declared service or client sends has limits of its own."""
+        """Whether what some declared service or client sends has its own limits."""
         return any(s.limited for s in (*self.services.declared, *self.clients.declared))
 
     @property

@@ -24,39 +24,15 @@ class _Waits:
     absent: tuple[str, ...]
 
 
-_GATHERED: Mapping[str, tuple[str, ...]] = MappingProxyType(
-    {
-        "rcl/rcl.h": (
-            "client",
-            "error_handling",
-            "graph",
-            "guard_condition",
-            "init",
-            "init_options",
-            "node",
-            "publisher",
-            "service",
-            "subscription",
-            "time",
-            "timer",
-            "wait",
-        ),
-        "rclc/rclc.h": (
-            "action_client",
-            "action_server",
-            "client",
-            "init",
-            "node",
-            "publisher",
-            "service",
-            "sleep",
-            "subscription",
-            "timer",
-            "types",
-        ),
-    }
+_RCL = (
+    "client error_handling graph guard_condition init init_options node publisher service subscription time timer"
+    " wait"
 )
-"""What ROS 2's umbrella headers include, of their own folders."""
+_RCLC = "action_client action_server client init node publisher service sleep subscription timer types"
+_GATHERED: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {"rcl/rcl.h": tuple(_RCL.split()), "rclc/rclc.h": tuple(_RCLC.split())}
+)
+"""What ROS 2's umbrella headers include, of their folders."""
 _UMBRELLA = "rmw_microros/rmw_microros.h"
 """Includes every selected header of its folder."""
 

@@ -18,7 +18,7 @@ GOLDEN = HERE / "golden"
 DURATION_MS = 2000
 _LEFT_OUT = ("timers_ticked",)
 """The application itself drives its hardware timer."""
-_ELSEWHERE = ("target:", "{type: custom}")
+_ELSEWHERE = ("target:", "{type: custom")
 """Images of boards, and those whose transport is functions of the application."""
 
 

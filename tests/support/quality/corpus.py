@@ -142,6 +142,10 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "      - {topic: large, type: std_msgs/msg/String}\nlimits: {'*': {string: 300}}\n"
         + "target: {name: qemu-mps2-an386}\n",
         "lent_serial": _READER + _ALONE + _SERIAL,
+        "lent_custom": _READER + _ALONE + "transport: {type: custom}\n",
+        "lent_custom_framed": _READER + _ALONE + "transport: {type: custom, framing: true}\n",
+        "lent_custom_packets": _READER + _ALONE + "transport: {type: custom, framing: false}\n",
+        "services_less": _SERVED.replace("20", "9") + _ASKED.replace("9", "20"),
         "lent_tcp": _READER + _ALONE + "transport: {type: tcp, agent: '127.0.0.1:8888'}\n",
     }
 )
