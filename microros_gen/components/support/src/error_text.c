@@ -149,7 +149,7 @@ void rcutils_set_error_state(const char * error_string, const char * file, size_
 
 int32_t microros_error_named(int32_t result, microros_error_t error, const char * name)
 {
-  microros_error_set(error, name, NULL, 0, 0);
+  microros_error_set(error, name, "", 0, 0);
   return result;
 }
 
