@@ -15,6 +15,7 @@ from microros_gen.cli.generate import warnings_text
 from microros_gen.cli.options import selection_options
 from microros_gen.cli.tables import format_selection, format_table, selection_data
 from microros_gen.client.plan.streams import StreamSizes
+from microros_gen.client.views.presence import report_rows
 from microros_gen.compiler import Planned
 from microros_gen.typesupport.plan.layout import ILP32
 from microros_gen.typesupport.plan.types import DATA_MODELS, TypePlan
@@ -76,6 +77,7 @@ def pool_rows(planned: Planned) -> list[tuple[str, str, str]]:
         ),
         ("arena", f"{runtime.memory.arena_size} bytes", "memory.arena"),
         *_storage_rows(planned),
+        *report_rows(planned.project),
     ]
     if not runtime.entities.declared:
         rows.insert(2, ("names", f"{runtime.entities.name_size} bytes each", "pools.name_size"))

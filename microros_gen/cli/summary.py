@@ -11,6 +11,7 @@ from microros_gen.application.kinds import KINDS, EntityKind
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import PublisherPlan, SubscriptionPlan
 from microros_gen.client.plan.services import ServicePlan
+from microros_gen.client.views.presence import report_rows
 from microros_gen.compiler.pipeline import Planned
 from microros_gen.typesupport.plan.message_pools import open_members
 
@@ -36,6 +37,7 @@ def plan_summary(planned: Planned) -> str:
             f" best effort {runtime.streams.best_effort_size}, input {runtime.input.size}",
         ),
     ]
+    lines += ((name, f"{text} ({why})" if why else text) for name, text, why in report_rows(project))
     functions = (*project.provisions.functions(), *project.board.hooks)
     if functions:
         lines.append(

@@ -130,6 +130,9 @@ def _of_piece(folder: Folder, piece: Piece, facts: Facts) -> Iterator[RamPart]:
 
 def _use(manifest: Mapping[str, Any], piece: Piece, kind: str, path: str) -> str:
     symbol = (piece.symbol or "").split(".")[0]
+    own = _own_use(manifest, piece.owner.name, symbol, kind, path)
+    if own:
+        return own
     for text in (path, f"{symbol}{path}"):
         for pattern, name in _INDEXED:
             match = pattern.search(text)
@@ -156,6 +159,20 @@ def _use(manifest: Mapping[str, Any], piece: Piece, kind: str, path: str) -> str
     if piece.owner.group == "component":
         return _SOURCES.get((piece.source or "").rpartition("/")[2][:-2], piece.owner.name)
     return piece.owner.name if piece.owner.group == "start-up" else piece.owner.group
+
+
+def _own_use(manifest: Mapping[str, Any], owner: str, symbol: str, kind: str, path: str) -> str:
+    """Return what a component says that its variable, or its member of the client, is for; empty: none says it."""
+    is_client = kind == _CLIENT
+    for component, feature in manifest.get("features", {}).items():
+        text = path.removeprefix(".") if is_client else f"{symbol}{path}" if owner == component else ""
+        for variable, use in feature.get("size", {}).items():
+            name = re.escape(variable.removesuffix("[]"))
+            index = r"\[(\d+)\]" if variable.endswith("[]") else ""
+            match = re.match(rf"{name}{index}(?!\w)", text)
+            if match:
+                return str(use).replace("{}", match[1]) if index else str(use)
+    return ""
 
 
 def _endpoint(manifest: Mapping[str, Any], index: int, first: str = "publisher") -> str:

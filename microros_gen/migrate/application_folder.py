@@ -12,7 +12,7 @@ from pathlib import Path
 
 from microros_gen import __version__, compiler
 from microros_gen.application.find import APPLICATION_FILE
-from microros_gen.client.views.example import example_view
+from microros_gen.client.views.example_file import render_example
 from microros_gen.compiler import Planned
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, UserError
 from microros_gen.documents.templates import shared_environment
@@ -157,8 +157,7 @@ def _files(wish: Wish, text: str, planned: Planned | None, undecided: int) -> di
         toolchain = rendered.get("toolchain.cmake")
         if wish.sources is None:
             heading = f"What {wish.name} does."
-            view = replace(example_view(planned.project), heading=heading)
-            files["main.c"] = environment.get_template("example/main.c.j2").render(view=view).encode()
+            files["main.c"] = render_example(planned.project, environment, heading)
     if toolchain is not None:
         files["toolchain.cmake"] = toolchain
     view_of_folder = _view(wish, planned, toolchain is not None, undecided)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What sources use that this version does not have: the component that it belongs to, and where it stands."""
+"""What sources call: the component that it selects, or what of it this version does not have, and where it stands."""
 
 from __future__ import annotations
 
@@ -7,23 +7,13 @@ from collections.abc import Iterable, Mapping
 
 from microros_gen.migrate.c_program import Call
 from microros_gen.migrate.draft import Remark
-from microros_gen.selection.component import NOT_READY
+from microros_gen.selection.component import NOT_READY, Catalogue
 
-# Names with these prefixes belong to a component that does not exist yet, unless some component declares it.
+# Names with these prefixes belong to a component that has no folder yet, unless some component declares it.
 _COMPONENTS = {
     "rclc_action_": "actions",
     "rclc_executor_add_action_": "actions",
     "rcl_action_": "actions",
-    "rclc_parameter_": "parameters",
-    "rclc_add_parameter": "parameters",
-    "rclc_set_parameter": "parameters",
-    "rclc_executor_add_parameter_server": "parameters",
-    "rclc_make_node_a_lifecycle_node": "lifecycle",
-    "rclc_lifecycle_": "lifecycle",
-    "rcl_lifecycle_": "lifecycle",
-    "RCUTILS_LOG_": "logging",
-    "rcutils_logging_": "logging",
-    "rcutils_log": "logging",
     "rcl_count_": "graph",
     "rcl_get_client_names_and_types_by_node": "graph",
     "rcl_get_node_names": "graph",
@@ -49,16 +39,33 @@ _UNKNOWN = "is not in this version"
 _HINT = "Remove the call and what belongs to it"
 
 
-def find_missing(called: Iterable[Call], declared: Mapping[str, str]) -> list[Remark]:
+def selected_by(function: str, declared: Mapping[str, str], catalogue: Catalogue) -> str:
+    """Return the component that a call selects: the one that declares the function, else one that lists it in `calls`.
+
+    `declared` says which component declares a function. Of several that list it, the longest name counts.
+    """
+    if function in declared:
+        return declared[function]
+    listed = [
+        (len(call.name), component.name)
+        for component in catalogue.values()
+        for call in component.presence.calls
+        if call.matches(function)
+    ]
+    return max(listed, default=(0, ""))[1]
+
+
+def find_missing(called: Iterable[Call], selected: Mapping[str, str], catalogue: Catalogue) -> list[Remark]:
     """Return a remark for each component, or function of none, that is called and not there: its first call.
 
-    `declared` says which component declares a function.
+    `selected` says which component a function selects.
     """
     first: dict[str, Remark] = {}
     for call in called:
-        if call.name in declared or call.name.startswith(_KNOWN_BUT_NOT_DECLARED):
+        name = selected.get(call.name, "")
+        if (name and catalogue[name].ready) or call.name.startswith(_KNOWN_BUT_NOT_DECLARED):
             continue
-        component = next((name for prefix, name in _COMPONENTS.items() if call.name.startswith(prefix)), "")
+        component = name or next((c for prefix, c in _COMPONENTS.items() if call.name.startswith(prefix)), "")
         what = f"needs the component '{component}', which {NOT_READY}" if component else _UNKNOWN
         remark = Remark(f"{call.name} {what}", call.span, refused=_HINT)
         first.setdefault(component or call.name, remark)

@@ -12,7 +12,7 @@ from microros_gen.migrate.c_tokens import read_c
 from microros_gen.migrate.c_values import Values, handle_of
 from microros_gen.migrate.capacities import Fact, find_capacities
 from microros_gen.migrate.draft import Draft, DraftNode, DraftValue, Remark, place
-from microros_gen.migrate.missing import find_missing
+from microros_gen.migrate.missing import find_missing, selected_by
 from microros_gen.migrate.rclc_calls import (
     ENDPOINT_CALLS,
     NODE_CALLS,
@@ -73,14 +73,19 @@ def rclc_draft(
     endpoints = {endpoint.kind for node in nodes for endpoint in node.endpoints}
     profiles = tuple(profile for profile, kind in _PROFILES if kind in endpoints)
     own = {function.name for file in files for function in file.functions}
-    called = [call for call in calls if call.name not in own and call.name.startswith(_PREFIXES)]
-    remarks += find_missing(called, declared)
+    selected = {call.name: name for call in calls if (name := selected_by(call.name, declared, catalogue))}
+    called = [
+        call
+        for call in calls
+        if call.name not in own and (call.name in selected or call.name.startswith(_PREFIXES))
+    ]
+    remarks += find_missing(called, selected, catalogue)
     remarks += _macros(files)
     settings, more = find_settings(calls, values)
     groups = {**settings, **_executors(calls)}
     draft = Draft(
         profiles=profiles,
-        components=_components(_wanted(files, called, declared, catalogue), catalogue, profiles),
+        components=_components(_wanted(files, called, selected, catalogue), catalogue, profiles),
         interfaces=_types_without_entity(nodes),
         nodes=nodes,
         groups=groups,
@@ -205,11 +210,11 @@ def _executors(calls: Iterable[Call]) -> dict[str, dict[str, DraftValue]]:
 
 
 def _wanted(
-    files: Iterable[CFile], called: Iterable[Call], declared: Mapping[str, str], catalogue: Catalogue
+    files: Iterable[CFile], called: Iterable[Call], selected: Mapping[str, str], catalogue: Catalogue
 ) -> set[str]:
-    """Return the components that declare what is called, have the headers that are included, or serve several tasks."""
+    """Return the components that have what is called, have the headers that are included, or serve several tasks."""
     headers = {header: component.name for component in catalogue.values() for header in component.headers}
-    found = {declared[call.name] for call in called if call.name in declared}
+    found = {selected[call.name] for call in called if call.name in selected}
     found |= {headers[name] for file in files for name in file.text.includes if name in headers}
     starts = {call.name for file in files for call in file.calls} & _TASKS
     names = {token.text for file in files for token in file.text.tokens if token.kind == "name"}

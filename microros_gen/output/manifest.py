@@ -16,6 +16,7 @@ from microros_gen.application.model import Memory
 from microros_gen.client.plan.project import Project
 from microros_gen.client.plan.runtime_entities import PublisherPlan, QueuePlan, SubscriptionPlan
 from microros_gen.client.plan.services import ServicePlan
+from microros_gen.client.views.presence import manifest_entries
 from microros_gen.client.views.project import without_folder
 from microros_gen.interfaces.type_description import individual_type_description
 from microros_gen.interfaces.types import Message, NamedType, TypeName, element_of
@@ -40,6 +41,7 @@ def manifest(project: Project, inputs: Mapping[str, bytes], outputs: Mapping[str
         "pools": _pools(project),
         "message_storage": _message_storage(project),
         "memory": _memory(project.application.memory),
+        **_features(project),
         "inputs": {name: _sha256(content) for name, content in inputs.items()},
         "outputs": {name: _sha256(content) for name, content in outputs.items()},
     }
@@ -63,6 +65,12 @@ def _text(data: Mapping[str, Any], types: Mapping[str, Any]) -> str:
         for name, entry in sorted(types.items())
     )
     return f'{head},\n  "types": {{\n{lines}\n  }}\n}}\n'
+
+
+def _features(project: Project) -> dict[str, Any]:
+    """Return what components say of themselves; nothing where none does."""
+    entries = manifest_entries(project)
+    return {"features": entries} if entries else {}
 
 
 def _transport(project: Project) -> dict[str, Any]:

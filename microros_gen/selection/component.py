@@ -12,6 +12,7 @@ from microros_gen.diagnostics import Span
 from microros_gen.documents.named import Named
 from microros_gen.records import dataclass
 from microros_gen.selection.contribution import NOTHING, Conditions, Contributions
+from microros_gen.selection.presence import ABSENT, Presence
 
 NOT_READY = "this version of microros-gen does not have yet"
 """Ends the sentence that says why something planned is refused."""
@@ -71,7 +72,7 @@ class Component:
     `ready` is false for a component that the resolver knows and the runtime does not have yet.
     `headers` are public headers below include/; they become an `#error` when the component is not selected.
     `sends`, `receives` name XRCE submessages; `objects` name XRCE object kinds that the client creates.
-    `contributes` is what it adds to files that all share.
+    `contributes` is what it adds to files that all share; `presence`, where the tool shows it.
     `asks` are capabilities of the platform; a component of layer `port` `provides` some. `folder` has its files.
     `implies`: what it opens by itself; the components that this takes are among its `needs`.
     `origin` says where a component is from that does not ship with the tool; `digest` changes with its files.
@@ -92,6 +93,7 @@ class Component:
     provides: tuple[Provision, ...] = ()
     implies: tuple[Implied, ...] = ()
     contributes: Contributions = NOTHING
+    presence: Presence = ABSENT
     folder: Path = field(default_factory=Path, compare=False)
     origin: str = ""
     digest: str = ""

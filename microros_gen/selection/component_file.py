@@ -12,6 +12,8 @@ from microros_gen.documents.yaml_tree import MappingNode, SequenceNode, YamlNode
 from microros_gen.selection.component import Ask, Component, Implied, Provision, SourceFile
 from microros_gen.selection.contribution import Conditions
 from microros_gen.selection.contribution_file import KEYS, read_conditions, read_contributions
+from microros_gen.selection.presence_file import KEYS as PRESENCE_KEYS
+from microros_gen.selection.presence_file import read_presence
 from microros_gen.selection.xrce import OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
 
 LAYERS = ("micro-ROS", "middleware", "port")
@@ -30,7 +32,7 @@ def parse_component(source: Source, diagnostics: Diagnostics) -> Component | Non
         if not diagnostics.has_errors():
             diagnostics.error(f"the component file '{source.name}' is empty", id="MG-4004")
         return None
-    check_keys(node, (*_REQUIRED, *_LISTS, "provides", *KEYS), _REQUIRED, diagnostics)
+    check_keys(node, (*_REQUIRED, *_LISTS, "provides", *KEYS, *PRESENCE_KEYS), _REQUIRED, diagnostics)
     layer = read_choice(node, "layer", LAYERS, diagnostics)
     status = read_choice(node, "status", _STATUS, diagnostics)
     component = Component(
@@ -49,6 +51,7 @@ def parse_component(source: Source, diagnostics: Diagnostics) -> Component | Non
         provides=_provides(node, diagnostics),
         implies=_implies(node, diagnostics),
         contributes=read_contributions(node, diagnostics),
+        presence=read_presence(node),
     )
     return component if before or not diagnostics.has_errors() else None
 

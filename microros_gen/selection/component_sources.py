@@ -92,10 +92,11 @@ def _sources(component: Component, names: Iterable[str]) -> Iterator[ComponentFi
 
 
 def _file(path: Path, target: str) -> ComponentFile:
-    template = _template_name(path) if path.suffix == ".j2" else None
+    template = template_name(path) if path.suffix == ".j2" else None
     return ComponentFile(target.removesuffix(".j2"), path.read_bytes(), template, path)
 
 
-def _template_name(path: Path) -> str:
+def template_name(path: Path) -> str:
+    """Return the name of a template that ships with the tool; empty for one that does not."""
     own = (path.relative_to(f).as_posix() for f in TEMPLATE_FOLDERS if path.is_relative_to(f))
     return next(own, "")

@@ -20,9 +20,10 @@ from microros_gen.documents.files import is_file, is_folder, read_bytes
 from microros_gen.records import dataclass
 from microros_gen.selection.find_components import COMPONENT_FILE
 from microros_gen.selection.installed import installed_packages
+from microros_gen.selection.presence import EXAMPLE_FILE
 
 _FOLDERS = ("components", "profiles", "platform")
-_OWN_FILES = (COMPONENT_FILE, "cpu.yaml", "os.yaml")
+_OWN_FILES = (COMPONENT_FILE, EXAMPLE_FILE, "cpu.yaml", "os.yaml")
 _OWN_FOLDERS = ("include", "src", "variants")
 
 

@@ -18,6 +18,7 @@ from microros_gen.selection.component import Component
 from microros_gen.selection.component_file import parse_component
 from microros_gen.selection.extension import Extension, digest_of, own_name
 from microros_gen.selection.find_components import COMPONENT_FILE
+from microros_gen.selection.presence import EXAMPLE_FILE, EXAMPLE_POINTS
 
 SCHEMA = Path(__file__).with_name("component.schema.json")
 
@@ -86,6 +87,9 @@ def _check(
 
 
 def _check_files(tree: MappingNode, folder: Path, diagnostics: Diagnostics) -> None:
+    if "example" in tree.entries and not is_file(folder / EXAMPLE_FILE):
+        hint = f"Add it, or remove `example`: its macros are {', '.join(EXAMPLE_POINTS)}"
+        diagnostics.error(f"missing file '{EXAMPLE_FILE}'", _span(tree, "example"), hint, id="MG-4048")
     src, include = folder / "src", folder / "include"
 
     def is_source(name: str) -> bool:

@@ -20,6 +20,7 @@ ORDER = (
     "typesupport",
     "platform",
     "client",
+    "components",
     "output",
     "toolchain",
     "image",

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -42,6 +43,17 @@ _OTHER_MEANING = {
     "base",
 }
 """Names that are words of YAML files, too: they count only where a function is asked for the component."""
+SHARED = (
+    "application/application.schema.json",
+    "application/model.py",
+    "application/nodes.py",
+    "application/parser.py",
+    "selection/declared.py",
+    "selection/xrce.py",
+)
+"""Files outside its folder that name `parameters`: the keys of the application file, and the list of D1.4."""
+_OTHER_FILES = {"documents/schema_words.py", "migrate/c_program.py"}
+"""Say what to write for `qos: parameters`; have the parameters of C functions."""
 MENTIONS = {
     "cdr": 1,
     "cdr_decode": 1,
@@ -87,7 +99,10 @@ def counted(package: Path) -> dict[str, int]:
     names = {c.name for c in load_catalogue().values() if c.layer != "port"}
     found: dict[str, int] = {}
     for path in sorted(package.rglob("*.py")):
-        if path.relative_to(package).parts[0] != "agent":  # it knows nothing of components
+        if path.relative_to(package).parts[0] not in (
+            "agent",
+            "components",
+        ):  # it knows nothing of components
             for name in set(mentions(ast.parse(path.read_text(encoding="utf-8")), names)):
                 found[name] = found.get(name, 0) + 1
     return dict(sorted(found.items()))
@@ -95,6 +110,48 @@ def counted(package: Path) -> dict[str, int]:
 
 def test_no_component_is_named_by_more_modules() -> None:
     assert counted(PACKAGE) == MENTIONS
+
+
+def shared_files(name: str, package: Path) -> set[str]:
+    """Return the files outside its folder that name a component in code, schema, template or description."""
+    word = re.compile(
+        rf"""["']{name}["']|^\s*{name}:|\b(?:node|plan|runtime|features)\.{name}\b""", re.MULTILINE
+    )
+    found = set()
+    for path in package.rglob("*"):
+        shown = path.relative_to(package)
+        own = shown.parts[:2] == ("components", name)
+        if (
+            path.suffix not in (".py", ".json", ".yaml", ".j2")
+            or own
+            or shown.parts[0] in ("agent", "idl", "ros")
+        ):
+            continue
+        if word.search(path.read_text(encoding="utf-8")):
+            found.add(shown.as_posix())
+    return found - _OTHER_FILES
+
+
+def test_parameters_are_known_to_at_most_six_shared_files() -> None:
+    """The measure of the structure: a component that stands on others is added in its own folder."""
+    assert len(SHARED) <= 6
+    assert shared_files("parameters", PACKAGE) <= set(SHARED)
+
+
+def test_a_file_that_names_a_component_is_found(tmp_path: Path) -> None:
+    for name, text in {
+        "a.py": "x = node.gears\n",
+        "b.json": '{"gears": 1}',
+        "c.yaml": "  gears: 3\n",
+        "d.j2": "{{ plan.gears.max }}",
+        "e.py": "# gears of a machine\n",
+        "components/gears/component.yaml": "gears: 1\n",
+        "components/other/component.yaml": "manifest:\n  gears: 1\n",
+    }.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
+    named = {"a.py", "b.json", "c.yaml", "d.j2", "components/other/component.yaml"}
+    assert shared_files("gears", tmp_path) == named
 
 
 def test_most_components_are_named_by_few() -> None:

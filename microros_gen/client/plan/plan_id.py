@@ -50,6 +50,7 @@ def plan_record(runtime: RuntimePlan, components: Iterable[str], types: Iterable
         "memory": _memory(runtime.memory),
         "error_text": runtime.errors.text_size,
         **_running(runtime),
+        **({"features": runtime.features.records} if runtime.features.slices else {}),
         "types": [_type(plan) for plan in types],
     }
 

@@ -95,8 +95,14 @@ class ExampleView:
     has_period: bool
 
 
-def example_view(project: Project) -> ExampleView:
-    """Return what examples/<profile>/main.c prints."""
+def example_view(
+    project: Project, headers: Sequence[str] = (), handles: int = 0, *, has_parts: bool = False
+) -> ExampleView:
+    """Return what examples/<profile>/main.c prints.
+
+    Parts of components are printed beside it (`has_parts`): they include `headers`, and the first executor has
+    `handles` for them.
+    """
     types = {plan.name: plan for plan in project.types}
     nodes = _nodes(project)
     publishers = tuple(_publishers(project, types, nodes))
@@ -107,7 +113,7 @@ def example_view(project: Project) -> ExampleView:
     views = tuple(p.view for p in publishers)
     services = service_views(project, tuple(node.variable for node in nodes))
     shows_time = project.runtime.clock.has_ros_time and not (
-        views or subscriptions or project.runtime.entities.serves or project.runtime.timers.any
+        has_parts or views or subscriptions or project.runtime.entities.serves or project.runtime.timers.any
     )
     running = None
     if not shows_time:
@@ -117,7 +123,9 @@ def example_view(project: Project) -> ExampleView:
             [Sender(view.function, view.node, view.topic) for view in views],
             [view.received for _, view in subscriptions],
             services,
+            handles,
         )
+    includes |= set(headers)
     includes |= {include for service in services for include in service.includes}
     puts_text = any(view.texts for view in views) or any(service.filling.texts for service in services)
     if puts_text:

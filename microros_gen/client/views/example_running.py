@@ -91,8 +91,12 @@ def running_view(
     publishers: Iterable[Sender],
     received: Sequence[Received],
     services: Sequence[ServiceView],
+    more_handles: int = 0,
 ) -> RunningView | None:
-    """Return what runs the example; None without an executor. `nodes` are the variables of the nodes."""
+    """Return what runs the example; None without an executor. `nodes` are the variables of the nodes.
+
+    The first executor has `more_handles` than what it runs.
+    """
     if not project.runtime.executor.any or not nodes:
         return None
     timers = tuple(_timers(project, nodes))
@@ -103,7 +107,10 @@ def running_view(
     sends = (*publishers, *(Sender(s.function, s.node, s.name) for s in clients))
     used = tuple(timer for timer in timers if timer.variable in run)
     return RunningView(
-        executors=tuple(_executor(name, own, timeout, bool(used)) for name, own, timeout in shared),
+        executors=tuple(
+            _executor(name, own, timeout, bool(used), 0 if index else more_handles)
+            for index, (name, own, timeout) in enumerate(shared)
+        ),
         timers=tuple(_sending(used, sends)),
         received=tuple(r for r in received if r.variable in run),
         services=tuple(s for s in services if s.kind == "service" and s.variable in run),
@@ -198,13 +205,18 @@ def _shared(
     return shared
 
 
-def _executor(variable: str, handles: Sequence[_Handle], timeout: str, has_timers: bool) -> ExecutorView:
+def _executor(
+    variable: str, handles: Sequence[_Handle], timeout: str, has_timers: bool, more_handles: int
+) -> ExecutorView:
     """`has_timers`: rounds have no other end than what is ready; otherwise all of them fill EXAMPLE_PERIOD_MS."""
     calls = [f"rclc_executor_set_timeout(&{variable}, {timeout})"] if timeout else []
     calls += [_in_lines(handle.call.format(variable)) for handle in handles]
     rest = timeout or "(uint64_t)(EXAMPLE_PERIOD_MS - passed) * 1000000u"
     return ExecutorView(
-        variable, max(len(handles), 1), tuple(calls), f"{variable}.timeout_ns" if has_timers else rest
+        variable,
+        max(len(handles) + more_handles, 1),
+        tuple(calls),
+        f"{variable}.timeout_ns" if has_timers else rest,
     )
 
 

@@ -17,7 +17,7 @@ from microros_gen.client.plan.values import Values
 from microros_gen.client.views.agent_files import render_agent_files
 from microros_gen.client.views.board import BoardView, board_view, render_toolchain
 from microros_gen.client.views.components import render_components
-from microros_gen.client.views.example import example_view
+from microros_gen.client.views.example_file import render_example
 from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.platform.capabilities import declarations
 from microros_gen.records import dataclass
@@ -92,8 +92,7 @@ def render_project(
     rendered |= render_agent_files(project)
     for path, content in _unselected_headers(unselected, environment):
         rendered.setdefault(path, content)
-    template = environment.get_template("example/main.c.j2")
-    rendered[project.example] = template.render(view=example_view(project)).encode()
+    rendered[project.example] = render_example(project, environment)
     view = _project_view(project, rendered)
     for name in ("CMakeLists.txt", "sources.txt", "README.md"):
         rendered[name] = environment.get_template(f"project/{name}.j2").render(view=view).encode()

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/*
- * creation: best_effort. Each repetition is a separate message; the agent reports that the object already
- * exists. */
+/* creation: best_effort. Each repetition is a message of its own; the agent finds the object there and says so. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"
 

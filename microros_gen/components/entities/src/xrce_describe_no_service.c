@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Without services no place belongs to a replier or requester. */
+/* There are no places of services. */
 #include "microros/xrce_creation.h"
 
 uint8_t * xrce_describe_service(

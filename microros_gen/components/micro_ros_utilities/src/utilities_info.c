@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Lists the members of a type as text, in two passes: the first one measures its length. */
+/* The members of a type as a text, which is written twice: first to know how long it is. */
 #include "micro_ros_utilities/string_utilities.h"
 #include "microros/utilities_walk.h"
 
-/* The output; with `at` NULL only its length is counted. */
+/* What is written; `at` is NULL where only its length is asked. */
 typedef struct info_t {
   char * at;
   size_t length;
@@ -52,7 +52,7 @@ static void info_put_type(info_t * info, const microros_type_members_t * type)
     } else if (part != 2u && (*at != '_' || at[1] != '\0')) {
       info_put(info, *at);
     } else {
-      /* without dds_ and the last character */
+      /* dds_, and the last character */
     }
   }
 }
@@ -89,7 +89,7 @@ static void info_put_member(info_t * info, const microros_type_member_t * member
   } else if (member->shape == (uint8_t)MICROROS_MEMBER_ARRAY) {
     info_put_text(info, "Array of ");
   } else {
-    /* a single value */
+    /* one value */
   }
   info_put_text(info, types[member->type]);
   if (member->nested != NULL) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Expands names to fully qualified ones before they reach rmw. */
+/* Names are expanded here, and go down fully qualified. */
 #include "microros/rcl_names_take.h"
 #include "microros/rcl_names_expand.h"
 #include "rcl/validate_topic_name.h"

@@ -8,7 +8,8 @@
 
 static uint_least16_t * string_empty(void)
 {
-  static uint_least16_t nothing = 0; /* shared by all empty strings and threads, therefore never written */
+  static uint_least16_t nothing =
+    0; /* what every empty string points to: threads share it, so nobody writes to it */
 
   return &nothing;
 }
@@ -42,7 +43,7 @@ void rosidl_runtime_c__U16String__fini(rosidl_runtime_c__U16String * str)
   str->capacity = 0;
 }
 
-/* Ensures room for `size` units and the terminator; `keep` preserves the existing units. */
+/* Makes room for `size` units and the terminator; `keep` the units that are there. */
 static bool string_make_room(rosidl_runtime_c__U16String * str, size_t size, bool keep)
 {
   size_t room;

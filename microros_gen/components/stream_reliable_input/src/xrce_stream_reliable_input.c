@@ -7,9 +7,7 @@
 
 #include <string.h>
 
-/*
- * An ACKNACK has this many bits, and the agent sends at most this many ahead. Numbers from half of 2^16 on
- * are old. */
+/* An ACKNACK has this many bits, and the agent sends no more than these ahead. Numbers from half of 2^16 on are old. */
 enum { ACKNACK_MESSAGE = 13, WINDOW = 16, HALF = 0x8000 };
 
 void xrce_stream_reliable_input_reset(xrce_stream_reliable_input_t * stream)
@@ -17,7 +15,7 @@ void xrce_stream_reliable_input_reset(xrce_stream_reliable_input_t * stream)
   (void)memset(stream, 0, sizeof(*stream));
 }
 
-/* Returns the messages to request: known, not received, and not requested since the last HEARTBEAT. */
+/* Returns the messages to request: known, not here, and not requested since the last HEARTBEAT. */
 static uint16_t input_missing(const xrce_stream_reliable_input_t * stream)
 {
   const uint32_t others = (uint32_t)xrce_stream_reliable_input_map(stream) | stream->asked | stream->refused;
@@ -25,7 +23,7 @@ static uint16_t input_missing(const xrce_stream_reliable_input_t * stream)
   return (uint16_t)(stream->announced & ~others);
 }
 
-/* Acknowledges up to the next message, and requests the missing ones after it. */
+/* Tells the agent which message is next, and requests the missing ones after it. */
 static void input_acknowledge(xrce_client_t * client)
 {
   xrce_stream_reliable_input_t * stream = &client->reliable_input;
@@ -49,7 +47,7 @@ static uint16_t input_first(uint16_t count)
   return (uint16_t)map;
 }
 
-/* Messages refused without a slot can be requested now: the gap before them is closed. */
+/* What was refused for want of a slot can be requested: the gap before it is closed. */
 static void input_advance(xrce_stream_reliable_input_t * stream)
 {
   ++stream->next;
@@ -58,7 +56,7 @@ static void input_advance(xrce_stream_reliable_input_t * stream)
   stream->refused = 0;
 }
 
-/* Stores a message that is `ahead` (not 0) in the sequence, or records that there was no room for it. */
+/* Keeps a message that is `ahead` (not 0) of its turn, or notes that there was no room for it. */
 static void input_take_early(
   xrce_stream_reliable_input_t * stream, uint16_t ahead, const uint8_t * message, size_t size)
 {
@@ -71,7 +69,7 @@ static void input_take_early(
   }
 }
 
-/* Returns whether a message is complete: a partial one counts as lost, and the agent repeats it. */
+/* Whether all of a message has come: a part of one is as good as lost, and comes again. */
 static bool input_is_whole(const uint8_t * message, size_t size)
 {
   size_t at = XRCE_MESSAGE_HEADER;
@@ -84,14 +82,14 @@ static bool input_is_whole(const uint8_t * message, size_t size)
   return end > XRCE_MESSAGE_HEADER && end <= size && size <= at;
 }
 
-/* Delivers the next message. */
+/* Hands on the message whose turn it is. */
 static void input_hand_on(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
 {
   input_advance(&client->reliable_input);
-  (void)xrce_session_take_submessages(client, message, size, now); /* cannot fail: it is complete */
+  (void)xrce_session_take_submessages(client, message, size, now); /* it is whole */
 }
 
-/* Delivers stored messages from the next one on. */
+/* Hands on what is kept from the message on whose turn it is. */
 static void input_hand_on_kept(xrce_client_t * client, uint32_t now)
 {
   xrce_stream_reliable_input_t * stream = &client->reliable_input;
@@ -127,7 +125,7 @@ bool xrce_stream_reliable_input_take(
   return true;
 }
 
-/* Returns whether the next message is stored. */
+/* Whether the message on whose turn it is is kept. */
 static bool input_can_go_on(const xrce_stream_reliable_input_t * stream)
 {
   return (xrce_stream_reliable_input_map(stream) & 1u) != 0u;
@@ -141,7 +139,7 @@ void xrce_stream_reliable_input_go_on(xrce_client_t * client, uint32_t now)
   }
 }
 
-/* Skips up to `count` unavailable messages, up to one that is stored. */
+/* Goes past messages that cannot be had any more, `count` at most, as far as one that is kept. */
 static void input_skip(xrce_stream_reliable_input_t * stream, uint16_t count)
 {
   for (uint16_t left = count; left != 0u && !input_can_go_on(stream); --left) {
@@ -163,18 +161,18 @@ bool xrce_stream_reliable_input_on_heartbeat(
     return true;
   }
   ahead = (uint16_t)(xrce_get_u16(&payload[0], flags) - stream->next);
-  if (ahead < HALF) { /* otherwise it has not yet received all acknowledgements */
+  if (ahead < HALF) { /* else it has not heard of all that has arrived */
     if (ahead > WINDOW) {
-      return false; /* of another session, or forged */
+      return false; /* of another session, or forged: an agent keeps what it does not know to have arrived */
     }
     input_skip(stream, ahead);
   }
   known = (uint16_t)(xrce_get_u16(&payload[2], flags) - stream->next + 1u);
   stream->announced =
-    known < HALF ? input_first(known) : 0u; /* a number beyond these was forged, or overtaken */
+    known < HALF ? input_first(known) : 0u; /* a number beyond these was forged, or overtook it */
   stream->asked = 0;
   stream->refused = 0;
-  if (!input_can_go_on(stream)) { /* otherwise xrce_stream_reliable_input_go_on acknowledges */
+  if (!input_can_go_on(stream)) { /* else xrce_stream_reliable_input_go_on acknowledges */
     input_acknowledge(client);
   }
   return true;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Getters and setters of timers. */
+/* What a timer has. */
 #include "microros/error.h"
 #include "microros/rcl_timer.h"
 #include "microros/time_math.h"

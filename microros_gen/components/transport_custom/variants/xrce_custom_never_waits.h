@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Variant: reading never waits. */
+/* Reading never waits. */
 #ifndef MICROROS_XRCE_CUSTOM_READING_H
 #define MICROROS_XRCE_CUSTOM_READING_H
 
@@ -12,18 +12,16 @@
 extern "C" {
 #endif
 
-/*
- * The application declares that its function only polls (transport: {read_polls: true}), or framing is
- * used. */
+/* The application says that its function looks and returns: transport: {read_polls: true}. With framing it does, too. */
 enum { XRCE_CUSTOM_WAIT_MS = 0 };
 
-/* Called before the read function. */
+/* The read function is going to be called. */
 static inline void xrce_custom_note_reading(xrce_transport_t * transport)
 {
   (void)transport;
 }
 
-/* Returns whether a publish may skip reading for now: no, reading never waits. */
+/* Whether who sends may leave received messages to others for now: reading never waits. */
 static inline bool xrce_transport_may_skip_reading(const xrce_transport_t * transport, uint32_t pause_ms)
 {
   (void)transport;

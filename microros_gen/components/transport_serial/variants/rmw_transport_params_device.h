@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Options of a session over a serial line. */
+/* What the options of a session say about a serial line. */
 #ifndef MICROROS_RMW_TRANSPORT_PARAMS_H
 #define MICROROS_RMW_TRANSPORT_PARAMS_H
 
 #include <stdint.h>
 
-/* Size of a path including its NUL. */
+/* Room for a path with its NUL. */
 #define RMW_UXRCE_MAX_SERIAL_DEVICE_SIZE 64
 
-/* 0 or empty: the plan's value. */
+/* 0 or empty: as the plan says. */
 typedef struct rmw_uxrce_transport_params_t {
   uint32_t client_key;
   char serial_device[RMW_UXRCE_MAX_SERIAL_DEVICE_SIZE];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Variant: sending never waits. */
+/* Sending never waits. */
 #ifndef MICROROS_XRCE_SERIAL_TURN_H
 #define MICROROS_XRCE_SERIAL_TURN_H
 
@@ -11,13 +11,13 @@
 extern "C" {
 #endif
 
-/* Called at the start of a pump. */
+/* A pump begins. */
 static inline void xrce_transport_begin_turn(xrce_transport_t * transport)
 {
   (void)transport;
 }
 
-/* Returns whether a stream may send another message in this pump: always, since sending never waits. */
+/* Whether a stream may send one more message in this turn: sending never waits. */
 static inline bool xrce_transport_take_turn(xrce_transport_t * transport)
 {
   (void)transport;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* ROS time follows /clock. Replaces the header of component `clock`. Internal. */
+/* What ROS time follows: /clock. In place of the file of the clock. Internal. */
 #ifndef MICROROS_RCL_CLOCK_FOLLOW_H
 #define MICROROS_RCL_CLOCK_FOLLOW_H
 
@@ -10,13 +10,13 @@
 extern "C" {
 #endif
 
-/* Called before each read of the time. */
+/* Somebody asks for the time. */
 static inline void rcl_clock_follow(void)
 {
   rcl_clock_source_follow();
 }
 
-/* Called when a ROS clock is initialized. */
+/* A ROS clock begins. */
 static inline void rcl_clock_first_time(rcl_ros_time_t * time)
 {
   time->active = true;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Topic and service names passed by the application. A component with substitutions replaces this header. */
+/* The name of a topic or service on its way down. A component that substitutes brings another file of this name. */
 #ifndef MICROROS_RCL_NAMES_TAKE_H
 #define MICROROS_RCL_NAMES_TAKE_H
 
@@ -10,10 +10,10 @@ extern "C" {
 #endif
 
 typedef struct rcl_names_topic_t {
-  const char * name; /* valid; for rmw_name_of_topic */
+  const char * name; /* valid, as rmw_name_of_topic takes it */
 } rcl_names_topic_t;
 
-/* Stores a name passed by the application. */
+/* Takes a name that the application passes. */
 static inline const char * rcl_names_take(
   rcl_names_topic_t * taken, const char * topic, const rmw_node_t * node)
 {

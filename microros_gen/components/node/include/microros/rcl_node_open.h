@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Shared by rclc and rcl: a node without options. Internal; pointers are already checked. */
+/* What rclc and rcl share: a node without options. Internal; pointers are checked. */
 #ifndef MICROROS_RCL_NODE_OPEN_H
 #define MICROROS_RCL_NODE_OPEN_H
 

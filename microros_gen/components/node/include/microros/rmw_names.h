@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Names in parts: an expanded name is compared and copied without a separate buffer. */
+/* Names in pieces: an expanded name is compared and copied without a buffer of its own. */
 #ifndef MICROROS_RMW_NAMES_H
 #define MICROROS_RMW_NAMES_H
 
@@ -11,18 +11,18 @@ extern "C" {
 #endif
 
 typedef struct rmw_name_t {
-  const char * piece[4]; /* concatenated; "" if unused */
+  const char * piece[4]; /* one after the other; "" for none */
 } rmw_name_t;
 
-/* Returns a namespace with a leading slash, which the caller may have omitted. */
+/* A namespace with the slash in front that the caller may have left out. */
 rmw_name_t rmw_name_of_namespace(const char * namespace_);
 
-/* Resolves a valid topic name in a node: "chatter" is /ns/chatter, "~/x" is /ns/node/x, "/x" stays. */
+/* A topic as the node sees it: "chatter" is /ns/chatter, "~/x" is /ns/node/x, "/x" stays. It is a valid one. */
 rmw_name_t rmw_name_of_topic(const char * topic, const char * node, const char * namespace_);
 
 bool rmw_name_equals(const rmw_name_t * name, const char * text);
 
-/* Returns the number of bytes without the NUL. */
+/* Returns the number of bytes without a NUL. */
 size_t rmw_name_size(const rmw_name_t * name);
 
 /* Writes the name and a NUL: rmw_name_size + 1 bytes. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * State at the agent from before the place was opened: none. A component that preserves a session replaces
- * this header. Internal.
+ * What is at the agent from before the application opened it: nothing. A component that keeps a session brings another file
+ * of this name. Internal.
  */
 #ifndef MICROROS_XRCE_PLACE_H
 #define MICROROS_XRCE_PLACE_H
@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/* Returns whether the agent still has a place, whose table is filled in. */
+/* Whether the agent has a place, whose table is filled in, from before. */
 static inline bool xrce_place_is_kept(const xrce_client_t * client, uint16_t place)
 {
   (void)client;
@@ -20,9 +20,7 @@ static inline bool xrce_place_is_kept(const xrce_client_t * client, uint16_t pla
   return false;
 }
 
-/*
- * Called when the application opens a place, which is filled in. True: the preserved one, nothing has to
- * be created. */
+/* The application opens a place, which is filled in. True: it is the one that was kept, and there is nothing to create. */
 static inline bool xrce_place_take_up(xrce_client_t * client, uint16_t place)
 {
   (void)client;
@@ -30,7 +28,7 @@ static inline bool xrce_place_take_up(xrce_client_t * client, uint16_t place)
   return false;
 }
 
-/* Returns the result of xrce_place_take_up for this place when it was last opened. */
+/* Whether that was the answer for this place the last time that one was opened. */
 static inline bool xrce_place_took_up(const xrce_client_t * client, uint16_t place)
 {
   (void)client;
@@ -38,8 +36,8 @@ static inline bool xrce_place_took_up(const xrce_client_t * client, uint16_t pla
   return false;
 }
 
-/* Returns whether the client resumes a session instead of opening one; xrce_place_resume follows once its
- * transport is prepared. `key` is the application's, 0: that of the plan. */
+/* Whether the client goes on from before instead of opening a session; then xrce_place_resume follows, once its transport
+ * is prepared. `key` is that of the application, 0: as the plan says. */
 static inline bool xrce_place_goes_on(xrce_client_t * client, uint32_t key)
 {
   (void)client;

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/*
- * How a call that waits for the agent rests between two pumps. A component that can wait for the transport
- * replaces this header. Internal. */
+/* How a call that waits for the agent rests between two pumps. A component that can wait for the transport brings another file of this name. Internal. */
 #ifndef MICROROS_XRCE_REST_H
 #define MICROROS_XRCE_REST_H
 
@@ -12,7 +10,7 @@
 extern "C" {
 #endif
 
-/* Rests for a millisecond; other tasks may run meanwhile. */
+/* Rests for a millisecond; other tasks may go on meanwhile. */
 static inline void xrce_rest(const xrce_client_t * client)
 {
   (void)client;

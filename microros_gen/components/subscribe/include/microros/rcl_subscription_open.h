@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/*
- * Shared by rclc and rcl: opens a subscription with a QoS. Internal; pointers except `qos` are already
- * checked. */
+/* What rclc and rcl share: a subscription from its QoS. Internal; pointers are checked, except for `qos`. */
 #ifndef MICROROS_RCL_SUBSCRIPTION_OPEN_H
 #define MICROROS_RCL_SUBSCRIPTION_OPEN_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Types shared by all functions of rclc. */
+/* What every call of rclc starts from. */
 #ifndef MICROROS_RCLC_TYPES_H
 #define MICROROS_RCLC_TYPES_H
 

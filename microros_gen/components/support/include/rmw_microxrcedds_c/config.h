@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Settings of the build under the names that applications test. */
+/* The choices of the build, under the names that applications test for. */
 #ifndef MICROROS_RMW_MICROXRCEDDS_C_CONFIG_H
 #define MICROROS_RMW_MICROXRCEDDS_C_CONFIG_H
 

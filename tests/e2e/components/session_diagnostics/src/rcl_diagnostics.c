@@ -7,6 +7,7 @@
 #include "microros/rmw_node.h"
 #include "rcl/publisher.h"
 #include "rmw_microros/session.h"
+#include "session_diagnostics/session_diagnostics.h"
 
 #include <stddef.h>
 
@@ -136,5 +137,15 @@ void rcl_diagnostics_publish(void)
   context = rcl_context_get_rmw_context(diagnostics_node->context);
   if (rmw_uros_is_connected(context) && rmw_uros_get_statistics(context, &statistics) == RMW_RET_OK) {
     diagnostics_send(&statistics);
+  }
+}
+
+void session_diagnostics_now(void)
+{
+  xrce_client_t * client = rmw_client_instance();
+
+  if (diagnostics_node != NULL) {
+    client->diagnostics.due_ms = port_time_ms() + MICROROS_DIAGNOSTICS_PERIOD_MS;
+    client->diagnostics.is_due = true;
   }
 }

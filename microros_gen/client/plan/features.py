@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a component plans for itself: the module `plan.py` of its folder, where it has one.
+
+Only components that ship with the tool have one; nothing from outside is imported.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from importlib import import_module
+from typing import Any, Protocol, cast
+
+from microros_gen.application.model import Application
+from microros_gen.client.plan.feature_slices import NO_FEATURES, Features, FeatureSlice
+from microros_gen.client.plan.runtime import RuntimePlan
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.documents.files import is_file
+from microros_gen.interfaces.types import TypeName
+from microros_gen.platform.target import Target
+from microros_gen.records import dataclass
+from microros_gen.selection.component import Component
+from microros_gen.selection.model import Selection
+from microros_gen.typesupport.plan.types import TypePlan
+
+PLAN_FILE = "plan.py"
+
+
+@dataclass(frozen=True)
+class Given:
+    """What a component plans from; `runtime` is the plan without the slices of components."""
+
+    application: Application
+    selection: Selection
+    target: Target
+    types: Mapping[TypeName, TypePlan]
+    runtime: RuntimePlan
+
+
+class Feature(Protocol):
+    """The functions of a component's plan.py."""
+
+    def plan(self, given: Given, diagnostics: Diagnostics) -> object:
+        """Return the component's slice, a frozen data class; what is wrong goes to `diagnostics`."""
+
+    def record(self, part: Any) -> object:
+        """Return what of its slice changes the library's layout or behavior, as plain data with keys of its own."""
+
+
+def plan_features(given: Given, diagnostics: Diagnostics) -> Features:
+    """Return the slices of all selected components that plan something for themselves."""
+    slices = []
+    for chosen in given.selection.components:
+        feature = feature_of(chosen.component)
+        if feature is not None:
+            part = feature.plan(given, diagnostics)
+            record = json.dumps(feature.record(part), sort_keys=True, separators=(",", ":"))
+            slices.append(FeatureSlice(chosen.component.name, part, record))
+    return Features(tuple(slices)) if slices else NO_FEATURES
+
+
+def feature_of(component: Component) -> Feature | None:
+    """Return the plan.py of a component; None: it has none, or does not ship with the tool."""
+    if component.origin or component.layer == "port" or not is_file(component.folder / PLAN_FILE):
+        return None
+    return cast(Feature, import_module(f"microros_gen.components.{component.name}.plan"))

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How a component appears in what the tool writes and tells: example, manifest, reports, sizes, migrated sources.
+
+Its `component.yaml` declares it, so no module names the component for that. Texts and values refer to the plan by
+paths (`streams.mtu`, `parameters.count`), as conditions do.
+"""
+
+from __future__ import annotations
+
+from microros_gen.records import dataclass
+from microros_gen.selection.contribution import Conditional
+
+EXAMPLE_FILE = "example.c.j2"
+"""The template of a component's part of the example, in its folder: one macro for each point that it uses."""
+EXAMPLE_POINTS = ("variables", "init", "executor", "fini", "functions", "turn")
+"""The points of examples/<profile>/main.c; docs/architecture.md says where each is."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ExamplePart(Conditional):
+    """Its part of the example: headers that this includes, and `handles` that its first executor has for it.
+
+    `handles` is a number, or the path of one in the plan.
+    """
+
+    includes: tuple[str, ...] = ()
+    handles: int | str = 0
+
+
+@dataclass(frozen=True, kw_only=True)
+class ManifestEntry(Conditional):
+    """An entry of the manifest: a number, or the path of a value in the plan."""
+
+    name: str
+    value: int | str
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReportRow(Conditional):
+    """A line that `build` prints and a row of `resolve`; `value` and `why` may have paths of the plan in braces."""
+
+    name: str
+    value: str
+    why: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class MemoryUse(Conditional):
+    """What `size` says that a variable, or a member of the client, is for.
+
+    `variable` may end with `[]`: then `use` can have `{}`, which becomes the number of the element.
+    """
+
+    variable: str
+    use: str
+
+
+@dataclass(frozen=True)
+class SelectingCall:
+    """Functions and macros that select the component where migrated sources use them; `x_*`: all that begin so."""
+
+    name: str
+
+    def matches(self, function: str) -> bool:
+        """Return whether a function of that name is one of them."""
+        start = self.name.removesuffix("*")
+        return function.startswith(start) if start != self.name else function == start
+
+
+@dataclass(frozen=True)
+class Presence:
+    """All of it, in the order of the component's file."""
+
+    example: tuple[ExamplePart, ...] = ()
+    manifest: tuple[ManifestEntry, ...] = ()
+    reports: tuple[ReportRow, ...] = ()
+    memory: tuple[MemoryUse, ...] = ()
+    calls: tuple[SelectingCall, ...] = ()
+
+
+ABSENT = Presence()
+"""That of a component that says nothing about it."""
