@@ -16,8 +16,7 @@ class EntityKind:
     `key`: its list in the application file, in `pools` and in the manifest. `component` is what it needs in order to be
     created, `does` how the summary calls what it does. A `service_type` has two messages: a request and a response.
     `sends`, `receives`: what it writes and reads, as suffixes of the names of messages (none for a message's own name).
-    `waited`: a wait set and an executor can wait for it. `stored`: the library can keep one message of it
-    (`storage`). `objects` are the XRCE objects that it creates, besides the participant of its node.
+    `waited`: a wait set and an executor can wait for it.
     """
 
     name: str
@@ -28,8 +27,6 @@ class EntityKind:
     sends: tuple[str, ...] = ()
     receives: tuple[str, ...] = ()
     waited: bool = False
-    stored: bool = False
-    objects: tuple[str, ...] = ()
 
     @property
     def type_kind(self) -> str:
@@ -54,7 +51,6 @@ KINDS = (
         component="publish",
         does="publishes",
         sends=("",),
-        objects=("topic", "publisher", "datawriter"),
     ),
     EntityKind(
         name="subscription",
@@ -63,8 +59,6 @@ KINDS = (
         does="receives",
         receives=("",),
         waited=True,
-        stored=True,
-        objects=("topic", "subscriber", "datareader"),
     ),
     EntityKind(
         name="service",
@@ -75,8 +69,6 @@ KINDS = (
         sends=("Response",),
         receives=("Request",),
         waited=True,
-        stored=True,
-        objects=("replier",),
     ),
     EntityKind(
         name="client",
@@ -87,8 +79,6 @@ KINDS = (
         sends=("Request",),
         receives=("Response",),
         waited=True,
-        stored=True,
-        objects=("requester",),
     ),
 )
 KIND: Mapping[str, EntityKind] = MappingProxyType({kind.name: kind for kind in KINDS})

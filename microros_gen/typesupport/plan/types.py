@@ -16,7 +16,8 @@ from microros_gen.typesupport.plan.layout import I386, ILP32, LP64, DataModel, S
 from microros_gen.typesupport.plan.names import TypeFiles, c_name, include_path, type_files
 from microros_gen.typesupport.plan.own_limits import LimitSet, plan_limit_sets, sent_limits, topic_names
 from microros_gen.typesupport.plan.size import TypeLimits, WireSizes, is_fixed
-from microros_gen.typesupport.plan.storage import StorageUnit, plan_storage, storage_extents
+from microros_gen.typesupport.plan.storage import plan_storage, storage_extents
+from microros_gen.typesupport.plan.storage_units import StorageUnit
 from microros_gen.typesupport.plan.wire import WirePlan, plan_wire
 
 LARGEST_BODY = 0x7FFFFFF0

@@ -10,7 +10,8 @@ from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.layout import ILP32, LP64
 from microros_gen.typesupport.plan.names import c_name, element_c_type, guard, include_path, type_files
 from microros_gen.typesupport.plan.size import PLACEHOLDER
-from microros_gen.typesupport.plan.storage import (
+from microros_gen.typesupport.plan.storage import text_length
+from microros_gen.typesupport.plan.storage_units import (
     BindMessages,
     BindNumbers,
     BindStep,
@@ -20,7 +21,6 @@ from microros_gen.typesupport.plan.storage import (
     SetNumber,
     StorageMember,
     StorageUnit,
-    text_length,
 )
 from microros_gen.typesupport.plan.types import DATA_MODELS, TypePlan
 from microros_gen.typesupport.views.notes import characters_note, storage_note
