@@ -64,7 +64,10 @@ def test_lines_of_the_corpus() -> None:
         ("wstring<=10[<=3]  name", True),
         ("uint8  OK = 1", True),
         ("string WORDS=a = b", True),
-        ("int8 x 5", False),
+        ("int8 x 5", True),
+        ("string x  'a = b'", True),
+        ("int8[] x [5]", False),
+        ("int8[2] x 5", False),
         (" int8 x", False),
         ("int8 X=", False),
         ("int8[<=] x", False),
@@ -85,7 +88,9 @@ def test_any_line(line: str) -> None:
 WORDS = st.sampled_from(("int8", "string", "Header", "std_msgs/Header", "wstring<=5", "Xé", "float64"))
 EXTENTS = st.sampled_from(("", "[]", "[3]", "[<=3]", "[03]", "[<=]", "[ 3]"))
 GAPS = st.sampled_from((" ", "   ", " \x0b", "\u00a0", ""))
-ENDS = st.sampled_from(("", "=1", " = 'a'", "= -2.5e3 ", " 7", "=", "==", "=\u00a07"))
+ENDS = st.sampled_from(
+    ("", "=1", " = 'a'", "= -2.5e3 ", " 7", " = = 3", "  '=x'", " [1]", "=", "==", "=\u00a07")
+)
 
 
 @settings(max_examples=400, deadline=None)
@@ -109,7 +114,7 @@ def test_the_grammar_is_not_loaded_for_plain_files() -> None:
         "assert parse_msg(Source('A.msg', sys.argv[1]), TypeName('a', 'msg', 'A'), found) is not None\n"
         "print('lark' in sys.modules)\n"
     )
-    for text, loaded in (("int8 X=1\nstring name\n", "False"), ("int8 x 5\n", "True")):
+    for text, loaded in (("int8 X=1\nstring name\n", "False"), ("int8[] x [5]\n", "True")):
         done = subprocess.run(
             [sys.executable, "-c", script, text], capture_output=True, text=True, check=True
         )

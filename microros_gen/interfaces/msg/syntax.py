@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The syntax of one declaration in a .msg file, and the reader of the plainest ones.
 
-`msg.lark` is the grammar. Almost every line of real packages is `type name` or `type NAME=value`; building lark's
-tables takes longer than to read all of them, so one expression reads these, to the tree that the grammar gives.
+`msg.lark` is the grammar. Almost every line of real packages is `type name`, `type name default` or
+`type NAME=value`. Building lark's tables takes longer than reading all of them, so one expression reads these, to the
+tree that the grammar gives.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ _PLAIN = re.compile(
     r"|(?P<type>[A-Za-z][A-Za-z0-9_]*)(?:/(?P<of_package>[A-Za-z][A-Za-z0-9_]*))?)"
     r"(?P<extent>\[(?:(?P<at_most><=)?(?P<size>[0-9]+))?\])?"
     r" +(?P<name>[A-Za-z][A-Za-z0-9_]*)"
-    r"(?: *= *(?P<value>[!-~].*))?"
+    r"(?: *= *(?P<value>[!-~].*)| +(?P<default>[!-<>-~].*))?"
 )
 
 
@@ -56,9 +57,9 @@ class Node:
 
 
 def plain_declaration(text: str) -> Node | None:
-    """Return the tree of a declaration without default or anything unusual; None: ask the grammar."""
+    """Return the tree of a declaration without anything unusual; None: ask the grammar."""
     found = _PLAIN.fullmatch(text)
-    if found is None:
+    if found is None or (found["default"] and found["extent"]):
         return None
 
     def word(name: str) -> Word:
@@ -77,4 +78,4 @@ def plain_declaration(text: str) -> Node | None:
         element = Node("array", (element, Node(how, (word("size"),) if found["size"] else ())))
     if found["value"]:
         return Node("constant", (element, word("name"), word("value")))
-    return Node("field", (element, word("name")))
+    return Node("field", (element, word("name"), *((word("default"),) if found["default"] else ())))
