@@ -172,13 +172,7 @@ def places(trees: list[Tree], is_header_a_difference: bool) -> misra.Places:
         pytest.skip("no cppcheck with its addons")
     if is_header_a_difference:
         return misra.check(trees, units(trees))
-    alike = [tree for tree in trees if has_texts(tree)]
-    return misra.check(alike, units(alike, is_header_a_difference))
-
-
-def has_texts(tree: Tree) -> bool:
-    """Whether errors are texts: in a tree with codes the same names have other values."""
-    return "src/support/error_text.c" in tree.sources
+    return misra.check(trees, units(trees, is_header_a_difference), is_whole=False)
 
 
 @pytest.mark.lint

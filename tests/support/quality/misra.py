@@ -141,8 +141,12 @@ def _whole_program(tree: Tree, summaries: Sequence[str], addon: Path) -> str:
     return told.stdout
 
 
-def check(trees: Sequence[Tree], every: Sequence[Unit]) -> Places:
-    """Return what the addon finds in `trees`, whose files are `every`."""
+def check(trees: Sequence[Tree], every: Sequence[Unit], is_whole: bool = True) -> Places:
+    """Return what the addon finds in `trees`, whose files are `every`.
+
+    `is_whole`: with the rules about all files of a program together. Without them where a file stands for the same
+    one of other trees: its headers may differ there, and two trees are no program.
+    """
     addon = find_addon()
     assert addon is not None, "cppcheck is not installed, or without its addons"
     answers = analyze(f"misra {tool_version()} {OPTIONS}", every, lambda unit: _check(unit, addon))
@@ -150,7 +154,8 @@ def check(trees: Sequence[Tree], every: Sequence[Unit]) -> Places:
     for tree in trees:
         parts = [answers[unit.key].split(SEPARATOR) for unit in every if unit.tree == tree]
         found = set().union(*(_findings(told) for told, _ in parts))
-        found |= _findings(_whole_program(tree, [whole for _, whole in parts], addon))
+        if is_whole:
+            found |= _findings(_whole_program(tree, [whole for _, whole in parts], addon))
         places |= Counter((rule, path) for rule, path, _, _ in found)
     return places
 
