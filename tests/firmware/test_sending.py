@@ -110,7 +110,7 @@ def published_while_the_line_stands(
     return stopped, agent
 
 
-CLOSE_MS = 1200
+CLOSE_MS = 2500
 CLOSING = f"""\
 version: 1
 profiles: [pure_sender]

@@ -5,7 +5,7 @@
 #include <rclc/rclc.h>
 #include <std_msgs/msg/int32.h>
 
-enum { SESSIONS = 2, COUNT = 4000, PAUSE_MS = 800, STEP_MS = 2 };
+enum { SESSIONS = 2, COUNT = 4000, PAUSE_MS = 2500, STEP_MS = 2 };
 
 typedef struct closing_report_t {
   uint32_t ready; /* sessions that were begun: the line may stop now */
