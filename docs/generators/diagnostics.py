@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The page of all diagnostics, read from the calls that make them: id, message, hint."""
+"""The page of all diagnostics, read from the calls that make them: id, message, hint, explanation."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import microros_gen
+from microros_gen.diagnostics.explanations import explanations
 from microros_gen.records import dataclass
 
 from . import markdown
@@ -35,7 +36,7 @@ _PLACE_FIRST = {"IdlError", "_DeclarationError", "self._error"}
 """Calls whose first argument is the place and whose second one is the message."""
 _INTRODUCTION = """\
 Each error and warning ends with an id in brackets, `[MG-3012]`, which stays the same when the words change. Parts in
-braces are placeholders for names, numbers and paths. The hint says what to do."""
+braces are placeholders for names, numbers and paths. `microros-gen explain MG-3012` prints the explanation."""
 
 
 @dataclass(frozen=True)
@@ -67,14 +68,15 @@ def page() -> str:
 
 
 def _table(rows: list[Told]) -> str:
+    known = explanations()
     return markdown.table(
-        ("id", "kind", "message", "hint"),
+        ("id", "kind", "message and hint", "explanation"),
         (
             (
                 f'<span id="{told.id.lower()}">{told.id}</span>',
                 "error" if told.is_error else "warning",
-                markdown.cell(told.message),
-                markdown.cell(told.hint),
+                f"{markdown.cell(told.message)}<br>*{markdown.cell(told.hint)}*".removesuffix("<br>**"),
+                markdown.cell(known[told.id]),
             )
             for told in rows
         ),

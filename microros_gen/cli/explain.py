@@ -1,24 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`microros-gen explain`: why something is in the image."""
+"""`microros-gen explain`: why something is in the image, or what a diagnostic means."""
 
 from __future__ import annotations
 
 import dataclasses
 import json
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import click
 
 from microros_gen.cli.options import check_map, image_option, map_option
+from microros_gen.diagnostics import Diagnostic, UserError
+from microros_gen.diagnostics.explanations import explanations
 from microros_gen.image.explain import Explainer, Explanation
 from microros_gen.image.report import measure
 from microros_gen.selection.find_components import load_catalogue
 
 
 @click.command()
-@click.argument("out", type=click.Path(path_type=Path))
-@click.argument("what", metavar="SYMBOL|FILE|COMPONENT")
+@click.argument("out", metavar="OUT|ID", type=click.Path(path_type=Path))
+@click.argument("what", metavar="[SYMBOL|FILE|COMPONENT]", required=False)
 @image_option(
     "Explain this image of yours, which was linked with OUT's library. Default: the one that was built."
 )
@@ -31,12 +34,12 @@ from microros_gen.selection.find_components import load_catalogue
     show_default=True,
     help="Lines for people, or JSON for programs.",
 )
-def command(out: Path, what: str, image: Path | None, linker_map: Path | None, kind: str) -> None:
-    """Say where SYMBOL, FILE or COMPONENT of OUT comes from, and why it is there.
+def command(out: Path, what: str | None, image: Path | None, linker_map: Path | None, kind: str) -> None:
+    """Say where SYMBOL, FILE or COMPONENT of OUT comes from, and why it is there; or what the diagnostic ID means.
 
     OUT is what `build` wrote, or a CMake build folder, whose own image is explained. A symbol may be given by a unique
     beginning, a file by its name alone; a type (pkg/msg/Type) works as well. For what is not in the image the answer
-    says what would bring it.
+    says what would bring it. ID is the end of the first line of an error or warning.
 
     \b
     microros-gen explain build/pure_sender rcl_publish
@@ -44,8 +47,12 @@ def command(out: Path, what: str, image: Path | None, linker_map: Path | None, k
     microros-gen explain build/pure_sender ping
     microros-gen explain build/pure_sender rcl/timer.h
     microros-gen explain my_robot/build rclc_executor_spin
+    microros-gen explain MG-5013
     """
     check_map(image, linker_map)
+    if what is None:
+        click.echo(_diagnostic(str(out), kind))
+        return
     catalogue = load_catalogue()
 
     def sources_of(component: str) -> Iterator[bytes]:
@@ -60,6 +67,21 @@ def command(out: Path, what: str, image: Path | None, linker_map: Path | None, k
         click.echo(json.dumps({"version": 1, **data}, indent=2, sort_keys=True, ensure_ascii=False))
     else:
         click.echo(_text(explanation), nl=False)
+
+
+def _diagnostic(identity: str, kind: str) -> str:
+    """Return the explanation of a diagnostic as text or JSON."""
+    identity = identity.strip("[]").upper()
+    if not re.fullmatch(r"MG-\d+", identity):
+        raise click.UsageError("Missing argument 'SYMBOL|FILE|COMPONENT'.")
+    known = explanations()
+    if identity not in known:
+        message, hint = f"unknown diagnostic id '{identity}'", "It ends the first line of an error or warning"
+        raise UserError([Diagnostic(message, hint=hint, id="MG-9723")])
+    if kind == "json":
+        data = {"version": 1, "kind": "diagnostic", "name": identity, "explanation": known[identity]}
+        return json.dumps(data, indent=2, sort_keys=True, ensure_ascii=False)
+    return f"{identity}: {known[identity]}"
 
 
 def _text(found: Explanation) -> str:

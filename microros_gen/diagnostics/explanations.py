@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Explanations of diagnostics by id, from explanations.yaml."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+_FILE = Path(__file__).with_name("explanations.yaml")
+
+
+def explanations() -> dict[str, str]:
+    """Return one or two sentences for each id: when the diagnostic occurs, and what to do about it."""
+    import yaml  # only `explain` and the documentation need this file
+
+    found = yaml.safe_load(_FILE.read_text(encoding="utf-8"))
+    return {str(identity): str(text) for identity, text in found.items()}
