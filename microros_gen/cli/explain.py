@@ -76,7 +76,8 @@ def _diagnostic(identity: str, kind: str) -> str:
         raise click.UsageError("Missing argument 'SYMBOL|FILE|COMPONENT'.")
     known = explanations()
     if identity not in known:
-        message, hint = f"unknown diagnostic id '{identity}'", "It ends the first line of an error or warning"
+        message = f"unknown diagnostic id '{identity}'"
+        hint = "It ends the first line of an error or warning"
         raise UserError([Diagnostic(message, hint=hint, id="MG-9723")])
     if kind == "json":
         data = {"version": 1, "kind": "diagnostic", "name": identity, "explanation": known[identity]}
