@@ -76,7 +76,7 @@ def _table(rows: list[Told]) -> str:
                 f'<span id="{told.id.lower()}">{told.id}</span>',
                 "error" if told.is_error else "warning",
                 f"{markdown.cell(told.message)}<br>*{markdown.cell(told.hint)}*".removesuffix("<br>**"),
-                markdown.cell(known[told.id]),
+                markdown.cell(known.get(told.id, "")),
             )
             for told in rows
         ),
