@@ -71,7 +71,7 @@ def test_rclpy_publishes_and_the_client_takes(
     assert [line for line in lines if line.startswith("word")] == ["word short", "word again"]
     (refused,) = (line for line in lines if line.startswith("refused"))
     assert (
-        refused.endswith("16 bytes have come and 16 fit: raise limits in microros.yaml")
+        refused.endswith("received 16 bytes, 16 fit: raise limits in microros.yaml")
         or "11, capacity for 8: raise limits in microros.yaml" in refused
     )
 

@@ -344,7 +344,7 @@ def test_larger_than_a_slot_is_refused_and_told(bench: Bench) -> None:
     reader.send(reader.agent.offer(FIRST, struct.pack("<I", 20) + b"x" * 19 + b"\0"))
     reader.send(reader.agent.offer(FIRST, struct.pack("<I", 2) + b"y\0"))
     result = reader.client.call("read_text 0 9")
-    expected = "/go: 24 bytes have come and 16 fit: raise limits in microros.yaml"
+    expected = "/go: received 24 bytes, 16 fit: raise limits in microros.yaml"
     assert (result.code, result.error) == (1, expected)
     assert reader.client.ok("read_text 0 9").lines == ("text y",)
     assert reader.counted() == (0, 1)
@@ -496,7 +496,7 @@ def test_fragments_of_more_than_there_is_room_for(bench: Bench) -> None:
     reader.send(reader.agent.offer(FIRST, _text(600), _text(5)))
     reader.client.spin()
     result = reader.client.call("read_text 0 1000")
-    assert result.error == "/go: 605 bytes have come and 400 fit: raise limits in microros.yaml"
+    assert result.error == "/go: received 605 bytes, 400 fit: raise limits in microros.yaml"
     assert reader.client.ok("read_text 0 1000").lines == ("text zzzzz",)
     assert reader.counted() == (0, 1)
 
@@ -505,7 +505,7 @@ def test_fragments_where_none_are_planned(bench: Bench) -> None:
     reader = Reader(bench, type_name="String")
     reader.send(reader.agent.offer(FIRST, _text(100), _text(5)))
     result = reader.client.call("read_text 0 1000")
-    assert result.error == "/go: 105 bytes have come and 16 fit: raise limits in microros.yaml"
+    assert result.error == "/go: received 105 bytes, 16 fit: raise limits in microros.yaml"
     assert reader.client.ok("read_text 0 1000").lines == ("text zzzzz",)
 
 

@@ -148,7 +148,7 @@ PL_CDR: 1 sensor_msgs/msg/JointState: representation 3 is not plain CDR (0 or 1)
 full: 1 sensor_msgs/msg/JointState.position: 2, capacity for 1: raise limits, or that of your buffer
 NULL: 11 serialized_message, type_support or ros_message: NULL or not initialized
 other order: 1 sensor_msgs/msg/JointState.header.frame_id: the message ends: 83886080 bytes needed, 52 left
-only sent: 3 sensor_msgs/msg/JointState has no decoder: no profile that receives it
+only sent: 3 sensor_msgs/msg/JointState has no decoder: no profile receives it
 too much: 1 sensor_msgs/msg/JointState.position: 3, limit 2: raise limits
 cloud: 0 
 element read: 1 sensor_msgs/msg/PointCloud2.fields[1].name: 5, capacity for 3: raise limits, or that of your buffer

@@ -95,7 +95,7 @@ static void test_pool(void)
   CHECK(rcl_timer_init(&other, &support.clock, &support.context, 1, NULL, allocator) == RCL_RET_BAD_ALLOC);
   CHECK(
     strcmp(
-      rcl_get_error_string().str, "3 timers are all there are: set pools: {timers: 4} in microros.yaml") ==
+      rcl_get_error_string().str, "all 3 timers are in use: set pools: {timers: 4} in microros.yaml") ==
     0);
   CHECK(rcl_timer_fini(&timers[1]) == RCL_RET_OK);
   other = timer_on(&support.clock, 5);

@@ -11,7 +11,7 @@ typedef struct path_t {
   size_t length;
 } path_t;
 
-/* What is behind PATH_SIZE is cut off, as by the text of the error. */
+/* Text beyond PATH_SIZE is truncated, as is the error's text. */
 static void path_put(path_t * path, const char * words)
 {
   while (*words != '\0' && path->length < (size_t)PATH_SIZE - 1u) {

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-/* What every sequence is: rosidl_runtime_c's differ only in what `data` points to. */
+/* Common layout of all sequences: those of rosidl_runtime_c differ only in the type of `data`. */
 typedef struct sequence_t {
   void * data;
   size_t size;
@@ -49,8 +49,8 @@ void cdr_in_within(const cdr_in_t * in, const char * member, size_t index)
 }
 
 /**
- * Return the address of `count` values of `width` bytes (1, 2, 4 or 8), behind their padding, and move on; NULL, with
- * the fault filled, where the body ends before.
+ * Returns the address of `count` values of `width` bytes (1, 2, 4 or 8) after their padding, and advances.
+ * Returns NULL, with the fault filled, if the body ends before them.
  */
 static inline const uint8_t * take(cdr_in_t * in, size_t count, uint32_t width, const char * field)
 {
@@ -67,7 +67,7 @@ static inline const uint8_t * take(cdr_in_t * in, size_t count, uint32_t width, 
   return from;
 }
 
-/** Turn the bytes of each of `count` numbers round. */
+/** Reverses the bytes of each of `count` numbers. */
 static void turn(uint8_t * numbers, size_t count, uint32_t width)
 {
   for (size_t i = 0U; i < count; ++i) {
@@ -130,7 +130,7 @@ uint32_t cdr_in_length(cdr_in_t * in, uint32_t width, const char * field)
   uint32_t length = 0U;
 
   cdr_get_4(in, &length, 1U, field);
-  const uint32_t left = in->size - in->position; /* 0 where it failed */
+  const uint32_t left = in->size - in->position; /* 0 after a fault */
   if ((length > left) || (((uint64_t)length * width) > left)) {
     cdr_in_refuse(in, CDR_FAULT_END, field, (uint64_t)length * width, left);
     return 0U;
@@ -138,7 +138,7 @@ uint32_t cdr_in_length(cdr_in_t * in, uint32_t width, const char * field)
   return length;
 }
 
-/** Read the length of a sequence of elements of at least `width` bytes; return where they go. */
+/** Reads the length of a sequence of elements of at least `width` bytes; returns where to store them. */
 static void * get_size(
   cdr_in_t * in, void * sequence, uint32_t bound, uint32_t width, const char * field, uint32_t * size)
 {

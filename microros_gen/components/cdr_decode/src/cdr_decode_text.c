@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-/** Return how many of `length` characters (at least one) stand before the first NUL. */
+/** Returns how many of `length` characters (at least one) precede the first NUL. */
 static size_t count_characters(const char * from, uint32_t length)
 {
   size_t size = 0U;
@@ -39,7 +39,7 @@ void cdr_get_string(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bou
   }
   if ((capacity > 1U) || ((capacity == 1U) && (text->data[0] != '\0'))) {
     text->data[size] =
-      '\0'; /* not to the NUL that all empty strings share (rosidl_runtime_c__String__init) */
+      '\0'; /* do not write the NUL that all empty strings share (rosidl_runtime_c__String__init) */
   }
   text->size = size;
 }

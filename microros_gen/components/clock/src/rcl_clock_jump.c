@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Who wants to know of jumps: one pool for all clocks. */
+/* Jump callbacks: one pool for all clocks. */
 #include "microros/error.h"
 #include "microros/rcl_clock.h"
 #include "microros_config.h"
@@ -13,7 +13,7 @@ typedef struct jump_entry_t {
 
 static jump_entry_t jump_entries[MICROROS_JUMP_CALLBACKS_MAX];
 
-/* Returns the entry of this clock with this callback; with clock NULL any free one. */
+/* Returns the entry of this clock with this callback; with clock NULL, any free one. */
 static jump_entry_t * jump_find(
   const rcl_clock_t * clock, rcl_jump_callback_t callback, const void * user_data)
 {

@@ -8,7 +8,7 @@ rcl_ret_t rcl_clock_system_now(void * data, rcl_time_point_value_t * now)
   const int64_t epoch_ns = rcl_clock_epoch_ns();
 
   (void)data;
-  *now = epoch_ns != 0 ? epoch_ns : port_time_steady_ns(); /* 0: nobody has set the time of day yet */
+  *now = epoch_ns != 0 ? epoch_ns : port_time_steady_ns(); /* 0: the time of day has not been set yet */
   return RCL_RET_OK;
 }
 

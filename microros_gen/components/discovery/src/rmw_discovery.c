@@ -14,7 +14,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* How long an agent has to answer at its place. */
+/* Time that an agent has to answer at a locator. */
 enum { PLACE_MS = 2 * MICROROS_RETRY_FIRST_MS };
 
 static bool discovery_reaches(const rmw_uxrce_transport_params_t * params)
@@ -38,7 +38,7 @@ static void discovery_put_port(char * digits, uint16_t port)
   *digits = '\0';
 }
 
-/* Tries the next place; leaves the options empty where nobody answers there. */
+/* Tries the next locator; clears the options if no agent answers there. */
 static bool discovery_try_next(xrce_discovery_t * search, rmw_uxrce_transport_params_t * params)
 {
   const uint16_t port = xrce_discovery_take(search);

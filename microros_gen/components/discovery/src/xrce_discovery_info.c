@@ -7,7 +7,7 @@
 /* Before the members of INFO: the headers, request and object, two bytes of status. */
 enum { RESULT_SIZE = 6, CONFIG_SIZE = 9 /* kind, "XRCE", version, vendor */, REQUEST_DISCOVERY = 9 };
 
-/* Forms of a place; numbers in them are aligned to their size from the start of the payload. */
+/* Kinds of locators; numbers in them are aligned to their size from the start of the payload. */
 enum { LOCATOR_SMALL = 0, LOCATOR_MEDIUM = 1, LOCATOR_LARGE = 2 };
 
 typedef struct reader_t {
@@ -15,7 +15,7 @@ typedef struct reader_t {
   size_t size;
   size_t at;
   uint8_t flags;
-  bool ended; /* something was asked for beyond the end; all further values are 0 */
+  bool ended; /* a read passed the end; all further values are 0 */
 } reader_t;
 
 static const uint8_t * reader_take(reader_t * reader, size_t size, size_t alignment)
@@ -58,7 +58,7 @@ static void reader_skip_properties(reader_t * reader)
   }
 }
 
-/* Adds a place that is not there yet, as far as there is room. */
+/* Adds a new locator if there is room. */
 static void discovery_add(xrce_discovery_t * discovery, const uint8_t * address, uint16_t port, bool first)
 {
   xrce_place_t * place = &discovery->places[discovery->count];
@@ -82,7 +82,7 @@ static void discovery_add(xrce_discovery_t * discovery, const uint8_t * address,
   ++discovery->count;
 }
 
-/* Returns the port of a place that was read; 0: none was. */
+/* Returns the port of a locator that was read; 0: none was. */
 static uint16_t discovery_take_locator(
   xrce_discovery_t * discovery, reader_t * reader, const uint8_t * sender)
 {
@@ -142,7 +142,7 @@ void xrce_discovery_on_info(
 
     port = taken != 0u ? taken : port;
   }
-  if (reader.ended) { /* what was cut off may be the place that is most likely to be reached */
+  if (reader.ended) { /* the most reachable locator may have been truncated */
     discovery_add(discovery, sender, port, true);
   }
 }

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* creation: best_effort. Each repetition is a message of its own; the agent finds the object there and says so. */
+/*
+ * creation: best_effort. Each repetition is a separate message; the agent reports that the object already
+ * exists. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * creation: reliable. A request is a message of the reliable stream: it takes the number that follows what the agent has
- * acknowledged, and the stream holds what the application writes until the STATUS is there. Sent again it has the same
- * number and the same bytes, so the agent acts on it once. In a new session the first requests go before all that
- * the stream has kept.
+ * creation: reliable. A request is a message of the reliable stream: it takes the sequence number after
+ * the last acknowledged one, and the stream holds back the application's messages until STATUS arrives. A
+ * repetition has the same number and bytes, so the agent executes it once. In a new session the first
+ * requests precede all stored messages of the stream.
  */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"
@@ -15,7 +15,7 @@ bool xrce_creation_begin(xrce_client_t * client, uint32_t now)
 
   if (!stream->held) {
     if (!xrce_stream_reliable_is_idle(stream)) {
-      return false; /* the agent has to acknowledge these first */
+      return false; /* the agent has to acknowledge earlier messages first */
     }
     stream->held = true;
     stream->due_ms = now;

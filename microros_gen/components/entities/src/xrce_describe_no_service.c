@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* There are no places of services. */
+/* Without services no place belongs to a replier or requester. */
 #include "microros/xrce_creation.h"
 
 uint8_t * xrce_describe_service(

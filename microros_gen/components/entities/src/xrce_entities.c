@@ -10,7 +10,7 @@
 
 enum { NO_PLACE = 0xffff, STATUS_SIZE = 6, MOST_REFUSALS = 16 };
 
-/* Submessage header, request id, object id; then kind, format, padding and the description's length. */
+/* Submessage header, request id, object id; then kind, format, padding and length of the description. */
 enum {
   REQUEST_AT = 4,
   OBJECT_AT = 6,
@@ -24,7 +24,7 @@ enum {
 static const uint8_t writer_kinds[] = {XRCE_KIND_TOPIC, XRCE_KIND_PUBLISHER, XRCE_KIND_DATAWRITER};
 static const uint8_t reader_kinds[] = {XRCE_KIND_TOPIC, XRCE_KIND_SUBSCRIBER, XRCE_KIND_DATAREADER};
 
-/* Returns what the object of an endpoint is that comes after `level` others. */
+/* Returns the kind of an endpoint's object that is created after `level` others. */
 static uint8_t entities_kind(uint16_t place, uint8_t level)
 {
   if (xrce_place_is_service(place)) {
@@ -46,7 +46,7 @@ uint8_t * xrce_describe_text(uint8_t * at, const char * text)
   return at;
 }
 
-/* Returns how many objects the place should have at the agent. */
+/* Returns how many objects of the place should exist at the agent. */
 static uint8_t entities_goal(const xrce_client_t * client, uint16_t place)
 {
   const xrce_object_state_t * state = &client->states[place];
@@ -57,7 +57,9 @@ static uint8_t entities_goal(const xrce_client_t * client, uint16_t place)
   return xrce_place_complete(place);
 }
 
-/* Whether a place can move on: an endpoint needs its participant, a participant outlives its endpoints. */
+/*
+ * Returns whether a place can proceed: an endpoint needs its participant, a participant outlives its
+ * endpoints. */
 static bool entities_is_free(const xrce_client_t * client, uint16_t place, uint8_t goal)
 {
   if (!xrce_place_is_participant(place)) {
@@ -82,7 +84,7 @@ static void entities_next_place(xrce_entities_t * entities)
   entities->cursor = next < XRCE_PLACES ? next : 0u;
 }
 
-/* Lets the next step look for work at once. */
+/* Makes the next step look for work at once. */
 static void entities_wake(xrce_entities_t * entities)
 {
   entities->pending = true;
@@ -118,14 +120,18 @@ static void entities_refuse(xrce_client_t * client, uint8_t status, uint32_t now
     entities->refused_place = entities->cursor;
     entities->refused_status = status;
   }
-  /* Others first; then again, after pauses that grow, since it is a mistake or a lack that may last. */
+  /*
+   * Other places first; then try again after growing pauses, since the cause (a mistake, missing memory)
+   * may persist. */
   entities->due_ms = now + xrce_session_pause((uint32_t)MICROROS_RETRY_FIRST_MS << entities->refusals);
   entities->refusals = (uint8_t)(entities->refusals + (entities->refusals < MOST_REFUSALS ? 1u : 0u));
   entities->resting = true;
   entities_next_place(entities);
 }
 
-/* Behind the description: a participant's domain, at an even place; the parent's id of other objects. */
+/*
+ * Writes what follows the description: the domain of a participant, at an even position; the parent's id
+ * of other objects. */
 static uint8_t * entities_put_owner(
   const xrce_client_t * client, uint16_t place, uint8_t kind, uint8_t * end, bool odd)
 {
@@ -147,7 +153,7 @@ static uint8_t * entities_put_owner(
   return &end[2];
 }
 
-/* Writes what CREATE has behind the object's id; returns its end. */
+/* Writes the part of CREATE after the object id; returns its end. */
 static uint8_t * entities_put_object(
   const xrce_client_t * client, uint16_t place, uint8_t kind, uint8_t * room)
 {
@@ -163,7 +169,7 @@ static uint8_t * entities_put_object(
   return entities_put_owner(client, place, kind, end, (size & 1u) != 0u);
 }
 
-/* Returns what the object is that the outstanding request is about. */
+/* Returns the kind of the outstanding request's object. */
 static uint8_t entities_outstanding_kind(const xrce_client_t * client)
 {
   const xrce_entities_t * entities = &client->entities;
@@ -205,7 +211,7 @@ static void entities_send(xrce_client_t * client, uint32_t now)
   xrce_creation_send(client, xrce_size_between(room, end));
 }
 
-/* Begins the next request; false: there is nothing to do. */
+/* Starts the next request; false: nothing to do. */
 static bool entities_begin(xrce_client_t * client, uint32_t now)
 {
   xrce_entities_t * entities = &client->entities;
@@ -261,12 +267,12 @@ void xrce_entities_on_status(xrce_client_t * client, const uint8_t * submessage,
   if (
     !entities->outstanding || xrce_get_be16(&payload[0]) != entities->request ||
     xrce_get_be16(&payload[2]) != entities_outstanding_id(client)) {
-    return; /* the answer to a repetition, or to a request of another part */
+    return; /* answer to a repetition, or to a request of another part */
   }
   xrce_creation_end(client);
   entities->outstanding = false;
   if (entities->deleting) {
-    --state->level; /* whatever the agent says: an unknown object is what we wanted */
+    --state->level; /* whatever the status: an unknown object is the goal */
   } else if (payload[4] <= XRCE_STATUS_OK_MATCHED) {
     ++state->level;
     entities->refusals = 0;
@@ -281,7 +287,7 @@ void xrce_entities_add(xrce_client_t * client, uint16_t place)
   const xrce_entities_t * entities = &client->entities;
   xrce_object_state_t * state = &client->states[place];
 
-  /* Also when the request of a former owner is still out: what comes of it is not what is wanted now. */
+  /* Also if the request of a former owner is still outstanding: its result is no longer wanted. */
   state->stale = state->level != 0u || (entities->outstanding && entities->cursor == place);
   state->wanted = true;
   entities_wake(&client->entities);

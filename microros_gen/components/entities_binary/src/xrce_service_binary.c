@@ -4,7 +4,7 @@
 #include "microros/xrce_creation.h"
 #include "microros/xrce_wire.h"
 
-/* Padding up to four from the blob's begin. */
+/* Padding to a multiple of four from the start of the blob. */
 static uint8_t * service_align(const uint8_t * blob, uint8_t * at)
 {
   while (xrce_size_between(blob, at) % 4u != 0u) {
@@ -13,7 +13,7 @@ static uint8_t * service_align(const uint8_t * blob, uint8_t * at)
   return at;
 }
 
-/* An aligned string of up to three pieces. */
+/* An aligned string of up to three parts. */
 static uint8_t * service_put_string(
   const uint8_t * blob, uint8_t * at, const char * first, const char * second, const char * third)
 {
@@ -27,7 +27,7 @@ static uint8_t * service_put_string(
   return end;
 }
 
-/* Its name, the types of its messages; then, both there, the topics of requests and replies. */
+/* Service name, message types; then the topics of requests and replies, both present. */
 uint8_t * xrce_describe_service(
   const xrce_client_t * client, uint16_t place, uint8_t * blob, uint8_t * format)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The agent has the entities as soon as there is a session. Nothing is sent for them. */
+/* The agent has created the entities when the session starts: nothing is sent for them. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_entities.h"
 

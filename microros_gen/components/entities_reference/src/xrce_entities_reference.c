@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Objects by the names under which the agent finds them in its file of references; the names are those of the rmw of
- * micro-ROS: "participant_profile" of a client with one node, "imu/data__t" of a topic, "imu/data__dw" of its data
- * writer and "imu/data__dr" of its data reader. A node among several has its own: "arm/imu__p". A publisher or
- * subscriber has no name; its text is empty.
+ * Objects by the names under which the agent finds them in its references file. The names are those of
+ * micro-ROS's rmw: "participant_profile" of a client with one node, "imu/data__t" of a topic,
+ * "imu/data__dw" of its data writer and "imu/data__dr" of its data reader. With several nodes each has a
+ * separate one: "arm/imu__p". A publisher or subscriber has no name; its text is empty.
  */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Objects in the XML that DDS implementations read as profiles (OMG DDS-XRCE 1.0, 7.7.3). Names of ROS 2 and of DDS types
- * have no character that XML escapes.
+ * Objects in the XML of DDS profiles (OMG DDS-XRCE 1.0, 7.7.3). Names of ROS 2 and of DDS types contain no
+ * character that XML escapes.
  */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"
@@ -9,7 +9,7 @@
 
 #include <stddef.h>
 
-/* Copies the texts up to NULL, one after the other. */
+/* Copies texts up to a NULL entry. */
 static uint8_t * xml_put(uint8_t * at, const char * const * texts)
 {
   while (*texts != NULL) {
@@ -32,7 +32,7 @@ static uint8_t * xml_put_participant(uint8_t * at, const xrce_participant_t * pa
   return xml_put(at, texts);
 }
 
-/* The name and the type of an endpoint's topic, in what stands around them. */
+/* Writes name and type of an endpoint's topic in their elements. */
 static uint8_t * xml_put_topic(
   uint8_t * at, const xrce_endpoint_t * endpoint, const char * before, const char * behind)
 {
@@ -56,7 +56,7 @@ static uint8_t * xml_put_number(uint8_t * at, uint16_t number)
   return at;
 }
 
-/* Depth 0 is what the agent takes by itself. */
+/* Depth 0 is the agent's default: no element. */
 static uint8_t * xml_put_depth(uint8_t * at, uint16_t depth)
 {
   if (depth == 0u) {

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Repliers and requesters in XML, as the public agent reads them; with the depth of ROS 2's services, since its own is 1. */
+/*
+ * Repliers and requesters in XML, as the public agent reads them; with the depth of ROS 2's services,
+ * since the agent's default is 1. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"
 

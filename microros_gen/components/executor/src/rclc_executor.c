@@ -12,12 +12,12 @@ static const uint64_t first_timeout_ns = 1000000000u;
 typedef struct executor_place_t {
   rclc_executor_handle_t handles[MICROROS_HANDLES_MAX];
   const void *
-    owner; /* NULL: free; the executor, or the handles themselves where only a copy of it is left */
+    owner; /* NULL: free; the executor, or the handles themselves if only a copy of the executor remains */
 } executor_place_t;
 
 static executor_place_t executor_places[MICROROS_EXECUTORS_MAX];
 
-/* The place of this owner; NULL: it has none. */
+/* Returns the place of this owner; NULL: it has no place. */
 static executor_place_t * executor_find(const void * owner)
 {
   for (size_t i = 0; i < MICROROS_EXECUTORS_MAX; ++i) {
@@ -36,8 +36,8 @@ rclc_executor_t rclc_executor_get_zero_initialized_executor(void)
   return executor;
 }
 
-/* One that is initialized again keeps its place. Where its handles are not those of the place it was copied, and the copy
- * has them now. */
+/* An executor that is initialized again keeps its place. If its handles are not those of the place, it was
+ * copied, and the copy owns the handles now. */
 static rclc_executor_handle_t * executor_take(const rclc_executor_t * executor)
 {
   executor_place_t * place = executor_find(executor);
@@ -57,7 +57,7 @@ static rclc_executor_handle_t * executor_take(const rclc_executor_t * executor)
   }
   place->owner = executor;
   for (size_t i = 0; i < MICROROS_HANDLES_MAX; ++i) {
-    (void)rclc_executor_handle_init(&place->handles[i], MICROROS_HANDLES_MAX); /* it is not NULL */
+    (void)rclc_executor_handle_init(&place->handles[i], MICROROS_HANDLES_MAX); /* cannot fail: not NULL */
   }
   return place->handles;
 }
@@ -87,7 +87,7 @@ rcl_ret_t rclc_executor_init(
   return RCL_RET_OK;
 }
 
-/* By its handles: `executor` may be a copy. */
+/* Found by its handles: `executor` may be a copy. */
 static void executor_release(const rclc_executor_t * executor)
 {
   for (size_t i = 0; i < MICROROS_EXECUTORS_MAX; ++i) {
@@ -141,7 +141,7 @@ rclc_executor_handle_t * rclc_executor_add_handle(
   rclc_executor_handle_t * handle;
 
   if (executor->handles == NULL) {
-    (void)executor_check(executor); /* for its text */
+    (void)executor_check(executor); /* sets the error text */
     return NULL;
   }
   if (executor->index == executor->max_handles) {

@@ -7,7 +7,7 @@
 
 static rcl_ret_t guard_look(const rclc_executor_handle_t * handle, bool * is_ready, int64_t * look_again_ns)
 {
-  (void)look_again_ns; /* who triggers it wakes the executor */
+  (void)look_again_ns; /* a trigger wakes the executor */
   if (!rcl_guard_condition_is_valid(handle->gc)) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "guard condition");
   }

@@ -6,10 +6,10 @@
 #include "microros/time_math.h"
 #include "microros_config.h"
 
-/* Between rounds that end with an error at once. */
+/* Pause between rounds that end with an error at once. */
 enum { PAUSE_AFTER_ERROR_NS = 1000000 };
 
-/* Looks at all handles; *changed: one is ready that was not before. */
+/* Looks at all handles; *changed: a handle has become ready. */
 static rcl_ret_t executor_look(const rclc_executor_t * executor, bool * changed, int64_t * look_again_ns)
 {
   *changed = false;
@@ -70,7 +70,7 @@ static void executor_note(rcl_ret_t * first, rcl_ret_t result)
   }
 }
 
-/* Returns the first handle whose turn in this round is to come, or NULL. */
+/* Returns the first handle that still has a turn in this round, or NULL. */
 static rclc_executor_handle_t * executor_next(const rclc_executor_t * executor)
 {
   for (size_t i = 0; i < executor->index; ++i) {
@@ -81,8 +81,9 @@ static rclc_executor_handle_t * executor_next(const rclc_executor_t * executor)
   return NULL;
 }
 
-/* A callback may remove handles, its own too, which moves those after it, or end the executor; what it adds has its first
- * turn in the next round. So each turn looks for its handle. */
+/* A callback may remove handles, including its own, which moves those after it, or finalize the executor;
+ * handles that it adds have their first turn in the next round. Therefore each turn searches for its
+ * handle. */
 static rcl_ret_t executor_process(const rclc_executor_t * executor)
 {
   const bool takes_first = executor->data_comm_semantics == RCLC_SEMANTICS_LOGICAL_EXECUTION_TIME;
@@ -128,7 +129,7 @@ rcl_ret_t rclc_executor_spin_some(rclc_executor_t * executor, const uint64_t tim
   return result;
 }
 
-/* Whether rounds go on after one that gave `result`. */
+/* Returns whether to continue with further rounds after `result`. */
 static bool executor_goes_on(const rclc_executor_t * executor, rcl_ret_t result)
 {
   return result == RCL_RET_OK || result == RCL_RET_TIMEOUT ||
@@ -147,8 +148,8 @@ static void executor_rest(int64_t duration_ns)
 }
 
 /*
- * How long a round may wait of which nobody hears that it has ended. Nothing becomes ready by a time-out, so it is only for what
- * the trigger function may look at, and for another task that ends the context.
+ * Longest wait of a round whose end is not observed. A time-out makes nothing ready; it only serves
+ * trigger functions that look at other state, and another task that ends the context.
  */
 static uint64_t executor_patience(const rclc_executor_t * executor)
 {

@@ -2,7 +2,7 @@
 #include "microros/error.h"
 #include "rclc/executor.h"
 
-/* What was ready under another trigger is news to this one. */
+/* Handles that were ready under another trigger count as new for this one. */
 rcl_ret_t rclc_executor_set_trigger(
   rclc_executor_t * executor, rclc_executor_trigger_t trigger_function, void * trigger_object)
 {

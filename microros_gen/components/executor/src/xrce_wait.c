@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* One task, and a transport of the port. */
+/* One task, port transport. */
 #include "microros/xrce_wait.h"
 
 #include "microros/xrce_wait_left.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* One task, and a transport of the application: its read function waits, in the pump that follows. */
+/* One task, custom transport: its read function waits during the pump that follows. */
 #include "microros/xrce_wait.h"
 
 #include "microros/xrce_wait_left.h"

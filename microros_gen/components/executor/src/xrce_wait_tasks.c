@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Several tasks, and a transport of the port. */
+/* Several tasks, port transport. */
 #include "microros/xrce_wait.h"
 
 #include "microros/lock.h"
 #include "microros/xrce_wait_left.h"
 
-/* What another task takes or ends may give the session something to do, and nobody tells who waits; of what it writes
- * xrce_tasks.h does. */
+/* Another task may take or close an entity and so give the session work without a wake-up; writes do wake
+ * (xrce_tasks.h). This limits the delay. */
 enum { WAIT_MOST_MS = 1000 };
 
 void xrce_wait(xrce_client_t * client, uint32_t timeout_ms)

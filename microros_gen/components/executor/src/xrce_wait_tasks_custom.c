@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Several tasks, and a transport of the application: its read function cannot wait, since it would with the lock. */
+/* Several tasks, custom transport: its read function must not wait, since it would hold the lock. */
 #include "microros/xrce_wait.h"
 
 #include "microros/lock.h"

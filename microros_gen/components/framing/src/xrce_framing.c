@@ -3,13 +3,14 @@
 
 enum { FRAME_ADDRESSES = 2 };
 
-/* One call takes no more bytes than about so many: who floods us must not stop us. */
+/* Limits the bytes per call, so that a flooded line cannot block the client. */
 enum { CHUNKS_PER_CALL = 2048 / XRCE_FRAMING_CHUNK };
 
 /*
- * CRC-16/ARC: x^16 + x^15 + x^2 + 1, reflected, from 0, nothing added at the end. With so few terms an entry of the
- * usual table is the parity of its index and two shifts. On a Cortex-M4 at -Os this takes 44 bytes and 14
- * instructions a byte; a loop over the bits 28 and 53, a table of 16 entries 68 and 9, one of 256 more than 512.
+ * CRC-16/ARC: x^16 + x^15 + x^2 + 1, reflected, initial value 0, no final XOR. With so few terms an entry
+ * of the usual table is the parity of its index and two shifts. On a Cortex-M4 at -Os this takes 44 bytes
+ * and 14 instructions per byte; a loop over the bits 28 and 53, a table of 16 entries 68 and 9, one of 256
+ * more than 512.
  */
 uint16_t xrce_framing_crc(uint16_t crc, uint8_t byte)
 {
@@ -28,7 +29,7 @@ static int32_t reader_drop(xrce_framing_t * framing)
   return -1;
 }
 
-/* Takes one unstuffed byte of a frame; returns what xrce_framing_receive does. */
+/* Processes one unstuffed byte of a frame; returns as xrce_framing_receive does. */
 static int32_t reader_take(xrce_framing_t * framing, uint8_t byte, uint8_t * buffer, size_t capacity)
 {
   const uint32_t at = framing->next - 1u;
@@ -42,8 +43,7 @@ static int32_t reader_take(xrce_framing_t * framing, uint8_t byte, uint8_t * buf
     framing->crc = 0;
     return at + 1u < XRCE_FRAME_HEADER || framing->size - 1u < capacity ? 0 : reader_drop(framing);
   }
-  framing->crc =
-    xrce_framing_crc(framing->crc, byte); /* with its own CRC behind it, what was sent comes to 0 */
+  framing->crc = xrce_framing_crc(framing->crc, byte); /* data followed by its own CRC has the CRC 0 */
   if (at - XRCE_FRAME_HEADER < framing->size) {
     buffer[at - XRCE_FRAME_HEADER] = byte;
   } else if (at - XRCE_FRAME_HEADER > framing->size) {
@@ -53,7 +53,7 @@ static int32_t reader_take(xrce_framing_t * framing, uint8_t byte, uint8_t * buf
   return 0;
 }
 
-/* Takes one byte of the line. */
+/* Processes one byte of the line. */
 static int32_t reader_take_raw(xrce_framing_t * framing, uint8_t byte, uint8_t * buffer, size_t capacity)
 {
   const bool escaped = framing->escaped;

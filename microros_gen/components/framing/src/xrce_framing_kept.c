@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Frames a byte at a time: so the line's interrupt makes one out of a message that stays where it is. */
+/* Frames produced byte by byte: the line's interrupt frames a message in place. */
 #include "microros/xrce_framing_kept.h"
 
-/* What a frame that is copied goes to its line with. */
+/* Chunk size for copying a frame to the line. */
 enum { CHUNK = 16 };
 
 void xrce_frame_begin(xrce_frame_t * frame, const uint8_t * message, uint16_t size)
@@ -14,7 +14,7 @@ void xrce_frame_begin(xrce_frame_t * frame, const uint8_t * message, uint16_t si
   frame->stuffed = 0;
 }
 
-/* Returns the byte behind the flag and `at` others, unstuffed. */
+/* Returns the unstuffed byte at position `at` after the flag. */
 static uint8_t frame_byte(xrce_frame_t * frame, uint32_t at)
 {
   if (at < XRCE_FRAME_HEADER) {
@@ -57,7 +57,7 @@ int32_t xrce_frame_next(void * context)
   return byte;
 }
 
-/* Returns how many bytes the frame has on the line. */
+/* Returns the size of the stuffed frame. */
 static size_t frame_size(const uint8_t * message, uint16_t size)
 {
   xrce_frame_t frame;
@@ -70,7 +70,7 @@ static size_t frame_size(const uint8_t * message, uint16_t size)
   return count;
 }
 
-/* The line gets a frame whole or not at all: so its room is asked for first. */
+/* The line accepts a frame completely or not at all, so its room is checked first. */
 bool xrce_framing_send(struct xrce_transport_t * line, const uint8_t * message, size_t size)
 {
   xrce_frame_t frame;

@@ -3,13 +3,13 @@
 
 #include "microros/xrce_wire.h"
 
-/* What a frame is copied with to its line, some bytes at a time. */
+/* Chunk size for copying a frame to the line. */
 enum { CHUNK = 32 };
 
-/* Bytes around the payload, with the flag, where each of the others is stuffed. */
+/* Largest overhead of a frame: the flag, and header and CRC with every byte stuffed. */
 enum { FRAME_AROUND = 1 + 2 * (XRCE_FRAME_HEADER + XRCE_FRAME_CRC) };
 
-/* A frame on its way out, a chunk at a time. */
+/* A frame being sent, one chunk at a time. */
 typedef struct frame_writer_t {
   struct xrce_transport_t * line;
   bool fine;
@@ -22,7 +22,7 @@ static bool frame_stuffs(uint8_t byte)
   return byte == XRCE_FRAME_FLAG || byte == XRCE_FRAME_ESCAPE;
 }
 
-/* Makes `crc` that of the bytes; returns how many they are on the line, stuffed. */
+/* Extends `crc` by the bytes; returns their stuffed size. */
 static size_t frame_measure(const uint8_t * bytes, size_t size, uint16_t * crc)
 {
   uint16_t sum = 0;
@@ -42,13 +42,13 @@ static void writer_flush(frame_writer_t * writer)
   writer->held = 0;
 }
 
-/* Puts bytes, stuffed. */
+/* Writes bytes, stuffed. */
 static void writer_put(frame_writer_t * writer, const uint8_t * bytes, size_t size)
 {
   for (size_t i = 0; i < size && writer->fine; ++i) {
     uint8_t byte = bytes[i];
 
-    if (writer->held > CHUNK - 2) { /* no room for a pair */
+    if (writer->held > CHUNK - 2) { /* no room for an escape pair */
       writer_flush(writer);
     }
     if (frame_stuffs(byte)) {
@@ -59,7 +59,7 @@ static void writer_put(frame_writer_t * writer, const uint8_t * bytes, size_t si
   }
 }
 
-/* The line gets a frame whole or not at all: so its room is asked for first. */
+/* The line accepts a frame completely or not at all, so its room is checked first. */
 bool xrce_framing_send(struct xrce_transport_t * line, const uint8_t * message, size_t size)
 {
   uint8_t header[XRCE_FRAME_HEADER] = {XRCE_FRAME_ADDRESS_CLIENT, XRCE_FRAME_ADDRESS_AGENT, 0, 0};

@@ -11,7 +11,7 @@ static void hard_show_life(xrce_session_t * session)
   uint8_t message[XRCE_GET_INFO_SIZE];
 
   xrce_put_get_info(message, XRCE_SESSION_ID);
-  (void)xrce_session_send(session, message, sizeof(message)); /* there are two more before it is too late */
+  (void)xrce_session_send(session, message, sizeof(message)); /* two attempts remain */
 }
 
 void xrce_liveliness_hard_step(xrce_client_t * client, uint32_t now)

@@ -11,9 +11,9 @@
 
 enum { UNIT = sizeof(uint64_t), UNITS = MICROROS_ARENA_SIZE / UNIT > 2 ? MICROROS_ARENA_SIZE / UNIT : 2 };
 
-/* Blocks, one behind the other. A block is known by the place of its first word, which is its head; the memory behind is
- * aligned for every type. A head is the number of words, itself included, times two, and one more of a taken block; 0:
- * the arena was never used. */
+/* Consecutive blocks. A block is identified by the index of its first word, its header; the memory after
+ * it is aligned for every type. A header is the number of words including itself, times two, plus one if
+ * the block is in use; 0: the arena was never used. */
 static uint64_t arena[UNITS];
 
 static uint32_t arena_units(uint32_t block)
@@ -33,7 +33,7 @@ static void arena_set(uint32_t block, uint32_t units, bool taken)
   arena[block] = head;
 }
 
-/* Gives a block the free ones behind it. */
+/* Merges a block with the free ones after it. */
 static void arena_join(uint32_t block)
 {
   uint32_t next = block + arena_units(block);
@@ -44,7 +44,7 @@ static void arena_join(uint32_t block)
   arena_set(block, next - block, arena_is_taken(block));
 }
 
-/* Takes the first `units` words of a block; what is left becomes one of its own. */
+/* Takes the first `units` words of a block; the rest becomes another block. */
 static void arena_take(uint32_t block, uint32_t units)
 {
   const uint32_t all = arena_units(block);
@@ -57,7 +57,7 @@ static void arena_take(uint32_t block, uint32_t units)
   }
 }
 
-/* Returns the block of memory that was taken and not given back, or UNITS. */
+/* Returns the block of memory in use, or UNITS. */
 static uint32_t arena_find(const void * pointer)
 {
   uint32_t block = 0;
@@ -71,7 +71,7 @@ static uint32_t arena_find(const void * pointer)
   return UNITS;
 }
 
-/* Returns how many words a block for `size` bytes has; more than there are where it cannot be. */
+/* Returns the number of words of a block for `size` bytes; more than UNITS if that is impossible. */
 static uint32_t arena_needed(size_t size)
 {
   return size > sizeof(arena) ? UNITS + 1u : (uint32_t)(1u + (size + UNIT - 1u) / UNIT);

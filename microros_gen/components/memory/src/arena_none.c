@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* memory.arena is 0: there is nothing to give, and the error text says so. */
+/* memory.arena is 0: every allocation fails with an error text that names the key. */
 #include "microros/arena.h"
 
 #include "microros/error.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* There are no pools: memory of messages comes from the default allocator. */
+/* No pools: memory of messages comes from the default allocator. */
 #include "microros/message_memory.h"
 #include "rcutils/allocator.h"
 

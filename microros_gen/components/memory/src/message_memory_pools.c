@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Memory of messages comes from the pools of the plan; what they do not have, from the arena where there is one. */
+/* Memory of messages comes from the pools of the plan; if those have none, from the arena if it exists. */
 #include "microros/arena.h"
 #include "microros/error.h"
 #include "microros/lock.h"
@@ -25,7 +25,7 @@ static uint8_t * block_memory(const microros_blocks_t * blocks, uint32_t block)
   return &blocks->memory[(size_t)block * blocks->size];
 }
 
-/* Returns the smallest blocks with `size` bytes, or NULL. */
+/* Returns the smallest kind of blocks with `size` bytes, or NULL. */
 static const microros_blocks_t * pool_blocks(const microros_pool_t * pool, size_t size)
 {
   for (uint32_t i = 0; pool != NULL && i < pool->count; ++i) {
@@ -36,7 +36,7 @@ static const microros_blocks_t * pool_blocks(const microros_pool_t * pool, size_
   return NULL;
 }
 
-/* Returns the blocks that taken `memory` is one of, *block says which; NULL: it is none. */
+/* Returns the blocks that contain `memory`, with its index in *block; NULL if it is not a block in use. */
 static const microros_blocks_t * pool_find(
   const microros_pool_t * pool, const void * memory, uint32_t * block)
 {

@@ -4,7 +4,7 @@
 #include "microros/lock.h"
 #include "microros/message_memory.h"
 
-/* One for all, since the functions of messages take no handle. */
+/* One counter for all, since functions of messages take no handle. */
 static uint32_t refused;
 
 void microros_memory_refuse(void)

@@ -5,8 +5,8 @@
 
 #include <string.h>
 
-/* What rcutils_set_default_allocator sets: one for all, since the getter takes no handle. Where nobody sets one, its memory is
- * not linked. */
+/* Returns the allocator set by rcutils_set_default_allocator: one for all, since the getter takes no
+ * handle. Not linked if no one sets it. */
 static const rcutils_allocator_t ** allocator_chosen(void)
 {
   static const rcutils_allocator_t * chosen;

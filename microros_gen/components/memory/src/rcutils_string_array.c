@@ -26,7 +26,7 @@ rcutils_ret_t rcutils_string_array_init(
   return RCUTILS_RET_OK;
 }
 
-/* Gives the strings from `first` on back. */
+/* Frees the strings from `first` on. */
 static void strings_give_back(rcutils_string_array_t * string_array, size_t first)
 {
   const rcutils_allocator_t * allocator = &string_array->allocator;
@@ -63,7 +63,7 @@ static int strings_order(size_t left, size_t right)
   return left < right ? -1 : 1;
 }
 
-/* strcmp; the library asks for none of its functions but those that copy and fill. */
+/* strcmp: the library uses no functions of the C library except those that copy and fill. */
 static int strings_compare(const char * left, const char * right)
 {
   while (*left != '\0' && *left == *right) {

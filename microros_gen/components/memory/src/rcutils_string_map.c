@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The pairs are in the order in which they were set; a pair that goes leaves its place to the last one. */
+/* Pairs are in the order in which they were set; the last one takes the place of a removed one. */
 #include "rcutils/types/string_map.h"
 
 #include <stdint.h>
@@ -188,7 +188,7 @@ rcutils_ret_t rcutils_string_map_clear(rcutils_string_map_t * string_map)
   return result;
 }
 
-/* Appends a pair; there is room. `value` is the map's already. */
+/* Appends a pair; there is room. The map already owns `value`. */
 static rcutils_ret_t map_append(map_t * map, const char * key, char * value)
 {
   const map_pair_t pair = {map_copy_text(map, key), value};

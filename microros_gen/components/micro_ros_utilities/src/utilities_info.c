@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The members of a type as a text, which is written twice: first to know how long it is. */
+/* Lists the members of a type as text, in two passes: the first one measures its length. */
 #include "micro_ros_utilities/string_utilities.h"
 #include "microros/utilities_walk.h"
 
-/* What is written; `at` is NULL where only its length is asked. */
+/* The output; with `at` NULL only its length is counted. */
 typedef struct info_t {
   char * at;
   size_t length;
@@ -52,7 +52,7 @@ static void info_put_type(info_t * info, const microros_type_members_t * type)
     } else if (part != 2u && (*at != '_' || at[1] != '\0')) {
       info_put(info, *at);
     } else {
-      /* dds_, and the last character */
+      /* without dds_ and the last character */
     }
   }
 }
@@ -89,7 +89,7 @@ static void info_put_member(info_t * info, const microros_type_member_t * member
   } else if (member->shape == (uint8_t)MICROROS_MEMBER_ARRAY) {
     info_put_text(info, "Array of ");
   } else {
-    /* one value */
+    /* a single value */
   }
   info_put_text(info, types[member->type]);
   if (member->nested != NULL) {

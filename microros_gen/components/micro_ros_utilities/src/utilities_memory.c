@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Sizes, creation and destruction: one walk each, over the same members in the same order. */
+/* Sizes, creation and destruction: each is one walk over the same members in the same order. */
 #include "microros/arena.h"
 #include "microros/error.h"
 #include "microros/message_pools.h"
@@ -7,23 +7,23 @@
 
 #include <string.h>
 
-/* The largest alignment that a member of a message has on any target, bytes. */
+/* Largest alignment of any member on any target, in bytes. */
 enum { ALIGNMENT_MOST = 8 };
 
 typedef enum memory_way_t {
-  MEMORY_COUNT,   /* how much an allocator is asked for */
-  MEMORY_MEASURE, /* how much of a buffer is taken */
+  MEMORY_COUNT,   /* count the bytes requested from an allocator */
+  MEMORY_MEASURE, /* count the bytes taken from a buffer */
   MEMORY_ALLOCATE,
-  MEMORY_PLACE /* in the buffer */
+  MEMORY_PLACE /* place in the buffer */
 } memory_way_t;
 
 typedef struct memory_t {
   memory_way_t way;
   const micro_ros_utilities_memory_conf_t * conf;
-  rcutils_allocator_t allocator; /* to allocate */
-  uint8_t * buffer;              /* to place: its first aligned byte */
+  rcutils_allocator_t allocator; /* for MEMORY_ALLOCATE */
+  uint8_t * buffer;              /* for MEMORY_PLACE: its first aligned byte */
   size_t used;                   /* bytes so far */
-  size_t alignment;              /* what the buffer has to have so far */
+  size_t alignment;              /* alignment that the buffer needs so far */
 } memory_t;
 
 static memory_t memory_begin(memory_way_t way, const micro_ros_utilities_memory_conf_t * conf)
@@ -37,7 +37,9 @@ static memory_t memory_begin(memory_way_t way, const micro_ros_utilities_memory_
   return memory;
 }
 
-/* Returns a multiple of the alignment of elements of this size: their size is one, so its largest power of two is. */
+/*
+ * Returns the largest power of two that divides the size of an element: its size is a multiple of its
+ * alignment, so this is one, too. */
 static size_t memory_alignment(size_t element)
 {
   const size_t power = element & (~element + 1u);
@@ -57,7 +59,7 @@ static bool memory_allocate(
 
   if (
     memory->allocator.allocate ==
-    microros_arena_allocate) { /* the default one: messages have storage of their own */
+    microros_arena_allocate) { /* the default one: messages have separate storage */
     *given = microros_memory_take(pool, &room);
     return *given != NULL;
   }
@@ -70,7 +72,7 @@ static bool memory_allocate(
   return true;
 }
 
-/* Takes memory for `count` elements; *given is NULL where there are none, or only sizes are asked. */
+/* Takes memory for `count` elements; *given is NULL if `count` is 0, or if only sizes are counted. */
 static bool memory_take(
   memory_t * memory, const microros_pool_t * pool, size_t count, size_t element, uint8_t ** given)
 {
@@ -96,7 +98,9 @@ static bool memory_take(
   return memory->way != MEMORY_ALLOCATE || memory_allocate(memory, pool, count * element, given);
 }
 
-/* Takes memory for one string or sequence and writes where it is to `place`; *given is what the elements get. */
+/*
+ * Takes memory for one string or sequence and stores its address at `place`; *given is the memory of the
+ * elements. */
 static bool memory_give(
   memory_t * memory, const microros_pool_t * pool, uint8_t * place, size_t count, size_t element,
   uint8_t ** given)
@@ -112,7 +116,7 @@ static bool memory_give(
   return true;
 }
 
-/* Returns element `index`, or NULL where there are none. */
+/* Returns element `index`; NULL if `elements` is. */
 static uint8_t * memory_element(uint8_t * elements, size_t index, size_t size)
 {
   return elements == NULL ? NULL : &elements[index * size];
@@ -145,7 +149,7 @@ static const microros_pool_t * memory_pool(const microros_type_member_t * member
   return member->nested != NULL ? member->nested->pool : pools[member->type];
 }
 
-/* Gives the member at hand its memory, and enters the messages that it consists of. */
+/* Allocates the current member and enters its nested messages. */
 static bool memory_of_member(memory_t * memory, utilities_walk_t * walk)
 {
   const microros_type_member_t * member = walk->member;
@@ -194,7 +198,7 @@ static bool memory_walk(memory_t * memory, const microros_type_members_t * type,
   return true;
 }
 
-/* Returns the table of the type, where its rules are right too. */
+/* Returns the table of the type; NULL if the type or a rule is invalid. */
 static const microros_type_members_t * memory_type(
   const rosidl_message_type_support_t * type_support, const micro_ros_utilities_memory_conf_t * conf)
 {
@@ -203,7 +207,9 @@ static const microros_type_members_t * memory_type(
   return type != NULL && utilities_rules_check(type, conf) ? type : NULL;
 }
 
-/* Returns what the message takes, in an allocator or a buffer, beginning at a place that is aligned; 0: it fails. */
+/*
+ * Returns the size of the message, in an allocator or a buffer, starting at an aligned address; 0 on
+ * failure. */
 static memory_t memory_sized(
   const rosidl_message_type_support_t * type_support, const micro_ros_utilities_memory_conf_t * conf,
   memory_way_t way)
@@ -224,7 +230,7 @@ size_t micro_ros_utilities_get_dynamic_size(
   return memory_sized(type_support, &conf, MEMORY_COUNT).used;
 }
 
-/* Returns the size of a buffer that may begin anywhere. */
+/* Returns the size of a buffer of any alignment. */
 static size_t memory_buffer_size(const memory_t * memory)
 {
   return memory->used + (memory->alignment - 1u);
@@ -238,7 +244,7 @@ size_t micro_ros_utilities_get_static_size(
   return memory_buffer_size(&memory);
 }
 
-/* Gives back what a string or sequence at `place` has. */
+/* Frees the memory of the string or sequence at `place`. */
 static void memory_free(
   const rcutils_allocator_t * allocator, const microros_pool_t * pool, const uint8_t * place)
 {
@@ -250,11 +256,11 @@ static void memory_free(
   } else if (sequence.data != NULL) {
     allocator->deallocate(sequence.data, allocator->state);
   } else {
-    /* it has none */
+    /* nothing allocated */
   }
 }
 
-/* Returns the elements of the member at hand: in the message, or in the memory of the sequence. */
+/* Returns the elements of the current member: in the message, or in the memory of the sequence. */
 static uint8_t * memory_elements(const utilities_walk_t * walk, size_t * count)
 {
   *count = walk->member->count;
@@ -302,13 +308,13 @@ static void memory_free_all(
     } else if (event == UTILITIES_AFTER) {
       memory_free_member(allocator, &walk);
     } else {
-      /* a member that has nothing to enter, or the end */
+      /* nothing to enter, or the end */
     }
   } while (event != UTILITIES_END);
   (void)memset(message, 0, type->size);
 }
 
-/* Returns the allocator of the configuration; false, with the error set, where it is not valid. */
+/* Returns the allocator of the configuration; false, with the error set, if it is invalid. */
 static bool memory_allocator(const micro_ros_utilities_memory_conf_t * conf, rcutils_allocator_t * allocator)
 {
   *allocator = conf->allocator == NULL ? rcutils_get_default_allocator() : *conf->allocator;

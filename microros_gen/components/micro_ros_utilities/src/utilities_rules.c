@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Capacities: what the rules say, else the interface file, else the configuration. */
+/* Capacities: from the rules, otherwise from the interface file, otherwise from the configuration. */
 #include "microros/error.h"
 #include "microros/utilities_walk.h"
 
@@ -7,7 +7,7 @@
 
 static const char strings_of_sequence[] = "data";
 
-/* Returns the member with this name, `length` characters, or NULL. */
+/* Returns the member with this name of `length` characters, or NULL. */
 static const microros_type_member_t * rules_find(
   const microros_type_members_t * type, const char * name, size_t length)
 {
@@ -68,7 +68,7 @@ bool utilities_rules_check(
   return true;
 }
 
-/* Returns whether the rule is the path of the member at hand with `ending` behind it; a point may follow a path. */
+/* Returns whether the rule is the path of the current member followed by `ending`. */
 static bool rules_match(const utilities_walk_t * walk, const char * rule, const char * ending)
 {
   const char * at = rule;
@@ -125,7 +125,7 @@ size_t utilities_text_capacity(const utilities_walk_t * walk, const micro_ros_ut
   const size_t usual =
     rules_or(conf->max_string_capacity, micro_ros_utilities_memory_conf_default.max_string_capacity);
   const char * ending = utilities_is_sequence(walk->member) ? strings_of_sequence : "";
-  const size_t bound = walk->member->string_bound; /* characters, without the terminator */
+  const size_t bound = walk->member->string_bound; /* characters without the terminator */
 
   return rules_capacity(walk, conf, ending, bound != 0u ? bound + 1u : usual);
 }

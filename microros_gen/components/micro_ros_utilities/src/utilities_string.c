@@ -13,7 +13,9 @@ static size_t utilities_length(const char * text)
   return text == NULL ? 0u : strlen(text);
 }
 
-/* Makes room for `size` bytes and the terminator, and keeps the text. False: nothing is changed. */
+/*
+ * Ensures room for `size` bytes and the terminator, keeping the text. Returns false, with nothing changed,
+ * on failure. */
 static bool utilities_string_reserve(rosidl_runtime_c__String * str, size_t size)
 {
   size_t room = size + 1u;
@@ -25,7 +27,9 @@ static bool utilities_string_reserve(rosidl_runtime_c__String * str, size_t size
   if (size == SIZE_MAX) {
     return false;
   }
-  /* Not reallocate: what lies in static storage is no block of the allocator, and its size is known here alone. */
+  /*
+   * Not reallocate: characters in static storage are not a block of the allocator, and only this function
+   * knows their size. */
   data = microros_memory_take(MICROROS_POOL_text, &room);
   if (data == NULL) {
     return false;

@@ -36,7 +36,7 @@ void utilities_walk_begin(utilities_walk_t * walk, const microros_type_members_t
   walk->place = NULL;
 }
 
-/* Makes the member of the level the one of the event. */
+/* Reports the current member of the level. */
 static utilities_event_t walk_tell(
   utilities_walk_t * walk, const utilities_level_t * level, utilities_event_t event)
 {
@@ -95,7 +95,7 @@ bool utilities_is_text(const microros_type_member_t * member)
 
 size_t utilities_element_size(const microros_type_member_t * member)
 {
-  /* By the number of the type; what .msg files do not have is 0. */
+  /* Indexed by the type's number; 0 for types that .msg files do not have. */
   static const uint8_t sizes[] = {0, 4, 8, 0, 0, 0, sizeof(bool), 1, 1, 1, 2, 2, 4, 4, 8, 8};
 
   if (member->nested != NULL) {

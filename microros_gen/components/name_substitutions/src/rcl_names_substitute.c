@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Names are expanded here, and go down fully qualified. */
+/* Expands names to fully qualified ones before they reach rmw. */
 #include "microros/rcl_names_take.h"
 #include "microros/rcl_names_expand.h"
 #include "rcl/validate_topic_name.h"

@@ -16,7 +16,7 @@ static bool names_is_word(char c)
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || names_is_digit(c) || c == '_';
 }
 
-/* Parts of letters, digits and underscores, that begin with no digit, with one slash between them. */
+/* Parts of letters, digits and underscores that do not start with a digit, separated by single slashes. */
 static const char * names_check_parts(const char * name)
 {
   bool at_start = true;

@@ -9,8 +9,8 @@
 
 typedef struct names_output_t {
   char * text;
-  size_t room; /* with the NUL */
-  size_t size; /* of all that was put, also what had no room */
+  size_t room; /* including the NUL */
+  size_t size; /* of everything written, including what had no room */
 } names_output_t;
 
 static void names_put(names_output_t * output, char c)
@@ -38,7 +38,7 @@ static bool names_key_is(const char * key, size_t size, const char * name)
   return i == size && name[i] == '\0';
 }
 
-/* Returns what stands for the substitution at the brace *at, and moves it behind; NULL: nobody knows. */
+/* Returns the value of the substitution at the brace *at, and moves *at past it; NULL if it is unknown. */
 static const char * names_value(const char ** at, const rcl_names_scope_t * scope)
 {
   const char * key = *at + 1;
@@ -57,7 +57,7 @@ static const char * names_value(const char ** at, const rcl_names_scope_t * scop
   return scope->lookup != NULL ? scope->lookup(scope->values, key, size) : NULL;
 }
 
-/* Returns what the name begins with when its substitutions are replaced. */
+/* Returns the first character of the name with its substitutions replaced. */
 static char names_first(const char * topic, const rcl_names_scope_t * scope)
 {
   while (*topic == '{') {
@@ -90,7 +90,7 @@ size_t rcl_names_expand(const char * topic, const rcl_names_scope_t * scope, cha
   } else if (names_first(at, scope) != '/') {
     names_put_node_prefix(&output, scope->namespace_);
   } else {
-    /* it is fully qualified */
+    /* already fully qualified */
   }
   while (*at != '\0') {
     if (*at == '{') {
@@ -119,5 +119,5 @@ const char * rcl_names_check_full(const char * full, size_t size)
   if (full[1] == '\0') {
     return MICROROS_ERROR_WORDS("a part is empty");
   }
-  return rcl_names_check_namespace(full); /* a namespace is made as such a name is */
+  return rcl_names_check_namespace(full); /* the rules of a namespace are the same */
 }

@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-/* Of ROS 2: RMW_NODE_NAME_MAX_NAME_LENGTH, RMW_NAMESPACE_MAX_LENGTH, RMW_TOPIC_MAX_NAME_LENGTH. */
+/* ROS 2's RMW_NODE_NAME_MAX_NAME_LENGTH, RMW_NAMESPACE_MAX_LENGTH, RMW_TOPIC_MAX_NAME_LENGTH. */
 enum { NODE_MOST = 255, NAMESPACE_MOST = 245, TOPIC_MOST = 247 };
 
 static const char * names_check_size(const char * fault, size_t size, size_t most)

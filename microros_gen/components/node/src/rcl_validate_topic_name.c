@@ -6,11 +6,11 @@
 
 #include <stdbool.h>
 
-/* How far the characters of a name were looked at. */
+/* State of the scan of a name. */
 typedef struct topic_scan_t {
   size_t at;
-  size_t brace; /* where the substitution begins */
-  bool inside;  /* of it */
+  size_t brace; /* position of the substitution's brace */
+  bool inside;  /* inside a substitution */
 } topic_scan_t;
 
 static bool topic_is_digit(char c)
@@ -74,7 +74,7 @@ static int topic_check_characters(const char * name, size_t size, size_t * index
   return scan.inside ? RCL_TOPIC_NAME_INVALID_UNMATCHED_CURLY_BRACE : RCL_TOPIC_NAME_VALID;
 }
 
-/* What stands behind the slashes, and behind ~. */
+/* Checks the characters after each slash, and after ~. */
 static int topic_check_parts(const char * name, size_t size, size_t * index)
 {
   if (name[0] == '~' && size > 1u && name[1] != '/') {
@@ -139,7 +139,7 @@ const char * rcl_topic_name_validation_result_string(int validation_result)
     "only letters, digits and _ / ~ { }",
     "a part begins with a digit",
     "a brace without its other half",
-    "~ behind the first character",
+    "~ after the first character",
     "no / after ~",
     "only letters, digits and _ in a substitution",
     "a substitution begins with a digit"};

@@ -6,7 +6,7 @@
 
 #include <stddef.h>
 
-/* As rclc does, whatever *node held: it may be uninitialized memory. */
+/* As in rclc, *node may be uninitialized memory. */
 rcl_ret_t rclc_node_init_default(
   rcl_node_t * node, const char * name, const char * namespace_, rclc_support_t * support)
 {

@@ -9,7 +9,9 @@
 
 #include <stddef.h>
 
-/* Returns what the place was waiting for: the next object, or the last one when that is to be deleted. */
+/*
+ * Returns the kind of object that the place waits for: the next one, or the last one if it is being
+ * deleted. */
 static const char * place_kind(const xrce_client_t * client, uint16_t place)
 {
   static const char * const of_writer[] = {"topic", "publisher", "datawriter", "datawriter"};
@@ -66,7 +68,7 @@ uint16_t rmw_node_index(const rmw_node_t * node)
 static rmw_ret_t node_open(
   rmw_context_t * context, const char * name, const char * namespace_, rmw_node_t ** node)
 {
-  static rmw_node_t nodes[MICROROS_NODES_MAX]; /* handed out by place */
+  static rmw_node_t nodes[MICROROS_NODES_MAX]; /* indexed by place */
   xrce_client_t * client = context->impl;
   const uint16_t index = rmw_node_take(client, name, namespace_);
   xrce_participant_t * participant;

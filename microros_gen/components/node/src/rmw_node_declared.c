@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `nodes:` is in the application file: only what it declares can be opened, and the names are constants. */
+/* `nodes:` is in the application file: only declared nodes can be opened, and the names are constants. */
 #include "microros/rmw_node.h"
 
 #include "microros/error.h"

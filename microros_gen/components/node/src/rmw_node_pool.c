@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* No `nodes:` in the application file: any node takes one of the places of `pools: {nodes: N}`. */
+/* No `nodes:` in the application file: any node uses one of `pools: {nodes: N}`. */
 #include "microros/rmw_node.h"
 
 #include "microros/error.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The rules for a name that the application passes. Each function returns NULL, or what is wrong, as a static text. */
+/* Rules for a name passed by the application. Each function returns NULL, or the fault as a static text. */
 #ifndef MICROROS_RCL_NAMES_GIVEN_H
 #define MICROROS_RCL_NAMES_GIVEN_H
 

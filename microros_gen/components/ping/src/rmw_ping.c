@@ -20,7 +20,7 @@ static rmw_ret_t ping_silent(const xrce_transport_t * transport, uint32_t waited
   return RMW_RET_ERROR;
 }
 
-/* A session that is open, or looked for, has the line: its transport is the only one that may use it. */
+/* A session that is open or reconnecting owns the line: no other transport may use it. */
 static bool ping_over_session(xrce_client_t * client, uint32_t timeout_ms)
 {
   const uint32_t start = port_time_ms();
@@ -49,7 +49,7 @@ static rmw_ret_t ping_session(xrce_client_t * client, uint32_t timeout_ms, uint8
   return ping_silent(&client->session.transport, timeout_ms * attempts);
 }
 
-/* To another place than that of a session. */
+/* For an address other than the session's. */
 static rmw_ret_t ping_place(
   const rmw_uxrce_transport_params_t * params, uint32_t timeout_ms, uint8_t attempts)
 {

@@ -22,7 +22,7 @@ void xrce_ping_ask(xrce_client_t * client)
     session->due_ms = session->now_ms; /* the next pump opens it, and its CREATE_CLIENT asks */
   }
   xrce_put_get_info(message, ready ? (uint8_t)XRCE_SESSION_ID : (uint8_t)XRCE_SESSION_NONE);
-  (void)xrce_session_send(session, message, sizeof(message)); /* a loss is no answer */
+  (void)xrce_session_send(session, message, sizeof(message)); /* a lost message just remains unanswered */
 }
 
 void xrce_ping_step(xrce_client_t * client, uint32_t now)
@@ -49,7 +49,7 @@ void xrce_ping_step(xrce_client_t * client, uint32_t now)
   ping->due_ms = now + MICROROS_LIVELINESS_WAIT_MS;
 }
 
-/* An agent is there: the session need not wait for it any longer. */
+/* An agent answered: reconnect at once. */
 static void ping_hasten(xrce_session_t * session, uint32_t now)
 {
   session->since_ms = now;
@@ -72,6 +72,6 @@ void xrce_ping_on_info(xrce_client_t * client, const uint8_t * submessage, size_
     client->session.state == XRCE_READY) {
     xrce_session_lose(client, now);
   } else {
-    /* it was asked because it was silent, or by the application */
+    /* request after silence, or by the application */
   }
 }

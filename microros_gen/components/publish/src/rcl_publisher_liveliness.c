@@ -2,8 +2,8 @@
 #include "microros/error.h"
 #include "rcl/publisher.h"
 
-/* Nothing is to be done: every publisher is automatic, and the agent vouches for it. Another kind was refused when it was
- * asked for. */
+/* Nothing to do: every publisher is automatic, and the agent asserts it. Other kinds were refused at
+ * creation. */
 rcl_ret_t rcl_publisher_assert_liveliness(const rcl_publisher_t * publisher)
 {
   if (!rcl_publisher_is_valid(publisher)) {

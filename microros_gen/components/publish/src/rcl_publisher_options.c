@@ -8,7 +8,7 @@
 
 const rcl_publisher_options_t * rcl_publisher_get_options(const rcl_publisher_t * publisher)
 {
-  static rcl_publisher_options_t options[MICROROS_PUBLISHERS_MAX]; /* by place */
+  static rcl_publisher_options_t options[MICROROS_PUBLISHERS_MAX]; /* indexed by place */
   const xrce_endpoint_t * endpoint;
   rcl_publisher_options_t * own;
 

@@ -8,7 +8,7 @@
 
 const rmw_qos_profile_t * rcl_publisher_get_actual_qos(const rcl_publisher_t * publisher)
 {
-  static rmw_qos_profile_t profiles[MICROROS_PUBLISHERS_MAX]; /* by place */
+  static rmw_qos_profile_t profiles[MICROROS_PUBLISHERS_MAX]; /* indexed by place */
   const xrce_endpoint_t * endpoint;
   rmw_qos_profile_t * profile;
 

@@ -7,7 +7,7 @@
 
 #include <stddef.h>
 
-/* As rclc does, whatever *publisher held: it may be uninitialized memory. */
+/* As in rclc, *publisher may be uninitialized memory. */
 rcl_ret_t rclc_publisher_init(
   rcl_publisher_t * publisher, const rcl_node_t * node, const rosidl_message_type_support_t * type_support,
   const char * topic_name, const rmw_qos_profile_t * qos_profile)

@@ -13,7 +13,7 @@
 /* Bytes 00 01 00 00: XCDR1, little endian, no options (OMG DDS-XTypes 1.3, 7.6.3.1.2). */
 enum { ENCAPSULATION_SIZE = 4, CDR_LITTLE_ENDIAN = 1 };
 
-/* `fault` is that of a message that was refused; what was encoded before is not. */
+/* `fault` is only set for a refused message, not for one that was already encoded. */
 static rmw_ret_t publish_report(
   const xrce_endpoint_t * writer, xrce_write_t outcome, const cdr_fault_t * fault)
 {
@@ -40,7 +40,7 @@ static rmw_ret_t publish_report(
 
 rmw_ret_t rmw_publisher_write(const rmw_publisher_t * publisher, const void * ros_message)
 {
-  cdr_fault_t fault; /* filled where a message is refused */
+  cdr_fault_t fault; /* set if the message is refused */
   xrce_endpoint_t * writer = publisher->data;
   rmw_ret_t result = RMW_RET_OK;
   xrce_write_t outcome;
@@ -68,7 +68,7 @@ rmw_ret_t rmw_publish_serialized_message(
   const rmw_publisher_t * publisher, const rmw_serialized_message_t * serialized_message,
   rmw_publisher_allocation_t * allocation)
 {
-  static const cdr_fault_t none = {.field = ""}; /* bytes are not looked into */
+  static const cdr_fault_t none = {.field = ""}; /* contents of encoded messages are not checked */
   const uint8_t * bytes;
   xrce_endpoint_t * writer;
   size_t capacity;

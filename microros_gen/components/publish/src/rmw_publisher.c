@@ -32,7 +32,7 @@ static bool publisher_fits(const xrce_endpoint_t * writer)
 
 static rmw_publisher_t * publisher_hand_out(xrce_endpoint_t * writer)
 {
-  static rmw_publisher_t publishers[MICROROS_PUBLISHERS_MAX]; /* handed out by place */
+  static rmw_publisher_t publishers[MICROROS_PUBLISHERS_MAX]; /* indexed by place */
   rmw_publisher_t * publisher = &publishers[writer->index];
 
   publisher->implementation_identifier = rmw_implementation_identifier;
@@ -80,7 +80,7 @@ void rmw_publisher_close(rmw_publisher_t * publisher)
   microros_unlock();
 }
 
-/* A client that was ended has forgotten its endpoints. */
+/* After rcl_shutdown the client has no endpoints. */
 bool rmw_publisher_is_open(const rmw_publisher_t * publisher)
 {
   const xrce_endpoint_t * writer;
@@ -88,7 +88,7 @@ bool rmw_publisher_is_open(const rmw_publisher_t * publisher)
   if (publisher == NULL) {
     return false;
   }
-  writer = publisher->data; /* every handle that was given out has one */
+  writer = publisher->data; /* set for every handle in use */
   if (writer->client == NULL) {
     return false;
   }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* No `nodes:` in the application file: any publisher takes one of the places of `pools: {publishers: N}`. */
+/* No `nodes:` in the application file: any publisher uses one of `pools: {publishers: N}`. */
 #include "microros/error.h"
 #include "microros/rmw_publisher.h"
 #include "microros/text.h"

@@ -14,7 +14,7 @@ rmw_ret_t rmw_serialize(
   const void * ros_message, const rosidl_message_type_support_t * type_support,
   rmw_serialized_message_t * serialized_message)
 {
-  cdr_fault_t fault; /* filled where the message is refused */
+  cdr_fault_t fault; /* set if the message is refused */
   const microros_message_type_t * type;
   size_t size;
 
@@ -43,7 +43,7 @@ rmw_ret_t rmw_serialize(
 rmw_ret_t rmw_uros_get_serialized_message_size(
   const void * ros_message, const rosidl_message_type_support_t * type_support, size_t * size)
 {
-  cdr_fault_t fault; /* filled where the message is refused */
+  cdr_fault_t fault; /* set if the message is refused */
   const microros_message_type_t * type;
   uint32_t body;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `nodes:` is in the application file: only what it declares can be opened; the names are constants. */
+/* `nodes:` is in the application file: only declared entities can be opened; the names are constants. */
 #include "microros/plan.h"
 #include "microros/rmw_receiver.h"
 #include "microros/text.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* No `nodes:` in the application file: whatever receives takes one of the places of `pools`. */
+/* No `nodes:` in the application file: any receiver uses one of the places of `pools`. */
 #include "microros/rmw_receiver.h"
 #include "microros/text.h"
 #include "microros/xrce_client.h"

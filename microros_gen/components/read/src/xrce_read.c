@@ -29,7 +29,7 @@ static uint16_t read_place(uint16_t index)
   return (uint16_t)(XRCE_READERS_AT + index);
 }
 
-/* Returns the id of the object from which a receiver has its samples. */
+/* Returns the id of the object that a receiver reads from. */
 static uint16_t read_object(uint16_t index)
 {
   const uint16_t place = read_place(index);
@@ -63,7 +63,7 @@ xrce_receiver_t * xrce_read_find(xrce_client_t * client, uint16_t object)
   return &client->receivers[index];
 }
 
-/* Sends the outstanding READ_DATA; sent again it has the same bytes, so the agent acts on it once. */
+/* Sends the outstanding READ_DATA; a repetition has the same bytes, so the agent executes it once. */
 static void read_send(xrce_client_t * client, uint32_t now)
 {
   xrce_reading_t * reading = &client->reading;
@@ -82,11 +82,10 @@ static void read_send(xrce_client_t * client, uint32_t now)
   message[CONTROLLED_AT] = 1;
   xrce_put_le16(&message[SAMPLES_AT], reading->samples);
   reading->due_ms = now + xrce_session_short_pause(now - reading->asked_ms);
-  (void)xrce_session_send(
-    &client->session, message, sizeof(message)); /* a loss is what the repetition is for */
+  (void)xrce_session_send(&client->session, message, sizeof(message)); /* a lost message is repeated */
 }
 
-/* Returns how many samples to ask for; 0: none. */
+/* Returns how many samples to request; 0: none. */
 static uint16_t read_samples(const xrce_client_t * client, const xrce_receiver_t * receiver)
 {
   if (!xrce_read_is_reliable(client, receiver)) {
@@ -95,8 +94,8 @@ static uint16_t read_samples(const xrce_client_t * client, const xrce_receiver_t
   return receiver->granted == 0u ? xrce_read_room(client, receiver) : 0u;
 }
 
-/* Whether something has to be said to the agent about a receiver, and how many samples to ask for. Preconfigured entities
- * stay when they are closed here: 0 samples tell the agent to stop. */
+/* Returns whether a receiver needs a READ_DATA, and for how many samples. Preconfigured entities still
+ * exist at the agent when they are closed here: 0 samples tell the agent to stop. */
 static bool read_wants(xrce_client_t * client, uint16_t index, uint32_t now, uint16_t * samples)
 {
   xrce_receiver_t * receiver = &client->receivers[index];
@@ -164,7 +163,7 @@ void xrce_read_renew(xrce_client_t * client)
     xrce_receiver_t * receiver = &client->receivers[i];
 
     if (receiver->request != XRCE_REQUEST_NONE) {
-      receiver->before = receiver->request; /* an agent that still knows us goes on with it */
+      receiver->before = receiver->request; /* an agent that still knows the session continues the old one */
     }
     receiver->request = XRCE_REQUEST_NONE;
     receiver->granted = 0;
@@ -172,7 +171,7 @@ void xrce_read_renew(xrce_client_t * client)
   }
 }
 
-/* The agent has the outstanding READ_DATA. */
+/* Called when the agent has the outstanding READ_DATA. */
 static void read_arrived(xrce_reading_t * reading)
 {
   reading->outstanding = false;
@@ -231,7 +230,7 @@ void xrce_read_count(xrce_client_t * client, xrce_receiver_t * receiver, uint16_
     return;
   }
   if (client->reading.outstanding && request == client->reading.request) {
-    read_arrived(&client->reading); /* its acknowledgement was lost, or is later */
+    read_arrived(&client->reading); /* its acknowledgement was lost or is late */
   }
   if (receiver->granted != 0u) {
     --receiver->granted;

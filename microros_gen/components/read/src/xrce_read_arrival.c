@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Samples that come in fragments, each put together in the slot in which it waits afterwards. */
+/* Fragmented samples, each assembled in the slot in which it waits afterwards. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_read.h"
 #include "microros/xrce_wire.h"
@@ -20,12 +20,12 @@ bool xrce_read_begin(xrce_client_t * client, const xrce_arrival_t * arrival)
   receiver->arriving = xrce_read_has_room(client, receiver);
   if (!receiver->arriving) {
     xrce_read_count(client, receiver, arrival->request);
-    xrce_read_drop(client, receiver); /* the agent has sent more than it was asked for */
+    xrce_read_drop(client, receiver); /* the agent has sent more than was requested */
   }
   return receiver->arriving;
 }
 
-/* Returns the receiver whose free slot a sample is put together in; NULL: it was given up. */
+/* Returns the receiver in whose free slot a sample is being assembled; NULL if it was dropped. */
 static xrce_receiver_t * read_arriving(xrce_client_t * client, const xrce_arrival_t * arrival)
 {
   xrce_receiver_t * receiver = xrce_read_asked(client, arrival->request, arrival->object);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What is known of a receiver besides the samples that wait. */
+/* State of a receiver other than its waiting samples. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_read.h"
 

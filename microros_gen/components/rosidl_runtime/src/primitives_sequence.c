@@ -13,7 +13,9 @@ static void * sequence_allocate(const microros_pool_t * pool, size_t size, size_
   return microros_memory_take(pool, &room);
 }
 
-/* Returns where `size` elements fit: `data`, or a larger block in its place, with its contents lost; NULL: as it was. */
+/*
+ * Returns memory for `size` elements: `data`, or a larger block that replaces it and loses its contents;
+ * NULL, with nothing changed, on failure. */
 static void * sequence_grow(const microros_pool_t * pool, void * data, size_t size, size_t element_size)
 {
   void * larger;
@@ -28,8 +30,7 @@ static void * sequence_grow(const microros_pool_t * pool, void * data, size_t si
   return larger;
 }
 
-/* One group of functions for each type: C has no other way to say it once. Elements are compared as numbers
- * are. */
+/* One group of functions per type, since C has no generics. Elements are compared as numbers. */
 #define PRIMITIVE_SEQUENCE_FUNCTIONS(NAME, SEQUENCE, TYPE) \
   bool rosidl_runtime_c__##NAME##__Sequence__init( \
     rosidl_runtime_c__##SEQUENCE##__Sequence * sequence, size_t size) \

@@ -8,7 +8,7 @@
 
 static char * string_empty(void)
 {
-  static char nothing = 0; /* what every empty string points to: threads share it, so nobody writes to it */
+  static char nothing = 0; /* shared by all empty strings and threads, therefore never written */
 
   return &nothing;
 }
@@ -42,7 +42,7 @@ void rosidl_runtime_c__String__fini(rosidl_runtime_c__String * str)
   str->capacity = 0;
 }
 
-/* Makes room for `size` units and the terminator. */
+/* Ensures room for `size` units and the terminator. */
 static bool string_make_room(rosidl_runtime_c__String * str, size_t size)
 {
   size_t room = size + 1u;

@@ -8,8 +8,7 @@
 
 static uint_least16_t * string_empty(void)
 {
-  static uint_least16_t nothing =
-    0; /* what every empty string points to: threads share it, so nobody writes to it */
+  static uint_least16_t nothing = 0; /* shared by all empty strings and threads, therefore never written */
 
   return &nothing;
 }
@@ -43,7 +42,7 @@ void rosidl_runtime_c__U16String__fini(rosidl_runtime_c__U16String * str)
   str->capacity = 0;
 }
 
-/* Makes room for `size` units and the terminator; `keep` the units that are there. */
+/* Ensures room for `size` units and the terminator; `keep` preserves the existing units. */
 static bool string_make_room(rosidl_runtime_c__U16String * str, size_t size, bool keep)
 {
   size_t room;

@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-/* Makes the strings from `first` up to `last` empty ones, which needs nothing that could fail. */
+/* Makes the strings from `first` up to `last` empty, which cannot fail. */
 static void strings_begin(rosidl_runtime_c__U16String * data, size_t first, size_t last)
 {
   for (size_t i = first; i < last; ++i) {
@@ -67,7 +67,7 @@ bool rosidl_runtime_c__U16String__Sequence__are_equal(
   return true;
 }
 
-/* Gives the sequence room for `size` strings: of its own block, where that has it, or of a larger one. */
+/* Ensures room for `size` strings: in the existing block if possible, otherwise in a larger one. */
 static bool strings_grow(rosidl_runtime_c__U16String__Sequence * sequence, size_t size)
 {
   rosidl_runtime_c__U16String__Sequence larger;

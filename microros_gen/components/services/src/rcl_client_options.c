@@ -8,7 +8,7 @@
 
 const rcl_client_options_t * rcl_client_get_options(const rcl_client_t * client)
 {
-  static rcl_client_options_t options[MICROROS_CLIENTS_MAX]; /* by place */
+  static rcl_client_options_t options[MICROROS_CLIENTS_MAX]; /* indexed by place */
   const xrce_endpoint_t * endpoint;
   rcl_client_options_t * own;
 

@@ -8,7 +8,7 @@
 
 const rcl_service_options_t * rcl_service_get_options(const rcl_service_t * service)
 {
-  static rcl_service_options_t options[MICROROS_SERVICES_MAX]; /* by place */
+  static rcl_service_options_t options[MICROROS_SERVICES_MAX]; /* indexed by place */
   const xrce_endpoint_t * endpoint;
   rcl_service_options_t * own;
 

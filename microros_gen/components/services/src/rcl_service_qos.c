@@ -6,10 +6,10 @@
 
 #include <stddef.h>
 
-/* Both directions have one. */
+/* Both directions share one profile. */
 const rmw_qos_profile_t * rcl_service_request_subscription_get_actual_qos(const rcl_service_t * service)
 {
-  static rmw_qos_profile_t profiles[MICROROS_SERVICES_MAX]; /* by place */
+  static rmw_qos_profile_t profiles[MICROROS_SERVICES_MAX]; /* indexed by place */
   const xrce_endpoint_t * endpoint;
   rmw_qos_profile_t * profile;
 

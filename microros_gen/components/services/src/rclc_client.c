@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-/* As rclc does, whatever *client held: it may be uninitialized memory. */
+/* As in rclc, *client may be uninitialized memory. */
 rcl_ret_t rclc_client_init(
   rcl_client_t * client, const rcl_node_t * node, const rosidl_service_type_support_t * type_support,
   const char * service_name, const rmw_qos_profile_t * qos_profile)

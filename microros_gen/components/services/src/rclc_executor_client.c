@@ -12,7 +12,7 @@ static rcl_ret_t client_refuse(void)
 
 static rcl_ret_t client_look(const rclc_executor_handle_t * handle, bool * is_ready, int64_t * look_again_ns)
 {
-  (void)look_again_ns; /* replies wake the executor */
+  (void)look_again_ns; /* a reply wakes the executor */
   if (!rcl_client_is_valid(handle->client)) {
     return client_refuse();
   }
@@ -43,7 +43,7 @@ static rcl_ret_t client_call(rclc_executor_handle_t * handle)
 
 static rcl_ret_t client_call_with_request_id(rclc_executor_handle_t * handle)
 {
-  rmw_request_id_t request_id = handle->req_id; /* the callback may remove the handle, and has this one */
+  rmw_request_id_t request_id = handle->req_id; /* copied: the callback may remove the handle */
 
   handle->callback.client_with_request_id(handle->data, &request_id);
   return RCL_RET_OK;

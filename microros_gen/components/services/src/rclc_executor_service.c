@@ -12,7 +12,7 @@ static rcl_ret_t service_refuse(void)
 
 static rcl_ret_t service_look(const rclc_executor_handle_t * handle, bool * is_ready, int64_t * look_again_ns)
 {
-  (void)look_again_ns; /* requests wake the executor */
+  (void)look_again_ns; /* a request wakes the executor */
   if (!rcl_service_is_valid(handle->service)) {
     return service_refuse();
   }
@@ -21,8 +21,9 @@ static rcl_ret_t service_look(const rclc_executor_handle_t * handle, bool * is_r
 }
 
 /*
- * What a call needs of its handle, which may be another's when the callback returns. A request is taken directly before its
- * callback, whatever the semantics: until then a handle that is removed leaves it in the queue of its service.
+ * Copy of a handle for the call, since the handle may be reused when the callback returns. A request is
+ * taken directly before its callback, whatever the semantics: a handle removed before that leaves it in
+ * the queue of its service.
  */
 typedef struct service_call_t {
   const rcl_service_t * service;
@@ -54,7 +55,7 @@ static rcl_ret_t service_end(const service_call_t * call)
 {
   if (!rcl_service_is_valid(call->service)) {
     rmw_replier_give_up();
-    return service_refuse(); /* the callback has ended it */
+    return service_refuse(); /* the callback has finalized it */
   }
   return rmw_replier_end(call->service->impl, &call->request_id, call->response);
 }

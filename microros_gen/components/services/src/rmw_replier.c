@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Service servers. What identifies a request stays with the application until it answers; nothing is kept here. */
+/*
+ * Service servers. The identity of a request stays with the application until it replies; the library
+ * stores nothing. */
 #include "microros/lock.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_node.h"
@@ -41,7 +43,7 @@ static rmw_ret_t replier_open(
   const rmw_node_t * node, const rosidl_service_type_support_t * type_support, const char * name,
   const rmw_qos_profile_t * qos, rmw_service_t ** service)
 {
-  static rmw_service_t services[MICROROS_SERVICES_MAX]; /* handed out by place */
+  static rmw_service_t services[MICROROS_SERVICES_MAX]; /* indexed by place */
   const microros_service_type_t * type = type_support->data;
   const xrce_service_t opened = {type, type->response};
   const rmw_section_t section = {
@@ -169,7 +171,7 @@ static rmw_ret_t replier_respond(
   const rmw_service_t * service, const rmw_request_id_t * request, const void * ros_response)
 {
   const uint64_t sequence = (uint64_t)request->sequence_number;
-  cdr_fault_t fault; /* filled where the message is refused */
+  cdr_fault_t fault; /* set if the message is refused */
   xrce_endpoint_t * endpoint = service->data;
   uint8_t identity[XRCE_IDENTITY_SIZE];
   xrce_write_t outcome;
@@ -192,7 +194,7 @@ rmw_ret_t rmw_replier_respond(
   return result;
 }
 
-/* A session that was opened meanwhile owes nothing. */
+/* A session opened meanwhile has no reserved slot. */
 static void replier_release(xrce_client_t * client)
 {
   if (client->owed != 0u) {

@@ -15,7 +15,7 @@ static rmw_ret_t requester_open(
   const rmw_node_t * node, const rosidl_service_type_support_t * type_support, const char * name,
   const rmw_qos_profile_t * qos, rmw_client_t ** client)
 {
-  static rmw_client_t clients[MICROROS_CLIENTS_MAX]; /* handed out by place */
+  static rmw_client_t clients[MICROROS_CLIENTS_MAX]; /* indexed by place */
   const microros_service_type_t * type = type_support->data;
   const xrce_service_t opened = {type, type->request};
   const rmw_section_t section = {
@@ -89,7 +89,7 @@ void rmw_requester_pump(const rmw_client_t * client)
   microros_unlock();
 }
 
-/* Finds out which request a reply is for; false: nobody waits for it, or it is none. */
+/* Finds the request of a reply; false if it is not outstanding or the sample is not a reply. */
 static bool requester_match(
   const xrce_endpoint_t * endpoint, const xrce_sample_t * sample, rmw_request_id_t * request)
 {
@@ -101,11 +101,11 @@ static bool requester_match(
     return false;
   }
   (void)memset(request->writer_guid, 0, sizeof(request->writer_guid));
-  xrce_put_be16(request->writer_guid, object); /* XRCE does not carry the GUID that DDS gave us */
+  xrce_put_be16(request->writer_guid, object); /* XRCE does not carry the GUID that DDS assigned */
   return true;
 }
 
-/* Tells once that requests were under way when a session was lost. */
+/* Reports once that requests were outstanding when a session was lost. */
 static bool requester_report(const xrce_endpoint_t * endpoint)
 {
   xrce_requester_t * requester = xrce_requests_of(endpoint);
@@ -155,7 +155,7 @@ rmw_ret_t rmw_requester_take(
 static rmw_ret_t requester_send(
   const rmw_client_t * client, const void * ros_request, int64_t * sequence_number)
 {
-  cdr_fault_t fault; /* filled where the message is refused */
+  cdr_fault_t fault; /* set if the message is refused */
   xrce_endpoint_t * endpoint = client->data;
   const uint16_t request = xrce_session_next_request(&endpoint->client->session);
   const xrce_write_t outcome = xrce_service_write(endpoint, request, NULL, ros_request, &fault);

@@ -38,7 +38,7 @@ rmw_ret_t rmw_service_open(
     microros_error_set(microros_error_service_qos, name, refused, 0, 0);
     return RMW_RET_UNSUPPORTED;
   }
-  wanted->qos |= (uint8_t)XRCE_QOS_RELIABLE; /* no object of a service has a QoS on the wire */
+  wanted->qos |= (uint8_t)XRCE_QOS_RELIABLE; /* service objects have no QoS on the wire */
   if (!rmw_receiver_take(wanted, section, &full, name)) {
     return RMW_RET_ERROR;
   }
@@ -80,7 +80,7 @@ void rmw_service_describe(const xrce_sample_t * sample, rmw_service_info_t * inf
   const int64_t epoch_ns = port_time_epoch_ns();
 
   info->source_timestamp = 0;                                       /* XRCE does not carry it */
-  info->received_timestamp = epoch_ns != 0 ? epoch_ns - age_ns : 0; /* nobody has set the time of day yet */
+  info->received_timestamp = epoch_ns != 0 ? epoch_ns - age_ns : 0; /* the time of day has not been set yet */
 }
 
 rmw_ret_t rmw_service_decode(

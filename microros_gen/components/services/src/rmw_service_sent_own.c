@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Some declaration has a type under limits of its own. */
+/* At least one declaration has a type with separate limits. */
 #include "microros/plan.h"
 #include "microros/rmw_service.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The requests under way: for each client as many as its queue has slots, so that every reply has room. */
+/* Outstanding requests: per client as many as its queue has slots, so that every reply has room. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_read.h"
 #include "microros/xrce_services.h"
@@ -17,7 +17,7 @@ static const xrce_queue_t * requests_queue(uint16_t index)
   return &xrce_queues[XRCE_REQUESTERS_AT - XRCE_READERS_AT + index];
 }
 
-/* Returns the entries of a client; there are as many as its queue has slots. The queues of clients come last. */
+/* Returns the entries of a client, one per slot of its queue. The queues of clients come last. */
 static xrce_request_t * requests_first(xrce_client_t * client, uint16_t index)
 {
   return &client->requests[requests_queue(index)->first - requests_queue(0)->first];
@@ -37,7 +37,7 @@ void xrce_requests_open(const xrce_endpoint_t * endpoint)
   (void)memset(entries, 0, requests_queue(index)->slots * sizeof(*entries));
 }
 
-/* How many requests a client has sent since this one. */
+/* Returns how many requests a client has sent since this one. */
 static uint32_t requests_age(const xrce_requester_t * requester, const xrce_request_t * entry)
 {
   return (uint32_t)((uint64_t)requester->sequence & UINT32_MAX) - entry->sequence;
@@ -52,7 +52,7 @@ int64_t xrce_requests_add(const xrce_endpoint_t * endpoint, uint16_t request)
 
   for (uint8_t i = 0; i < requests_queue(index)->slots; ++i) {
     if (entries[i].request == XRCE_REQUEST_NONE || entries[i].request == request) {
-      chosen = &entries[i]; /* the same number comes again after 65,526 requests */
+      chosen = &entries[i]; /* numbers repeat after 65,526 requests */
       break;
     }
     if (requests_age(requester, &entries[i]) > requests_age(requester, chosen)) {

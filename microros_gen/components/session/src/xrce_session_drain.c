@@ -10,7 +10,7 @@ bool xrce_session_drain(xrce_client_t * client)
   if (client->session.state != XRCE_READY) {
     return false;
   }
-  client->session.state = XRCE_CLOSING; /* nothing is added */
+  client->session.state = XRCE_CLOSING; /* accept no further messages */
   for (;;) {
     xrce_session_pump(client);
     if (xrce_session_is_sent(&client->session)) {

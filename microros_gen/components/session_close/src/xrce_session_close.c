@@ -16,7 +16,7 @@ static void leave_send(xrce_session_t * session)
   xrce_put_submessage(&message[4], XRCE_DELETE, XRCE_FLAG_LITTLE_ENDIAN, DELETE_CLIENT_SIZE - 8);
   xrce_put_be16(&message[8], XRCE_REQUEST_LOGOUT);
   xrce_put_be16(&message[10], XRCE_OBJECT_CLIENT);
-  (void)xrce_session_send(session, message, sizeof(message)); /* a loss is what the repetition is for */
+  (void)xrce_session_send(session, message, sizeof(message)); /* a lost message is repeated */
 }
 
 void xrce_session_leave(xrce_client_t * client, uint32_t timeout_ms)

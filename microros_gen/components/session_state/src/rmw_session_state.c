@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-static rmw_uros_session_callback_t chosen; /* what rmw_uros_set_session_callback said last */
+static rmw_uros_session_callback_t chosen; /* set by rmw_uros_set_session_callback */
 static void * chosen_argument;
 
 static void state_tell(const xrce_client_t * client)

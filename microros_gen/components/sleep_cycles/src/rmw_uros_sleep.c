@@ -11,7 +11,7 @@
 /* "XRCE" and the version of this layout. */
 static const uint32_t retained_magic = 0x58520001u;
 
-/* What must be the same in both. */
+/* Plan that both images must have. */
 static const char retained_plan[] = MICROROS_PLAN_ID;
 
 static bool retained_is_ours(const rmw_uros_retained_t * retained)
@@ -31,7 +31,7 @@ static uint32_t retained_check(const rmw_uros_retained_t * retained)
   return xrce_sleep_check(0, &((const uint8_t *)retained)[begin], sizeof(*retained) - begin);
 }
 
-/* Waits until the session can be kept; false: it is as it was. */
+/* Waits until the session can be retained; false: nothing has changed. */
 static bool sleep_await(xrce_client_t * client, uint32_t timeout_ms)
 {
   const uint32_t start = port_time_ms();
@@ -55,7 +55,7 @@ static void sleep_write(rmw_uros_retained_t * retained, const xrce_client_t * cl
   (void)memcpy(retained->plan, retained_plan, sizeof(retained->plan));
   (void)memcpy(retained->client, (const uint8_t *)client, sizeof(retained->client));
   retained->check = retained_check(retained);
-  retained->magic = retained_magic; /* last: before it, the memory is worth nothing */
+  retained->magic = retained_magic; /* last: until then the memory is invalid */
 }
 
 rmw_ret_t rmw_uros_sleep(rmw_context_t * context, rmw_uros_retained_t * retained, uint32_t timeout_ms)
@@ -89,7 +89,7 @@ bool rmw_uros_wake(rmw_uros_retained_t * retained)
   }
   good = retained->magic == retained_magic && retained_is_ours(retained) &&
          retained->check == retained_check(retained);
-  retained->magic = 0; /* the numbers in it are used from now on */
+  retained->magic = 0; /* invalidated: its sequence numbers are used from now on */
   if (good) {
     (void)memcpy((uint8_t *)client, retained->client, sizeof(retained->client));
     client->session.state = (uint8_t)XRCE_CLOSED; /* until rcl_init */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* transport: custom. What the agent knows this client by is the matter of the application's functions. */
+/* transport: custom. The application's functions preserve what identifies this client to the agent. */
 #include "microros/xrce_sleep.h"
 
 bool xrce_sleep_open(xrce_transport_t * transport, uint16_t local)

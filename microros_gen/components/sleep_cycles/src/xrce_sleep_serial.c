@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* transport: serial. The line is what the agent knows this client by. */
+/* transport: serial. The line identifies this client to the agent. */
 #include "microros/xrce_sleep.h"
 
 bool xrce_sleep_open(xrce_transport_t * transport, uint16_t local)

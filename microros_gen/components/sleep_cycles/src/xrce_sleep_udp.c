@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* transport: udp. The agent knows this client by its address and port. */
+/* transport: udp. Address and port identify this client to the agent. */
 #include "microros/xrce_sleep.h"
 
 bool xrce_sleep_open(xrce_transport_t * transport, uint16_t local)

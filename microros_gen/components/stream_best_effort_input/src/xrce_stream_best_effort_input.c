@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/xrce_stream_best_effort_input.h"
 
-/* As far as this behind the newest, a number is old; one behind that is what follows a jump. No network delays a datagram past so
- * many others, and one forged or stale datagram must not close the stream for half of all numbers. */
+/* Numbers up to this far before the newest are old; others follow a jump. Networks do not delay a datagram
+ * past so many others, and one forged or stale datagram must not block half of all numbers. */
 enum { OLD = 64 };
 
 void xrce_stream_best_effort_input_reset(xrce_stream_best_effort_input_t * stream)

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Every message fits one datagram: a ring of messages, each with one sequence number. */
+/* Every message fits into one datagram: a ring of messages, each with one sequence number. */
 #include "microros/xrce_stream_reliable.h"
 
 #include "microros/xrce_wire.h"
 
-/* Returns the slot of the i-th kept message. */
+/* Returns the slot of the i-th stored message. */
 static uint8_t stream_slot(const xrce_stream_reliable_t * stream, uint8_t i)
 {
   const uint8_t slot = (uint8_t)(stream->head + i);
@@ -34,8 +34,8 @@ static bool stream_send(xrce_stream_reliable_t * stream, xrce_session_t * sessio
          xrce_stream_reliable_send(session, message, XRCE_MESSAGE_HEADER + (size_t)stream->size[slot]);
 }
 
-/* Sends what was never sent and what the agent misses, in order, until the transport takes no more: the rest waits for the
- * next pump. */
+/* Sends new and missing messages in order until the transport accepts no more: the rest waits for the next
+ * pump. */
 static void stream_flow(xrce_stream_reliable_t * stream, xrce_session_t * session)
 {
   for (uint8_t i = 0; (uint32_t)stream->unsent >> i != 0u; ++i) {
@@ -87,7 +87,7 @@ const uint8_t * xrce_stream_reliable_drop_oldest(
   }
   stream_free(stream, 1);
   if (stream->held) {
-    stream->first = first; /* what is held has no number yet */
+    stream->first = first; /* held messages have no number yet */
   } else {
     stream->due_ms = now;
   }
@@ -151,7 +151,7 @@ bool xrce_stream_reliable_on_acknack(
     }
     place = 0;
   } else if (missing != 0u) {
-    stream->due_ms = now; /* it waits for what was dropped: tell it not to */
+    stream->due_ms = now; /* the agent waits for the dropped message: send a HEARTBEAT */
   }
   for (; missing != 0u; missing >>= 1) {
     if ((missing & 1u) != 0u && place < stream->count && ((uint32_t)stream->unsent >> place & 1u) == 0u) {

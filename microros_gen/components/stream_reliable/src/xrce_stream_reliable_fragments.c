@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Some message is larger than a datagram: it goes in pieces (OMG DDS-XRCE 1.0, 8.3.5.14). A message lies in its slot
- * once and whole. The eight bytes in front of a piece, message header and FRAGMENT header, are written over the end of
- * the piece before it while this one is sent, and put back.
+ * Some messages are larger than a datagram and are sent as fragments (OMG DDS-XRCE 1.0, 8.3.5.14). Each
+ * message is stored once in its slot. The eight bytes before a fragment, message header and FRAGMENT
+ * header, overwrite the end of the previous fragment while this one is sent, and are restored afterwards.
  *
- * An agent joins pieces until one says that it is the last; over a gap and over a session some go on joining, others
- * refuse what comes up to the next last piece. So no message is given up of which a piece was sent, and the first number
- * of a session is an empty last piece (`ending`): what the agent may have of the session before is then shorter than its
- * submessage header says, and is thrown away.
+ * An agent joins fragments up to the last one; over a gap or a new session some agents continue to join,
+ * others refuse everything up to the next last fragment. Therefore a message is never dropped after one of
+ * its fragments was sent, and the first number of a session is an empty last fragment (`ending`): a
+ * partial message of the previous session is then shorter than its submessage header says, and the agent
+ * discards it.
  */
 #include "microros/xrce_stream_reliable.h"
 
@@ -22,13 +23,13 @@ enum {
   WINDOW = 16
 };
 
-/* Returns the slot of the i-th kept message; beyond them come the free ones. */
+/* Returns the slot of the i-th stored message; free slots follow after them. */
 static uint8_t stream_slot(const xrce_stream_reliable_t * stream, uint8_t i)
 {
   return stream->order[i] ^ i;
 }
 
-/* Frees the slot of the i-th kept message. */
+/* Frees the slot of the i-th stored message. */
 static void stream_remove(xrce_stream_reliable_t * stream, uint8_t i)
 {
   const uint8_t slot = stream_slot(stream, i);
@@ -40,7 +41,7 @@ static void stream_remove(xrce_stream_reliable_t * stream, uint8_t i)
   stream->order[i] = slot ^ i;
 }
 
-/* Returns in how many pieces the i-th kept message goes. */
+/* Returns the number of fragments of the i-th stored message. */
 static uint16_t stream_pieces(const xrce_stream_reliable_t * stream, uint8_t i)
 {
   const uint32_t size = stream->size[stream_slot(stream, i)];
@@ -57,7 +58,7 @@ uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream, xrce_ses
   return &stream->message[stream_slot(stream, stream->count)][MICROROS_RELIABLE_FRONT];
 }
 
-/* What became of a number that was to be sent. */
+/* Result of sending one sequence number. */
 typedef enum stream_outcome_t { STREAM_SENT, STREAM_REFUSED, STREAM_NOTHING } stream_outcome_t;
 
 static stream_outcome_t stream_transmit(xrce_session_t * session, const uint8_t * message, size_t size)
@@ -67,7 +68,7 @@ static stream_outcome_t stream_transmit(xrce_session_t * session, const uint8_t 
            : STREAM_REFUSED;
 }
 
-/* Sends `size` bytes behind the room for a piece's header. */
+/* Sends `size` bytes after the room for a fragment's header. */
 static stream_outcome_t stream_send_piece(
   xrce_session_t * session, uint8_t * piece, uint16_t sequence, uint16_t size, bool last)
 {
@@ -78,7 +79,7 @@ static stream_outcome_t stream_send_piece(
   return stream_transmit(session, piece, PIECE_HEADER + (size_t)size);
 }
 
-/* Sends a piece of the i-th kept message, or the whole where that fits. */
+/* Sends a fragment of the i-th stored message, or the whole message if it fits. */
 static stream_outcome_t stream_send_of(
   xrce_stream_reliable_t * stream, xrce_session_t * session, uint8_t i, uint16_t piece, uint16_t sequence)
 {
@@ -103,7 +104,7 @@ static stream_outcome_t stream_send_of(
   return outcome;
 }
 
-/* Sends what has the number first + place. */
+/* Sends the message or fragment with the number first + place. */
 static stream_outcome_t stream_send_place(
   xrce_stream_reliable_t * stream, xrce_session_t * session, uint16_t place)
 {
@@ -129,7 +130,7 @@ static stream_outcome_t stream_send_place(
   return STREAM_NOTHING;
 }
 
-/* Sends again what the agent misses, until the transport takes no more. */
+/* Repeats missing numbers until the transport accepts no more. */
 static stream_outcome_t stream_repeat(xrce_stream_reliable_t * stream, xrce_session_t * session)
 {
   stream_outcome_t outcome = STREAM_SENT;
@@ -147,7 +148,7 @@ static stream_outcome_t stream_repeat(xrce_stream_reliable_t * stream, xrce_sess
   return outcome;
 }
 
-/* Sends as much as the window lets and the transport takes: the rest waits for the next pump. */
+/* Sends as much as the window permits and the transport accepts: the rest waits for the next pump. */
 static void stream_flow(xrce_stream_reliable_t * stream, xrce_session_t * session, uint32_t now)
 {
   stream_outcome_t outcome;
@@ -176,7 +177,7 @@ void xrce_stream_reliable_commit(
   stream_flow(stream, session, now);
 }
 
-/* The first `count` numbers are used no more. */
+/* Retires the first `count` numbers. */
 static void stream_pass(xrce_stream_reliable_t * stream, uint8_t count)
 {
   stream->first = (uint16_t)(stream->first + count);
@@ -185,7 +186,7 @@ static void stream_pass(xrce_stream_reliable_t * stream, uint8_t count)
   stream->unsent = (uint16_t)((uint32_t)stream->unsent >> count);
 }
 
-/* The agent has the first `count` numbers, which are not more than were sent. */
+/* Handles the acknowledgement of the first `count` numbers, all of which were sent. */
 static void stream_free(xrce_stream_reliable_t * stream, uint8_t count)
 {
   stream_pass(stream, count);
@@ -200,7 +201,7 @@ static void stream_free(xrce_stream_reliable_t * stream, uint8_t count)
   }
 }
 
-/* Returns the first message of which nothing was sent; the count of all when there is none. */
+/* Returns the first message of which nothing was sent; the number of messages if all were started. */
 static uint8_t stream_first_unsent(const xrce_stream_reliable_t * stream)
 {
   uint32_t used = (uint32_t)stream->sent + stream->done;
@@ -222,7 +223,7 @@ const uint8_t * xrce_stream_reliable_drop_oldest(
   xrce_stream_reliable_t * stream, const xrce_session_t * session, uint32_t now)
 {
   const uint8_t * dropped;
-  uint8_t unsent = 0; /* without a session nothing that was sent counts */
+  uint8_t unsent = 0; /* without a session, sent parts do not count */
 
   (void)now;
   if (session->state == XRCE_READY) {
@@ -288,10 +289,10 @@ bool xrce_stream_reliable_on_acknack(
     }
     place = 0;
   } else if (missing != 0u) {
-    stream->due_ms = now; /* it waits for what was dropped: tell it not to */
+    stream->due_ms = now; /* the agent waits for the dropped message: send a HEARTBEAT */
   }
   for (; missing != 0u; missing >>= 1) {
-    /* Every acknowledgement behind a gap names it, so each number is sent again once between two HEARTBEATs. */
+    /* Every acknowledgement after a gap names it, so each number is repeated once between two HEARTBEATs. */
     if ((missing & 1u) != 0u && place < stream->sent && ((uint32_t)stream->again >> place & 1u) == 0u) {
       stream->again = (uint16_t)(stream->again | (uint32_t)1u << place);
       stream->unsent = (uint16_t)(stream->unsent | (uint32_t)1u << place);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What the reliable output stream keeps, with messages that are larger than MICROROS_MTU. Such a message goes in pieces
- * (FRAGMENT), each with a number of its own and each sent again by itself. At most 16 numbers are in use at a time, which is
- * the window of the public agent: what remains of a message is sent while the client is pumped.
+ * State of the reliable output stream if messages can be larger than MICROROS_MTU. Such a message is sent
+ * as fragments (FRAGMENT), each with a separate number and repeated individually. At most 16 numbers are
+ * in use, the window of the public agent: the rest of a message is sent while the client is pumped.
  */
 #ifndef MICROROS_XRCE_STREAM_RELIABLE_STATE_H
 #define MICROROS_XRCE_STREAM_RELIABLE_STATE_H
@@ -16,32 +16,31 @@
 extern "C" {
 #endif
 
-/* All zero is an empty stream. */
+/* Zero-initialized: an empty stream. */
 typedef struct xrce_stream_reliable_t {
-  uint32_t
-    due_ms; /* when the next HEARTBEAT is due, while something is unacknowledged; while held: until when */
-  uint32_t since_ms; /* when the agent acknowledged something last, or the first message was sent */
-  bool held;         /* until due_ms, or until the agent has the writers, nothing is numbered and sent */
+  uint32_t due_ms;   /* next HEARTBEAT while something is unacknowledged; while held: the limit */
+  uint32_t since_ms; /* time of the last acknowledgement, or of the first message */
+  bool held;         /* until due_ms, or until the agent has the writers, nothing is numbered or sent */
   uint8_t count;     /* unacknowledged messages */
   uint8_t sent;      /* numbers from `first` on that are in use */
-  bool blocked;      /* the transport did not take the last one: the next pump tries again */
-  bool ending;       /* the first of them ends what the agent may have of the session before */
-  uint16_t first;    /* oldest number in use; the next one's while none is */
-  uint16_t done;     /* pieces of the oldest message that are acknowledged */
-  uint16_t again;    /* bit i: the agent asked for first + i since the last HEARTBEAT */
-  uint16_t unsent;   /* bit i: and it was not sent again yet */
-  uint8_t order[MICROROS_RELIABLE_SLOTS]; /* the slot of the i-th message, exclusive or i */
-  uint16_t size[MICROROS_RELIABLE_SLOTS]; /* of the message without what stands before its submessages */
+  bool blocked;      /* the transport refused the last one: the next pump tries again */
+  bool ending;       /* the first number terminates a partial message of the previous session */
+  uint16_t first;    /* oldest number in use; the next one to assign if none is */
+  uint16_t done;     /* acknowledged fragments of the oldest message */
+  uint16_t again;    /* bit i: the agent has requested first + i since the last HEARTBEAT */
+  uint16_t unsent;   /* bit i: requested and not yet repeated */
+  uint8_t order[MICROROS_RELIABLE_SLOTS]; /* slot of the i-th message, XORed with i */
+  uint16_t size[MICROROS_RELIABLE_SLOTS]; /* of the submessages of a message */
   uint8_t message[MICROROS_RELIABLE_SLOTS][MICROROS_RELIABLE_SLOT_SIZE];
 } xrce_stream_reliable_t;
 
-/* Whether no sequence number waits for its acknowledgement. */
+/* Returns whether no sequence number awaits an acknowledgement. */
 static inline bool xrce_stream_reliable_is_idle(const xrce_stream_reliable_t * stream)
 {
   return stream->count == 0u && stream->sent == 0u;
 }
 
-/* Whether something is to be sent that the transport did not take: it has to be pumped again soon. */
+/* Returns whether the transport has refused data: the stream needs another pump soon. */
 static inline bool xrce_stream_reliable_is_blocked(const xrce_stream_reliable_t * stream)
 {
   return stream->blocked;

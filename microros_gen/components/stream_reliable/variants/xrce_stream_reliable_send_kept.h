@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The transport sends from the slots. */
+/* Variant for a transport that sends directly from the slots. */
 #ifndef MICROROS_XRCE_STREAM_RELIABLE_SEND_H
 #define MICROROS_XRCE_STREAM_RELIABLE_SEND_H
 
@@ -13,7 +13,9 @@
 extern "C" {
 #endif
 
-/* For this component alone: sends a message of a slot, which stays as it is until the slot is reserved again. */
+/*
+ * For this component only: sends a message from a slot, which stays unchanged until the slot is reserved
+ * again. */
 static inline bool xrce_stream_reliable_send(xrce_session_t * session, const uint8_t * message, size_t size)
 {
   if (!session->transport_open || !xrce_transport_send_kept(&session->transport, message, size)) {
@@ -23,7 +25,7 @@ static inline bool xrce_stream_reliable_send(xrce_session_t * session, const uin
   return true;
 }
 
-/* For this component alone: a slot is going to have another message; the one that it had may be on its way again. */
+/* For this component only: called before a slot is reused, whose message may currently be repeated. */
 static inline void xrce_stream_reliable_reclaim(xrce_session_t * session, const uint8_t * message)
 {
   xrce_transport_take_back(&session->transport, message);

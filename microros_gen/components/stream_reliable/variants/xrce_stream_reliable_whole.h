@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the reliable output stream keeps, where every message fits MICROROS_MTU. */
+/* State of the reliable output stream if every message fits into MICROROS_MTU. */
 #ifndef MICROROS_XRCE_STREAM_RELIABLE_STATE_H
 #define MICROROS_XRCE_STREAM_RELIABLE_STATE_H
 
@@ -12,27 +12,26 @@
 extern "C" {
 #endif
 
-/* All zero is an empty stream. */
+/* Zero-initialized: an empty stream. */
 typedef struct xrce_stream_reliable_t {
-  uint32_t
-    due_ms; /* when the next HEARTBEAT is due, while something is unacknowledged; while held: until when */
-  uint32_t since_ms; /* when the agent acknowledged something last, or the first message was sent */
-  bool held;         /* until due_ms, or until the agent has the writers, nothing is numbered and sent */
+  uint32_t due_ms;   /* next HEARTBEAT while something is unacknowledged; while held: the limit */
+  uint32_t since_ms; /* time of the last acknowledgement, or of the first message */
+  bool held;         /* until due_ms, or until the agent has the writers, nothing is numbered or sent */
   uint8_t count;     /* unacknowledged messages */
   uint8_t head;      /* slot of the oldest message */
-  uint16_t first;    /* its sequence number; while held: the next one's */
+  uint16_t first;    /* its sequence number; while held: the next one to assign */
   uint16_t unsent;   /* bit i: first + i is to be sent */
-  uint16_t size[MICROROS_RELIABLE_SLOTS]; /* of the message without what stands before its submessages */
+  uint16_t size[MICROROS_RELIABLE_SLOTS]; /* of the submessages of a message */
   uint8_t message[MICROROS_RELIABLE_SLOTS][MICROROS_RELIABLE_SLOT_SIZE];
 } xrce_stream_reliable_t;
 
-/* Whether no sequence number waits for its acknowledgement. */
+/* Returns whether no sequence number awaits an acknowledgement. */
 static inline bool xrce_stream_reliable_is_idle(const xrce_stream_reliable_t * stream)
 {
   return stream->count == 0u;
 }
 
-/* Whether something is to be sent that the transport did not take: it has to be pumped again soon. */
+/* Returns whether the transport has refused data: the stream needs another pump soon. */
 static inline bool xrce_stream_reliable_is_blocked(const xrce_stream_reliable_t * stream)
 {
   return stream->unsent != 0u;

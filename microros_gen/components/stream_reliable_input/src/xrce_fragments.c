@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* What the first piece begins with: the submessage's header, request id and object id. */
+/* Start of the first fragment: the submessage's header, request id and object id. */
 enum { LENGTH_AT = 2, REQUEST_AT = 4, OBJECT_AT = 6, BEGIN_SIZE = 8 };
 
 void xrce_fragments_reset(xrce_fragments_t * fragments)
@@ -15,7 +15,7 @@ void xrce_fragments_reset(xrce_fragments_t * fragments)
   fragments->skipping = false;
 }
 
-/* Whether the sample that begins so has a place; otherwise its reader hears of it. */
+/* Returns whether the sample that starts like this has room; otherwise its reader is informed. */
 static bool fragments_begin(xrce_client_t * client, const uint8_t * begin, size_t size)
 {
   xrce_fragments_t * fragments = &client->fragments;
@@ -39,7 +39,7 @@ static bool fragments_begin(xrce_client_t * client, const uint8_t * begin, size_
   return xrce_read_begin(client, &fragments->sample);
 }
 
-/* Puts a piece of the sample in its place; false: it is none of it, or the place is another's by now. */
+/* Appends a fragment to the sample; false if it does not belong to it, or if the slot was reused. */
 static bool fragments_add(xrce_client_t * client, const uint8_t * piece, size_t size)
 {
   xrce_fragments_t * fragments = &client->fragments;
@@ -83,7 +83,7 @@ void xrce_fragments_on_piece(xrce_client_t * client, const uint8_t * submessage,
   const uint16_t number = (uint16_t)(client->reliable_input.next - 1u);
 
   if ((fragments->begun || fragments->skipping) && number != fragments->next) {
-    fragments->skipping = true; /* a piece cannot be had any more */
+    fragments->skipping = true; /* a fragment is no longer available */
   }
   fragments->next = (uint16_t)(number + 1u);
   if (!fragments->skipping) {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* All samples of the plan come whole. */
+/* No sample of the plan needs fragments. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_fragments.h"
 #include "microros/xrce_read.h"
 #include "microros/xrce_wire.h"
 
-/* What the first piece begins with: the submessage's header, request id and object id. */
+/* Start of the first fragment: the submessage's header, request id and object id. */
 enum { LENGTH_AT = 2, REQUEST_AT = 4, OBJECT_AT = 6, BEGIN_SIZE = 8 };
 
 void xrce_fragments_reset(xrce_fragments_t * fragments)

@@ -7,7 +7,9 @@
 
 #include <string.h>
 
-/* An ACKNACK has this many bits, and the agent sends no more than these ahead. Numbers from half of 2^16 on are old. */
+/*
+ * An ACKNACK has this many bits, and the agent sends at most this many ahead. Numbers from half of 2^16 on
+ * are old. */
 enum { ACKNACK_MESSAGE = 13, WINDOW = 16, HALF = 0x8000 };
 
 void xrce_stream_reliable_input_reset(xrce_stream_reliable_input_t * stream)
@@ -15,7 +17,7 @@ void xrce_stream_reliable_input_reset(xrce_stream_reliable_input_t * stream)
   (void)memset(stream, 0, sizeof(*stream));
 }
 
-/* Returns the messages to request: known, not here, and not requested since the last HEARTBEAT. */
+/* Returns the messages to request: known, not received, and not requested since the last HEARTBEAT. */
 static uint16_t input_missing(const xrce_stream_reliable_input_t * stream)
 {
   const uint32_t others = (uint32_t)xrce_stream_reliable_input_map(stream) | stream->asked | stream->refused;
@@ -23,7 +25,7 @@ static uint16_t input_missing(const xrce_stream_reliable_input_t * stream)
   return (uint16_t)(stream->announced & ~others);
 }
 
-/* Tells the agent which message is next, and requests the missing ones after it. */
+/* Acknowledges up to the next message, and requests the missing ones after it. */
 static void input_acknowledge(xrce_client_t * client)
 {
   xrce_stream_reliable_input_t * stream = &client->reliable_input;
@@ -47,7 +49,7 @@ static uint16_t input_first(uint16_t count)
   return (uint16_t)map;
 }
 
-/* What was refused for want of a slot can be requested: the gap before it is closed. */
+/* Messages refused without a slot can be requested now: the gap before them is closed. */
 static void input_advance(xrce_stream_reliable_input_t * stream)
 {
   ++stream->next;
@@ -56,7 +58,7 @@ static void input_advance(xrce_stream_reliable_input_t * stream)
   stream->refused = 0;
 }
 
-/* Keeps a message that is `ahead` (not 0) of its turn, or notes that there was no room for it. */
+/* Stores a message that is `ahead` (not 0) in the sequence, or records that there was no room for it. */
 static void input_take_early(
   xrce_stream_reliable_input_t * stream, uint16_t ahead, const uint8_t * message, size_t size)
 {
@@ -69,7 +71,7 @@ static void input_take_early(
   }
 }
 
-/* Whether all of a message has come: a part of one is as good as lost, and comes again. */
+/* Returns whether a message is complete: a partial one counts as lost, and the agent repeats it. */
 static bool input_is_whole(const uint8_t * message, size_t size)
 {
   size_t at = XRCE_MESSAGE_HEADER;
@@ -82,14 +84,14 @@ static bool input_is_whole(const uint8_t * message, size_t size)
   return end > XRCE_MESSAGE_HEADER && end <= size && size <= at;
 }
 
-/* Hands on the message whose turn it is. */
+/* Delivers the next message. */
 static void input_hand_on(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
 {
   input_advance(&client->reliable_input);
-  (void)xrce_session_take_submessages(client, message, size, now); /* it is whole */
+  (void)xrce_session_take_submessages(client, message, size, now); /* cannot fail: it is complete */
 }
 
-/* Hands on what is kept from the message on whose turn it is. */
+/* Delivers stored messages from the next one on. */
 static void input_hand_on_kept(xrce_client_t * client, uint32_t now)
 {
   xrce_stream_reliable_input_t * stream = &client->reliable_input;
@@ -125,7 +127,7 @@ bool xrce_stream_reliable_input_take(
   return true;
 }
 
-/* Whether the message on whose turn it is is kept. */
+/* Returns whether the next message is stored. */
 static bool input_can_go_on(const xrce_stream_reliable_input_t * stream)
 {
   return (xrce_stream_reliable_input_map(stream) & 1u) != 0u;
@@ -139,7 +141,7 @@ void xrce_stream_reliable_input_go_on(xrce_client_t * client, uint32_t now)
   }
 }
 
-/* Goes past messages that cannot be had any more, `count` at most, as far as one that is kept. */
+/* Skips up to `count` unavailable messages, up to one that is stored. */
 static void input_skip(xrce_stream_reliable_input_t * stream, uint16_t count)
 {
   for (uint16_t left = count; left != 0u && !input_can_go_on(stream); --left) {
@@ -161,18 +163,18 @@ bool xrce_stream_reliable_input_on_heartbeat(
     return true;
   }
   ahead = (uint16_t)(xrce_get_u16(&payload[0], flags) - stream->next);
-  if (ahead < HALF) { /* else it has not heard of all that has arrived */
+  if (ahead < HALF) { /* otherwise it has not yet received all acknowledgements */
     if (ahead > WINDOW) {
-      return false; /* of another session, or forged: an agent keeps what it does not know to have arrived */
+      return false; /* of another session, or forged */
     }
     input_skip(stream, ahead);
   }
   known = (uint16_t)(xrce_get_u16(&payload[2], flags) - stream->next + 1u);
   stream->announced =
-    known < HALF ? input_first(known) : 0u; /* a number beyond these was forged, or overtook it */
+    known < HALF ? input_first(known) : 0u; /* a number beyond these was forged, or overtaken */
   stream->asked = 0;
   stream->refused = 0;
-  if (!input_can_go_on(stream)) { /* else xrce_stream_reliable_input_go_on acknowledges */
+  if (!input_can_go_on(stream)) { /* otherwise xrce_stream_reliable_input_go_on acknowledges */
     input_acknowledge(client);
   }
   return true;

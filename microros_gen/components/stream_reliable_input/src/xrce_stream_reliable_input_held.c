@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Messages that come before their turn wait in slots. */
+/* Early messages wait in slots. */
 #include "microros/xrce_stream_reliable_input.h"
 
 #include <string.h>
 
-/* Returns the slot that has the message with this number; XRCE_RELIABLE_INPUT_HELD when none has. */
+/* Returns the slot of the message with this number; XRCE_RELIABLE_INPUT_HELD if it is not stored. */
 static uint8_t input_slot(const xrce_stream_reliable_input_t * stream, uint16_t sequence)
 {
   uint8_t slot = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* One slot, which is the input buffer: a message is taken in its turn only. */
+/* The only slot is the input buffer: messages are accepted in sequence only. */
 #include "microros/xrce_stream_reliable_input.h"
 
 void xrce_stream_reliable_input_keep(

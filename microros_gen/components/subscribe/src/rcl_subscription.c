@@ -67,7 +67,7 @@ rcl_ret_t rcl_subscription_init(
     return microros_error_named(RCL_RET_ALREADY_INIT, microros_error_subscription_open, topic_name);
   }
   if (subscription != NULL && !rcl_node_is_valid(node)) {
-    return microros_error_refuse(RCL_RET_NODE_INVALID, "node"); /* before what else may be missing, as rcl */
+    return microros_error_refuse(RCL_RET_NODE_INVALID, "node"); /* checked first, as in rcl */
   }
   return rcl_subscription_open(subscription, node, type_support, topic_name, &options->qos);
 }

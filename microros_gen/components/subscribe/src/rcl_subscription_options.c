@@ -8,7 +8,7 @@
 
 const rcl_subscription_options_t * rcl_subscription_get_options(const rcl_subscription_t * subscription)
 {
-  static rcl_subscription_options_t options[MICROROS_SUBSCRIPTIONS_MAX]; /* by place */
+  static rcl_subscription_options_t options[MICROROS_SUBSCRIPTIONS_MAX]; /* indexed by place */
   const xrce_endpoint_t * endpoint;
   rcl_subscription_options_t * own;
 

@@ -8,7 +8,7 @@
 
 const rmw_qos_profile_t * rcl_subscription_get_actual_qos(const rcl_subscription_t * subscription)
 {
-  static rmw_qos_profile_t profiles[MICROROS_SUBSCRIPTIONS_MAX]; /* by place */
+  static rmw_qos_profile_t profiles[MICROROS_SUBSCRIPTIONS_MAX]; /* indexed by place */
   const xrce_endpoint_t * endpoint;
   rmw_qos_profile_t * profile;
 

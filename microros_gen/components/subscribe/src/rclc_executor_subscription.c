@@ -8,7 +8,7 @@
 static rcl_ret_t subscription_look(
   const rclc_executor_handle_t * handle, bool * is_ready, int64_t * look_again_ns)
 {
-  (void)look_again_ns; /* samples wake the executor */
+  (void)look_again_ns; /* a sample wakes the executor */
   if (!rcl_subscription_is_valid(handle->subscription)) {
     return microros_error_refuse(RCL_RET_SUBSCRIPTION_INVALID, "subscription");
   }

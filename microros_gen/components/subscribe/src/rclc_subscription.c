@@ -7,7 +7,7 @@
 
 #include <stddef.h>
 
-/* As rclc does, whatever *subscription held: it may be uninitialized memory. */
+/* As in rclc, *subscription may be uninitialized memory. */
 rcl_ret_t rclc_subscription_init(
   rcl_subscription_t * subscription, rcl_node_t * node, const rosidl_message_type_support_t * type_support,
   const char * topic_name, const rmw_qos_profile_t * qos_profile)

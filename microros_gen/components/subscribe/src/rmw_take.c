@@ -16,7 +16,7 @@ enum { ENCAPSULATION_SIZE = 4, CDR_LITTLE_ENDIAN = 1 };
 
 enum { NS_PER_MS = 1000000 };
 
-/* XRCE carries neither who has sent a sample nor when; when it arrived is known. */
+/* XRCE carries neither the sender of a sample nor its time; only the time of arrival is known. */
 void rmw_subscription_describe(const rmw_subscription_t * subscription, rmw_message_info_t * info)
 {
   xrce_sample_t sample;
@@ -29,7 +29,7 @@ void rmw_subscription_describe(const rmw_subscription_t * subscription, rmw_mess
   }
   age_ns = (int64_t)(port_time_ms() - sample.arrived_ms) * NS_PER_MS;
   epoch_ns = port_time_epoch_ns();
-  info->received_timestamp = epoch_ns != 0 ? epoch_ns - age_ns : 0; /* nobody has set the time of day yet */
+  info->received_timestamp = epoch_ns != 0 ? epoch_ns - age_ns : 0; /* the time of day has not been set yet */
   info->publication_sequence_number = RMW_MESSAGE_INFO_SEQUENCE_NUMBER_UNSUPPORTED;
   info->reception_sequence_number = RMW_MESSAGE_INFO_SEQUENCE_NUMBER_UNSUPPORTED;
   info->publisher_gid.implementation_identifier = rmw_implementation_identifier;

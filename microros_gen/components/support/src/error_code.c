@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* errors: code. Numbers stand for the texts. */
+/* errors: code. Numbers replace the texts. */
 #include "microros/error.h"
 #include "microros/error_state.h"
 #include "microros/lock.h"

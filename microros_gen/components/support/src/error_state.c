@@ -8,7 +8,7 @@
 
 rcutils_error_state_t * microros_error_state(void)
 {
-  static rcutils_error_state_t state; /* rcutils has one for all: its functions take no handle */
+  static rcutils_error_state_t state; /* one for all, as in rcutils: its functions take no handle */
 
   return &state;
 }

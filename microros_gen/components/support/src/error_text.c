@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* errors: text. How the words of error_texts.c become a message; those that name the transport are here. */
+/* errors: text. Formats the words of error_texts.c into a message; contains those that name the transport. */
 #include "microros/error.h"
 #include "microros/error_state.h"
 #include "microros/lock.h"
@@ -9,8 +9,8 @@
 #include <stddef.h>
 
 /*
- * %s name, %d detail, %n found, %m fits; %t name is a DDS type, written as ROS does, %D detail is one; %a
- * found is a status of the agent; %y where to change that.
+ * %s name, %d detail, %n found, %m fits; %t name, a DDS type, in ROS spelling, %D likewise for detail; %a
+ * found, a status of the agent; %y key to change.
  */
 const char microros_error_transport[] = "no transport to " XRCE_PLACE_N;
 const char microros_error_agent_silent[] = "no agent answers at " XRCE_PLACE_N " within %m ms";
@@ -24,7 +24,7 @@ enum { STATUS_FIRST = 0x80, STATUS_LAST = 0x87 };
 
 typedef struct text_t {
   char * at;
-  char * end; /* where the NUL goes at the latest */
+  char * end; /* last possible position of the NUL */
 } text_t;
 
 static void text_put(text_t * text, char c)

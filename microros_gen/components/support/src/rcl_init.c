@@ -7,7 +7,7 @@
 
 #include <stddef.h>
 
-static rmw_context_t the_context; /* one session, so one context: what rcl_context_t.impl points to */
+static rmw_context_t the_context; /* one session, therefore one context: target of rcl_context_t.impl */
 
 rcl_ret_t rcl_open(const rmw_init_options_t * options, rcl_context_t * context)
 {

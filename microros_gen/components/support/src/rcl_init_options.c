@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* Ports of higher domains would pass 65535 (RTPS 2.5, 9.6.1.1). */
+/* UDP ports of higher domains would exceed 65535 (RTPS 2.5, 9.6.1.1). */
 enum { DOMAIN_MOST = 232 };
 
 static bool options_are_valid(const rcl_init_options_t * init_options)

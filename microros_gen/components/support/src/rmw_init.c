@@ -51,7 +51,7 @@ static rmw_ret_t init_report(const xrce_client_t * client)
   return RMW_RET_TIMEOUT;
 }
 
-/* There is one client, so one session. */
+/* There is one client and therefore one session. */
 static bool init_is_free(void)
 {
   const bool is_free = rmw_client_instance()->session.state == XRCE_CLOSED;
@@ -62,13 +62,13 @@ static bool init_is_free(void)
   return is_free;
 }
 
-/* The application's key goes before that of the plan. */
+/* Returns the application's key, otherwise that of the plan. */
 static uint32_t init_key(const rmw_uxrce_transport_params_t * params)
 {
   return params->client_key != 0u ? params->client_key : MICROROS_CLIENT_KEY;
 }
 
-/* Opens a session as context->options say. */
+/* Opens a session with context->options. */
 static rmw_ret_t init_open_session(rmw_context_t * context)
 {
   xrce_client_t * client = rmw_client_instance();
@@ -125,7 +125,7 @@ rmw_ret_t rmw_init(const rmw_init_options_t * options, rmw_context_t * context)
   if (!init_is_free()) {
     return RMW_RET_ERROR;
   }
-  context->options = *options; /* they must live as long as the session, so the context keeps them */
+  context->options = *options; /* the session needs them, so the context stores a copy */
   return init_open(context);
 }
 

@@ -7,7 +7,7 @@ int64_t uxr_nanos(void)
 {
   const int64_t epoch_ns = port_time_epoch_ns();
 
-  return epoch_ns != 0 ? epoch_ns : port_time_steady_ns(); /* 0: nobody has set the time of day yet */
+  return epoch_ns != 0 ? epoch_ns : port_time_steady_ns(); /* 0: the time of day has not been set yet */
 }
 
 int64_t uxr_millis(void)

@@ -13,12 +13,12 @@
 
 #include <stddef.h>
 
-/* Returns whether an answer came. A session that is lost meanwhile, or was before, is waited for. */
+/* Returns whether an answer arrived. Waits for a session that is lost or reconnecting. */
 static bool sync_wait(xrce_client_t * client, uint32_t timeout_ms)
 {
   const uint32_t start = port_time_ms();
   const uint8_t answers = client->time_sync.answers;
-  uint32_t due = start; /* when to ask (again) */
+  uint32_t due = start; /* when to send the next request */
 
   for (;;) {
     uint32_t now;

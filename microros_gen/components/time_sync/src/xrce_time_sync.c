@@ -5,8 +5,8 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_wire.h"
 
-/* A moment is seconds and nanoseconds; a reply has three of them. The standard's seconds have a sign, which would end in
- * 2038: agents' clocks are not before 1970, so here they have none. */
+/* A time stamp is seconds and nanoseconds; a reply has three of them. The standard's seconds are signed
+ * and would end in 2038: clocks of agents are not before 1970, so they are unsigned here. */
 enum { MOMENT_SIZE = 8, TIMESTAMP_SIZE = 8 + MOMENT_SIZE, REPLY_SIZE = 3 * MOMENT_SIZE };
 enum { TRANSMIT = 0, RECEIVE = MOMENT_SIZE, ORIGINATE = 2 * MOMENT_SIZE };
 
@@ -26,7 +26,7 @@ static uint32_t time_get_u32(const uint8_t * at, uint8_t flags)
   return (flags & XRCE_FLAG_LITTLE_ENDIAN) != 0u ? first | (second << 16) : second | (first << 16);
 }
 
-/* False: these nanoseconds are more than a second. */
+/* Returns false if the nanoseconds are a second or more. */
 static bool time_get_moment(const uint8_t * at, uint8_t flags, int64_t * moment_ns)
 {
   const uint32_t seconds = time_get_u32(at, flags);
@@ -47,7 +47,7 @@ void xrce_time_sync_begin(xrce_time_sync_t * sync)
 
 void xrce_time_sync_end(xrce_time_sync_t * sync)
 {
-  if (sync->callers != 0u) { /* else another task closed the session meanwhile, and opened one */
+  if (sync->callers != 0u) { /* otherwise the session was replaced */
     --sync->callers;
   }
 }
@@ -61,8 +61,7 @@ void xrce_time_sync_ask(xrce_client_t * client)
   xrce_put_submessage(&message[4], XRCE_TIMESTAMP, XRCE_FLAG_LITTLE_ENDIAN, MOMENT_SIZE);
   time_put_le32(&message[8], (uint32_t)(now_ns / ns_per_s));
   time_put_le32(&message[12], (uint32_t)(now_ns % ns_per_s));
-  (void)xrce_session_send(
-    &client->session, message, sizeof(message)); /* a loss is what the repetition is for */
+  (void)xrce_session_send(&client->session, message, sizeof(message)); /* a lost message is repeated */
 }
 
 void xrce_time_sync_on_reply(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
@@ -86,9 +85,9 @@ void xrce_time_sync_on_reply(xrce_client_t * client, const uint8_t * submessage,
   if (
     sync->callers == 0u || originated_ns < sync->since_ns || originated_ns > now_ns ||
     now_ns - originated_ns >= sync->round_trip_ns) {
-    return; /* late, twice, or not as good */
+    return; /* late, repeated, or less precise */
   }
-  /* Each moment is within 2^32 seconds, so the sum of two differences stays below 2^63 nanoseconds. */
+  /* All times are within 2^32 seconds, so the sum of two differences stays below 2^63 nanoseconds. */
   sync->offset_ns = ((received_ns - originated_ns) + (transmitted_ns - now_ns)) / 2;
   sync->round_trip_ns = now_ns - originated_ns;
   sync->synchronized = true;

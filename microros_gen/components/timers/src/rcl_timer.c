@@ -141,7 +141,7 @@ rcl_ret_t rcl_timer_reset(rcl_timer_t * timer)
   if (impl->canceled) {
     return microros_error_named(RCL_RET_ERROR, microros_error_timer, "the system starts none");
   }
-  rcl_timer_wake(impl); /* who waits has to look when this one is due */
+  rcl_timer_wake(impl); /* the waiting task must consider the new due time */
   if (impl->on_reset != NULL) {
     impl->on_reset(impl->on_reset_data, 1);
   } else {

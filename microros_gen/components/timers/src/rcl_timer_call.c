@@ -5,9 +5,9 @@
 #include "microros/time_math.h"
 
 /*
- * Returns when the next call is due after one that was due at `due`: periods that have gone by are left out. It goes forward
- * in steps that double, and begins with one period again where a step would lead too far; so even years are gone through in
- * some hundred steps, and no division of 64 bits comes into the image.
+ * Returns when the next call is due after one that was due at `due`, skipping missed periods. Advances in
+ * doubling steps and restarts with one period if a step would go too far; so even years take some hundred
+ * steps, and no 64-bit division is linked.
  */
 static int64_t call_next(int64_t due, int64_t period, int64_t now)
 {
@@ -96,7 +96,7 @@ rcl_ret_t rcl_timer_get_time_until_next_call(const rcl_timer_t * timer, int64_t 
   return result;
 }
 
-/* Whether only somebody who sets it changes what the clock says. */
+/* Returns whether the clock only changes when the application sets it. */
 static bool look_is_set_by_hand(const rcl_clock_t * clock)
 {
   const rcl_ros_time_t * time = clock->data;

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The guard condition of a timer, for who waits for it and not for the timer; linked where somebody asks for it. */
+/*
+ * The guard condition of a timer, for waiting on it instead of on the timer; only linked if it is
+ * requested. */
 #include "microros/rcl_guard_condition.h"
 #include "microros/rcl_timer.h"
 
@@ -17,8 +19,7 @@ rcl_guard_condition_t * rcl_timer_get_guard_condition(const rcl_timer_t * timer)
   if (impl->guard == NULL) {
     impl->guard = &states[index];
     impl->guard->taken = true;
-    impl->guard->seen =
-      impl->guard->came - (impl->woken ? 1u : 0u); /* it was triggered before anybody asked */
+    impl->guard->seen = impl->guard->came - (impl->woken ? 1u : 0u); /* triggered before it was requested */
     guards[index].impl = impl->guard;
   }
   return &guards[index];

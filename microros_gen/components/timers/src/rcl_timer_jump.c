@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Timers on a clock whose time jumps; linked with the ROS clock alone. */
+/* Timers on a clock whose time jumps; only linked with a ROS clock. */
 #include "microros/port.h"
 #include "microros/rcl_timer.h"
 #include "microros/time_math.h"
@@ -10,12 +10,12 @@ static bool jump_changes_time(const rcl_time_jump_t * jump)
 }
 
 /*
- * As Jazzy's rcl: in the new time, as much of the period is over as was left of it in the old one. A time of 0 is not set,
- * and tells nothing.
+ * As in Jazzy's rcl: the elapsed part of the period in the new time is what remained in the old one. A
+ * time of 0 is unset and is ignored.
  */
 static void jump_carry_over(size_t index, int64_t now, bool before_jump)
 {
-  static int64_t credits[MICROROS_TIMERS_MAX]; /* what was left until the next call */
+  static int64_t credits[MICROROS_TIMERS_MAX]; /* remaining time until the next call */
   rcl_timer_impl_t * timer = &rcl_timers[index];
   int64_t * credit = &credits[index];
 
@@ -27,7 +27,7 @@ static void jump_carry_over(size_t index, int64_t now, bool before_jump)
   }
 }
 
-/* A timer that is due wakes who waits; back to before the last call, its period begins again. */
+/* A due timer wakes the waiting task; after a jump back before the last call the period restarts. */
 static void jump_settle(rcl_timer_impl_t * timer, int64_t now)
 {
   if (timer->next_call_time <= now) {
@@ -51,10 +51,10 @@ void rcl_timer_on_jump(
     } else if (timer->clock == clock && !before_jump) {
       jump_settle(timer, now);
     } else {
-      /* another clock's, or nothing to do before it */
+      /* another clock, or nothing to do before the jump */
     }
   }
   if (!before_jump) {
-    port_wake(); /* who waits has to look again */
+    port_wake(); /* the waiting task must look again */
   }
 }

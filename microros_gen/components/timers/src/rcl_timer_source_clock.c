@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* No timer has a `kind` of its own: all are ready when their clock says so. */
+/* No timer has a `kind`: all depend on their clocks. */
 #include "microros/rcl_timer.h"
 
 rcl_timer_impl_t * rcl_timer_source_take(int64_t period)

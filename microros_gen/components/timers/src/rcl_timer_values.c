@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a timer has. */
+/* Getters and setters of timers. */
 #include "microros/error.h"
 #include "microros/rcl_timer.h"
 #include "microros/time_math.h"

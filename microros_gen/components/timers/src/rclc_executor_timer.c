@@ -16,7 +16,7 @@ static rcl_ret_t timer_call(rclc_executor_handle_t * handle)
 {
   const rcl_ret_t result = rcl_timer_call(handle->timer);
 
-  return result == RCL_RET_TIMER_CANCELED ? RCL_RET_OK : result; /* a callback before it did that */
+  return result == RCL_RET_TIMER_CANCELED ? RCL_RET_OK : result; /* an earlier callback has canceled it */
 }
 
 rcl_ret_t rclc_executor_add_timer(rclc_executor_t * executor, rcl_timer_t * timer)

@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-/* As rclc does, whatever *timer held: it may be uninitialized memory. */
+/* As in rclc, *timer may be uninitialized memory. */
 rcl_ret_t rclc_timer_init_default2(
   rcl_timer_t * timer, rclc_support_t * support, const uint64_t timeout_ns,
   const rcl_timer_callback_t callback, bool autostart)

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* What rmw_uros_set_custom_transport said last; `open` is NULL before. */
+/* Arguments of the last rmw_uros_set_custom_transport; `open` is NULL before. */
 static uxrCustomTransport chosen;
 
 static rmw_ret_t custom_set(

@@ -3,5 +3,5 @@
 
 void xrce_transport_close(xrce_transport_t * transport)
 {
-  (void)transport->custom.close(&transport->custom); /* there is nothing to be done about a failure */
+  (void)transport->custom.close(&transport->custom); /* a failure to close cannot be handled */
 }

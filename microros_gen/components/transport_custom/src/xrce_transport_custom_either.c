@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* transport: custom; the application says at run time whether there is framing. */
+/* transport: custom; the application selects framing at run time. */
 #include "microros/xrce_custom_read.h"
 #include "microros/xrce_custom_send.h"
 #include "microros/xrce_transport.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The line below the frames of a custom transport. */
+/* The byte stream below the frames of a custom transport. */
 #include "microros/xrce_custom_read.h"
 #include "microros/xrce_transport.h"
 
@@ -8,7 +8,7 @@
 size_t xrce_line_room(struct xrce_transport_t * line)
 {
   (void)line;
-  return SIZE_MAX; /* the write function says it when it is asked */
+  return SIZE_MAX; /* unknown until the write function is called */
 }
 
 bool xrce_line_write(struct xrce_transport_t * line, const uint8_t * data, size_t size)

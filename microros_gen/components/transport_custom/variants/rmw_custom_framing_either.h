@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The application says at run time whether there is framing. */
+/* The application selects framing at run time. */
 #ifndef MICROROS_RMW_CUSTOM_FRAMING_H
 #define MICROROS_RMW_CUSTOM_FRAMING_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The application file says whether there is framing. */
+/* The application file selects framing. */
 #ifndef MICROROS_RMW_CUSTOM_FRAMING_H
 #define MICROROS_RMW_CUSTOM_FRAMING_H
 
@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-/* Whether the plan has this kind of framing; if not, this is the last error. */
+/* Returns whether the plan supports this kind of framing; sets the error if not. */
 static inline bool rmw_custom_takes_framing(bool framing)
 {
   if (framing != (MICROROS_CUSTOM_FRAMING == 1u)) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Reading waits a millisecond. */
+/* Variant: reading waits a millisecond. */
 #ifndef MICROROS_XRCE_CUSTOM_READING_H
 #define MICROROS_XRCE_CUSTOM_READING_H
 
@@ -13,16 +13,18 @@
 extern "C" {
 #endif
 
-/* What functions over UDP wait with 0 is for ever, or they look for no packet at all: 1 is the least. */
+/* With 0, functions over UDP may wait without end or never look for a packet: 1 is the minimum. */
 enum { XRCE_CUSTOM_WAIT_MS = 1 };
 
-/* The read function is going to be called. */
+/* Called before the read function. */
 static inline void xrce_custom_note_reading(xrce_transport_t * transport)
 {
   transport->read_ms = port_time_ms();
 }
 
-/* Whether who sends may leave received messages to others for now: reading waits for them, and was done less than `pause_ms` ago. */
+/*
+ * Returns whether a publish may skip reading for now: reading waits, and was last done less than
+ * `pause_ms` ago. */
 static inline bool xrce_transport_may_skip_reading(const xrce_transport_t * transport, uint32_t pause_ms)
 {
   return port_time_ms() - transport->read_ms < pause_ms;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Reading never waits. */
+/* Variant: reading never waits. */
 #ifndef MICROROS_XRCE_CUSTOM_READING_H
 #define MICROROS_XRCE_CUSTOM_READING_H
 
@@ -12,16 +12,18 @@
 extern "C" {
 #endif
 
-/* The application says that its function looks and returns: transport: {read_polls: true}. With framing it does, too. */
+/*
+ * The application declares that its function only polls (transport: {read_polls: true}), or framing is
+ * used. */
 enum { XRCE_CUSTOM_WAIT_MS = 0 };
 
-/* The read function is going to be called. */
+/* Called before the read function. */
 static inline void xrce_custom_note_reading(xrce_transport_t * transport)
 {
   (void)transport;
 }
 
-/* Whether who sends may leave received messages to others for now: reading never waits. */
+/* Returns whether a publish may skip reading for now: no, reading never waits. */
 static inline bool xrce_transport_may_skip_reading(const xrce_transport_t * transport, uint32_t pause_ms)
 {
   (void)transport;

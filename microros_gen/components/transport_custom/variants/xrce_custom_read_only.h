@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Reading; nobody rests in it. */
+/* Reading without resting. */
 #ifndef MICROROS_XRCE_CUSTOM_READ_H
 #define MICROROS_XRCE_CUSTOM_READ_H
 
@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/* Returns how many bytes came; a function that says more than it had room for, or -1, has none. */
+/* Returns the number of received bytes; a result above `capacity`, such as -1, counts as none. */
 static inline size_t xrce_custom_read(
   xrce_transport_t * transport, uint8_t * buffer, size_t capacity, int timeout_ms)
 {

@@ -4,7 +4,7 @@
 bool xrce_transport_send_kept(xrce_transport_t * transport, const uint8_t * message, size_t size)
 {
   if (port_serial_has_kept(&transport->serial)) {
-    return false; /* its frame is the interrupt's */
+    return false; /* the interrupt owns its frame */
   }
   xrce_frame_begin(&transport->frame, message, (uint16_t)size);
   return port_serial_send_kept(&transport->serial, xrce_frame_next, &transport->frame);

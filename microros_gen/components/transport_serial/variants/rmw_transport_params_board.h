@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the options of a session say about a serial line. */
+/* Options of a session over a serial line. */
 #ifndef MICROROS_RMW_TRANSPORT_PARAMS_H
 #define MICROROS_RMW_TRANSPORT_PARAMS_H
 
 #include <stdint.h>
 
-/* 0 or empty: as the plan says. */
+/* 0 or empty: the plan's value. */
 typedef struct rmw_uxrce_transport_params_t {
   uint32_t client_key;
 } rmw_uxrce_transport_params_t;

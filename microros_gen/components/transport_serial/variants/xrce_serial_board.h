@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The name of the line: the board has one. */
+/* Name of the line: the only one of the board. */
 #ifndef MICROROS_XRCE_SERIAL_PLACE_H
 #define MICROROS_XRCE_SERIAL_PLACE_H
 
@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-/* How texts name the other end. */
+/* Names of the other end in error texts. */
 #define XRCE_PLACE_N "the serial line"
 #define XRCE_PLACE_M "the serial line"
 
@@ -21,7 +21,7 @@ static inline const char * xrce_transport_name(const xrce_transport_t * transpor
   return "";
 }
 
-/* Whether two transports share one line: there is one. */
+/* Returns whether two transports share one line: the board has only one. */
 static inline bool xrce_transport_is_same_line(const xrce_transport_t * a, const xrce_transport_t * b)
 {
   (void)a;

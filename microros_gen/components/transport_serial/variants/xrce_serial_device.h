@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The name of the line: that of a device. */
+/* Name of the line: a device. */
 #ifndef MICROROS_XRCE_SERIAL_PLACE_H
 #define MICROROS_XRCE_SERIAL_PLACE_H
 
@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/* How texts name the other end: xrce_transport_name, and xrce_transport_port as %n or %m. */
+/* Names of the other end in error texts: xrce_transport_name, and xrce_transport_port as %n or %m. */
 #define XRCE_PLACE_N "%s"
 #define XRCE_PLACE_M "%s"
 
@@ -21,7 +21,7 @@ static inline const char * xrce_transport_name(const xrce_transport_t * transpor
   return transport->device;
 }
 
-/* Whether two transports share one line. */
+/* Returns whether two transports share one line. */
 static inline bool xrce_transport_is_same_line(const xrce_transport_t * a, const xrce_transport_t * b)
 {
   return microros_text_equals(a->device, b->device);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Sending never waits. */
+/* Variant: sending never waits. */
 #ifndef MICROROS_XRCE_SERIAL_TURN_H
 #define MICROROS_XRCE_SERIAL_TURN_H
 
@@ -11,13 +11,13 @@
 extern "C" {
 #endif
 
-/* A pump begins. */
+/* Called at the start of a pump. */
 static inline void xrce_transport_begin_turn(xrce_transport_t * transport)
 {
   (void)transport;
 }
 
-/* Whether a stream may send one more message in this turn: sending never waits. */
+/* Returns whether a stream may send another message in this pump: always, since sending never waits. */
 static inline bool xrce_transport_take_turn(xrce_transport_t * transport)
 {
   (void)transport;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The application's port_serial_write may wait for its line. */
+/* Variant: the application's port_serial_write may wait for its line. */
 #ifndef MICROROS_XRCE_SERIAL_TURN_H
 #define MICROROS_XRCE_SERIAL_TURN_H
 
@@ -11,13 +11,15 @@
 extern "C" {
 #endif
 
-/* A pump begins. */
+/* Called at the start of a pump. */
 static inline void xrce_transport_begin_turn(xrce_transport_t * transport)
 {
   transport->turn_taken = false;
 }
 
-/* Whether a stream may send one more message in this turn: one, since the application's function may wait for its line. */
+/*
+ * Returns whether a stream may send another message in this pump: only one, since the application's
+ * function may wait for its line. */
 static inline bool xrce_transport_take_turn(xrce_transport_t * transport)
 {
   const bool may_send = !transport->turn_taken;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Before each message goes its length, two bytes, little endian (OMG DDS-XRCE 1.0, 11.3). */
+/* Each message is preceded by its length in two bytes, little endian (OMG DDS-XRCE 1.0, 11.3). */
 #include "microros/xrce_transport.h"
 
 #include "microros/xrce_wire.h"
@@ -28,7 +28,7 @@ void xrce_transport_close(xrce_transport_t * transport)
   }
 }
 
-/* Hands over what waits. */
+/* Sends waiting bytes. */
 static void transport_flush(xrce_transport_t * transport)
 {
   while (!transport->gone && transport->unsent != 0u) {
@@ -63,7 +63,7 @@ bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, 
   return !transport->gone;
 }
 
-/* Takes at most `capacity` bytes; 0 where nothing has arrived or the connection is gone. */
+/* Reads at most `capacity` bytes; 0 if nothing has arrived or the connection is closed. */
 static uint16_t transport_read(xrce_transport_t * transport, uint8_t * buffer, size_t capacity)
 {
   const int32_t size = port_tcp_receive(&transport->tcp, buffer, capacity);
@@ -74,7 +74,7 @@ static uint16_t transport_read(xrce_transport_t * transport, uint8_t * buffer, s
   return size > 0 ? (uint16_t)size : 0u;
 }
 
-/* Returns whether the length of the message is here. */
+/* Returns whether the length of the message is complete. */
 static bool transport_read_length(xrce_transport_t * transport)
 {
   while (transport->length_arrived != XRCE_TCP_PREFIX) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Some message has a string or sequence. */
+/* Some messages contain a string or sequence. */
 #include "microros/rmw_encode.h"
 
 #include "microros/rmw_fault.h"

@@ -22,7 +22,7 @@ xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room)
   return xrce_write_obstacle(writer);
 }
 
-/* The message lies in the stream, so others may not use it meanwhile: the lock is kept while the line makes room. */
+/* The message occupies the stream, so the lock is held while the line makes room. */
 xrce_write_t xrce_write_on_unsent(xrce_endpoint_t * writer, size_t size)
 {
   const uint32_t start = port_time_ms();

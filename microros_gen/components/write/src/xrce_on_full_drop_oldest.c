@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * on_full: drop_oldest. A reliable message takes the place of the oldest one, also while there is no session:
- * the newest are sent when there is one again. A best-effort message without a session is given up.
+ * on_full: drop_oldest. A reliable message replaces the oldest one, also without a session: the newest are
+ * sent in the next session. A best-effort message without a session is dropped.
  */
 #include "microros/xrce_drops.h"
 #include "microros/xrce_routes.h"

@@ -7,10 +7,10 @@
 
 #include <string.h>
 
-/* What stands before the body in a submessage. */
+/* Size of everything before the body in a submessage. */
 enum { BODY_OFFSET = XRCE_SUBMESSAGE_HEADER + XRCE_OBJECT_PREFIX };
 
-/* How long publishing may go on without reading: well below the time after which a session is given up. */
+/* Longest time of publishing without reading: well below the time after which a session counts as lost. */
 enum { PAUSE_MS = 250, PAUSE_CONNECTING_MS = 10 };
 
 static bool write_is_reliable(const xrce_endpoint_t * writer)
@@ -18,7 +18,7 @@ static bool write_is_reliable(const xrce_endpoint_t * writer)
   return (writer->qos & XRCE_QOS_RELIABLE) != 0u;
 }
 
-/* Returns how many objects a writer, replier or requester has when it is complete. */
+/* Returns the number of objects of a complete writer, replier or requester. */
 static uint8_t write_complete(const xrce_endpoint_t * writer)
 {
   return xrce_place_is_service((uint16_t)(MICROROS_NODES_MAX + writer->index))
@@ -43,8 +43,8 @@ xrce_write_t xrce_write_obstacle(const xrce_endpoint_t * writer)
 }
 
 /*
- * Pumps. A read function of the application that waits for a message is left out for a while, if there is room without:
- * a publish does not wait.
+ * Pumps. A waiting read function of the application is skipped for a while if there is room: a publish
+ * does not wait.
  */
 static uint8_t * write_pump(const xrce_endpoint_t * writer)
 {
@@ -64,7 +64,7 @@ static uint8_t * write_pump(const xrce_endpoint_t * writer)
   return xrce_write_reserve(writer);
 }
 
-/* Pumps, and returns XRCE_WRITTEN with the room for a submessage, or why there is none. */
+/* Pumps; returns XRCE_WRITTEN with the room for a submessage, or why there is no room. */
 static xrce_write_t write_begin(xrce_endpoint_t * writer, uint8_t ** room)
 {
   *room = write_pump(writer);

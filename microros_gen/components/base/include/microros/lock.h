@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* One task calls the library (the component multithread is not selected): there is nothing to lock. */
+/* Single-task variant (component `multithread` is not selected): locking compiles to nothing. */
 #ifndef MICROROS_LOCK_H
 #define MICROROS_LOCK_H
 
@@ -17,7 +17,7 @@ static inline void microros_unlock(void)
 {
 }
 
-/* Waits a millisecond, in which other tasks may have the lock. */
+/* Sleeps one millisecond so that other tasks can take the lock. */
 static inline void microros_pause(void)
 {
   port_sleep_ms(1);

@@ -3,13 +3,12 @@
 #define MICROROS_CDR_H
 
 /**
- * @file
- * The parts that generated encoders are made of: CDR as ROS 2 Jazzy writes it (OMG CDR, XCDR1), little endian,
- * padding zero, positions counted from the first byte of the body.
+ * @file Building blocks of generated encoders: CDR as ROS 2 Jazzy writes it (OMG CDR, XCDR1), little
+ * endian, zero padding, positions counted from the first byte of the body.
  *
- * None of these functions checks a buffer: an encoder refuses contents above their limits first (cdr_fits), so that
- * `max_encoded_size` bytes always suffice. All of them are reentrant; none keeps a pointer.
- * `body` is the first byte of the body, `to` the byte to write at; neither needs any alignment.
+ * None of these functions checks the buffer: an encoder first refuses contents above their limits
+ * (cdr_fits), so that `max_encoded_size` bytes always suffice. All functions are reentrant and keep no
+ * pointer. `body` is the first byte of the body, `to` the byte to write at; neither needs any alignment.
  */
 
 #include <stdbool.h>
@@ -23,12 +22,13 @@
 extern "C" {
 #endif
 
-/** The identifier of every type support handle that this project generates. */
+/** Identifier of every type support handle that this project generates. */
 #define MICROROS_TYPE_SUPPORT_IDENTIFIER "rosidl_typesupport_microros_c"
 
 /**
- * 1 where the compiler says that the target is little endian: numbers are then copied as they lie in memory.
- * 0 elsewhere, and where it says nothing: they are written byte by byte, which is right on every target.
+ * 1 if the compiler declares the target little endian: numbers are then copied from memory unchanged. 0
+ * otherwise, also if the compiler does not declare it: numbers are written byte by byte, which is correct
+ * on every target.
  */
 #ifndef CDR_HOST_IS_LITTLE_ENDIAN
 #if defined(__BYTE_ORDER__) && defined(__ORDER_LITTLE_ENDIAN__)
@@ -38,7 +38,9 @@ extern "C" {
 #endif
 #endif
 
-/** Fails to compile where `condition` (a constant expression) is false; `name` says what it is about. */
+/**
+ * Fails to compile if `condition` (a constant expression) is false; `name` appears in the compiler's
+ * message. */
 #define CDR_STATIC_ASSERT(name, condition) typedef char name[(condition) ? 1 : -1]
 
 CDR_STATIC_ASSERT(cdr_assert_byte_has_8_bits, UINT8_MAX == 255U);
@@ -46,33 +48,37 @@ CDR_STATIC_ASSERT(cdr_assert_float_is_binary32, sizeof(float) == 4U);
 CDR_STATIC_ASSERT(cdr_assert_double_is_binary64, sizeof(double) == 8U);
 CDR_STATIC_ASSERT(cdr_assert_character_has_16_bits, sizeof(uint_least16_t) == 2U);
 
-/** Shows how the target aligns an 8-byte number; never an object. */
+/** Probe for the alignment of an 8-byte number; never instantiated. */
 struct cdr_alignment_probe {
   char before;
   int64_t number;
 };
 
 /**
- * The one of three sizes that the plan has for the target's data model: 64-bit pointers (LP64); 32-bit pointers
- * with 8-byte numbers aligned to 8 (ILP32: Arm, RISC-V, Xtensa) or to 4 (32-bit x86). A constant expression.
+ * Selects one of three planned sizes by the target's data model: 64-bit pointers (LP64); 32-bit pointers
+ * with 8-byte numbers aligned to 8 (ILP32: Arm, RISC-V, Xtensa) or to 4 (32-bit x86). A constant
+ * expression.
  */
 #define CDR_SIZE(lp64, ilp32, i386) \
   ((sizeof(void *) == 8U) ? (lp64) \
                           : ((offsetof(struct cdr_alignment_probe, number) == 8U) ? (ilp32) : (i386)))
 
 /**
- * Whether the members of `type` from `first` to `last`, which take `bytes` on the wire without padding, lie in
- * memory exactly as on the wire. C keeps members in order and none is smaller than on the wire, so they do when
- * they span just as many bytes and the target is little endian. A constant expression: one branch is dropped.
+ * Whether the members of `type` from `first` to `last`, which take `bytes` on the wire without padding,
+ * have the same layout in memory. C keeps members in order and none is smaller than on the wire, so they
+ * do if they span exactly as many bytes and the target is little endian. A constant expression: the
+ * compiler drops one branch.
  */
 #define CDR_IS_RUN(type, first, last, bytes) \
   (CDR_HOST_IS_LITTLE_ENDIAN && \
    ((offsetof(type, last) + sizeof(((const type *)0)->last)) - offsetof(type, first) == (bytes)))
 
-/** Whether an array of `type`, whose numbers take `bytes` on the wire without padding, lies in memory likewise. */
+/**
+ * Whether an array of `type`, whose numbers take `bytes` on the wire without padding, has the same layout
+ * in memory. */
 #define CDR_IS_PACKED(type, bytes) (CDR_HOST_IS_LITTLE_ENDIAN && (sizeof(type) == (bytes)))
 
-/** Fill `fault`; `found` above UINT32_MAX is shown as UINT32_MAX. Returns false. */
+/** Fills `fault`; `found` is saturated to UINT32_MAX. Returns false. */
 static inline bool cdr_refuse(
   cdr_fault_t * fault, cdr_fault_kind_t kind, const char * field, size_t found, uint32_t fits)
 {
@@ -87,8 +93,8 @@ static inline bool cdr_refuse(
 }
 
 /**
- * Say that the message which was refused is `member` of the one around it, or its element `index` (CDR_NO_INDEX: no
- * element). `member` must be a static string. Returns 0: what an encoder returns then.
+ * Records that the refused message is `member` of the enclosing one, or its element `index` (CDR_NO_INDEX:
+ * no element). `member` must be a static string. Returns 0, the return value of an encoder that refuses.
  */
 static inline uint32_t cdr_refuse_within(cdr_fault_t * fault, const char * member, size_t index)
 {
@@ -99,8 +105,8 @@ static inline uint32_t cdr_refuse_within(cdr_fault_t * fault, const char * membe
 }
 
 /**
- * Return whether `size` elements (characters of a string) at `data` can be encoded: not more than `limit`, and
- * `data` not NULL unless there are none. Otherwise `fault` names `field`, which must be a static string.
+ * Returns whether `size` elements (characters of a string) at `data` can be encoded: at most `limit`, and
+ * `data` not NULL unless `size` is 0. Otherwise fills `fault` with `field`, which must be a static string.
  */
 static inline bool cdr_fits(
   const void * data, size_t size, uint32_t limit, const char * field, cdr_fault_t * fault)
@@ -111,7 +117,7 @@ static inline bool cdr_fits(
   return cdr_refuse(fault, (size <= limit) ? CDR_FAULT_DATA : CDR_FAULT_LIMIT, field, size, limit);
 }
 
-/** The same for what has a `bound` in the interface file, which a limit does not exceed. */
+/** Same as cdr_fits for a member with a `bound` in the interface file; `limit` never exceeds it. */
 static inline bool cdr_fits_bound(
   const void * data, size_t size, uint32_t limit, uint32_t bound, const char * field, cdr_fault_t * fault)
 {
@@ -122,15 +128,15 @@ static inline bool cdr_fits_bound(
   return fits;
 }
 
-/** Return `position` rounded up to a multiple of `alignment` (a power of two). */
+/** Returns `position` rounded up to a multiple of `alignment` (a power of two). */
 static inline uint32_t cdr_aligned(uint32_t position, uint32_t alignment)
 {
   return (position + (alignment - 1U)) & ~(alignment - 1U);
 }
 
 /**
- * Write zeros up to the next multiple of 2, 4 or 8 and return it. Writes 2, 4 or 8 bytes whatever the position,
- * so that there is no loop: a number of that size must follow.
+ * Writes zeros up to the next multiple of 2, 4 or 8 and returns it. Always writes 2, 4 or 8 bytes to avoid
+ * a loop: a number of that size must follow.
  */
 static inline uint32_t cdr_align_2(uint8_t * body, uint32_t position)
 {
@@ -150,13 +156,13 @@ static inline uint32_t cdr_align_8(uint8_t * body, uint32_t position)
   return cdr_aligned(position, 8U);
 }
 
-/** Write `count` zeros. */
+/** Writes `count` zeros. */
 static inline void cdr_put_zeros(uint8_t * to, size_t count)
 {
   (void)memset(to, 0, count);
 }
 
-/** Copy `bytes` as they are; `from` may be NULL when there are none. */
+/** Copies `bytes` unchanged; `from` may be NULL if `bytes` is 0. */
 static inline void cdr_copy(uint8_t * to, const void * from, size_t bytes)
 {
   if (bytes > 0U) {
@@ -164,7 +170,7 @@ static inline void cdr_copy(uint8_t * to, const void * from, size_t bytes)
   }
 }
 
-/** Write a number of 1, 2, 4 or 8 bytes; `from` points to it, whatever its type. */
+/** Writes a number of 1, 2, 4 or 8 bytes; `from` points to it, whatever its type. */
 static inline void cdr_put_1(uint8_t * to, const void * from)
 {
   (void)memcpy(to, from, 1U);
@@ -208,13 +214,13 @@ static inline void cdr_put_8(uint8_t * to, const void * from)
   }
 }
 
-/** Write a bool as 0 or 1, whatever its representation. */
+/** Writes a bool as 0 or 1, whatever its representation in memory. */
 static inline void cdr_put_bool(uint8_t * to, bool value)
 {
   *to = value ? 1U : 0U;
 }
 
-/** Write `count` numbers of 1, 2, 4 or 8 bytes one after the other. */
+/** Writes `count` consecutive numbers of 1, 2, 4 or 8 bytes. */
 static inline void cdr_put_array_1(uint8_t * to, const void * from, size_t count)
 {
   cdr_copy(to, from, count);
@@ -253,7 +259,7 @@ static inline void cdr_put_array_8(uint8_t * to, const void * from, size_t count
   }
 }
 
-/** Write `count` bools, each as 0 or 1. */
+/** Writes `count` bools, each as 0 or 1. */
 static inline void cdr_put_array_bool(uint8_t * to, const bool * from, size_t count)
 {
   for (size_t i = 0U; i < count; ++i) {
@@ -261,7 +267,7 @@ static inline void cdr_put_array_bool(uint8_t * to, const bool * from, size_t co
   }
 }
 
-/** Write the length of a sequence at `position` (a multiple of 4); return the position behind it. */
+/** Writes the length of a sequence at `position` (a multiple of 4); returns the position after it. */
 static inline uint32_t cdr_put_length(uint8_t * body, uint32_t position, size_t size)
 {
   const uint32_t length = (uint32_t)size;
@@ -270,8 +276,8 @@ static inline uint32_t cdr_put_length(uint8_t * body, uint32_t position, size_t 
 }
 
 /**
- * Write a string at `position` (a multiple of 4): length with the terminator, characters, terminator. Return the
- * position behind it. `data` needs no terminator and may be NULL when `size` is 0.
+ * Writes a string at `position` (a multiple of 4): length with terminator, characters, terminator. Returns
+ * the position after it. `data` needs no terminator and may be NULL if `size` is 0.
  */
 static inline uint32_t cdr_put_string(uint8_t * body, uint32_t position, const char * data, size_t size)
 {
@@ -283,8 +289,8 @@ static inline uint32_t cdr_put_string(uint8_t * body, uint32_t position, const c
 }
 
 /**
- * Write a wide string at `position` (a multiple of 4): the number of its UTF-16 units, then each in four bytes,
- * without a terminator, as ROS 2 Jazzy does. Return the position behind it.
+ * Writes a wide string at `position` (a multiple of 4): the number of UTF-16 units, then each unit in four
+ * bytes, without a terminator, as ROS 2 Jazzy does. Returns the position after it.
  */
 static inline uint32_t cdr_put_wstring(
   uint8_t * body, uint32_t position, const uint_least16_t * data, size_t size)
@@ -298,7 +304,9 @@ static inline uint32_t cdr_put_wstring(
   return end;
 }
 
-/** Write a sequence of numbers of 1, 2, 4 or 8 bytes at `position` (a multiple of 4); return the position behind. */
+/**
+ * Writes a sequence of numbers of 1, 2, 4 or 8 bytes at `position` (a multiple of 4); returns the position
+ * after it. */
 static inline uint32_t cdr_put_sequence_1(uint8_t * body, uint32_t position, const void * data, size_t size)
 {
   const uint32_t start = cdr_put_length(body, position, size);
@@ -339,8 +347,8 @@ static inline uint32_t cdr_put_sequence_bool(
 }
 
 /**
- * Write a sequence of messages that lie in memory as on the wire (CDR_IS_PACKED), `element` bytes each, aligned to
- * 8 (`_8`) or less (`_4`). Return the position behind it.
+ * Writes a sequence of messages with the same layout in memory and on the wire (CDR_IS_PACKED), `element`
+ * bytes each, aligned to 8 (`_8`) or less (`_4`). Returns the position after it.
  */
 static inline uint32_t cdr_put_packed_4(
   uint8_t * body, uint32_t position, const void * data, size_t size, uint32_t element)
@@ -361,25 +369,25 @@ static inline uint32_t cdr_put_packed_8(
   return start + ((uint32_t)size * element);
 }
 
-/** Return the position behind a string of `size` characters that starts at `position` (a multiple of 4). */
+/** Returns the position after a string of `size` characters that starts at `position` (a multiple of 4). */
 static inline uint32_t cdr_string_end(uint32_t position, size_t size)
 {
   return position + 5U + (uint32_t)size;
 }
 
-/** Return the position behind a wide string of `size` UTF-16 units that starts at `position`. */
+/** Returns the position after a wide string of `size` UTF-16 units that starts at `position`. */
 static inline uint32_t cdr_wstring_end(uint32_t position, size_t size)
 {
   return position + 4U + ((uint32_t)size * 4U);
 }
 
-/** Return the position behind a sequence of `size` elements of `element` bytes, aligned to 4 or less. */
+/** Returns the position after a sequence of `size` elements of `element` bytes, aligned to 4 or less. */
 static inline uint32_t cdr_sequence_end_4(uint32_t position, size_t size, uint32_t element)
 {
   return position + 4U + ((uint32_t)size * element);
 }
 
-/** The same for elements that are aligned to 8. */
+/** Same for elements aligned to 8. */
 static inline uint32_t cdr_sequence_end_8(uint32_t position, size_t size, uint32_t element)
 {
   const uint32_t start = position + 4U;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* From the refusal of an encoder or decoder to the error of the call. Internal to the middleware layer. */
+/* Turns the refusal of an encoder or decoder into the error of the call. Internal to the middleware layer. */
 #ifndef MICROROS_RMW_FAULT_H
 #define MICROROS_RMW_FAULT_H
 
@@ -11,7 +11,9 @@
 extern "C" {
 #endif
 
-/* Makes `error` the last one, with the member of `type` that was refused: "markers[2].text"; RMW_RET_ERROR. */
+/*
+ * Sets `error` as the last one, with the path of the refused member of `type`: "markers[2].text". Returns
+ * RMW_RET_ERROR. */
 rmw_ret_t rmw_fault_report(
   microros_error_t error, const microros_message_type_t * type, const cdr_fault_t * fault);
 

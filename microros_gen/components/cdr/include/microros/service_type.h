@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a service type gives the runtime: its name, and the types of its messages. */
+/* Service type as the runtime sees it: its name, and the types of its messages. */
 #ifndef MICROROS_SERVICE_TYPE_H
 #define MICROROS_SERVICE_TYPE_H
 
@@ -7,7 +7,7 @@
 
 typedef struct microros_service_type_t {
   const char *
-    dds_type_name; /* "std_srvs::srv::dds_::SetBool_"; with Request_ or Response_ behind, of its messages */
+    dds_type_name; /* "std_srvs::srv::dds_::SetBool_"; Request_ or Response_ is appended for its messages */
   const microros_message_type_t * request;
   const microros_message_type_t * response;
 } microros_service_type_t;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* From the bytes of a body to a message, with the error's text. Internal to the middleware layer. */
+/* Decodes the bytes of a body into a message and sets the error text. Internal to the middleware layer. */
 #ifndef MICROROS_RMW_DECODE_H
 #define MICROROS_RMW_DECODE_H
 
@@ -13,11 +13,13 @@
 extern "C" {
 #endif
 
-/* Decodes into the storage that the message has; RMW_RET_ERROR, RMW_RET_UNSUPPORTED with a text as rmw_deserialize says. */
+/*
+ * Decodes into the storage of the message. Returns RMW_RET_ERROR or RMW_RET_UNSUPPORTED, with a text, as
+ * rmw_deserialize does. */
 rmw_ret_t rmw_decode(
   const microros_message_type_t * type, const uint8_t * body, uint32_t size, bool big_endian, void * message);
 
-/* Sets the text for a body that was refused; returns RMW_RET_ERROR. */
+/* Sets the text for a refused body; returns RMW_RET_ERROR. */
 rmw_ret_t rmw_decode_refuse(const microros_message_type_t * type, const cdr_fault_t * fault);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Where the time of day is from: the device. A component that knows better brings another file of this name. Internal. */
+/* Source of the time of day: the device. A component with a better source replaces this header. Internal. */
 #ifndef MICROROS_RCL_CLOCK_EPOCH_H
 #define MICROROS_RCL_CLOCK_EPOCH_H
 
@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* Returns nanoseconds since 1970; 0: nobody has set the time of day yet. */
+/* Returns nanoseconds since 1970; 0: the time of day has not been set yet. */
 static inline int64_t rcl_clock_epoch_ns(void)
 {
   return port_time_epoch_ns();

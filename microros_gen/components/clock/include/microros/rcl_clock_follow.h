@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What ROS time follows: nothing, so it is the system's until it is overridden. A component that receives the time brings
- * another file of this name. Internal. */
+/* ROS time follows no source: it is the system's time until it is overridden. A component that receives
+ * the time replaces this header. Internal. */
 #ifndef MICROROS_RCL_CLOCK_FOLLOW_H
 #define MICROROS_RCL_CLOCK_FOLLOW_H
 
@@ -10,12 +10,12 @@
 extern "C" {
 #endif
 
-/* Somebody asks for the time. */
+/* Called before each read of the time. */
 static inline void rcl_clock_follow(void)
 {
 }
 
-/* A ROS clock begins. */
+/* Called when a ROS clock is initialized. */
 static inline void rcl_clock_first_time(rcl_ros_time_t * time)
 {
   time->active = false;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What ROS time follows: /clock. In place of the file of the clock. Internal. */
+/* ROS time follows /clock. Replaces the header of component `clock`. Internal. */
 #ifndef MICROROS_RCL_CLOCK_FOLLOW_H
 #define MICROROS_RCL_CLOCK_FOLLOW_H
 
@@ -10,13 +10,13 @@
 extern "C" {
 #endif
 
-/* Somebody asks for the time. */
+/* Called before each read of the time. */
 static inline void rcl_clock_follow(void)
 {
   rcl_clock_source_follow();
 }
 
-/* A ROS clock begins. */
+/* Called when a ROS clock is initialized. */
 static inline void rcl_clock_first_time(rcl_ros_time_t * time)
 {
   time->active = true;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Where ROS time comes from: a subscription of /clock that the library opens with a node and that the application never
- * sees. Its queue has one place, so the newest time counts. Internal; belongs to the task of the clocks.
+ * Source of ROS time: a subscription to /clock that the library opens with a node and hides from the
+ * application. Its queue has one place, so that the newest time is used. Internal; belongs to the task of
+ * the clocks.
  */
 #ifndef MICROROS_RCL_CLOCK_SOURCE_H
 #define MICROROS_RCL_CLOCK_SOURCE_H
@@ -13,18 +14,20 @@
 extern "C" {
 #endif
 
-/* A node was opened: the first one, or the first of the application file, gets the subscription. Waits for the agent, and
- * gives codes, as rcl_subscription_init. */
+/* Called for a new node: the first node of the application file, or the first one opened, gets the
+ * subscription. Waits for the agent and returns the same codes as rcl_subscription_init. */
 rcl_ret_t rcl_clock_source_open(const rcl_node_t * node);
 
-/* This node is about to be closed; if it has the subscription, time stands still until a node is opened again. */
+/*
+ * Called before a node is closed. If it has the subscription, time stands still until a node is opened
+ * again. */
 void rcl_clock_source_close(const rcl_node_t * node);
 
-/* Sets every ROS clock to the time that has come since the last call, without receiving. Does nothing while it is called
- * by a jump callback. */
+/* Sets every ROS clock to the newest received time, without receiving. Does nothing when called from a
+ * jump callback. */
 void rcl_clock_source_follow(void);
 
-/* Returns the time that came last; 0: none has come. */
+/* Returns the newest received time; 0: no sample was received. */
 rcl_time_point_value_t rcl_clock_source_time(void);
 
 #ifdef __cplusplus

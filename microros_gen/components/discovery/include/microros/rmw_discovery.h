@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The search for an agent, for the middleware layer; internal. */
+/* Agent discovery for the middleware layer; internal. */
 #ifndef MICROROS_RMW_DISCOVERY_H
 #define MICROROS_RMW_DISCOVERY_H
 
@@ -12,8 +12,9 @@
 extern "C" {
 #endif
 
-/* Writes the place of the first agent that answers to `params`. RMW_RET_TIMEOUT, with a text: none did within
- * `timeout_ms`, and `params` names none. The caller has the lock, which is given back where this waits. */
+/* Writes the address of the first agent that answers to `params`. RMW_RET_TIMEOUT, with a text, if no
+ * agent answered within `timeout_ms` and `params` names none. The caller holds the lock, which is released
+ * while this function waits. */
 rmw_ret_t rmw_discovery_find(rmw_uxrce_transport_params_t * params, uint32_t timeout_ms);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* An agent without an address is searched for. In place of the file of ping. Internal. */
+/* Discovery of an agent without an address. Replaces the header of component `ping`. Internal. */
 #ifndef MICROROS_RMW_PING_SEARCH_H
 #define MICROROS_RMW_PING_SEARCH_H
 
@@ -17,7 +17,7 @@ static inline bool rmw_ping_searches(const rmw_uxrce_transport_params_t * params
   return params->agent_address[0] == '\0';
 }
 
-/* Searches for at most `timeout_ms`: whoever is found has answered. */
+/* Searches for at most `timeout_ms`; an agent that is found has also answered the ping. */
 static inline rmw_ret_t rmw_ping_search(const rmw_uxrce_transport_params_t * params, uint32_t timeout_ms)
 {
   rmw_uxrce_transport_params_t found = *params;

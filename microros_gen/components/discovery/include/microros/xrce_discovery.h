@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Search for agents (OMG DDS-XRCE 1.0, 9.3): GET_INFO to a multicast group, and INFO from each agent with the places where
- * it listens. Each place is tried in turn, since a device may reach only some; IPv4 places count, others are passed over.
+ * Agent discovery (OMG DDS-XRCE 1.0, 9.3): GET_INFO to a multicast group, answered by INFO from each agent
+ * with its locators. Each locator is tried in turn, since a device may reach only some of them. Only IPv4
+ * locators are used.
  */
 #ifndef MICROROS_XRCE_DISCOVERY_H
 #define MICROROS_XRCE_DISCOVERY_H
@@ -17,7 +18,7 @@
 extern "C" {
 #endif
 
-/* Where agents are asked for; a transport with this host is one whose agent is to be found. */
+/* Multicast group of the request; a transport with this host needs discovery. */
 #define XRCE_DISCOVERY_GROUP "239.255.0.2"
 
 enum { XRCE_DISCOVERY_PLACES = 8, XRCE_DISCOVERY_QUESTION = 16, XRCE_DISCOVERY_HOST = 16 };
@@ -27,40 +28,43 @@ typedef struct xrce_place_t {
   uint16_t port;
 } xrce_place_t;
 
-/* All zero: not begun. */
+/* Zero-initialized: discovery has not started. */
 typedef struct xrce_discovery_t {
   port_multicast_t group;
-  uint32_t due_ms;   /* when to ask again, or, while a place is tried, when to give it up */
-  uint32_t since_ms; /* when the search began */
-  uint32_t asked_ms; /* when it was asked last */
-  bool wanted;       /* the agent of this session is searched for */
+  uint32_t due_ms;   /* when to ask again; while a locator is tried: its deadline */
+  uint32_t since_ms; /* start of the discovery */
+  uint32_t asked_ms; /* time of the last request */
+  bool wanted;       /* this session needs an agent */
   bool searching;
-  bool open; /* the search has its socket */
+  bool open; /* the socket is open */
   bool trying;
-  uint8_t count; /* of places, of which `next` were tried */
+  uint8_t count; /* locators, of which `next` were tried */
   uint8_t next;
   xrce_place_t places[XRCE_DISCOVERY_PLACES];
-  char host[XRCE_DISCOVERY_HOST]; /* the place that is tried, as text */
+  char host[XRCE_DISCOVERY_HOST]; /* the current locator, as text */
 } xrce_discovery_t;
 
-/* Carries the search of a session on; returns whether the session has a place to connect to. Never blocks. */
+/*
+ * Advances the discovery of a session; returns whether the session has an address to connect to. Never
+ * blocks. */
 bool xrce_discovery_step(xrce_client_t * client, uint32_t now);
 
-/* Asks when that is due and takes what was answered. Returns whether there is a place that was not tried. `client` lends its
- * input for the call, where that is free; `discovery` need not be its. */
+/* Sends the request when it is due and processes answers. Returns whether an untried locator exists. Uses
+ * the input buffer of `client` during the call, if that is free; `discovery` need not belong to the
+ * client. */
 bool xrce_discovery_search(xrce_client_t * client, xrce_discovery_t * discovery, uint32_t now);
 
-/* Takes the next place: writes its address to `host` as text, and returns its port. There must be one. */
+/* Takes the next locator: writes its address to `host` as text, and returns its port. One must exist. */
 uint16_t xrce_discovery_take(xrce_discovery_t * discovery);
 
-/* Ends a search. */
+/* Ends a discovery and closes its socket. */
 void xrce_discovery_end(xrce_discovery_t * discovery);
 
 /* Writes GET_INFO into `message`, XRCE_DISCOVERY_QUESTION bytes. */
 void xrce_discovery_write_question(uint8_t * message);
 
-/* Adds the places that an INFO names, each once; first that whose address is the sender's. A message that was cut counts up
- * to where it was. */
+/* Adds the locators of an INFO, each once; the one with the sender's address first. A truncated message is
+ * used up to its end. */
 void xrce_discovery_on_info(
   xrce_discovery_t * discovery, const uint8_t * message, size_t size, const uint8_t * sender);
 

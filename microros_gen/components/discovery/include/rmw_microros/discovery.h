@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Agents that are searched for by multicast. Where microros.yaml names no agent (or `transport: {agent: discover}`), every
- * session does so by itself, also after a loss; then nothing has to be called.
+ * Agents found by multicast. If microros.yaml names no agent (or sets `transport: {agent: discover}`),
+ * every session searches by itself, also after a loss; no call is needed.
  */
 #ifndef MICROROS_RMW_MICROROS_DISCOVERY_H
 #define MICROROS_RMW_MICROROS_DISCOVERY_H
@@ -15,9 +15,9 @@ extern "C" {
 #endif
 
 /*
- * Writes address and port of the first agent that answers into the options, whether there is a session or not. Waits for
- * one at most MICROROS_CONNECT_TIMEOUT_MS.
- * RMW_RET_TIMEOUT: none did, and the options name no agent; RMW_RET_INVALID_ARGUMENT for NULL.
+ * Writes address and port of the first agent that answers into the options, with or without a session.
+ * Waits at most MICROROS_CONNECT_TIMEOUT_MS. RMW_RET_TIMEOUT if none answered and the options name no
+ * agent; RMW_RET_INVALID_ARGUMENT for NULL.
  */
 rmw_ret_t rmw_uros_discover_agent(rmw_init_options_t * rmw_options);
 

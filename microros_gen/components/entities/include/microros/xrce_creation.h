@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * CREATE and DELETE. One request is outstanding at a time; a place that is given back is deleted in the background. When
- * a request is due is decided in xrce_entities.c, on which stream it goes in xrce_creation_*.c, and how an object is
- * described in the component entities_binary, entities_xml or entities_reference.
+ * CREATE and DELETE. At most one request is outstanding; the objects of a released place are deleted in
+ * the background. xrce_entities.c decides when to send a request, xrce_creation_*.c on which stream; the
+ * components entities_binary, entities_xml and entities_reference describe objects.
  */
 #ifndef MICROROS_XRCE_CREATION_H
 #define MICROROS_XRCE_CREATION_H
@@ -20,65 +20,71 @@ extern "C" {
 #endif
 
 typedef struct xrce_entities_t {
-  uint32_t due_ms;   /* while xrce_entities_waits: when to go on */
-  uint32_t asked_ms; /* when the outstanding request was sent first */
+  uint32_t due_ms;   /* while xrce_entities_waits: time of the next action */
+  uint32_t asked_ms; /* when the outstanding request was first sent */
   uint16_t request;
-  uint16_t cursor;        /* the place that the request is about */
-  uint16_t refused_place; /* the last place that was refused, and why */
+  uint16_t cursor;        /* place of the outstanding request */
+  uint16_t refused_place; /* the last refused place, and its status */
   uint8_t refused_status;
-  uint8_t refusals; /* in a row */
+  uint8_t refusals; /* consecutive refusals */
   bool outstanding;
   bool deleting;
-  bool pending; /* something may have to be created or deleted */
-  bool resting; /* the agent refused the last request a moment ago */
+  bool pending; /* objects may have to be created or deleted */
+  bool resting; /* the agent has just refused a request */
 } xrce_entities_t;
 
-/* Whether due_ms counts: a request is out, or was refused. Else what is pending can go at once. */
+/*
+ * Returns whether due_ms is valid: a request is outstanding or was refused. Otherwise pending work can be
+ * sent at once. */
 static inline bool xrce_entities_waits(const xrce_entities_t * entities)
 {
   return entities->outstanding || entities->resting;
 }
 
-/* What xrce_routes.c calls. */
+/* Called by xrce_routes.c. */
 void xrce_entities_renew(xrce_client_t * client);
 void xrce_entities_step(xrce_client_t * client, uint32_t now);
 void xrce_entities_on_status(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
-/* Whether every wanted entity is at the agent. */
+/* Returns whether the agent holds every wanted entity. */
 bool xrce_entities_settled(const xrce_client_t * client);
 
 /* Returns the endpoint of a place. */
 const xrce_endpoint_t * xrce_entities_endpoint(const xrce_client_t * client, uint16_t place);
 
 /*
- * The stream, as one of xrce_creation_*.c has it. Whether a new request may go now; without one, nothing is taken.
+ * Stream of the requests, implemented by one of xrce_creation_*.c. Returns whether a new request can be
+ * sent now; if not, nothing changes.
  */
 bool xrce_creation_begin(xrce_client_t * client, uint32_t now);
 
-/* Returns room for the one submessage of a request. */
+/* Returns the buffer for the one submessage of a request. */
 uint8_t * xrce_creation_room(xrce_client_t * client);
 
-/* Sends the room's first `size` bytes. Until the STATUS comes the request is sent again, with the same bytes. */
+/*
+ * Sends the first `size` bytes of the buffer. Until STATUS arrives, the request is repeated with the same
+ * bytes. */
 void xrce_creation_send(xrce_client_t * client, size_t size);
 
-/* The STATUS of the request came. */
+/* Called when the STATUS of the request arrived. */
 void xrce_creation_end(xrce_client_t * client);
 
-/* Ways to describe an object (OMG DDS-XRCE 1.0, 7.7.3). */
+/* Representations of an object (OMG DDS-XRCE 1.0, 7.7.3). */
 enum { XRCE_FORMAT_REFERENCE = 0x01, XRCE_FORMAT_XML = 0x02, XRCE_FORMAT_BINARY = 0x03 };
 
 /*
- * Describes the place's object of this kind, as the selected component does: writes the bytes to `blob`, their format to
- * *format, and returns their end. There is room, since the plan knows the longest.
+ * Describes the object of this kind at a place in the representation of the selected component: writes the
+ * bytes to `blob`, their format to *format, and returns their end. The plan guarantees room for the
+ * longest description.
  */
 uint8_t * xrce_describe(
   const xrce_client_t * client, uint16_t place, uint8_t kind, uint8_t * blob, uint8_t * format);
 
-/* The same for a replier or requester, of the same component; where none is selected there is none. */
+/* Same for a replier or requester; empty if the component `services` is not selected. */
 uint8_t * xrce_describe_service(
   const xrce_client_t * client, uint16_t place, uint8_t * blob, uint8_t * format);
 
-/* Copies the characters of `text` and returns their end. */
+/* Copies the characters of `text` without the terminator; returns their end. */
 uint8_t * xrce_describe_text(uint8_t * at, const char * text);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the session calls of this component, in the functions that component.yaml names. Internal. */
+/* Hooks called by the session, as declared in component.yaml. Internal. */
 #ifndef MICROROS_XRCE_ENTITIES_HOOKS_H
 #define MICROROS_XRCE_ENTITIES_HOOKS_H
 
@@ -10,13 +10,13 @@
 extern "C" {
 #endif
 
-/* Returns whether the reliable stream is free for what the application writes: no CREATE or DELETE has it. */
+/* Returns whether the application may write to the reliable stream: no CREATE or DELETE occupies it. */
 static inline bool xrce_entities_leave_stream(const xrce_client_t * client)
 {
   return !client->entities.outstanding;
 }
 
-/* Returns how long the client can be left alone: `left`, or until a request is due. */
+/* Returns the time until a request is due, at most `left`. */
 static inline uint32_t xrce_entities_left(const xrce_client_t * client, uint32_t left, uint32_t now)
 {
   if (!client->entities.pending) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Guard conditions, for who waits; internal. */
+/* Guard conditions, for waiting functions; internal. */
 #ifndef MICROROS_RCL_GUARD_CONDITION_INTERNAL_H
 #define MICROROS_RCL_GUARD_CONDITION_INTERNAL_H
 
@@ -12,7 +12,9 @@
 extern "C" {
 #endif
 
-/* Triggers that came and those that were seen: one is written by who triggers, the other by who waits. */
+/*
+ * Counters of triggers and of seen triggers: the triggering context writes only the first, the waiting
+ * task only the second. */
 struct rcl_guard_condition_impl_s {
   volatile uint32_t came;
   uint32_t seen;
@@ -21,7 +23,7 @@ struct rcl_guard_condition_impl_s {
 
 bool rcl_guard_condition_is_valid(const rcl_guard_condition_t * guard_condition);
 
-/* Of a valid one: whether it was triggered since it was seen. */
+/* Returns whether a valid guard condition was triggered since it was last seen. */
 bool rcl_guard_condition_is_ready(const rcl_guard_condition_t * guard_condition);
 
 void rcl_guard_condition_see(const rcl_guard_condition_t * guard_condition);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Waiting, for whoever looks at entities until one is ready: begin; then receive, look, and rest, until it is over.
+ * Waiting until one of several entities is ready: begin; then receive, look and rest, until it is over.
  * Internal.
  */
 #ifndef MICROROS_RCL_WAITING_H
@@ -15,19 +15,21 @@ extern "C" {
 
 typedef struct rcl_waiting_t {
   uint32_t start_ms;
-  uint32_t timeout_ms; /* UINT32_MAX: it never ends by itself */
+  uint32_t timeout_ms; /* UINT32_MAX: no time-out */
 } rcl_waiting_t;
 
-/* `timeout_ns` negative: as long as it takes. Times are rounded up to milliseconds; 49 days and more are for ever. */
+/*
+ * Negative `timeout_ns`: no time-out. Times are rounded up to milliseconds; 49 days and more mean no
+ * time-out. */
 rcl_waiting_t rcl_waiting_begin(int64_t timeout_ns);
 
-/* Receives what has come. */
+/* Receives without waiting. */
 void rcl_waiting_receive(void);
 
-/* Whether the time is up. */
+/* Returns whether the time-out has expired. */
 bool rcl_waiting_is_over(const rcl_waiting_t * waiting);
 
-/* Rests, at most until the time is up, and at most `look_again_ns`. */
+/* Rests until the time-out at most, and for at most `look_again_ns`. */
 void rcl_waiting_rest(const rcl_waiting_t * waiting, int64_t look_again_ns);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What waits for the one client of this process; internal. */
+/* Pump and wait of this process's only client; internal. */
 #ifndef MICROROS_RMW_CLIENT_WAIT_H
 #define MICROROS_RMW_CLIENT_WAIT_H
 
@@ -9,10 +9,10 @@
 extern "C" {
 #endif
 
-/* Receives what has come and does what is due, without waiting. */
+/* Receives and does work that is due, without waiting. */
 void rmw_client_pump(void);
 
-/* Rests at most `timeout_ms`, as xrce_wait does. */
+/* Rests for at most `timeout_ms`, as xrce_wait does. */
 void rmw_client_wait(uint32_t timeout_ms);
 
 #ifdef __cplusplus

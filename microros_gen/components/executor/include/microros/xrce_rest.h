@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* How a call that waits for the agent rests between two pumps. In place of the file of the session. Internal. */
+/*
+ * How a call that waits for the agent rests between two pumps. Replaces the header of component `session`.
+ * Internal. */
 #ifndef MICROROS_XRCE_REST_H
 #define MICROROS_XRCE_REST_H
 
@@ -10,7 +12,7 @@
 extern "C" {
 #endif
 
-/* Rests until something arrives, for a millisecond at most. */
+/* Rests until data arrives, for at most a millisecond. */
 static inline void xrce_rest(const xrce_client_t * client)
 {
   const xrce_session_t * session = &client->session;

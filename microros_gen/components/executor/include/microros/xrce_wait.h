@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Resting while nothing is to be done. */
+/* Resting while no work is due. */
 #ifndef MICROROS_XRCE_WAIT_H
 #define MICROROS_XRCE_WAIT_H
 
@@ -12,9 +12,9 @@ extern "C" {
 #endif
 
 /*
- * Waits until something may have arrived, until port_wake, or for `timeout_ms`; never longer than until the session has
- * something to do. May come back early: pump the session and look. A custom transport does its waiting in that pump, with
- * its read function, in steps of XRCE_WAIT_CUSTOM_MS at most.
+ * Waits until data may have arrived, until port_wake, or for `timeout_ms`; never longer than until the
+ * session has work to do. May return early: pump the session and look again. A custom transport waits in
+ * its read function during that pump, in steps of at most XRCE_WAIT_CUSTOM_MS.
  */
 void xrce_wait(xrce_client_t * client, uint32_t timeout_ms);
 

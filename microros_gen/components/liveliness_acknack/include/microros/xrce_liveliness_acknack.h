@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A session is lost when reliable data stays unacknowledged: nothing is sent for it. */
+/* Detects a lost session by unacknowledged reliable data; sends nothing by itself. */
 #ifndef MICROROS_XRCE_LIVELINESS_ACKNACK_H
 #define MICROROS_XRCE_LIVELINESS_ACKNACK_H
 
@@ -13,9 +13,9 @@ extern "C" {
 #endif
 
 typedef struct xrce_liveliness_acknack_t {
-  uint32_t since_ms; /* when the agent acknowledged last, or had nothing to acknowledge */
-  uint32_t heard_ms; /* of the session then */
-  uint16_t first;    /* the oldest unacknowledged message then */
+  uint32_t since_ms; /* time of the last acknowledgement, or when nothing was unacknowledged */
+  uint32_t heard_ms; /* value of the session at that time */
+  uint16_t first;    /* oldest unacknowledged message at that time */
 } xrce_liveliness_acknack_t;
 
 void xrce_liveliness_acknack_reset(xrce_liveliness_acknack_t * liveliness, uint32_t now);
@@ -23,7 +23,7 @@ void xrce_liveliness_acknack_reset(xrce_liveliness_acknack_t * liveliness, uint3
 /* Loses the session after MICROROS_LIVELINESS_WAIT_MS times MICROROS_LIVELINESS_ATTEMPTS. */
 void xrce_liveliness_acknack_step(xrce_client_t * client, uint32_t now);
 
-/* Returns when the session is lost if nothing is acknowledged until then. */
+/* Returns when the session is lost unless an acknowledgement arrives. */
 static inline uint32_t xrce_liveliness_acknack_due(const xrce_liveliness_acknack_t * liveliness)
 {
   return liveliness->since_ms + MICROROS_LIVELINESS_WAIT_MS * MICROROS_LIVELINESS_ATTEMPTS;

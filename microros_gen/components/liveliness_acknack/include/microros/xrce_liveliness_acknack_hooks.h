@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the session calls of this component, in the functions that component.yaml names. Internal. */
+/* Hooks called by the session, as declared in component.yaml. Internal. */
 #ifndef MICROROS_XRCE_LIVELINESS_ACKNACK_HOOKS_H
 #define MICROROS_XRCE_LIVELINESS_ACKNACK_HOOKS_H
 
@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/* Returns how long the client can be left alone: `left`, or until the session is lost for want of an acknowledgement. */
+/* Returns the time until the session is lost without an acknowledgement, at most `left`. */
 static inline uint32_t xrce_liveliness_acknack_left(const xrce_client_t * client, uint32_t left, uint32_t now)
 {
   if (xrce_stream_reliable_is_idle(&client->reliable)) {

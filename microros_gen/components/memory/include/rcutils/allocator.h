@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Allocators. No function of this library calls one of its own accord; those whose contract is to return
- * memory use the one that they are given, or the default. The default is a static arena of `memory.arena`
- * bytes: with 0 it has nothing to give, and the error text names that key.
+ * Allocators. The library never allocates on its own initiative; functions that return memory use the
+ * allocator that they are given, or the default. The default is a static arena of `memory.arena` bytes:
+ * with 0 every allocation fails, and the error text names that key.
  */
 #ifndef MICROROS_RCUTILS_ALLOCATOR_H
 #define MICROROS_RCUTILS_ALLOCATOR_H
@@ -28,16 +28,16 @@ typedef struct rcutils_allocator_s {
 
 rcutils_allocator_t rcutils_get_zero_initialized_allocator(void);
 
-/* Returns the arena, or what rcutils_set_default_allocator put in its place. */
+/* Returns the arena, or the allocator set by rcutils_set_default_allocator. */
 rcutils_allocator_t rcutils_get_default_allocator(void);
 
-/* Makes a copy of `allocator` the default; false when it is NULL or has a NULL function. Not thread-safe:
- * call it before anything else. */
+/* Makes a copy of `allocator` the default; false if it is NULL or has a NULL function. Not thread-safe:
+ * call it before all else. */
 bool rcutils_set_default_allocator(rcutils_allocator_t * allocator);
 
 bool rcutils_allocator_is_valid(const rcutils_allocator_t * allocator);
 
-/* Reallocates, and gives `pointer` back when that fails. */
+/* Reallocates; frees `pointer` if that fails. */
 void * rcutils_reallocf(void * pointer, size_t size, rcutils_allocator_t * allocator);
 
 #define RCUTILS_CHECK_ALLOCATOR(allocator, fail_statement) \

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Formatting, under the names of rcutils: the C library's, in the application that calls these; this library has no stdio.
- * Both write at most `buffer_size` bytes, the NUL included, and return how long the whole text is without it. NULL and 0 ask
- * for the length alone; NULL with another size, or no format, returns -1.
+ * Formatting under the names of rcutils, by the C library of the calling application; this library uses no
+ * stdio. Both write at most `buffer_size` bytes including the NUL, and return the length of the whole text
+ * without it. NULL and 0 return the length only; NULL with another size, or without a format, returns -1.
  */
 #ifndef MICROROS_RCUTILS_SNPRINTF_H
 #define MICROROS_RCUTILS_SNPRINTF_H

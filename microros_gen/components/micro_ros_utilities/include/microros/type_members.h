@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a message consists of, as constants: for functions that work on any type. microros/type_tables.h has them. */
+/*
+ * Structure of a message as constants, for functions that work on any type; defined in
+ * microros/type_tables.h. */
 #ifndef MICROROS_TYPE_MEMBERS_H
 #define MICROROS_TYPE_MEMBERS_H
 
@@ -12,7 +14,7 @@
 extern "C" {
 #endif
 
-/* The type of a value, or of each element. Numbers are those of rosidl_typesupport_introspection_c. */
+/* Type of a value, or of each element. Numbers are those of rosidl_typesupport_introspection_c. */
 typedef enum microros_member_type_t {
   MICROROS_MEMBER_FLOAT = 1,
   MICROROS_MEMBER_DOUBLE = 2,
@@ -44,10 +46,10 @@ struct microros_type_members_t;
 
 typedef struct microros_type_member_t {
   const char * name;
-  const struct microros_type_members_t * nested; /* of a message; NULL for any other type */
+  const struct microros_type_members_t * nested; /* type of a message; NULL for any other type */
   uint32_t offset;
   uint32_t count; /* elements of an array, bound of a bounded sequence, 1 of a value, 0 of a sequence */
-  uint32_t string_bound; /* of a string, or of each of them; 0: none */
+  uint32_t string_bound; /* of a string or of each string; 0: none */
   uint8_t type;          /* microros_member_type_t */
   uint8_t shape;         /* microros_member_shape_t */
 } microros_type_member_t;
@@ -55,20 +57,20 @@ typedef struct microros_type_member_t {
 typedef struct microros_type_members_t {
   const char * dds_type_name; /* "std_msgs::msg::dds_::Int32_" */
   const microros_type_member_t * members;
-  const microros_pool_t * pool; /* of sequences of this type, or NULL */
-  uint32_t size;                /* of the struct, bytes */
+  const microros_pool_t * pool; /* pool for sequences of this type, or NULL */
+  uint32_t size;                /* of the struct, in bytes */
   uint32_t count;
 } microros_type_members_t;
 
-/* What every string and sequence of a message begins with, and consists of; the tables assert it. It is copied from
- * and to its place, never pointed at: there it has another type. */
+/* Common layout of all strings and sequences, asserted by the tables. Values are copied from and to the
+ * message, never accessed by a pointer of this type: the object there has another type. */
 typedef struct microros_type_sequence_t {
   void * data;
   size_t size;
   size_t capacity;
 } microros_type_sequence_t;
 
-/* Whether `place` has that, with elements of `element` bytes. A constant expression. */
+/* Whether `place` has this layout, with elements of `element` bytes. A constant expression. */
 #define MICROROS_MEMBER_IS_SEQUENCE(place, element) \
   (sizeof(place) == sizeof(microros_type_sequence_t) && sizeof((place).data[0]) == (element))
 

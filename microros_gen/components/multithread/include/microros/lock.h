@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * One lock for what tasks share. Whoever the application calls takes it for the whole call and gives it back where
- * the call waits; so there is one microros_lock around each microros_pause. Functions that do not wait may take it again.
+ * One lock for everything that tasks share. Every public function takes it for its whole duration and
+ * releases it while it waits, so each microros_pause is inside exactly one microros_lock. Functions that
+ * do not wait may take it recursively.
  */
 #ifndef MICROROS_LOCK_H
 #define MICROROS_LOCK_H
@@ -22,10 +23,10 @@ static inline void microros_unlock(void)
   port_unlock();
 }
 
-/* Gives the lock back for a millisecond. */
+/* Releases the lock for a millisecond. */
 void microros_lock_rest(void);
 
-/* Waits a millisecond, in which other tasks may have the lock. */
+/* Sleeps one millisecond so that other tasks can take the lock. */
 static inline void microros_pause(void)
 {
   microros_lock_rest();

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Waking a task that waits for the transport (xrce_wait) when another one has given the session something to do. What
- * the session calls of this component, in the functions that component.yaml names. Internal.
+ * Wakes a task that waits for the transport (xrce_wait) after another task gave the session work. Hooks
+ * called by the session, as declared in component.yaml. Internal.
  */
 #ifndef MICROROS_XRCE_TASKS_H
 #define MICROROS_XRCE_TASKS_H
@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-/* What was received may be for a task that waits for the transport. */
+/* Received data may be for a task that waits for the transport. */
 static inline void xrce_tasks_wake(xrce_client_t * client)
 {
   if (client->seen != client->session.statistics.received) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the reliable output stream calls of this component, where both are selected. Internal. */
+/* Hook called by the reliable output stream if both are selected. Internal. */
 #ifndef MICROROS_XRCE_TASKS_OUTPUT_H
 #define MICROROS_XRCE_TASKS_OUTPUT_H
 
@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/* A message is about to be kept: whoever waits does not know that a HEARTBEAT may be due. */
+/* A message is about to be stored: a waiting task must learn that a HEARTBEAT may be due. */
 static inline void xrce_tasks_commit(const xrce_client_t * client, bool reliable)
 {
   if (reliable && client->waiting != 0u && xrce_stream_reliable_is_idle(&client->reliable)) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The name of a topic or service on its way down. In place of the file of the node. */
+/* Expansion of topic and service names passed by the application. Replaces the header of component `node`. */
 #ifndef MICROROS_RCL_NAMES_TAKE_H
 #define MICROROS_RCL_NAMES_TAKE_H
 
@@ -11,11 +11,11 @@ extern "C" {
 #endif
 
 typedef struct rcl_names_topic_t {
-  const char * name; /* valid, as rmw_name_of_topic takes it */
+  const char * name; /* valid; for rmw_name_of_topic */
   char full[RCL_NAMES_FULL_SIZE];
 } rcl_names_topic_t;
 
-/* Takes a name that the application passes; *taken has to stay where it is. */
+/* Expands a name passed by the application; *taken must stay at its address. */
 const char * rcl_names_take(rcl_names_topic_t * taken, const char * topic, const rmw_node_t * node);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The rules of ROS 2 for names. Each function returns NULL, or what is wrong, as a static text. */
+/* ROS 2's rules for names. Each function returns NULL, or the fault as a static text. */
 #ifndef MICROROS_RCL_NAMES_H
 #define MICROROS_RCL_NAMES_H
 
@@ -13,8 +13,8 @@ const char * rcl_names_check_node(const char * name);
 const char * rcl_names_check_namespace(const char * namespace_);
 const char * rcl_names_check_topic(const char * topic);
 
-/* The same, and that the name is not longer than ROS 2 has them: there in an application without `nodes:`, whose names are
- * not known before. */
+/* Same, including ROS 2's maximum length. Needed in an application without `nodes:`, whose names are not
+ * known at build time. */
 const char * rcl_names_check_node_size(const char * name);
 const char * rcl_names_check_namespace_size(const char * namespace_);
 const char * rcl_names_check_topic_size(const char * topic, const rmw_node_t * node);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The name of a topic or service on its way down. A component that substitutes brings another file of this name. */
+/* Topic and service names passed by the application. A component with substitutions replaces this header. */
 #ifndef MICROROS_RCL_NAMES_TAKE_H
 #define MICROROS_RCL_NAMES_TAKE_H
 
@@ -10,10 +10,10 @@ extern "C" {
 #endif
 
 typedef struct rcl_names_topic_t {
-  const char * name; /* valid, as rmw_name_of_topic takes it */
+  const char * name; /* valid; for rmw_name_of_topic */
 } rcl_names_topic_t;
 
-/* Takes a name that the application passes. */
+/* Stores a name passed by the application. */
 static inline const char * rcl_names_take(
   rcl_names_topic_t * taken, const char * topic, const rmw_node_t * node)
 {

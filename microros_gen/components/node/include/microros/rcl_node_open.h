@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What rclc and rcl share: a node without options. Internal; pointers are checked. */
+/* Shared by rclc and rcl: a node without options. Internal; pointers are already checked. */
 #ifndef MICROROS_RCL_NODE_OPEN_H
 #define MICROROS_RCL_NODE_OPEN_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Names in pieces: an expanded name is compared and copied without a buffer of its own. */
+/* Names in parts: an expanded name is compared and copied without a separate buffer. */
 #ifndef MICROROS_RMW_NAMES_H
 #define MICROROS_RMW_NAMES_H
 
@@ -11,18 +11,18 @@ extern "C" {
 #endif
 
 typedef struct rmw_name_t {
-  const char * piece[4]; /* one after the other; "" for none */
+  const char * piece[4]; /* concatenated; "" if unused */
 } rmw_name_t;
 
-/* A namespace with the slash in front that the caller may have left out. */
+/* Returns a namespace with a leading slash, which the caller may have omitted. */
 rmw_name_t rmw_name_of_namespace(const char * namespace_);
 
-/* A topic as the node sees it: "chatter" is /ns/chatter, "~/x" is /ns/node/x, "/x" stays. It is a valid one. */
+/* Resolves a valid topic name in a node: "chatter" is /ns/chatter, "~/x" is /ns/node/x, "/x" stays. */
 rmw_name_t rmw_name_of_topic(const char * topic, const char * node, const char * namespace_);
 
 bool rmw_name_equals(const rmw_name_t * name, const char * text);
 
-/* Returns the number of bytes without a NUL. */
+/* Returns the number of bytes without the NUL. */
 size_t rmw_name_size(const rmw_name_t * name);
 
 /* Writes the name and a NUL: rmw_name_size + 1 bytes. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Nodes. Each has a participant of its own at the agent. */
+/* Nodes. Each has its own participant at the agent. */
 #ifndef MICROROS_RCL_NODE_H
 #define MICROROS_RCL_NODE_H
 
@@ -23,22 +23,22 @@ typedef struct rmw_node_s rcl_node_impl_t;
 
 typedef struct rcl_node_s {
   rcl_context_t * context;
-  rcl_node_impl_t * impl; /* the library's; NULL: not initialized */
+  rcl_node_impl_t * impl; /* owned by the library; NULL: not initialized */
 } rcl_node_t;
 
 rcl_node_t rcl_get_zero_initialized_node(void);
 
 /*
  * Waits for the agent, at most MICROROS_CREATE_TIMEOUT_MS. With `nodes:` in the application file the node
- * must be declared there; else it takes one of `pools: {nodes: N}`. RCL_RET_NODE_INVALID_NAME and _NAMESPACE
- * for names that ROS 2 refuses, RCL_RET_ALREADY_INIT, RCL_RET_NOT_INIT, RCL_RET_TIMEOUT, else RCL_RET_ERROR
- * with a text.
+ * must be declared there; otherwise it uses one of `pools: {nodes: N}`. RCL_RET_NODE_INVALID_NAME and
+ * _NAMESPACE for names that ROS 2 refuses, RCL_RET_ALREADY_INIT, RCL_RET_NOT_INIT, RCL_RET_TIMEOUT,
+ * otherwise RCL_RET_ERROR with a text.
  */
 rcl_ret_t rcl_node_init(
   rcl_node_t * node, const char * name, const char * namespace_, rcl_context_t * context,
   const rcl_node_options_t * options);
 
-/* Frees the node's place at once, and those of its publishers; waits for the agent at most
+/* Frees the places of the node and its publishers at once; waits for the agent, at most
  * MICROROS_CLOSE_TIMEOUT_MS. */
 rcl_ret_t rcl_node_fini(rcl_node_t * node);
 
@@ -46,21 +46,22 @@ bool rcl_node_is_valid(const rcl_node_t * node);
 
 bool rcl_node_is_valid_except_context(const rcl_node_t * node);
 
-/* Names belong to the node; NULL for an invalid one. */
+/* The names belong to the node; NULL for an invalid node. */
 const char * rcl_node_get_name(const rcl_node_t * node);
 
 const char * rcl_node_get_namespace(const rcl_node_t * node);
 
-/* Returns the node's name: loggers of nodes without a namespace have that name in ROS 2 too. */
+/* Returns the node's name, which is also the logger name in ROS 2 for nodes without a namespace. */
 const char * rcl_node_get_logger_name(const rcl_node_t * node);
 
 rcl_ret_t rcl_node_get_domain_id(const rcl_node_t * node, size_t * domain_id);
 
 /*
- * Gives what a topic or service that the source calls so is called in ROS 2: expanded as rcl_expand_topic_name does, and
- * unless `only_expand` is set, renamed as `remap:` of the application file does for what the node declares. The result is
- * a string of `allocator`, which it goes back to. Codes as rcl_expand_topic_name, and RCL_RET_TOPIC_NAME_INVALID
- * (RCL_RET_SERVICE_NAME_INVALID with `is_service`) where the result is no name; RCL_RET_ERROR for an invalid node.
+ * Resolves a topic or service name of the source to its name in ROS 2: expands it as rcl_expand_topic_name
+ * does, and unless `only_expand` is set, applies `remap:` of the application file. The result is a string
+ * of `allocator`, which frees it. Codes of rcl_expand_topic_name, and RCL_RET_TOPIC_NAME_INVALID
+ * (RCL_RET_SERVICE_NAME_INVALID with `is_service`) for an invalid result; RCL_RET_ERROR for an invalid
+ * node.
  */
 rcl_ret_t rcl_node_resolve_name(
   const rcl_node_t * node, const char * input_topic_name, rcl_allocator_t allocator, bool is_service,

@@ -16,7 +16,7 @@ extern "C" {
 
 #define RCL_NODE_OPTIONS_DEFAULT_DOMAIN_ID RCL_DEFAULT_DOMAIN_ID
 
-/* Kept for sources that fill it in: arguments are not read, the allocator is not called. */
+/* For sources that fill it in: arguments are not read, the allocator is never called. */
 typedef struct rcl_node_options_s {
   rcl_allocator_t allocator;
   bool use_global_arguments;

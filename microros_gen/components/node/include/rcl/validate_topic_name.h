@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Whether a name of a topic or service is one, as a source writes it: relative, private (~/x), with substitutions. */
+/*
+ * Validation of topic and service names as a source writes them: relative, private (~/x), with
+ * substitutions. */
 #ifndef MICROROS_RCL_VALIDATE_TOPIC_NAME_H
 #define MICROROS_RCL_VALIDATE_TOPIC_NAME_H
 
@@ -24,15 +26,15 @@ extern "C" {
 #define RCL_TOPIC_NAME_INVALID_SUBSTITUTION_CONTAINS_UNALLOWED_CHARACTERS 8
 #define RCL_TOPIC_NAME_INVALID_SUBSTITUTION_STARTS_WITH_NUMBER 9
 
-/* Gives one of the above, and where the name is invalid, the place of the fault in it, unless `invalid_index` is NULL.
- * RCL_RET_INVALID_ARGUMENT. */
+/* Sets one of the above, and for an invalid name the position of the fault, unless `invalid_index` is
+ * NULL. RCL_RET_INVALID_ARGUMENT. */
 rcl_ret_t rcl_validate_topic_name(const char * topic_name, int * validation_result, size_t * invalid_index);
 
-/* The same for the first `topic_name_length` bytes. */
+/* Same for the first `topic_name_length` bytes. */
 rcl_ret_t rcl_validate_topic_name_with_size(
   const char * topic_name, size_t topic_name_length, int * validation_result, size_t * invalid_index);
 
-/* Returns a result in words; NULL for RCL_TOPIC_NAME_VALID. */
+/* Returns a description of the result; NULL for RCL_TOPIC_NAME_VALID. */
 const char * rcl_topic_name_validation_result_string(int validation_result);
 
 #ifdef __cplusplus

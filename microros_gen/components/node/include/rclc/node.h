@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Nodes, the short way; codes and waiting are those of rcl_node_init. */
+/* Nodes with default options; codes and waiting as for rcl_node_init. */
 #ifndef MICROROS_RCLC_NODE_H
 #define MICROROS_RCLC_NODE_H
 

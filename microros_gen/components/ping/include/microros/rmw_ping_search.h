@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Whether an agent without an address is searched for: no, the plan has one. A component that searches brings another file
- * of this name. Internal. */
+/* Discovery of an agent without an address: not needed, the plan has one. A component with discovery
+ * replaces this header. Internal. */
 #ifndef MICROROS_RMW_PING_SEARCH_H
 #define MICROROS_RMW_PING_SEARCH_H
 
@@ -20,7 +20,7 @@ static inline bool rmw_ping_searches(const rmw_uxrce_transport_params_t * params
   return false;
 }
 
-/* Searches for at most `timeout_ms`: whoever is found has answered. */
+/* Searches for at most `timeout_ms`; an agent that is found has also answered the ping. */
 static inline rmw_ret_t rmw_ping_search(const rmw_uxrce_transport_params_t * params, uint32_t timeout_ms)
 {
   (void)params;

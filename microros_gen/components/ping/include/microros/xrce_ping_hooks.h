@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the session calls of this component, in the functions that component.yaml names. Internal. */
+/* Hooks called by the session, as declared in component.yaml. Internal. */
 #ifndef MICROROS_XRCE_PING_HOOKS_H
 #define MICROROS_XRCE_PING_HOOKS_H
 
@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/* Returns how long the client can be left alone: `left`, or until the agent is to be asked. */
+/* Returns the time until a request is due, at most `left`. */
 static inline uint32_t xrce_ping_left(const xrce_client_t * client, uint32_t left, uint32_t now)
 {
   return xrce_sooner(
@@ -20,7 +20,7 @@ static inline uint32_t xrce_ping_left(const xrce_client_t * client, uint32_t lef
     now);
 }
 
-/* The device has slept: the agent is asked in the first pump. */
+/* After a sleep of the device the first pump sends a request. */
 static inline void xrce_ping_wake(xrce_client_t * client, uint32_t now)
 {
   client->session.heard_ms = now - MICROROS_LIVELINESS_PERIOD_MS;

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What rclc and rcl share: a publisher from its QoS. Internal; pointers are checked, except for `qos`. */
+/*
+ * Shared by rclc and rcl: opens a publisher with a QoS. Internal; pointers except `qos` are already
+ * checked. */
 #ifndef MICROROS_RCL_PUBLISHER_OPEN_H
 #define MICROROS_RCL_PUBLISHER_OPEN_H
 

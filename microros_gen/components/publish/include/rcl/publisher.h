@@ -20,7 +20,7 @@ extern "C" {
 typedef struct rmw_publisher_s rcl_publisher_impl_t;
 
 typedef struct rcl_publisher_s {
-  rcl_publisher_impl_t * impl; /* the library's; NULL: not initialized */
+  rcl_publisher_impl_t * impl; /* owned by the library; NULL: not initialized */
 } rcl_publisher_t;
 
 typedef struct rcl_publisher_options_s {
@@ -34,51 +34,53 @@ rcl_publisher_t rcl_get_zero_initialized_publisher(void);
 
 /*
  * Waits for the agent, at most MICROROS_CREATE_TIMEOUT_MS. With `nodes:` in the application file the
- * publisher must be declared there; else it takes one of `pools: {publishers: N}`. RCL_RET_TOPIC_NAME_INVALID
- * for a name that ROS 2 refuses, and without the component `name_substitutions` for one with {node} or {ns};
- * RCL_RET_UNSUPPORTED for a QoS that XRCE cannot carry, RCL_RET_TIMEOUT, else
- * RCL_RET_ERROR with a text.
+ * publisher must be declared there; otherwise it uses one of `pools: {publishers: N}`.
+ * RCL_RET_TOPIC_NAME_INVALID for a name that ROS 2 refuses, and without the component `name_substitutions`
+ * for one with {node} or {ns}; RCL_RET_UNSUPPORTED for a QoS that XRCE cannot carry, RCL_RET_TIMEOUT,
+ * otherwise RCL_RET_ERROR with a text.
  */
 rcl_ret_t rcl_publisher_init(
   rcl_publisher_t * publisher, const rcl_node_t * node, const rosidl_message_type_support_t * type_support,
   const char * topic_name, const rcl_publisher_options_t * options);
 
-/* Frees the publisher's place at once; waits for the agent at most MICROROS_CLOSE_TIMEOUT_MS. */
+/* Frees the publisher's place at once; waits for the agent, at most MICROROS_CLOSE_TIMEOUT_MS. */
 rcl_ret_t rcl_publisher_fini(rcl_publisher_t * publisher, rcl_node_t * node);
 
-/* rmw_qos_profile_default */
+/* Returns options with rmw_qos_profile_default. */
 rcl_publisher_options_t rcl_publisher_get_default_options(void);
 
 /*
- * Encodes into the stream, carries the session on and does not wait, unless `on_full` is block (then at most
- * MICROROS_ON_FULL_BLOCK_MS). RCL_RET_OK: the stream has taken it. RCL_RET_ERROR: a field above the limit that this
- * publisher has in the application file, no room, or no session; the text says which, and `dropped` of
- * rmw_uros_get_statistics counts the last two.
- * Of a reliable message that is larger than MICROROS_MTU at most 16 fragments go at once, the others in later calls:
- * rcl_publish, rmw_uros_spin_once, rmw_uros_flush.
+ * Encodes into the stream and runs the session. Does not wait, unless `on_full` is block (then at most
+ * MICROROS_ON_FULL_BLOCK_MS). RCL_RET_OK: the stream has accepted the message. RCL_RET_ERROR: a field
+ * exceeds the limit of this publisher in the application file, no room, or no session; the text says
+ * which, and `dropped` of rmw_uros_get_statistics counts the last two. Of a reliable message larger than
+ * MICROROS_MTU at most 16 fragments are sent at once, the others in later calls: rcl_publish,
+ * rmw_uros_spin_once, rmw_uros_flush.
  */
 rcl_ret_t rcl_publish(
   const rcl_publisher_t * publisher, const void * ros_message, rmw_publisher_allocation_t * allocation);
 
-/* As rcl_publish, for little endian CDR with its four bytes of encapsulation. */
+/* As rcl_publish, for little endian CDR including its four bytes of encapsulation. */
 rcl_ret_t rcl_publish_serialized_message(
   const rcl_publisher_t * publisher, const rcl_serialized_message_t * serialized_message,
   rmw_publisher_allocation_t * allocation);
 
-/* Waits until the agent has acknowledged every reliable message; `timeout` is nanoseconds, negative: as long
- * as it takes. RCL_RET_TIMEOUT otherwise. */
+/* Waits until the agent has acknowledged every reliable message; `timeout` is in nanoseconds, negative: no
+ * time-out. RCL_RET_TIMEOUT otherwise. */
 rcl_ret_t rcl_publisher_wait_for_all_acked(const rcl_publisher_t * publisher, rcl_duration_value_t timeout);
 
-/* Succeeds and sends nothing: liveliness is automatic, the only kind that XRCE has a place for. */
+/* Succeeds and sends nothing: liveliness is automatic, the only kind that XRCE supports. */
 rcl_ret_t rcl_publisher_assert_liveliness(const rcl_publisher_t * publisher);
 
-/* Returns the fully qualified name, which belongs to the publisher; NULL for an invalid one. */
+/* Returns the fully qualified name, which belongs to the publisher; NULL for an invalid publisher. */
 const char * rcl_publisher_get_topic_name(const rcl_publisher_t * publisher);
 
-/* Returns what the agent was asked for, each default as what it means; NULL for an invalid one. Belongs to the publisher. */
+/*
+ * Returns the QoS requested from the agent, with defaults resolved; NULL for an invalid publisher. Belongs
+ * to the publisher. */
 const rmw_qos_profile_t * rcl_publisher_get_actual_qos(const rcl_publisher_t * publisher);
 
-/* The same as options: the QoS is the actual one, the allocator the default one, since none is called. */
+/* Same as options: the QoS is the actual one, the allocator the default one, since none is called. */
 const rcl_publisher_options_t * rcl_publisher_get_options(const rcl_publisher_t * publisher);
 
 rmw_publisher_t * rcl_publisher_get_rmw_handle(const rcl_publisher_t * publisher);

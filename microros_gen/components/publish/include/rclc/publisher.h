@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Publishers, the short way; codes and waiting are those of rcl_publisher_init. */
+/* Publishers with common QoS; codes and waiting as for rcl_publisher_init. */
 #ifndef MICROROS_RCLC_PUBLISHER_H
 #define MICROROS_RCLC_PUBLISHER_H
 
@@ -11,12 +11,12 @@
 extern "C" {
 #endif
 
-/* Reliable, volatile, the last 10. */
+/* QoS: reliable, volatile, depth 10. */
 rcl_ret_t rclc_publisher_init_default(
   rcl_publisher_t * publisher, const rcl_node_t * node, const rosidl_message_type_support_t * type_support,
   const char * topic_name);
 
-/* Best effort, volatile, the last 5. */
+/* QoS: best effort, volatile, depth 5. */
 rcl_ret_t rclc_publisher_init_best_effort(
   rcl_publisher_t * publisher, const rcl_node_t * node, const rosidl_message_type_support_t * type_support,
   const char * topic_name);

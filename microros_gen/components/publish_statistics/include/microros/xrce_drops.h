@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Messages that were given up, counted for the session and for each publisher. Internal. */
+/* Dropped messages, counted for the session and for each publisher. Internal. */
 #ifndef MICROROS_XRCE_DROPS_H
 #define MICROROS_XRCE_DROPS_H
 
@@ -8,7 +8,7 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_place.h"
 
-/* Counts one of the endpoint of this index. */
+/* Counts one message of the endpoint `index`. */
 static inline void xrce_drops_add(xrce_client_t * client, uint16_t index)
 {
   ++client->session.statistics.dropped;
@@ -17,7 +17,7 @@ static inline void xrce_drops_add(xrce_client_t * client, uint16_t index)
   }
 }
 
-/* The publisher of this index has a new owner. */
+/* Called when the publisher `index` has a new owner. */
 static inline void xrce_drops_clear(xrce_client_t * client, uint16_t index)
 {
   if (!xrce_place_is_kept(client, (uint16_t)(MICROROS_NODES_MAX + index))) {

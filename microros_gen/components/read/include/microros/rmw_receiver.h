@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Endpoints that receive, for the middleware layer: their places, whatever kind they are. Internal. */
+/* Receiving endpoints of any kind for the middleware layer: opens and closes places. Internal. */
 #ifndef MICROROS_RMW_RECEIVER_H
 #define MICROROS_RMW_RECEIVER_H
 
@@ -15,37 +15,39 @@
 extern "C" {
 #endif
 
-/* One kind of endpoints: its places, the number of the first among all endpoints, and what is said of it. */
+/* One kind of endpoints: its places, the index of the first among all endpoints, and its error texts. */
 typedef struct rmw_section_t {
   uint16_t first;
   uint16_t count;
   microros_error_t undeclared; /* name, type */
-  microros_error_t taken;      /* name: it is open already */
-  microros_error_t full;       /* name, found: how many there are, fits: how many would do */
+  microros_error_t taken;      /* name: already open */
+  microros_error_t full;       /* name, found: number of places, fits: number that would suffice */
   const char * dds_type_name;  /* of the message, or of the service */
 } rmw_section_t;
 
 /*
- * Takes a place of the section for `wanted`, whose client, type, participant and QoS are filled in, and waits for its
- * objects. RMW_RET_OK: *endpoint is the place's; RMW_RET_TIMEOUT, RMW_RET_ERROR with a text otherwise. `name` is valid;
- * `given` is how the caller wrote it.
+ * Takes a place of the section for `wanted`, whose client, type, participant and QoS are filled in, and
+ * waits for its objects. RMW_RET_OK: *endpoint is the place's; otherwise RMW_RET_TIMEOUT or RMW_RET_ERROR
+ * with a text. `name` is valid; `given` is the name as passed by the caller.
  */
 rmw_ret_t rmw_receiver_open(
   xrce_endpoint_t * wanted, const rmw_section_t * section, const rmw_name_t * name, const char * given,
   xrce_endpoint_t ** endpoint);
 
-/* The second half of it: `wanted` has a place already. */
+/* Second half of rmw_receiver_open: `wanted` already has a place. */
 rmw_ret_t rmw_receiver_start(const xrce_endpoint_t * wanted);
 
-/* Gives the place back. */
+/* Releases the place. */
 void rmw_receiver_close(const xrce_endpoint_t * endpoint);
 
 bool rmw_receiver_is_open(const xrce_endpoint_t * endpoint);
 
-/* Whether there is something to tell about samples that cannot be had; true, once for each: the text is set. */
+/* Returns whether samples were lost without a report; true once per loss, with the text set. */
 bool rmw_receiver_report(const xrce_endpoint_t * endpoint);
 
-/* One of rmw_receiver_*.c: finds a free place and fills name and index in; false, with a text: there is none. */
+/*
+ * Implemented by one of rmw_receiver_*.c: finds a free place and fills in name and index. Returns false,
+ * with a text, if no place is free. */
 bool rmw_receiver_take(
   xrce_endpoint_t * wanted, const rmw_section_t * section, const rmw_name_t * name, const char * given);
 

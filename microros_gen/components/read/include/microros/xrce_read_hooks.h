@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the session calls of this component, in the functions that component.yaml names. Internal. */
+/* Hooks called by the session, as declared in component.yaml. Internal. */
 #ifndef MICROROS_XRCE_READ_HOOKS_H
 #define MICROROS_XRCE_READ_HOOKS_H
 
@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/* Returns how long the client can be left alone: `left`, or until a READ_DATA is due. */
+/* Returns the time until a READ_DATA is due, at most `left`. */
 static inline uint32_t xrce_read_left(const xrce_client_t * client, uint32_t left, uint32_t now)
 {
   uint32_t least = left;

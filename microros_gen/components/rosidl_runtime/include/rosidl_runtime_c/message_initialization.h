@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* How a message is initialized; the C++ generator of ROS 2 takes it, kept for sources that name it. */
+/* Mode of initialization of a message, used by ROS 2's C++ generator; for sources that mention it. */
 #ifndef MICROROS_ROSIDL_RUNTIME_C_MESSAGE_INITIALIZATION_H
 #define MICROROS_ROSIDL_RUNTIME_C_MESSAGE_INITIALIZATION_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Sequences of primitive types: a pointer to the elements, how many there are, how many fit. */
+/* Sequences of primitive types: pointer to the elements, their number, and the capacity. */
 #ifndef MICROROS_ROSIDL_RUNTIME_C_PRIMITIVES_SEQUENCE_H
 #define MICROROS_ROSIDL_RUNTIME_C_PRIMITIVES_SEQUENCE_H
 

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Functions on sequences of primitive types. `init` takes a block for `size` zeroed elements from the storage that the
- * build plans for messages which are sent (`memory.messages` of each declared sender, under its `limits`), or memory of
- * the allocator that rcutils_set_default_allocator set; what the sequence held before is forgotten. The sequence owns it
- * until `fini`, which leaves a buffer of the application's alone; `copy` keeps an output with room enough. False: an
- * argument is NULL, `size` is above every limit of such a sequence, or all blocks are taken (rcl_get_error_string has
- * the reason, rmw_uros_get_refused_memory counts); nothing is held then.
+ * Functions on sequences of primitive types. `init` takes a block for `size` zeroed elements from the
+ * storage that the build plans for sent messages (`memory.messages` of each declared sender, within its
+ * `limits`), or from the allocator set by rcutils_set_default_allocator; previous contents are overwritten
+ * without being freed. The sequence owns the block until `fini`, which ignores a buffer of the
+ * application; `copy` reuses an output with enough room. False: an argument is NULL, `size` exceeds every
+ * limit of such a sequence, or all blocks are in use (rcl_get_error_string has the reason,
+ * rmw_uros_get_refused_memory counts); the sequence is then empty.
  */
 #ifndef MICROROS_ROSIDL_RUNTIME_C_PRIMITIVES_SEQUENCE_FUNCTIONS_H
 #define MICROROS_ROSIDL_RUNTIME_C_PRIMITIVES_SEQUENCE_FUNCTIONS_H

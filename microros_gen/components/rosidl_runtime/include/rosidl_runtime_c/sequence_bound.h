@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The bounds that rmw_get_serialized_message_size takes; the limits of the plan stand in its place, so it is
- * opaque. */
+/* Bounds argument of rmw_get_serialized_message_size; opaque, since the limits of the plan apply instead. */
 #ifndef MICROROS_ROSIDL_RUNTIME_C_SEQUENCE_BOUND_H
 #define MICROROS_ROSIDL_RUNTIME_C_SEQUENCE_BOUND_H
 

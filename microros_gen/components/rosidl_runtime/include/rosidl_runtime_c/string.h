@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A string: `size` bytes without the terminating NUL, `capacity` bytes with it. */
+/* A string: `size` bytes without the terminating NUL, `capacity` bytes including it. */
 #ifndef MICROROS_ROSIDL_RUNTIME_C_STRING_H
 #define MICROROS_ROSIDL_RUNTIME_C_STRING_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A string of UTF-16 units: `size` units without the terminating zero, `capacity` units with it. */
+/* A string of UTF-16 units: `size` units without the terminating zero, `capacity` units including it. */
 #ifndef MICROROS_ROSIDL_RUNTIME_C_U16STRING_H
 #define MICROROS_ROSIDL_RUNTIME_C_U16STRING_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Functions on strings of UTF-16 units; memory and results are those of string_functions.h. */
+/* Functions on strings of UTF-16 units; memory and results as in string_functions.h. */
 #ifndef MICROROS_ROSIDL_RUNTIME_C_U16STRING_FUNCTIONS_H
 #define MICROROS_ROSIDL_RUNTIME_C_U16STRING_FUNCTIONS_H
 
@@ -28,7 +28,7 @@ bool rosidl_runtime_c__U16String__copy(
 bool rosidl_runtime_c__U16String__assignn(
   rosidl_runtime_c__U16String * str, const uint16_t * value, size_t n);
 
-/* Copies `n` units from memory that holds them as bytes, of whatever alignment. */
+/* Copies `n` units from memory that holds them as bytes of any alignment. */
 bool rosidl_runtime_c__U16String__assignn_from_char(
   rosidl_runtime_c__U16String * str, const char * value, size_t n);
 
@@ -37,7 +37,7 @@ bool rosidl_runtime_c__U16String__assign(rosidl_runtime_c__U16String * str, cons
 /* Returns the number of units before the terminating zero. */
 size_t rosidl_runtime_c__U16String__len(const uint16_t * value);
 
-/* Makes the string `n` units long; new units are zero. */
+/* Resizes the string to `n` units; new units are zero. */
 bool rosidl_runtime_c__U16String__resize(rosidl_runtime_c__U16String * str, size_t n);
 
 bool rosidl_runtime_c__U16String__Sequence__init(
@@ -51,7 +51,7 @@ bool rosidl_runtime_c__U16String__Sequence__are_equal(
 bool rosidl_runtime_c__U16String__Sequence__copy(
   const rosidl_runtime_c__U16String__Sequence * input, rosidl_runtime_c__U16String__Sequence * output);
 
-/* Returns `size` empty strings that rosidl_runtime_c__U16String__Sequence__destroy gives back, or NULL. */
+/* Returns `size` empty strings, freed by rosidl_runtime_c__U16String__Sequence__destroy, or NULL. */
 rosidl_runtime_c__U16String__Sequence * rosidl_runtime_c__U16String__Sequence__create(size_t size);
 
 void rosidl_runtime_c__U16String__Sequence__destroy(rosidl_runtime_c__U16String__Sequence * sequence);

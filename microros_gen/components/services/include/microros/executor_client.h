@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/* The callback gets each reply in `response_msg`, as a subscription its message. */
+/* The callback gets each reply in `response_msg`, as a subscription gets its message. */
 rcl_ret_t rclc_executor_add_client(
   rclc_executor_t * executor, rcl_client_t * client, void * response_msg, rclc_client_callback_t callback);
 

@@ -10,9 +10,9 @@
 extern "C" {
 #endif
 
-/* The callback fills `response_msg`, which is sent when it returns, also where it removed the service. A request waits until
- * the reliable stream has room for its reply, which is kept back while the callback runs: what it publishes never takes
- * the last slot. */
+/* The callback fills `response_msg`, which is sent when it returns, even if it removed the service. A
+ * request waits until the reliable stream has room for its reply. That slot is reserved while the callback
+ * runs: its own publishing never takes the last one. */
 rcl_ret_t rclc_executor_add_service(
   rclc_executor_t * executor, rcl_service_t * service, void * request_msg, void * response_msg,
   rclc_service_callback_t callback);

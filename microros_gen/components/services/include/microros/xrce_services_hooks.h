@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the session calls of this component, in the functions that component.yaml names. Internal. */
+/* Hooks called by the session, as declared in component.yaml. Internal. */
 #ifndef MICROROS_XRCE_SERVICES_HOOKS_H
 #define MICROROS_XRCE_SERVICES_HOOKS_H
 
@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* Whether the free slots of the reliable stream are kept back for replies. */
+/* Returns whether the free slots of the reliable stream are reserved for replies. */
 static inline bool xrce_services_keep_back(const xrce_client_t * client, bool reliable)
 {
   return reliable && (uint32_t)client->reliable.count + client->owed >= MICROROS_RELIABLE_SLOTS;

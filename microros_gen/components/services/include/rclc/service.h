@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Service servers with usual QoS. */
+/* Service servers with common QoS. */
 #ifndef MICROROS_RCLC_SERVICE_H
 #define MICROROS_RCLC_SERVICE_H
 
@@ -16,12 +16,14 @@ rcl_ret_t rclc_service_init_default(
   rcl_service_t * service, const rcl_node_t * node, const rosidl_service_type_support_t * type_support,
   const char * service_name);
 
-/* The same with best effort, which XRCE does not carry for services: they are reliable between here and the agent. */
+/*
+ * Same with best effort, which XRCE does not carry for services: they are reliable between client and
+ * agent. */
 rcl_ret_t rclc_service_init_best_effort(
   rcl_service_t * service, const rcl_node_t * node, const rosidl_service_type_support_t * type_support,
   const char * service_name);
 
-/* The same with a QoS of the caller's. */
+/* Same with the caller's QoS. */
 rcl_ret_t rclc_service_init(
   rcl_service_t * service, const rcl_node_t * node, const rosidl_service_type_support_t * type_support,
   const char * service_name, const rmw_qos_profile_t * qos_profile);

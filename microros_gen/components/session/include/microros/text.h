@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The few things that names need, without the C library's fast and large versions. */
+/* Text functions for names, smaller than those of the C library. */
 #ifndef MICROROS_TEXT_H
 #define MICROROS_TEXT_H
 

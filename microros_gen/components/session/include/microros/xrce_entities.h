@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The entities of the application, in whatever way the selection has: `entities` creates them at the agent and deletes
- * them, one request after the other and again after a lost session; with `entities_preconfigured` they are there.
+ * Entities of the application, as implemented by the selection: `entities` creates them at the agent and
+ * deletes them, one request at a time and again after a lost session; with `entities_preconfigured` the
+ * agent has already created them.
  */
 #ifndef MICROROS_XRCE_ENTITIES_H
 #define MICROROS_XRCE_ENTITIES_H
@@ -14,16 +15,16 @@
 extern "C" {
 #endif
 
-/* How waiting for a place ended; every other number is the status that the agent refused it with. */
+/* Result of waiting for a place; every other number is the status of the agent's refusal. */
 enum { XRCE_DONE = 0, XRCE_SILENT = 1 };
 
-/* The application opens a place: what it is to be is filled in. */
+/* Opens a place, which is filled in. */
 void xrce_entities_add(xrce_client_t * client, uint16_t place);
 
-/* The application closes a place; with a participant go its endpoints. */
+/* Closes a place; closing a participant also closes its endpoints. */
 void xrce_entities_remove(xrce_client_t * client, uint16_t place);
 
-/* Waits at most `timeout_ms` until the agent has what is wanted of this place, or has let it go. */
+/* Waits for at most `timeout_ms` until the agent has created or deleted all objects of this place. */
 uint8_t xrce_entities_await(xrce_client_t * client, uint16_t place, uint32_t timeout_ms);
 
 #ifdef __cplusplus

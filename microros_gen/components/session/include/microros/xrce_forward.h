@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The client (xrce_client.h), for headers that only point to it. */
+/* Forward declaration of the client (xrce_client.h) for headers that only use pointers to it. */
 #ifndef MICROROS_XRCE_FORWARD_H
 #define MICROROS_XRCE_FORWARD_H
 

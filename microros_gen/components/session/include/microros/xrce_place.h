@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What is at the agent from before the application opened it: nothing. A component that keeps a session brings another file
- * of this name. Internal.
+ * State at the agent from before the place was opened: none. A component that preserves a session replaces
+ * this header. Internal.
  */
 #ifndef MICROROS_XRCE_PLACE_H
 #define MICROROS_XRCE_PLACE_H
@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/* Whether the agent has a place, whose table is filled in, from before. */
+/* Returns whether the agent still has a place, whose table is filled in. */
 static inline bool xrce_place_is_kept(const xrce_client_t * client, uint16_t place)
 {
   (void)client;
@@ -20,7 +20,9 @@ static inline bool xrce_place_is_kept(const xrce_client_t * client, uint16_t pla
   return false;
 }
 
-/* The application opens a place, which is filled in. True: it is the one that was kept, and there is nothing to create. */
+/*
+ * Called when the application opens a place, which is filled in. True: the preserved one, nothing has to
+ * be created. */
 static inline bool xrce_place_take_up(xrce_client_t * client, uint16_t place)
 {
   (void)client;
@@ -28,7 +30,7 @@ static inline bool xrce_place_take_up(xrce_client_t * client, uint16_t place)
   return false;
 }
 
-/* Whether that was the answer for this place the last time that one was opened. */
+/* Returns the result of xrce_place_take_up for this place when it was last opened. */
 static inline bool xrce_place_took_up(const xrce_client_t * client, uint16_t place)
 {
   (void)client;
@@ -36,8 +38,8 @@ static inline bool xrce_place_took_up(const xrce_client_t * client, uint16_t pla
   return false;
 }
 
-/* Whether the client goes on from before instead of opening a session; then xrce_place_resume follows, once its transport
- * is prepared. `key` is that of the application, 0: as the plan says. */
+/* Returns whether the client resumes a session instead of opening one; xrce_place_resume follows once its
+ * transport is prepared. `key` is the application's, 0: that of the plan. */
 static inline bool xrce_place_goes_on(xrce_client_t * client, uint32_t key)
 {
   (void)client;

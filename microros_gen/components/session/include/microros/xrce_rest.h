@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* How a call that waits for the agent rests between two pumps. A component that can wait for the transport brings another file of this name. Internal. */
+/*
+ * How a call that waits for the agent rests between two pumps. A component that can wait for the transport
+ * replaces this header. Internal. */
 #ifndef MICROROS_XRCE_REST_H
 #define MICROROS_XRCE_REST_H
 
@@ -10,7 +12,7 @@
 extern "C" {
 #endif
 
-/* Rests for a millisecond; other tasks may go on meanwhile. */
+/* Rests for a millisecond; other tasks may run meanwhile. */
 static inline void xrce_rest(const xrce_client_t * client)
 {
   (void)client;

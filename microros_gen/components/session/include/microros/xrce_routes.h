@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/*
- * Where the ways part: generated for the selection, so that nothing that is not selected is called or linked.
- */
+/* Dispatch to the selected components: generated, so that nothing else is called or linked. */
 #ifndef MICROROS_XRCE_ROUTES_H
 #define MICROROS_XRCE_ROUTES_H
 
@@ -15,45 +13,44 @@
 extern "C" {
 #endif
 
-/* Hands a received message to its stream, which hands on its submessages when it is their turn. `size` is at least a
- * header's. False: it is not what it should be. */
+/* Passes a received message to its stream, which dispatches its submessages in order. `size` is at least a
+ * header. Returns false for a malformed message. */
 bool xrce_route_message(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now);
 
 /*
- * Hands a received submessage to the parts that understand it; one that nobody does is ignored. It begins at its header and
- * lies in the input during the call; `size` is that of its payload, `now` when the pump began. What component.yaml names
- * below `on:` has the same parameters.
+ * Passes a received submessage to its handlers; unknown ones are ignored. The submessage starts at its
+ * header and is in the input buffer during the call; `size` is that of its payload, `now` the start of the
+ * pump. Handlers in component.yaml below `on:` have the same parameters.
  */
 void xrce_route_submessage(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
-/* Lets every part do what is due. */
+/* Runs the periodic work of every component. */
 void xrce_route_step(xrce_client_t * client, uint32_t now);
 
-/* Starts every part again: the agent counts from 0 and may have nothing. */
+/* Resets every component for a new session: the agent counts from 0 and may have no objects. */
 void xrce_route_connected(xrce_client_t * client, uint32_t now);
 
-/* Takes leave of the agent, or, where the plan has no way to, lets what waits for the line leave it, for at most
- * client->close_timeout_ms; then closes. */
+/* Closes the session at the agent, or if the plan has no such message, waits until the line has sent
+ * everything, for at most client->close_timeout_ms; then closes the transport. */
 void xrce_route_close(xrce_client_t * client);
 
 /*
- * Returns room for one submessage in the stream, or NULL when it has none; a second call without
- * xrce_route_commit gives the same room. The room is what xrce_route_capacity says.
+ * Returns room for one submessage in the stream, or NULL if the stream is full; a second call without
+ * xrce_route_commit returns the same room. Its size is xrce_route_capacity.
  */
 uint8_t * xrce_route_reserve(xrce_client_t * client, bool reliable);
 
-/* Sends what was reserved, `size` bytes. False: a best-effort message that the transport did not take. */
+/* Sends `size` reserved bytes. Returns false if the transport refused a best-effort message. */
 bool xrce_route_commit(xrce_client_t * client, bool reliable, size_t size);
 
-/* Returns the largest message body that the stream takes, in bytes; 0 for a stream that the plan does not
- * have. */
+/* Returns the largest message body of the stream in bytes; 0 if the plan has no such stream. */
 size_t xrce_route_capacity(bool reliable);
 
-/* Forgets the oldest unacknowledged reliable message, and returns its submessage, to be read until the next one is
- * reserved; NULL: there is none. */
+/* Drops the oldest unacknowledged reliable message and returns its submessage, valid until the next
+ * reservation; NULL if there is no message. */
 const uint8_t * xrce_route_drop_oldest(xrce_client_t * client);
 
-/* Returns how many reliable messages the agent has not acknowledged. */
+/* Returns the number of unacknowledged reliable messages. */
 uint16_t xrce_route_unacknowledged(const xrce_client_t * client);
 
 /* Returns whether every wanted entity exists at the agent. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Bytes of DDS-XRCE 1.0 (OMG formal/2020-02-01) as the public agent speaks it. Numbers are little endian;
- * request ids, object ids and the client key are byte arrays, most significant byte first. Sessions are 0x81:
- * a message header has four bytes.
+ * Encoding of DDS-XRCE 1.0 (OMG formal/2020-02-01), compatible with the public agent. Numbers are little
+ * endian; request ids, object ids and the client key are byte arrays, most significant byte first. The
+ * session id is 0x81: a message header has four bytes.
  */
 #ifndef MICROROS_XRCE_WIRE_H
 #define MICROROS_XRCE_WIRE_H
@@ -28,7 +28,7 @@ enum {
   XRCE_STREAM_NONE = 0x00,
   XRCE_STREAM_BEST_EFFORT = 0x01,
   XRCE_STREAM_RELIABLE = 0x80,
-  XRCE_STREAM_READING = 0x81 /* reliable, for READ_DATA alone */
+  XRCE_STREAM_READING = 0x81 /* reliable, for READ_DATA only */
 };
 
 enum {
@@ -49,7 +49,7 @@ enum {
   XRCE_TIMESTAMP_REPLY = 0x0f
 };
 
-/* Payloads of these two. */
+/* Payload sizes of these two. */
 enum { XRCE_ACKNACK_SIZE = 5, XRCE_HEARTBEAT_SIZE = 5 };
 
 enum {
@@ -80,15 +80,15 @@ enum {
   XRCE_KIND_REPLIER = 0x08
 };
 
-/* In front of a request that comes (OMG DDS-XRCE 1.0, 7.7.14: SampleIdentity), and of a reply: the number and the object of
- * the request. */
+/* Before a received request (OMG DDS-XRCE 1.0, 7.7.14: SampleIdentity), and before a reply: the request's
+ * number and object. */
 enum { XRCE_IDENTITY_SIZE = 24, XRCE_RELATED_SIZE = 4 };
 
 enum { XRCE_OBJECT_AGENT = 0xfffd, XRCE_OBJECT_CLIENT = 0xfffe };
 
 enum { XRCE_QOS_RELIABLE = 0x01, XRCE_QOS_KEEP_LAST = 0x02, XRCE_QOS_TRANSIENT_LOCAL = 0x08 };
 
-/* Object ids follow from the place in the table: twelve bits of index, four of kind. */
+/* Object ids are computed from the index in the table: twelve bits of index, four of kind. */
 static inline uint16_t xrce_object_id(uint16_t index, uint8_t kind)
 {
   return (uint16_t)(((uint32_t)index << 4) | kind);
@@ -121,7 +121,7 @@ static inline uint16_t xrce_get_le16(const uint8_t * at)
   return (uint16_t)(((uint32_t)at[1] << 8) | at[0]);
 }
 
-/* Reads a number of a payload in the byte order that its submessage's flags give. */
+/* Reads a number of a payload in the byte order given by its submessage's flags. */
 static inline uint16_t xrce_get_u16(const uint8_t * at, uint8_t flags)
 {
   return (flags & XRCE_FLAG_LITTLE_ENDIAN) != 0u ? xrce_get_le16(at) : xrce_get_be16(at);
@@ -134,7 +134,7 @@ static inline void xrce_put_header(uint8_t * message, uint8_t session, uint8_t s
   xrce_put_le16(&message[2], sequence);
 }
 
-/* `size` is the payload's. */
+/* `size` is that of the payload. */
 static inline void xrce_put_submessage(uint8_t * at, uint8_t id, uint8_t flags, uint16_t size)
 {
   at[0] = id;
@@ -142,7 +142,7 @@ static inline void xrce_put_submessage(uint8_t * at, uint8_t id, uint8_t flags, 
   xrce_put_le16(&at[2], size);
 }
 
-/* Parts of a submessage that is received: it begins at its header, and its size is that of the payload alone. */
+/* Parts of a received submessage, which starts at its header; its size is that of the payload only. */
 static inline uint8_t xrce_flags_of(const uint8_t * submessage)
 {
   return submessage[1];
@@ -155,7 +155,7 @@ static inline const uint8_t * xrce_payload_of(const uint8_t * submessage)
 
 enum { XRCE_GET_INFO_SIZE = 16, XRCE_INFO_ACTIVITY = 2 };
 
-/* Writes a message that asks the agent whether it is there (XRCE_GET_INFO_SIZE bytes). */
+/* Writes a message with GET_INFO (XRCE_GET_INFO_SIZE bytes). */
 static inline void xrce_put_get_info(uint8_t * message, uint8_t session)
 {
   xrce_put_header(message, session, XRCE_STREAM_NONE, 0);
@@ -166,19 +166,21 @@ static inline void xrce_put_get_info(uint8_t * message, uint8_t session)
   xrce_put_le16(&message[14], 0);
 }
 
-/* Returns how many bytes of a message lie between two places in it; a message has less than 64 KiB. */
+/* Returns the distance between two addresses in a message, which is smaller than 64 KiB. */
 static inline uint16_t xrce_size_between(const uint8_t * begin, const uint8_t * end)
 {
   return (uint16_t)(end - begin);
 }
 
-/* Whether `deadline` is reached at `now`; both in milliseconds that start again at 0 after 2^32 - 1. */
+/* Returns whether `deadline` has passed at `now`; both in milliseconds that wrap to 0 after 2^32 - 1. */
 static inline bool xrce_is_due(uint32_t now, uint32_t deadline)
 {
   return now - deadline < 0x80000000u;
 }
 
-/* Returns the sooner of two: in `left` ms, or at `due`. What is overdue was tried in vain just now: it has a millisecond. */
+/*
+ * Returns the time until the earlier of `left` ms from now, or `due`. Overdue work has just been tried
+ * without success: it gets a millisecond. */
 static inline uint32_t xrce_sooner(uint32_t left, uint32_t due, uint32_t now)
 {
   const uint32_t until = xrce_is_due(now, due) ? 1u : due - now;

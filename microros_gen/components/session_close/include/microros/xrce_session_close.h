@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Taking leave of the agent: DELETE of the client, answered by STATUS. Both are on stream 0. */
+/* Closes the session at the agent: DELETE of the client, answered by STATUS. Both use stream 0. */
 #ifndef MICROROS_XRCE_SESSION_CLOSE_H
 #define MICROROS_XRCE_SESSION_CLOSE_H
 
@@ -12,8 +12,8 @@
 extern "C" {
 #endif
 
-/* Takes leave, repeated until the agent answers or `timeout_ms` are over (0: said once). Without a session it does
- * nothing. What is open stays: xrce_session_close follows. */
+/* Sends DELETE, repeatedly until the agent answers or `timeout_ms` has passed (0: once). Does nothing
+ * without a session. The local side stays open: call xrce_session_close next. */
 void xrce_session_leave(xrce_client_t * client, uint32_t timeout_ms);
 
 void xrce_session_leave_on_status(

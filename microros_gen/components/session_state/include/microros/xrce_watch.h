@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Who wants to know is told when the session's state changes. */
+/* Notifies a listener about changes of the session's state. */
 #ifndef MICROROS_XRCE_WATCH_H
 #define MICROROS_XRCE_WATCH_H
 
@@ -29,20 +29,20 @@ typedef enum xrce_watch_reason_t {
   XRCE_WATCH_REFUSED
 } xrce_watch_reason_t;
 
-/* All zero: closed, and nothing was told. */
+/* Zero-initialized: closed, nothing reported. */
 typedef struct xrce_watch_t {
   uint32_t losses;
-  uint8_t state;  /* xrce_watch_state_t, what was told last */
+  uint8_t state;  /* xrce_watch_state_t, last reported */
   uint8_t reason; /* xrce_watch_reason_t, of the last loss */
 } xrce_watch_t;
 
-/* Called when client->watch has changed, by whoever pumps the client. */
+/* Called after client->watch has changed, by the task that pumps the client. */
 typedef void (*xrce_watch_listener_t)(const xrce_client_t * client);
 
-/* Sets who is told from now on; NULL: nobody. It stays over sessions. */
+/* Sets the listener; NULL removes it. It persists across sessions. */
 void xrce_watch_set_listener(xrce_watch_listener_t listener);
 
-/* For xrce_routes.c: tells what has changed. */
+/* For xrce_routes.c: reports changes. */
 void xrce_watch_step(xrce_client_t * client);
 
 #ifdef __cplusplus

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the client knows of one of its places, also over a sleep. Internal. */
+/* State of a client's place, including over a sleep. Internal. */
 #ifndef MICROROS_XRCE_OBJECT_STATE_H
 #define MICROROS_XRCE_OBJECT_STATE_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/* `level` counts the objects that exist at the agent, in the order of their creation. */
+/* `level` is the number of objects that exist at the agent, in order of creation. */
 typedef struct xrce_object_state_t {
   uint8_t level;
-  bool wanted; /* the application has it open */
-  bool stale;  /* what is at the agent belongs to a former owner of this place: delete it first */
-  bool kept;   /* the agent has it from before a sleep, and the application has not opened it again */
+  bool wanted; /* the application has opened it */
+  bool stale;  /* objects at the agent belong to a former owner: delete them first */
+  bool kept;   /* created at the agent before a sleep, and not yet opened again by the application */
 } xrce_object_state_t;
 
-/* Whether the application can open a place. */
+/* Returns whether the application can open a place. */
 static inline bool xrce_place_is_free(const xrce_object_state_t * state)
 {
   return !state->wanted || state->kept;

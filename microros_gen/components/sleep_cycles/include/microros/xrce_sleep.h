@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A session that sleeps: its client's tables, streams and queues are copied to memory that stays, and back. What the
- * agent has is then not created again. Pointers are not taken over: a place is `kept` until the application opens it again
- * as what it was, and with it come its name and type. Meanwhile the place goes on receiving.
+ * A session that survives sleep: its client's tables, streams and queues are copied to retained memory and
+ * back, so that objects at the agent need not be created again. Pointers are not retained: a place is
+ * `kept` until the application opens it again with the same identity, which restores name and type.
+ * Meanwhile the place continues to receive.
  */
 #ifndef MICROROS_XRCE_SLEEP_H
 #define MICROROS_XRCE_SLEEP_H
@@ -18,43 +19,45 @@
 extern "C" {
 #endif
 
-/* All zero: the client has not slept. */
+/* Zero-initialized: the client has not slept. */
 typedef struct xrce_sleep_t {
-  uint32_t identity[XRCE_PLACES]; /* what each place was when the sleep began */
-  uint16_t local;                 /* where the agent has its answers sent to, as the transport says */
-  uint16_t taken;                 /* the place that was taken up last, plus 1 */
-  bool over;                      /* the client was taken from memory and is to go on */
+  uint32_t identity[XRCE_PLACES]; /* identity of each place at the start of the sleep */
+  uint16_t local;                 /* local address to which the agent sends, as reported by the transport */
+  uint16_t taken;                 /* the place that was last taken up, plus 1 */
+  bool over;                      /* the client was restored and will be resumed */
 } xrce_sleep_t;
 
-/* Whether the session can be kept as it is: it is ready, and nothing is being created or deleted. */
+/* Returns whether the session can be retained: it is ready, and no creation or deletion is in progress. */
 bool xrce_sleep_can_begin(const xrce_client_t * client);
 
-/* Makes the client ready to be copied; only xrce_session_close may follow on this one. */
+/* Prepares the client for the copy; only xrce_session_close may follow on it. */
 void xrce_sleep_begin(xrce_client_t * client);
 
-/* Whether the client was taken from memory and is the one with this key, or any where `key` is 0; true once. */
+/* Returns once true if the client was restored and has this key, or any key if `key` is 0. */
 bool xrce_sleep_is_over(xrce_client_t * client, uint32_t key);
 
-/* Goes on with the session, for which session.transport is prepared: without a word, but a question to the agent where
- * there is `ping`. A transport that does not open is a session that is lost. */
+/* Resumes the session, for which session.transport is prepared. Sends nothing, except for a ping if that
+ * component is selected. If the transport does not open, the session counts as lost. */
 void xrce_sleep_resume(xrce_client_t * client);
 
-/* Whether a place is kept and its table has it filled in as it was. */
+/* Returns whether a place is kept and its table is filled in as before. */
 bool xrce_sleep_keeps(const xrce_client_t * client, uint16_t place);
 
-/* The application opens a place, which is filled in. True: it is the one that was kept, and there is nothing to create. */
+/*
+ * Called when the application opens a place, which is filled in. True: the preserved one, nothing has to
+ * be created. */
 bool xrce_sleep_take_up(xrce_client_t * client, uint16_t place);
 
-/* Whether that was the answer for this place the last time that one was opened. */
+/* Returns the result of xrce_sleep_take_up for this place when it was last opened. */
 bool xrce_sleep_took_up(const xrce_client_t * client, uint16_t place);
 
-/* A session is new: what was kept for the one before is no more. */
+/* Called for a new session: discards everything kept from the previous one. */
 void xrce_sleep_forget(xrce_client_t * client);
 
-/* Returns CRC-32 (IEEE 802.3) of some more bytes; `before` is that of those before, 0 at first. */
+/* Returns the CRC-32 (IEEE 802.3) of `before` continued by these bytes; `before` is 0 for the first ones. */
 uint32_t xrce_sleep_check(uint32_t before, const uint8_t * bytes, size_t size);
 
-/* --- one of xrce_sleep_<transport>.c --- */
+/* --- implemented by one of xrce_sleep_<transport>.c --- */
 
 bool xrce_sleep_open(xrce_transport_t * transport, uint16_t local);
 uint16_t xrce_sleep_local(const xrce_transport_t * transport);

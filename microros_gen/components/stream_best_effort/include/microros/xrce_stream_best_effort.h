@@ -24,7 +24,7 @@ void xrce_stream_best_effort_reset(xrce_stream_best_effort_t * stream);
 /* Returns room for MICROROS_BEST_EFFORT_SIZE - XRCE_MESSAGE_HEADER bytes of submessages; never NULL. */
 uint8_t * xrce_stream_best_effort_reserve(xrce_stream_best_effort_t * stream);
 
-/* Sends `size` bytes of submessages. False: the transport did not take them, they are gone. */
+/* Sends `size` bytes of submessages. Returns false if the transport refused them; they are dropped. */
 bool xrce_stream_best_effort_commit(
   xrce_stream_best_effort_t * stream, xrce_session_t * session, size_t size);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the session calls of this component, in the functions that component.yaml names. Internal. */
+/* Hooks called by the session, as declared in component.yaml. Internal. */
 #ifndef MICROROS_XRCE_STREAM_BEST_EFFORT_INPUT_HOOKS_H
 #define MICROROS_XRCE_STREAM_BEST_EFFORT_INPUT_HOOKS_H
 
@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/* Whether a message has samples that are older than what was handed on. */
+/* Returns whether a message contains samples older than those already processed. */
 static inline bool xrce_stream_best_effort_input_is_old(
   xrce_client_t * client, const uint8_t * message, size_t size)
 {

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The reliable output stream: whole messages, encoded in place and kept until the agent acknowledges them, so that
- * sending again is only sending. Sequence numbers are modulo 2^16 and given when a message is sent first. While there
- * is no session the stream keeps what it holds; in the next session its messages are numbered anew and sent again.
+ * The reliable output stream: whole messages, encoded in place and stored until the agent acknowledges
+ * them, so that repetition only sends. Sequence numbers are modulo 2^16 and assigned when a message is
+ * first sent. Without a session the stream keeps its messages; in the next session they are renumbered and
+ * sent again.
  */
 #ifndef MICROROS_XRCE_STREAM_RELIABLE_H
 #define MICROROS_XRCE_STREAM_RELIABLE_H
@@ -20,47 +21,58 @@
 extern "C" {
 #endif
 
-/* Objects that a new session may have to create, each within its time. What is held goes out before all are there only because
- * of one that stays refused: an agent drops what comes before its writer. */
+/* Limit for holding messages back after a reconnection: the time to create all objects of a session. It
+ * only expires if an object stays refused; an agent drops messages that arrive before their writer exists. */
 #define XRCE_HELD_MS \
   ((MICROROS_NODES_MAX + 3u * (MICROROS_PUBLISHERS_MAX + MICROROS_SUBSCRIPTIONS_MAX) + \
     MICROROS_SERVICES_MAX + MICROROS_CLIENTS_MAX) * \
    MICROROS_CREATE_TIMEOUT_MS)
 
-/* Something was acknowledged, or the first message is sent: only what stays unacknowledged gets a HEARTBEAT. */
+/*
+ * Called for an acknowledgement or the first message: a HEARTBEAT is only needed for messages that stay
+ * unacknowledged. */
 static inline void xrce_stream_reliable_goes_on(xrce_stream_reliable_t * stream, uint32_t now)
 {
   stream->since_ms = now;
   stream->due_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;
 }
 
-/* Returns room for MICROROS_RELIABLE_SLOT_SIZE - MICROROS_RELIABLE_FRONT bytes of submessages; NULL: every slot is
- * taken. */
+/* Returns room for MICROROS_RELIABLE_SLOT_SIZE - MICROROS_RELIABLE_FRONT bytes of submessages; NULL if all
+ * slots are in use. */
 uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream, xrce_session_t * session);
 
-/* Takes `size` bytes of submessages; sends as much as the transport takes where there is a session that is not held. */
+/*
+ * Stores `size` bytes of submessages; sends as much as the transport accepts, unless there is no session
+ * or messages are held back. */
 void xrce_stream_reliable_commit(
   xrce_stream_reliable_t * stream, xrce_session_t * session, size_t size, uint32_t now);
 
-/* Forgets the oldest message, of which nothing may have been sent if it goes in pieces; else the agent is told at the next
- * step. Returns its submessages; NULL: there is none. They can be read until the next one is reserved. */
+/* Drops the oldest message; a fragmented one only if nothing of it was sent. Otherwise the next step
+ * informs the agent. Returns its submessages, valid until the next reservation; NULL if there is no
+ * message. */
 const uint8_t * xrce_stream_reliable_drop_oldest(
   xrce_stream_reliable_t * stream, const xrce_session_t * session, uint32_t now);
 
-/* A session is new: holds what is kept, to be numbered from 0, or from what `creation: reliable` has left. */
+/*
+ * Called for a new session: holds back stored messages, to be numbered from 0, or from the next number
+ * after those of `creation: reliable`. */
 void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now);
 
-/* Lets go of what is held once the entities are settled, sends what the transport takes, and a HEARTBEAT when one is due. */
+/*
+ * Releases held messages once the entities are settled, sends as much as the transport accepts, and a
+ * HEARTBEAT when it is due. */
 void xrce_stream_reliable_step(
   xrce_stream_reliable_t * stream, xrce_session_t * session, bool settled, uint32_t now);
 
-/* Frees what the agent acknowledges; what it misses is sent in the next step. False: the payload is malformed. */
+/*
+ * Frees acknowledged messages; missing ones are sent in the next step. Returns false for a malformed
+ * payload. */
 bool xrce_stream_reliable_on_acknack(
   xrce_stream_reliable_t * stream, xrce_session_t * session, const uint8_t * payload, size_t size,
   uint8_t flags, uint32_t now);
 
-/* For this component alone: tells the agent which numbers can be had, `count` (not 0) from stream->first on. The next time
- * is later the longer nothing was acknowledged. */
+/* For this component only: sends a HEARTBEAT with the available numbers, `count` (not 0) from
+ * stream->first on. Its interval grows while nothing is acknowledged. */
 void xrce_stream_reliable_heartbeat(
   xrce_stream_reliable_t * stream, xrce_session_t * session, uint16_t count, uint32_t now);
 

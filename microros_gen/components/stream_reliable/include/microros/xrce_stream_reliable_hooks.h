@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the session calls of this component, in the functions that component.yaml names. Internal. */
+/* Hooks called by the session, as declared in component.yaml. Internal. */
 #ifndef MICROROS_XRCE_STREAM_RELIABLE_HOOKS_H
 #define MICROROS_XRCE_STREAM_RELIABLE_HOOKS_H
 
@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/* Takes an ACKNACK. */
+/* Handles an ACKNACK. */
 static inline void xrce_stream_reliable_take_acknack(
   xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {
@@ -21,14 +21,14 @@ static inline void xrce_stream_reliable_take_acknack(
   }
 }
 
-/* Commits what was reserved; the stream takes it in any case. */
+/* Commits the reservation, which always succeeds. */
 static inline bool xrce_stream_reliable_put(xrce_client_t * client, size_t size)
 {
   xrce_stream_reliable_commit(&client->reliable, &client->session, size, client->session.now_ms);
   return true;
 }
 
-/* Returns how long the client can be left alone: `left`, or until the stream has something to send. */
+/* Returns the time until the stream has work to do, at most `left`. */
 static inline uint32_t xrce_stream_reliable_left(const xrce_client_t * client, uint32_t left, uint32_t now)
 {
   const xrce_stream_reliable_t * stream = &client->reliable;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the session calls of this component, in the functions that component.yaml names. Internal. */
+/* Hooks called by the session, as declared in component.yaml. Internal. */
 #ifndef MICROROS_XRCE_STREAM_RELIABLE_INPUT_HOOKS_H
 #define MICROROS_XRCE_STREAM_RELIABLE_INPUT_HOOKS_H
 
@@ -10,13 +10,13 @@
 extern "C" {
 #endif
 
-/* Whether a message is of this stream. */
+/* Returns whether a message belongs to this stream. */
 static inline bool xrce_stream_reliable_input_owns(const uint8_t * message)
 {
   return message[1] >= XRCE_STREAM_RELIABLE && message[0] == XRCE_SESSION_ID;
 }
 
-/* Takes a HEARTBEAT. */
+/* Handles a HEARTBEAT. */
 static inline void xrce_stream_reliable_input_take_heartbeat(
   xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {
@@ -27,7 +27,7 @@ static inline void xrce_stream_reliable_input_take_heartbeat(
   }
 }
 
-/* Takes a FRAGMENT where nothing that this client asks for is larger than its input. */
+/* Handles a FRAGMENT in a client whose requested samples all fit into its input buffer. */
 static inline void xrce_stream_reliable_input_refuse_piece(
   xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {

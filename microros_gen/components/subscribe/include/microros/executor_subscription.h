@@ -11,15 +11,15 @@ extern "C" {
 #endif
 
 /*
- * `msg` is the user's and decoded into; if none of its strings and sequences has a buffer, they get the storage of the
- * subscription's declaration. The callback has it until it returns. RCL_RET_INVALID_ARGUMENT for NULL, RCL_RET_ERROR when
- * all handles are in use.
+ * `msg` belongs to the user and receives the decoded samples; if none of its strings and sequences has a
+ * buffer, they get the storage of the subscription's declaration. The callback may use it until it
+ * returns. RCL_RET_INVALID_ARGUMENT for NULL, RCL_RET_ERROR if all handles are in use.
  */
 rcl_ret_t rclc_executor_add_subscription(
   rclc_executor_t * executor, rcl_subscription_t * subscription, void * msg,
   rclc_subscription_callback_t callback, rclc_executor_handle_invocation_t invocation);
 
-/* `context` goes to the callback and may be NULL. */
+/* `context` is passed to the callback and may be NULL. */
 rcl_ret_t rclc_executor_add_subscription_with_context(
   rclc_executor_t * executor, rcl_subscription_t * subscription, void * msg,
   rclc_subscription_callback_with_context_t callback, void * context,

@@ -14,44 +14,48 @@ extern "C" {
 #endif
 
 /*
- * Takes a subscription's place and waits for its objects. RMW_RET_OK: *subscription is set and belongs to the library;
- * RMW_RET_UNSUPPORTED, RMW_RET_TIMEOUT, RMW_RET_ERROR with a text otherwise. `topic` is valid and not expanded.
+ * Takes a place for a subscription and waits for its objects. RMW_RET_OK: *subscription is set and belongs
+ * to the library; otherwise RMW_RET_UNSUPPORTED, RMW_RET_TIMEOUT or RMW_RET_ERROR with a text. `topic` is
+ * valid and not expanded.
  */
 rmw_ret_t rmw_subscription_open(
   const rmw_node_t * node, const rosidl_message_type_support_t * type_support, const char * topic,
   const rmw_qos_profile_t * qos, rmw_subscription_t ** subscription);
 
-/* The same for the subscription of /clock, whose place no other takes; with the component `clock_ros`. */
+/* Same for the subscription to /clock, which has a reserved place; with the component `clock_ros`. */
 rmw_ret_t rmw_subscription_open_clock(
   const rmw_node_t * node, const rosidl_message_type_support_t * type_support, const char * topic,
   const rmw_qos_profile_t * qos, rmw_subscription_t ** subscription);
 
-/* Gives the place back. */
+/* Releases the place. */
 void rmw_subscription_close(rmw_subscription_t * subscription);
 
 bool rmw_subscription_is_open(const rmw_subscription_t * subscription);
 
-/* --- of an open subscription, without receiving: who waits for several has received before --- */
+/*
+ * --- for an open subscription, without receiving: a caller that waits for several has already received
+ * --- */
 
-/* Whether rmw_subscription_take has a sample, or an error to tell. */
+/* Returns whether rmw_subscription_take has a sample or an error to report. */
 bool rmw_subscription_is_ready(const rmw_subscription_t * subscription);
 
-/* Describes the oldest sample, before it is taken; all zero when there is none. */
+/* Describes the oldest sample before it is taken; all zero if the queue is empty. */
 void rmw_subscription_describe(const rmw_subscription_t * subscription, rmw_message_info_t * info);
 
-/* Decodes the oldest sample; *taken is false when there is none, and when the result is an error. */
+/* Decodes the oldest sample; *taken is false if the queue is empty, and on error. */
 rmw_ret_t rmw_subscription_take(const rmw_subscription_t * subscription, void * ros_message, bool * taken);
 
-/* The same as bytes. */
+/* Same, but returns the bytes. */
 rmw_ret_t rmw_subscription_take_serialized(
   const rmw_subscription_t * subscription, rmw_serialized_message_t * serialized_message, bool * taken);
 
-/* Receives what has come, for these. */
+/* Receives without waiting. */
 void rmw_subscription_pump(const rmw_subscription_t * subscription);
 
 /*
- * Binds a message of which no string and no sequence has a buffer to the storage that the subscription's declaration has.
- * A message with buffers stays as it is, and so does one of a subscription without a declaration.
+ * Binds a message without any buffer for strings and sequences to the storage of the subscription's
+ * declaration. A message with buffers stays unchanged, as does one of a subscription without a
+ * declaration.
  */
 void rmw_subscription_bind(const rmw_subscription_t * subscription, void * ros_message);
 

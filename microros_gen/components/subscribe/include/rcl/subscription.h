@@ -19,7 +19,7 @@ extern "C" {
 typedef struct rmw_subscription_s rcl_subscription_impl_t;
 
 typedef struct rcl_subscription_s {
-  rcl_subscription_impl_t * impl; /* the library's; NULL: not initialized */
+  rcl_subscription_impl_t * impl; /* owned by the library; NULL: not initialized */
 } rcl_subscription_t;
 
 typedef struct rcl_subscription_options_s {
@@ -32,50 +32,53 @@ typedef struct rcl_subscription_options_s {
 rcl_subscription_t rcl_get_zero_initialized_subscription(void);
 
 /*
- * Waits for the agent, at most MICROROS_CREATE_TIMEOUT_MS. With `nodes:` in the application file the subscription must
- * be declared there; else it takes one of `pools: {subscriptions: N}`. From then on samples are kept while any function
- * of the library runs, as many as `queue:` says; a subscription goes on by itself after a lost session.
- * RCL_RET_TOPIC_NAME_INVALID as rcl_publisher_init, RCL_RET_UNSUPPORTED for a QoS that XRCE cannot carry,
- * RCL_RET_TIMEOUT, else RCL_RET_ERROR with a text.
+ * Waits for the agent, at most MICROROS_CREATE_TIMEOUT_MS. With `nodes:` in the application file the
+ * subscription must be declared there; otherwise it uses one of `pools: {subscriptions: N}`. From then on
+ * any function of the library receives samples into the queue, up to `queue:`; a subscription continues
+ * automatically after a lost session. RCL_RET_TOPIC_NAME_INVALID as for rcl_publisher_init,
+ * RCL_RET_UNSUPPORTED for a QoS that XRCE cannot carry, RCL_RET_TIMEOUT, otherwise RCL_RET_ERROR with a
+ * text.
  */
 rcl_ret_t rcl_subscription_init(
   rcl_subscription_t * subscription, const rcl_node_t * node,
   const rosidl_message_type_support_t * type_support, const char * topic_name,
   const rcl_subscription_options_t * options);
 
-/* Frees the subscription's place at once, with what waits in its queue; waits for the agent at most
+/* Frees the subscription's place and its queue at once; waits for the agent, at most
  * MICROROS_CLOSE_TIMEOUT_MS. */
 rcl_ret_t rcl_subscription_fini(rcl_subscription_t * subscription, rcl_node_t * node);
 
-/* rmw_qos_profile_default */
+/* Returns options with rmw_qos_profile_default. */
 rcl_subscription_options_t rcl_subscription_get_default_options(void);
 
 rcl_ret_t rcl_subscription_options_fini(rcl_subscription_options_t * option);
 
 /*
- * Receives what has come, without waiting, and decodes the oldest sample into the storage that the message has: strings
- * and sequences need `data` and `capacity`. `message_info` may be NULL; `allocation` is not used.
- * RCL_RET_SUBSCRIPTION_TAKE_FAILED: there is none. RCL_RET_ERROR, with a text: a sample that is larger than the
- * subscription's limits, above a capacity of the message, or no message of this type was thrown away; or the agent
- * refuses to read. The next call goes on with the next sample.
+ * Receives without waiting, and decodes the oldest sample into the storage of the message: strings and
+ * sequences need `data` and `capacity`. `message_info` may be NULL; `allocation` is not used.
+ * RCL_RET_SUBSCRIPTION_TAKE_FAILED: no sample was received. RCL_RET_ERROR, with a text: a sample was
+ * discarded because it exceeds the subscription's limits or a capacity of the message, or is not of its
+ * type; or the agent refuses to read. The next call returns the next sample.
  */
 rcl_ret_t rcl_take(
   const rcl_subscription_t * subscription, void * ros_message, rmw_message_info_t * message_info,
   rmw_subscription_allocation_t * allocation);
 
-/* As rcl_take; gives the bytes, with four of encapsulation in front. A buffer that is too small is resized by its own
- * allocator, or RCL_RET_BAD_ALLOC, and the sample stays. */
+/* As rcl_take, but returns the bytes, including four bytes of encapsulation. A buffer that is too small is
+ * resized by its allocator; otherwise RCL_RET_BAD_ALLOC, and the sample stays. */
 rcl_ret_t rcl_take_serialized_message(
   const rcl_subscription_t * subscription, rcl_serialized_message_t * serialized_message,
   rmw_message_info_t * message_info, rmw_subscription_allocation_t * allocation);
 
-/* Returns the fully qualified name, which belongs to the subscription; NULL for an invalid one. */
+/* Returns the fully qualified name, which belongs to the subscription; NULL for an invalid subscription. */
 const char * rcl_subscription_get_topic_name(const rcl_subscription_t * subscription);
 
-/* Returns what the agent was asked for, each default as what it means; NULL for an invalid one. Belongs to the subscription. */
+/*
+ * Returns the QoS requested from the agent, with defaults resolved; NULL for an invalid subscription.
+ * Belongs to the subscription. */
 const rmw_qos_profile_t * rcl_subscription_get_actual_qos(const rcl_subscription_t * subscription);
 
-/* The same as options: the QoS is the actual one, the allocator the default one, since none is called. */
+/* Same as options: the QoS is the actual one, the allocator the default one, since none is called. */
 const rcl_subscription_options_t * rcl_subscription_get_options(const rcl_subscription_t * subscription);
 
 rmw_subscription_t * rcl_subscription_get_rmw_handle(const rcl_subscription_t * subscription);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What becomes of the samples of a subscription: an addition of this client to rmw_microros. */
+/* Statistics of a subscription: an addition of this client to rmw_microros. */
 #ifndef MICROROS_RMW_MICROROS_SUBSCRIPTION_H
 #define MICROROS_RMW_MICROROS_SUBSCRIPTION_H
 
@@ -12,11 +12,11 @@
 extern "C" {
 #endif
 
-/* Samples since the subscription was opened; each counter starts again at 0 after 2^32 - 1. `dropped` of
+/* Samples since the subscription was opened; each counter wraps to 0 after 2^32 - 1. `dropped` of
  * rmw_uros_get_statistics counts both, too. */
 typedef struct rmw_uros_subscription_statistics_t {
-  uint32_t dropped; /* the queue was full: of a best-effort subscription the oldest sample gave way */
-  uint32_t refused; /* larger than the limits, or not decoded */
+  uint32_t dropped; /* the queue was full: a best-effort subscription drops the oldest sample */
+  uint32_t refused; /* above the limits, or not decodable */
 } rmw_uros_subscription_statistics_t;
 
 rmw_ret_t rmw_uros_get_subscription_statistics(

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Where the last error is kept: internal to the files that write it. */
+/* Storage of the last error: internal to the files that write it. */
 #ifndef MICROROS_ERROR_STATE_H
 #define MICROROS_ERROR_STATE_H
 

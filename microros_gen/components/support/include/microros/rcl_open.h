@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What rclc and rcl share: opening with options of rmw, or without any, which then are not linked. Internal;
- * pointers are not NULL. */
+/* Shared by rclc and rcl: opens a session with options of rmw, or without, in which case options are not
+ * linked. Internal; pointers are not NULL. */
 #ifndef MICROROS_RCL_OPEN_H
 #define MICROROS_RCL_OPEN_H
 
@@ -12,7 +12,7 @@ extern "C" {
 
 rcl_ret_t rcl_open(const rmw_init_options_t * options, rcl_context_t * context);
 
-/* The same, everything as the plan says. */
+/* Same, with the plan's settings only. */
 rcl_ret_t rcl_open_as_planned(rcl_context_t * context);
 
 #ifdef __cplusplus

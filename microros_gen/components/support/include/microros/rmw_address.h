@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What transports share that have a host and a port; internal. */
+/* Shared by transports with host and port; internal. */
 #ifndef MICROROS_RMW_ADDRESS_H
 #define MICROROS_RMW_ADDRESS_H
 
@@ -14,11 +14,11 @@
 extern "C" {
 #endif
 
-/* Sets the agent's address in rmw_options: ip of at most RMW_UXRCE_MAX_HOST_SIZE - 1 characters, port 1 to 65535; both
-   are copied. RMW_RET_INVALID_ARGUMENT otherwise, or where one is NULL. */
+/* Sets the agent's address in rmw_options: ip of at most RMW_UXRCE_MAX_HOST_SIZE - 1 characters, port 1 to
+ * 65535; both are copied. RMW_RET_INVALID_ARGUMENT otherwise, or if one is NULL. */
 rmw_ret_t rmw_address_set(rmw_init_options_t * rmw_options, const char * ip, const char * port);
 
-/* Whether this is a decimal number of 1 to 65535, without leading zeros. */
+/* Returns whether this is a decimal number from 1 to 65535 without leading zeros. */
 static inline bool rmw_address_is_port(const char * text)
 {
   uint32_t value = 0;
@@ -32,7 +32,7 @@ static inline bool rmw_address_is_port(const char * text)
   return value != 0u && value <= 65535u && text[0] != '0';
 }
 
-/* Returns the number of a port that was checked; that of the plan for "". */
+/* Returns the number of a valid port; that of the plan for "". */
 static inline uint16_t rmw_address_port(const char * digits)
 {
   uint16_t port = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The client behind a context: internal to the middleware layer. */
+/* The client of a context: internal to the middleware layer. */
 #ifndef MICROROS_RMW_CLIENT_H
 #define MICROROS_RMW_CLIENT_H
 
@@ -14,10 +14,10 @@ extern "C" {
 
 extern const char * const rmw_implementation_identifier;
 
-/* Returns the one client of this process, open or not. */
+/* Returns the only client of this process, open or not. */
 xrce_client_t * rmw_client_instance(void);
 
-/* Waits at most `timeout_ms` until nothing is unacknowledged. */
+/* Waits for at most `timeout_ms` until everything is acknowledged. */
 bool rmw_client_flush(xrce_client_t * client, uint32_t timeout_ms);
 
 #ifdef __cplusplus

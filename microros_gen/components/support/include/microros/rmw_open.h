@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* rmw_init without options: everything as the plan says. `context` is not NULL. */
+/* rmw_init without options: everything as planned. `context` is not NULL. */
 rmw_ret_t rmw_open_as_planned(rmw_context_t * context);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* From the options of a session to its transport; each transport component implements it. Internal. */
+/* Configures a transport from the options of a session; implemented by each transport component. Internal. */
 #ifndef MICROROS_RMW_TRANSPORT_H
 #define MICROROS_RMW_TRANSPORT_H
 
@@ -13,8 +13,8 @@ extern "C" {
 #endif
 
 /*
- * Fills in what xrce_transport_open needs: what the options say, or else the plan. `params` must live as long as
- * the transport. False, and the error is set: there is nothing to open.
+ * Fills in the arguments of xrce_transport_open: from the options, otherwise from the plan. `params` must
+ * outlive the transport. Returns false, with the error set, if the address is missing.
  */
 bool rmw_transport_prepare(xrce_transport_t * transport, const rmw_uxrce_transport_params_t * params);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Allocators, under the names of rcl. */
+/* Allocators under the names of rcl. */
 #ifndef MICROROS_RCL_ALLOCATOR_H
 #define MICROROS_RCL_ALLOCATOR_H
 

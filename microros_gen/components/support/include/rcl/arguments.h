@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Command-line arguments, which a microcontroller has none of: accepted wherever ROS 2 takes them, and not
- * read. */
+/* Command-line arguments, which a microcontroller does not have: accepted wherever ROS 2 takes them, and
+ * not read. */
 #ifndef MICROROS_RCL_ARGUMENTS_H
 #define MICROROS_RCL_ARGUMENTS_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The last error, under the names of rcl. */
+/* The last error under the names of rcl. */
 #ifndef MICROROS_RCL_ERROR_HANDLING_H
 #define MICROROS_RCL_ERROR_HANDLING_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Start and end of a session. */
+/* Opening and closing a session. */
 #ifndef MICROROS_RCL_INIT_H
 #define MICROROS_RCL_INIT_H
 
@@ -16,14 +16,14 @@ extern "C" {
 #endif
 
 /*
- * Waits for the agent, at most MICROROS_CONNECT_TIMEOUT_MS. `context` must be zero-initialized; arguments are
- * not read. RCL_RET_TIMEOUT: no agent answered; RCL_RET_ERROR: it refused, or another context is open;
- * RCL_RET_ALREADY_INIT. Afterwards a lost session heals by itself: every call of this library carries it on.
+ * Waits for the agent, at most MICROROS_CONNECT_TIMEOUT_MS. `context` must be zero-initialized; arguments
+ * are not read. RCL_RET_TIMEOUT: no agent answered; RCL_RET_ERROR: it refused, or another context is open;
+ * RCL_RET_ALREADY_INIT. Afterwards a lost session recovers by itself: every call of this library runs it.
  */
 rcl_ret_t rcl_init(
   int argc, char const * const * argv, const rcl_init_options_t * options, rcl_context_t * context);
 
-/* Takes leave of the agent, at most MICROROS_CLOSE_TIMEOUT_MS, and frees every node and publisher. */
+/* Closes the session at the agent, waiting for at most MICROROS_CLOSE_TIMEOUT_MS, and frees all entities. */
 rcl_ret_t rcl_shutdown(rcl_context_t * context);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Start and end of a session, the short way. */
+/* Opening and closing a session with rclc. */
 #ifndef MICROROS_RCLC_INIT_H
 #define MICROROS_RCLC_INIT_H
 
@@ -14,19 +14,21 @@ extern "C" {
 #endif
 
 /*
- * Waits for the agent, at most MICROROS_CONNECT_TIMEOUT_MS, and fails with rcl_init's codes. `support` is the
- * user's and must outlive everything made with it; arguments are not read, `allocator` is kept and not
- * called.
+ * Waits for the agent, at most MICROROS_CONNECT_TIMEOUT_MS; returns rcl_init's codes. `support` belongs to
+ * the user and must outlive everything made with it; arguments are not read, `allocator` is stored and
+ * never called.
  */
 rcl_ret_t rclc_support_init(
   rclc_support_t * support, int argc, char const * const * argv, rcl_allocator_t * allocator);
 
-/* The same with options; they are copied. */
+/* Same with options, which are copied. */
 rcl_ret_t rclc_support_init_with_options(
   rclc_support_t * support, int argc, char const * const * argv, rcl_init_options_t * init_options,
   rcl_allocator_t * allocator);
 
-/* Takes leave of the agent, at most MICROROS_CLOSE_TIMEOUT_MS; `support` can be initialized again. */
+/*
+ * Closes the session at the agent, waiting for at most MICROROS_CLOSE_TIMEOUT_MS; `support` can be
+ * initialized again. */
 rcl_ret_t rclc_support_fini(rclc_support_t * support);
 
 #ifdef __cplusplus

@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* Sleeps; the session rests meanwhile. */
+/* Sleeps for `ms` milliseconds; the session is not run meanwhile. */
 void rclc_sleep_ms(unsigned int ms);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What every call of rclc starts from. */
+/* Types shared by all functions of rclc. */
 #ifndef MICROROS_RCLC_TYPES_H
 #define MICROROS_RCLC_TYPES_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A static library exports everything: these are empty, and exist for sources that write them. */
+/* A static library exports everything: these are empty, for sources that use them. */
 #ifndef MICROROS_RCLC_VISIBILITY_CONTROL_H
 #define MICROROS_RCLC_VISIBILITY_CONTROL_H
 

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The last error, as one bounded text. Its room is `errors:` of the application file
- * (MICROROS_ERROR_TEXT_SIZE bytes, the NUL included); with `errors: code` the text is a letter and a number
- * (microros/error.h). The last error is kept until the next one or rcutils_reset_error. One state per
- * process, not thread-safe.
+ * The last error as one bounded text of MICROROS_ERROR_TEXT_SIZE bytes including the NUL (`errors:` of the
+ * application file); with `errors: code` the text is a letter and a number (microros/error.h). It is kept
+ * until the next error or rcutils_reset_error. One state per process, not thread-safe.
  */
 #ifndef MICROROS_RCUTILS_ERROR_HANDLING_H
 #define MICROROS_RCUTILS_ERROR_HANDLING_H
@@ -29,22 +28,24 @@ typedef struct rcutils_error_string_s {
   char str[RCUTILS_ERROR_MESSAGE_MAX_LENGTH];
 } rcutils_error_string_t;
 
-/* `file` and `line_number` are those of rcutils_set_error_state; NULL and 0 for an error of the library. */
+/*
+ * `file` and `line_number` are those passed to rcutils_set_error_state; NULL and 0 for an error of the
+ * library. */
 typedef struct rcutils_error_state_s {
   char message[RCUTILS_ERROR_STATE_MESSAGE_MAX_LENGTH];
   const char * file;
   uint64_t line_number;
 } rcutils_error_state_t;
 
-/* Keeps a copy of `error_string`, cut to the room there is; `file` must live on (a literal). */
+/* Stores a copy of `error_string`, truncated to the available size; `file` must stay valid (a literal). */
 void rcutils_set_error_state(const char * error_string, const char * file, size_t line_number);
 
 bool rcutils_error_is_set(void);
 
-/* Returns the state, owned by the library, or NULL when no error is set. */
+/* Returns the state, owned by the library, or NULL if no error is set. */
 const rcutils_error_state_t * rcutils_get_error_state(void);
 
-/* Returns a copy of the text; an empty one when no error is set. */
+/* Returns a copy of the text, empty if no error is set. */
 rcutils_error_string_t rcutils_get_error_string(void);
 
 void rcutils_reset_error(void);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Times are nanoseconds, signed. */
+/* Times are signed nanoseconds. */
 #ifndef MICROROS_RCUTILS_TIME_H
 #define MICROROS_RCUTILS_TIME_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The types of rcutils that this client has. */
+/* The types of rcutils that this client provides. */
 #ifndef MICROROS_RCUTILS_TYPES_H
 #define MICROROS_RCUTILS_TYPES_H
 

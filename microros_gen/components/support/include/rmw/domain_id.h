@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The domain that stands for "as the plan says": the node's `domain_id`, or 0. */
+/* Value for the planned domain: the node's `domain_id`, or 0. */
 #ifndef MICROROS_RMW_DOMAIN_ID_H
 #define MICROROS_RMW_DOMAIN_ID_H
 

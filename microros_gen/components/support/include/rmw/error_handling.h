@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The last error, under the names of rmw. */
+/* The last error under the names of rmw. */
 #ifndef MICROROS_RMW_ERROR_HANDLING_H
 #define MICROROS_RMW_ERROR_HANDLING_H
 

@@ -15,7 +15,7 @@
 extern "C" {
 #endif
 
-/* The XRCE client, which the library owns. */
+/* The XRCE client, owned by the library. */
 typedef struct xrce_client_t rmw_context_impl_t;
 
 typedef struct rmw_context_s {
@@ -29,12 +29,14 @@ typedef struct rmw_context_s {
 rmw_context_t rmw_get_zero_initialized_context(void);
 
 /*
- * Opens the transport and waits for the agent, at most MICROROS_CONNECT_TIMEOUT_MS. RMW_RET_TIMEOUT: no agent
- * answered; RMW_RET_ERROR: the agent refused, or the transport did not open.
+ * Opens the transport and waits for the agent, at most MICROROS_CONNECT_TIMEOUT_MS. RMW_RET_TIMEOUT: no
+ * agent answered; RMW_RET_ERROR: the agent refused, or the transport did not open.
  */
 rmw_ret_t rmw_init(const rmw_init_options_t * options, rmw_context_t * context);
 
-/* Takes leave of the agent, at most MICROROS_CLOSE_TIMEOUT_MS, and closes the transport. */
+/*
+ * Closes the session at the agent, waiting for at most MICROROS_CLOSE_TIMEOUT_MS, and closes the
+ * transport. */
 rmw_ret_t rmw_shutdown(rmw_context_t * context);
 
 rmw_ret_t rmw_context_fini(rmw_context_t * context);

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-/* Holds everything by value: there is no pool of options that could run out, and a copy is an assignment. */
+/* Contains everything by value: no pool of options can run out, and a copy is an assignment. */
 typedef struct rmw_init_options_s {
   uint64_t instance_id;
   const char * implementation_identifier; /* NULL: not initialized */

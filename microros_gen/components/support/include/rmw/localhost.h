@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Where DDS may talk to: the agent decides that, the value is carried and has no effect here. */
+/* Reach of DDS: decided by the agent; the value is stored and has no effect here. */
 #ifndef MICROROS_RMW_LOCALHOST_H
 #define MICROROS_RMW_LOCALHOST_H
 

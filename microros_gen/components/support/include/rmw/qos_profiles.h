@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The QoS profiles of ROS 2 Jazzy. A profile that nothing uses takes no memory. */
+/* The QoS profiles of ROS 2 Jazzy. Unused profiles take no memory. */
 #ifndef MICROROS_RMW_QOS_PROFILES_H
 #define MICROROS_RMW_QOS_PROFILES_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A serialized message: the four bytes of encapsulation, then the CDR body. */
+/* A serialized message: four bytes of encapsulation, then the CDR body. */
 #ifndef MICROROS_RMW_SERIALIZED_MESSAGE_H
 #define MICROROS_RMW_SERIALIZED_MESSAGE_H
 

@@ -27,16 +27,16 @@ typedef rcutils_duration_value_t rmw_duration_t;
 #define RMW_DURATION_UNSPECIFIED {0LL, 0LL}
 /* clang-format on */
 
-/* Whether both are the same time, however it is written. */
+/* Returns whether both are the same time, in whatever representation. */
 bool rmw_time_equal(const rmw_time_t left, const rmw_time_t right);
 
-/* Returns nanoseconds, INT64_MAX for what is longer: that is RMW_DURATION_INFINITE. */
+/* Returns nanoseconds; INT64_MAX, which is RMW_DURATION_INFINITE, for longer times. */
 rmw_duration_t rmw_time_total_nsec(const rmw_time_t time);
 
 /* Returns RMW_DURATION_INFINITE for a negative number. */
 rmw_time_t rmw_time_from_nsec(const rmw_duration_t nanoseconds);
 
-/* Returns the time with less than a second of nanoseconds. */
+/* Returns the same time with less than a second of nanoseconds. */
 rmw_time_t rmw_time_normalize(const rmw_time_t time);
 
 #ifdef __cplusplus

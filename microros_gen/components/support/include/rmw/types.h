@@ -59,7 +59,7 @@ typedef struct rmw_publisher_allocation_s {
   void * data;
 } rmw_publisher_allocation_t;
 
-/* Filters by content are not carried: `content_filter_options` is not read. */
+/* Content filters are not carried: `content_filter_options` is not read. */
 typedef struct rmw_subscription_options_s {
   void * rmw_specific_subscription_payload;
   bool ignore_local_publications;
@@ -147,8 +147,8 @@ enum { RMW_QOS_POLICY_DEPTH_SYSTEM_DEFAULT = 0 };
 /* clang-format on */
 
 /*
- * XRCE carries reliability, durability, history and depth. SYSTEM_DEFAULT is reliable, volatile, keep last. A
- * policy that cannot be carried is refused when an entity asks for it, with RMW_RET_UNSUPPORTED.
+ * XRCE carries reliability, durability, history and depth. SYSTEM_DEFAULT is reliable, volatile, keep
+ * last. Creating an entity with a policy that cannot be carried returns RMW_RET_UNSUPPORTED.
  */
 typedef struct rmw_qos_profile_s {
   enum rmw_qos_history_policy_e history;

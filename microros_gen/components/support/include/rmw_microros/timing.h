@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* How long calls wait for the agent. */
+/* Time-outs of calls that wait for the agent. */
 #ifndef MICROROS_RMW_MICROROS_TIMING_H
 #define MICROROS_RMW_MICROROS_TIMING_H
 
@@ -10,13 +10,13 @@
 extern "C" {
 #endif
 
-/* How long node and publisher creation wait, in milliseconds (MICROROS_CREATE_TIMEOUT_MS at first). */
+/* Time-out for creating nodes and endpoints, in milliseconds (initially MICROROS_CREATE_TIMEOUT_MS). */
 rmw_ret_t rmw_uros_set_context_entity_creation_session_timeout(rmw_context_t * context, int session_timeout);
 
 /*
- * How long fini of a node or publisher, and the end of the session, wait, in milliseconds
- * (MICROROS_CLOSE_TIMEOUT_MS at first). With 0 they do not: what is to be deleted is deleted by later calls,
- * or with the session.
+ * Time-out for finalizing nodes and endpoints and for closing the session, in milliseconds (initially
+ * MICROROS_CLOSE_TIMEOUT_MS). With 0 these calls do not wait: later calls, or the end of the session,
+ * delete the objects.
  */
 rmw_ret_t rmw_uros_set_context_entity_destroy_session_timeout(rmw_context_t * context, int session_timeout);
 

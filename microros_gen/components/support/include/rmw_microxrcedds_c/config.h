@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The choices of the build, under the names that applications test for. */
+/* Settings of the build under the names that applications test. */
 #ifndef MICROROS_RMW_MICROXRCEDDS_C_CONFIG_H
 #define MICROROS_RMW_MICROXRCEDDS_C_CONFIG_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* For transports that include it without need: encoding is the library's own (microros/cdr.h, rmw_serialize). */
+/* For transports that include it unnecessarily: encoding is provided by microros/cdr.h and rmw_serialize. */
 #ifndef MICROROS_UCDR_MICROCDR_H
 #define MICROROS_UCDR_MICROCDR_H
 

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Where the time of day is from: the agent, else the device. In place of the file of the clock. Internal. */
+/*
+ * Source of the time of day: the agent, otherwise the device. Replaces the header of component `clock`.
+ * Internal. */
 #ifndef MICROROS_RCL_CLOCK_EPOCH_H
 #define MICROROS_RCL_CLOCK_EPOCH_H
 
@@ -10,7 +12,7 @@
 extern "C" {
 #endif
 
-/* Returns nanoseconds since 1970; 0: nobody has set the time of day yet. */
+/* Returns nanoseconds since 1970; 0: the time of day has not been set yet. */
 static inline int64_t rcl_clock_epoch_ns(void)
 {
   int64_t epoch_ns = 0;

@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 
-/* Gives nanoseconds since 1970-01-01 00:00 UTC: port_time_steady_ns and the offset to the agent's time. False, and
- * nothing is written: the agent was not asked in this session. */
+/* Returns nanoseconds since 1970-01-01 00:00 UTC: port_time_steady_ns plus the offset to the agent's time.
+ * False, with nothing written: not synchronized in this session. */
 bool rmw_epoch_now(int64_t * epoch_ns);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the session calls of this component, in the functions that component.yaml names. Internal. */
+/* Hooks called by the session, as declared in component.yaml. Internal. */
 #ifndef MICROROS_XRCE_TIME_SYNC_HOOKS_H
 #define MICROROS_XRCE_TIME_SYNC_HOOKS_H
 
@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* The device has slept: the clock has stood still, nobody knows how long. */
+/* After a sleep of the device the offset is invalid: the clock has stopped for an unknown time. */
 static inline void xrce_time_sync_wake(xrce_client_t * client)
 {
   client->time_sync.callers = 0;

@@ -15,18 +15,18 @@ extern "C" {
 #endif
 
 /*
- * Asks the agent what time it is and keeps the difference to the time since the start of the device: right to half of the
- * time that question and answer took. What is lost is asked again, and a session that was lost is waited for; waits at most
- * `timeout_ms`, which must be longer than a round trip. RMW_RET_ERROR: there is no session, or no answer; then an earlier
- * result holds on. The result outlives a lost session, not rcl_shutdown.
+ * Asks the agent for its time and stores the offset to the time since the start of the device, with an
+ * error of at most half a round trip. Repeats lost requests and waits for a lost session; waits for at
+ * most `timeout_ms`, which must be longer than a round trip. RMW_RET_ERROR: no session, or no answer; an
+ * earlier result then stays valid. The result survives a lost session, but not rcl_shutdown.
  */
 rmw_ret_t rmw_uros_sync_session(const int timeout_ms);
 
 /* Returns whether rmw_uros_sync_session has succeeded. */
 bool rmw_uros_epoch_synchronized(void);
 
-/* Return the time since 1970-01-01 00:00 UTC as the agent has it; before it was asked, since the start of the device;
- * 0 without a context. */
+/* Return the agent's time since 1970-01-01 00:00 UTC; before synchronization, the time since the start of
+ * the device; 0 without a context. */
 int64_t rmw_uros_epoch_millis(void);
 int64_t rmw_uros_epoch_nanos(void);
 

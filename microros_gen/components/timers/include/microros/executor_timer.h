@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/* A timer's callback is the one that it was initialized with. */
+/* The timer's callback is the one passed to its initialization. */
 rcl_ret_t rclc_executor_add_timer(rclc_executor_t * executor, rcl_timer_t * timer);
 
 rcl_ret_t rclc_executor_remove_timer(rclc_executor_t * executor, const rcl_timer_t * timer);

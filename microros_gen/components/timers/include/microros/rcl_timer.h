@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the files of timers share, and what waits for them; internal. */
+/* Shared by the source files of timers and by waiting functions; internal. */
 #ifndef MICROROS_RCL_TIMER_INTERNAL_H
 #define MICROROS_RCL_TIMER_INTERNAL_H
 
@@ -22,10 +22,10 @@ struct rcl_timer_impl_s {
   rcl_timer_callback_t callback;
   rcl_event_callback_t on_reset;
   const void * on_reset_data;
-  struct rcl_guard_condition_impl_s * guard; /* NULL: nobody has asked for it */
-  size_t resets;                             /* that nobody was told of */
+  struct rcl_guard_condition_impl_s * guard; /* NULL: not requested */
+  size_t resets;                             /* resets not yet reported */
   bool canceled;
-  bool woken; /* as rcl_timer_wake says, since the timer began */
+  bool woken; /* rcl_timer_wake was called since the timer's initialization */
 };
 
 extern rcl_timer_impl_t rcl_timers[MICROROS_TIMERS_MAX];
@@ -33,34 +33,34 @@ extern rcl_timer_impl_t rcl_timers[MICROROS_TIMERS_MAX];
 /* Returns RCL_RET_OK, RCL_RET_INVALID_ARGUMENT or RCL_RET_TIMER_INVALID, with a text. */
 rcl_ret_t rcl_timer_check(const rcl_timer_t * timer);
 
-/* Wakes who waits for the timer or for its guard condition. */
+/* Wakes tasks that wait for the timer or for its guard condition. */
 void rcl_timer_wake(rcl_timer_impl_t * timer);
 
-/* The clock of timers jumps, and says `now`; called before and after it does. */
+/* Handles a jump of the timers' clock to `now`; called before and after it. */
 void rcl_timer_on_jump(
   const rcl_clock_t * clock, const rcl_time_jump_t * jump, rcl_time_point_value_t now, bool before_jump);
 
 /*
- * For who waits: gives whether a valid timer is ready, and if not, when to look again at the latest, in nanoseconds:
- * INT64_MAX where somebody wakes who waits.
+ * For waiting functions: returns whether a valid timer is ready, and if not, the latest time in
+ * nanoseconds to look again; INT64_MAX if a wake-up will follow.
  */
 rcl_ret_t rcl_timer_look(const rcl_timer_t * timer, bool * is_ready, int64_t * look_again_ns);
 
-/* --- one of rcl_timer_source_*.c: what makes timers ready --- */
+/* --- source of ticks, implemented by one of rcl_timer_source_*.c --- */
 
 /* Returns a free place for a timer of this period, or NULL. */
 rcl_timer_impl_t * rcl_timer_source_take(int64_t period);
 
-/* The timer begins, with the period that it has; false: the system has no timer for it. */
+/* Starts a timer with its period; false if the system has no timer left. */
 bool rcl_timer_source_start(const rcl_timer_impl_t * timer);
 
-/* The timer rests. */
+/* Stops a timer. */
 void rcl_timer_source_stop(const rcl_timer_impl_t * timer);
 
-/* The timer is about to be called: it is not ready any more. */
+/* Called before the callback: clears the ready state. */
 void rcl_timer_source_called(const rcl_timer_impl_t * timer);
 
-/* Whether ticks make it ready (true; *is_ready says whether one came), or its clock. */
+/* Returns whether ticks drive the timer (*is_ready: one is pending), rather than its clock. */
 bool rcl_timer_source_ticks(const rcl_timer_impl_t * timer, bool * is_ready);
 
 #ifdef __cplusplus

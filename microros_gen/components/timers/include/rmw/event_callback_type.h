@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What is called when something has happened, `number_of_events` times since the last call. */
+/* Callback for events; `number_of_events` have occurred since the last call. */
 #ifndef MICROROS_RMW_EVENT_CALLBACK_TYPE_H
 #define MICROROS_RMW_EVENT_CALLBACK_TYPE_H
 

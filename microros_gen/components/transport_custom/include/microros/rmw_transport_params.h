@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the options of a session say about a custom transport. */
+/* Options of a session with a custom transport. */
 #ifndef MICROROS_RMW_TRANSPORT_PARAMS_H
 #define MICROROS_RMW_TRANSPORT_PARAMS_H
 
@@ -7,7 +7,7 @@
 
 #include "uxr/client/transport.h"
 
-/* `client_key` 0: as the plan says. `custom.open` NULL: as rmw_uros_set_custom_transport said. */
+/* `client_key` 0: that of the plan. `custom.open` NULL: the functions of rmw_uros_set_custom_transport. */
 typedef struct rmw_uxrce_transport_params_t {
   uint32_t client_key;
   uxrCustomTransport custom;

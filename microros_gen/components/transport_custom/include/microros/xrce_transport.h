@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The transport of the session: functions of the application. Each transport component brings this header with the
- * same functions. */
+/* The transport of the session: functions of the application. Every transport component provides this
+ * header with the same functions. */
 #ifndef MICROROS_XRCE_TRANSPORT_H
 #define MICROROS_XRCE_TRANSPORT_H
 
@@ -15,7 +15,7 @@
 extern "C" {
 #endif
 
-/* How texts name the other end. */
+/* Names of the other end in error texts. */
 #define XRCE_PLACE_N "the custom transport"
 #define XRCE_PLACE_M "the custom transport"
 
@@ -31,19 +31,21 @@ static inline uint16_t xrce_transport_port(const xrce_transport_t * transport)
   return 0;
 }
 
-/* Whether two transports share one line: that which the functions of the application have. */
+/* Returns whether two transports share one line: all use the application's functions. */
 static inline bool xrce_transport_is_same_line(const xrce_transport_t * a, const xrce_transport_t * b)
 {
   return a->custom.open == b->custom.open && a->custom.args == b->custom.args;
 }
 
-/* A pump begins. */
+/* Called at the start of a pump. */
 static inline void xrce_transport_begin_turn(xrce_transport_t * transport)
 {
   transport->turn_taken = false;
 }
 
-/* Whether a stream may send one more message in this turn: one, since the application's function may wait for its line. */
+/*
+ * Returns whether a stream may send another message in this pump: only one, since the application's
+ * function may wait for its line. */
 static inline bool xrce_transport_take_turn(xrce_transport_t * transport)
 {
   const bool may_send = !transport->turn_taken;
@@ -52,29 +54,29 @@ static inline bool xrce_transport_take_turn(xrce_transport_t * transport)
   return may_send;
 }
 
-/* Whether nothing waits to be sent. */
+/* Returns whether all data was sent. */
 static inline bool xrce_transport_is_idle(xrce_transport_t * transport)
 {
-  (void)transport; /* what its function has taken is its own */
+  (void)transport; /* the application's function owns accepted data */
   return true;
 }
 
-/* Waits as long as the application's function does. False: it says so. */
+/* Calls the application's function and returns its result; waits as long as that does. */
 bool xrce_transport_open(xrce_transport_t * transport);
 
 void xrce_transport_close(xrce_transport_t * transport);
 
-/* Sends one message. False: it was not taken. */
+/* Sends one message. Returns false if it was not accepted. */
 bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, size_t size);
 
 /*
- * Takes one message; without framing this waits a millisecond for it, unless the application says that its function only
- * looks. Returns its size, 0 when there is none, -1 for one that had to be thrown away. `buffer` keeps the part that
- * is there: give the same one until a message came.
+ * Receives one message; without framing it waits a millisecond, unless the application declares that its
+ * function only polls. Returns its size, 0 if none has arrived, -1 for a discarded one. `buffer` keeps a
+ * partial message: pass the same one until a message was received.
  */
 int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity);
 
-/* Returns how many bytes of the buffer the message on its way has touched at most. */
+/* Returns an upper bound of the bytes of the buffer that the partial message occupies. */
 uint32_t xrce_transport_arrived(const xrce_transport_t * transport);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The functions that carry the messages of this client: to be set before rclc_support_init. */
+/* The functions that carry the messages of this client: set them before rclc_support_init. */
 #ifndef MICROROS_RMW_MICROROS_CUSTOM_TRANSPORT_H
 #define MICROROS_RMW_MICROROS_CUSTOM_TRANSPORT_H
 
@@ -14,20 +14,23 @@
 extern "C" {
 #endif
 
-/* Values for `framing`: a line of bytes (UART, USB CDC), or a medium that keeps messages apart (UDP). */
+/*
+ * Values for `framing`: a byte stream (UART, USB CDC), or a medium that preserves message boundaries
+ * (UDP). */
 #define MICROROS_TRANSPORTS_FRAMING_MODE 1
 #define MICROROS_TRANSPORTS_PACKET_MODE 0
 
 /*
- * Sets the functions for sessions whose options name none; `args` reaches them as transport->args and must live as
- * long as they are called. An open session keeps the functions that it has. RMW_RET_INVALID_ARGUMENT: a function is
- * NULL; RMW_RET_UNSUPPORTED: `transport: {framing: …}` of microros.yaml left this way of framing out.
+ * Sets the functions for sessions whose options set none; `args` is passed to them as transport->args and
+ * must stay valid as long as they are called. An open session keeps its functions.
+ * RMW_RET_INVALID_ARGUMENT: a function is NULL; RMW_RET_UNSUPPORTED: `transport: {framing: …}` of
+ * microros.yaml excludes this kind of framing.
  */
 rmw_ret_t rmw_uros_set_custom_transport(
   bool framing, void * args, open_custom_func open_cb, close_custom_func close_cb, write_custom_func write_cb,
   read_custom_func read_cb);
 
-/* The same for sessions with these options. */
+/* Same for sessions with these options. */
 rmw_ret_t rmw_uros_options_set_custom_transport(
   bool framing, void * args, open_custom_func open_cb, close_custom_func close_cb, write_custom_func write_cb,
   read_custom_func read_cb, rmw_init_options_t * rmw_options);

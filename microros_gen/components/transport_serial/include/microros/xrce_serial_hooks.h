@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the session calls of this component, in the functions that component.yaml names. Internal. */
+/* Hooks called by the session, as declared in component.yaml. Internal. */
 #ifndef MICROROS_XRCE_SERIAL_HOOKS_H
 #define MICROROS_XRCE_SERIAL_HOOKS_H
 
@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/* Lets what was handed to the board's UART leave it; that has two bytes at most of its own, of ten bits each. */
+/* Waits until the board's UART has sent everything; it buffers at most two bytes of ten bits each. */
 static inline void xrce_serial_drain(xrce_client_t * client)
 {
   if (xrce_session_drain(client)) {

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The transport of the session: a serial line. Each transport component brings this header with the same functions. */
+/*
+ * The transport of the session: a serial line. Every transport component provides this header with the
+ * same functions. */
 #ifndef MICROROS_XRCE_TRANSPORT_H
 #define MICROROS_XRCE_TRANSPORT_H
 
@@ -21,13 +23,13 @@ static inline uint16_t xrce_transport_port(const xrce_transport_t * transport)
   return 0;
 }
 
-/* Returns what port_wait waits for. */
+/* Returns the handle for port_wait. */
 static inline intptr_t xrce_transport_handle(const xrce_transport_t * transport)
 {
   return transport->serial.handle;
 }
 
-/* Whether who sends may leave received messages to others for now: reading never waits. */
+/* Returns whether a publish may skip reading for now: no, reading never waits. */
 static inline bool xrce_transport_may_skip_reading(const xrce_transport_t * transport, uint32_t pause_ms)
 {
   (void)transport;
@@ -35,33 +37,36 @@ static inline bool xrce_transport_may_skip_reading(const xrce_transport_t * tran
   return false;
 }
 
-/* Whether nothing waits to be sent. */
+/* Returns whether all data was sent. */
 static inline bool xrce_transport_is_idle(xrce_transport_t * transport)
 {
   return port_serial_is_idle(&transport->serial);
 }
 
-/* Does not block. False: there is no such line. */
+/* Opens the line; returns false if it does not exist. Does not block. */
 bool xrce_transport_open(xrce_transport_t * transport);
 
 void xrce_transport_close(xrce_transport_t * transport);
 
-/* Sends one message without blocking: the line carries it while the program goes on. False: it has no room for it, and
- * nothing of it is sent. */
+/* Sends one message without blocking: the line transmits it in the background. Returns false if the line
+ * has no room for it; nothing of it is sent then. */
 bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, size_t size);
 
-/* Where the line sends from the reliable stream's own slots: the same for a message of at most 65535 bytes that stays as it is until its line is idle or the
- * next function was called: nothing is copied. False: another one is on its way. */
+/* For lines that send directly from the slots of the reliable stream: sends a message of at most 65535
+ * bytes without a copy. It must stay unchanged until the line is idle or the next function was called.
+ * Returns false while another such message is in progress. */
 bool xrce_transport_send_kept(xrce_transport_t * transport, const uint8_t * message, size_t size);
 
-/* `message` is going to change: if it is on its way, it is broken off, and the agent throws away what it has of it. */
+/*
+ * Called before `message` changes: if it is being sent, it is aborted, and the agent discards the part
+ * that it received. */
 void xrce_transport_take_back(xrce_transport_t * transport, const uint8_t * message);
 
-/* Takes one message without blocking. Returns its size, 0 when there is none, -1 for one that had to be thrown
- * away. `buffer` keeps the part that is there: give the same one until a message came. */
+/* Receives one message without blocking. Returns its size, 0 if none has arrived, -1 for a discarded one.
+ * `buffer` keeps a partial message: pass the same one until a message was received. */
 int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity);
 
-/* Returns how many bytes of the buffer the message on its way has touched at most. */
+/* Returns an upper bound of the bytes of the buffer that the partial message occupies. */
 uint32_t xrce_transport_arrived(const xrce_transport_t * transport);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the session calls of this component, in the functions that component.yaml names. Internal. */
+/* Hooks called by the session, as declared in component.yaml. Internal. */
 #ifndef MICROROS_XRCE_TCP_HOOKS_H
 #define MICROROS_XRCE_TCP_HOOKS_H
 
@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* A connection that broke off ends its session; the next CREATE_CLIENT goes over another one. */
+/* A closed connection ends its session; the next CREATE_CLIENT uses a new one. */
 static inline void xrce_tcp_check(xrce_client_t * client, uint32_t now)
 {
   xrce_session_t * session = &client->session;

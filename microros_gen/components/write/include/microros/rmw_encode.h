@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the application is told when a message of its own is refused. Internal to the middleware layer. */
+/* Error texts for refused messages of the application. Internal to the middleware layer. */
 #ifndef MICROROS_RMW_ENCODE_H
 #define MICROROS_RMW_ENCODE_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Messages that were given up, counted for the session. Internal. */
+/* Dropped messages, counted for the session. Internal. */
 #ifndef MICROROS_XRCE_DROPS_H
 #define MICROROS_XRCE_DROPS_H
 
@@ -7,14 +7,14 @@
 
 #include "microros/xrce_client.h"
 
-/* Counts one of the endpoint of this index; by publisher with the component publish_statistics. */
+/* Counts one message of the endpoint `index`; per publisher with the component publish_statistics. */
 static inline void xrce_drops_add(xrce_client_t * client, uint16_t index)
 {
   ++client->session.statistics.dropped;
   (void)index;
 }
 
-/* The publisher of this index has a new owner. */
+/* Called when the publisher `index` has a new owner. */
 static inline void xrce_drops_clear(xrce_client_t * client, uint16_t index)
 {
   (void)client;

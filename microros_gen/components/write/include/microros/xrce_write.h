@@ -13,31 +13,34 @@ extern "C" {
 #endif
 
 typedef enum xrce_write_t {
-  XRCE_WRITTEN,          /* the stream has it */
-  XRCE_WRITE_DROPPED,    /* given up, as the application file says */
+  XRCE_WRITTEN,          /* stored in the stream */
+  XRCE_WRITE_DROPPED,    /* dropped, as configured by on_full */
   XRCE_WRITE_REFUSED,    /* a field is above its limit */
   XRCE_WRITE_FULL,       /* every slot is unacknowledged */
-  XRCE_WRITE_NO_SESSION, /* no session, or the agent has the writer not yet */
-  XRCE_WRITE_NOT_SENT    /* the transport did not take it */
+  XRCE_WRITE_NO_SESSION, /* no session, or the agent has not created the writer yet */
+  XRCE_WRITE_NOT_SENT    /* the transport refused it */
 } xrce_write_t;
 
 /* Pumps, encodes, sends. XRCE_WRITE_REFUSED fills *fault. */
 xrce_write_t xrce_write_message(xrce_endpoint_t * writer, const void * message, cdr_fault_t * fault);
 
-/* The same with a body that is encoded already; `size` is not above xrce_route_capacity. */
+/* Same for a body that is already encoded; `size` is at most xrce_route_capacity. */
 xrce_write_t xrce_write_body(xrce_endpoint_t * writer, const uint8_t * body, size_t size);
 
-/* Returns room for the writer's next submessage, or NULL: no session, or no room. */
+/* Returns room for the writer's next submessage, or NULL without a session or room. */
 uint8_t * xrce_write_reserve(const xrce_endpoint_t * writer);
 
-/* There is no room: XRCE_WRITTEN and *room when there is now, else why not. One of on_full_*.c is there. */
+/*
+ * Called if there is no room: returns XRCE_WRITTEN and *room if it could make some, otherwise the reason.
+ * Implemented by one of on_full_*.c. */
 xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room);
 
-/* The transport has no room for a best-effort message of `size` bytes, which is in its stream: XRCE_WRITTEN when there was
- * some in time, else it was counted as given up. One of on_full_*.c is there. */
+/* Called if the transport has no room for a best-effort message of `size` bytes, which is in its stream:
+ * returns XRCE_WRITTEN if it was sent in time; otherwise it was counted as dropped. Implemented by one of
+ * on_full_*.c. */
 xrce_write_t xrce_write_on_unsent(xrce_endpoint_t * writer, size_t size);
 
-/* Why there is no room. */
+/* Returns why there is no room. */
 xrce_write_t xrce_write_obstacle(const xrce_endpoint_t * writer);
 
 #ifdef __cplusplus

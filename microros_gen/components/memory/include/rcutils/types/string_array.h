@@ -21,19 +21,19 @@ typedef struct rcutils_string_array_s {
 
 rcutils_string_array_t rcutils_get_zero_initialized_string_array(void);
 
-/* Makes room for `size` strings, all of them NULL. */
+/* Makes room for `size` strings, all NULL. */
 rcutils_ret_t rcutils_string_array_init(
   rcutils_string_array_t * string_array, size_t size, const rcutils_allocator_t * allocator);
 
-/* Gives the strings and the array back; RCUTILS_RET_OK for one that holds nothing, too. */
+/* Frees the strings and the array; returns RCUTILS_RET_OK for an empty one, too. */
 rcutils_ret_t rcutils_string_array_fini(rcutils_string_array_t * string_array);
 
-/* Gives the order of the first strings that differ in *res, else that of the sizes, as strcmp does. RCUTILS_RET_ERROR for
- * a string that is NULL. */
+/* Sets *res to the order of the first different strings, as strcmp does, otherwise to that of the sizes.
+ * RCUTILS_RET_ERROR for a NULL string. */
 rcutils_ret_t rcutils_string_array_cmp(
   const rcutils_string_array_t * lhs, const rcutils_string_array_t * rhs, int * res);
 
-/* Strings behind `new_size` are given back, new ones are NULL. With RCUTILS_RET_BAD_ALLOC the array is as it was. */
+/* Strings beyond `new_size` are freed, new ones are NULL. On RCUTILS_RET_BAD_ALLOC the array is unchanged. */
 rcutils_ret_t rcutils_string_array_resize(rcutils_string_array_t * string_array, size_t new_size);
 
 /* For qsort: `lhs` and `rhs` point to strings; NULL comes last. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A buffer of bytes that knows its allocator. */
+/* A buffer of bytes with its allocator. */
 #ifndef MICROROS_RCUTILS_TYPES_UINT8_ARRAY_H
 #define MICROROS_RCUTILS_TYPES_UINT8_ARRAY_H
 
@@ -28,7 +28,7 @@ rcutils_ret_t rcutils_uint8_array_init(
 
 rcutils_ret_t rcutils_uint8_array_fini(rcutils_uint8_array_t * uint8_array);
 
-/* Makes the capacity `new_size`, which is not 0; a shorter one cuts the length. */
+/* Changes the capacity to `new_size`, not 0; a smaller one truncates the contents. */
 rcutils_ret_t rcutils_uint8_array_resize(rcutils_uint8_array_t * uint8_array, size_t new_size);
 
 #ifdef __cplusplus

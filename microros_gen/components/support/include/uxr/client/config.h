@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Sizes of the plan, under the names of the public XRCE client. */
+/* Sizes of the plan under the names of the public XRCE client. */
 #ifndef MICROROS_UXR_CLIENT_CONFIG_H
 #define MICROROS_UXR_CLIENT_CONFIG_H
 

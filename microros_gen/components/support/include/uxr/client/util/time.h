@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Time, under the names of the public XRCE client. */
+/* Time under the names of the public XRCE client. */
 #ifndef MICROROS_UXR_CLIENT_UTIL_TIME_H
 #define MICROROS_UXR_CLIENT_UTIL_TIME_H
 
@@ -9,8 +9,8 @@
 extern "C" {
 #endif
 
-/* Milliseconds and nanoseconds since 1970-01-01 00:00 UTC; while nobody has set the time of day, since the start of the
- * device. Of one task, and called once in 49 days where the port counts milliseconds in 32 bits. */
+/* Milliseconds and nanoseconds since 1970-01-01 00:00 UTC; since the start of the device until the time of
+ * day is set. For one task; call at least once in 49 days if the port counts milliseconds in 32 bits. */
 int64_t uxr_millis(void);
 int64_t uxr_nanos(void);
 
