@@ -219,6 +219,7 @@ def test_a_rule_of_two_equal_numbers_keeps_both(run: Runner, folder: Path) -> No
     assert generate(run, folder, text.replace(joints, "") + block).status == 0
 
 
+@pytest.mark.system
 def test_advice_about_memory_is_exact_and_the_largest_saving_comes_first(run: Runner, folder: Path) -> None:
     """What each line promises is what a build takes less with it pasted; keys that exist are replaced."""
     text = HEAD.replace("tf2_msgs/msg/TFMessage", "tf2_msgs/msg/TFMessage, queue: 4")

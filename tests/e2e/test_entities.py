@@ -97,6 +97,7 @@ def takes_samples(observer: Observer, topics: list[str], timeout_s: float = 25.0
     return found
 
 
+@pytest.mark.system
 def test_every_way_to_create_reaches_ros(
     images: Images, image_port: Relay, relay: Relay, subscribed: Observer, domain: int
 ) -> None:

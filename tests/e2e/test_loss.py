@@ -115,6 +115,7 @@ def over_a_line(
     assert line.missing
 
 
+@pytest.mark.system
 def test_nothing_is_lost_over_a_bad_network(
     images: Images, observer: Observer, agent: AgentProcess, relay: Relay
 ) -> None:

@@ -51,7 +51,9 @@ EXPECTED: dict[str, dict[str, Any]] = {
 FRAMES = {"joints": "base_link", "arm": "arm"}
 
 
-@pytest.mark.parametrize("flags", [SANITIZE, ("-m32", "-O1")], ids=["sanitized", "m32"])
+@pytest.mark.parametrize(
+    "flags", [SANITIZE, pytest.param(("-m32", "-O1"), marks=pytest.mark.system)], ids=["sanitized", "m32"]
+)
 def test_rclpy_gets_what_sources_write(
     images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, flags: tuple[str, ...]
 ) -> None:
@@ -84,7 +86,9 @@ limits: {"*": {string: 17, sequence: 4}}
 """
 
 
-@pytest.mark.parametrize("flags", [SANITIZE, ("-m32", "-O1")], ids=["sanitized", "m32"])
+@pytest.mark.parametrize(
+    "flags", [SANITIZE, pytest.param(("-m32", "-O1"), marks=pytest.mark.system)], ids=["sanitized", "m32"]
+)
 def test_strings_of_services_reach_rclpy_and_come_from_it(
     images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, flags: tuple[str, ...]
 ) -> None:

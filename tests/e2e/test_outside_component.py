@@ -46,6 +46,7 @@ def test_the_package_does_not_know_it() -> None:
     assert [path for path in files if COMPONENT.name in path.read_text(encoding="utf-8")] == []
 
 
+@pytest.mark.system
 @pytest.mark.ros
 def test_rclpy_reads_what_it_publishes(
     images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, tmp_path: Path

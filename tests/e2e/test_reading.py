@@ -42,7 +42,7 @@ def await_match(observer: Observer, topic: str) -> None:
         time.sleep(0.05)
 
 
-@pytest.mark.parametrize("entities", ["binary", "xml"])
+@pytest.mark.parametrize("entities", ["binary", pytest.param("xml", marks=pytest.mark.system)])
 def test_rclpy_publishes_and_the_client_takes(
     images: Images,
     image_port: Relay,

@@ -50,6 +50,7 @@ def check_graph(graph: dict[str, Any], name: str) -> None:
     assert graph["publishers"][f"{node}/state"] == [[node, "RELIABLE", "TRANSIENT_LOCAL"]]
 
 
+@pytest.mark.system
 def test_what_every_compiler_makes(
     images: Images, image_port: Relay, agent: AgentProcess, observer: Observer
 ) -> None:

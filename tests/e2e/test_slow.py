@@ -91,6 +91,7 @@ def test_three_seconds_of_round_trip(
     assert relay.sent[CREATE] == 1 + 3 + 3 + 1 + 1, "none is asked for a second time"
 
 
+@pytest.mark.system
 def test_a_line_of_2400_baud(images: Images, observer: Observer, domain: int, tmp_path: Path) -> None:
     device = tmp_path / "line"
     transport = f'transport: {{type: serial, device: "{device}", baud: 2400}}'

@@ -18,7 +18,9 @@ NAME = "qemu-mps2-an386"
 SAMPLES = 12
 
 
-@pytest.mark.parametrize("kind", ["", ", kind: rtos"], ids=["clock", "rtos"])
+@pytest.mark.parametrize(
+    "kind", ["", pytest.param(", kind: rtos", marks=pytest.mark.system)], ids=["clock", "rtos"]
+)
 def test_a_timer_publishes_under_the_executor(builds: Builds, kind: str) -> None:
     built = builds.build(NAME, APPLICATION % kind)
     image = builds.application(built, "ticker.c")

@@ -21,7 +21,7 @@ CMSIS = re.compile(
 )
 
 
-@pytest.mark.parametrize("name", ["cortex-m0plus", "cortex-m4"])
+@pytest.mark.parametrize("name", [pytest.param("cortex-m0plus", marks=pytest.mark.system), "cortex-m4"])
 def test_a_target_without_memory_has_the_library_alone(tmp_path: Path, name: str) -> None:
     need(name)
     done = build(tmp_path, name)
@@ -173,6 +173,7 @@ def test_what_does_not_fit_into_ram_says_how_much_too_large_it_is(tmp_path: Path
     )
 
 
+@pytest.mark.system
 @pytest.mark.skipif(shutil.which("cmake") is None, reason="no cmake")
 def test_cmake_builds_the_same_image_with_the_tool_chain_file(builds: Builds, tmp_path: Path) -> None:
     built = builds.build("qemu-mps2-an386")

@@ -69,7 +69,9 @@ def _times(builds: Builds, line: str, ranges: int, storage: str = "none") -> flo
     return (grown + GOAL * _largest(small) + least) / _largest(large)
 
 
-@pytest.mark.parametrize("line", LINES)
+@pytest.mark.parametrize(
+    "line", [pytest.param(x, marks=[] if x == "serial, reliable" else [pytest.mark.system]) for x in LINES]
+)
 def test_a_laser_scan_at_depth_1(builds: Builds, line: str) -> None:
     """Queue, input buffer, the interrupt's ring, bound storage, and the message with its buffers in the program."""
     need(CORTEX_M4)
@@ -92,6 +94,7 @@ def _size(built: Built) -> tuple[dict[str, Any], dict[str, Any]]:
     return said, scan
 
 
+@pytest.mark.system
 def test_a_queue_of_bytes_takes_what_it_is_given(builds: Builds) -> None:
     """Ten samples that share the bytes of one of the largest: nine less, and where the oldest and newest are."""
     need(CORTEX_M4)

@@ -22,6 +22,15 @@ pytestmark = [
     pytest.mark.builds,
 ]
 TreeOf = Callable[[str], Tree]
+QUICK = "pool"
+"""What the default suite looks at; `make system` has the rest of FIRST."""
+
+
+def _marks(name: str) -> list[pytest.MarkDecorator]:
+    if name == QUICK:
+        return []
+    return [pytest.mark.system if name in FIRST else pytest.mark.long if name in ALSO else pytest.mark.lint]
+
 
 HEAP_AND_STDIO = re.compile(
     r"^_*(malloc|calloc|realloc|reallocarray|free|aligned_alloc|posix_memalign|memalign|alloca|strn?dup|asprintf"
@@ -124,10 +133,7 @@ def symbols(tree_of: TreeOf, tmp_path_factory: pytest.TempPathFactory) -> Callab
 
 @pytest.mark.parametrize(
     "name",
-    [
-        pytest.param(n, marks=[] if n in FIRST else [pytest.mark.long if n in ALSO else pytest.mark.lint])
-        for n in VARIANTS
-    ],
+    [pytest.param(n, marks=_marks(n)) for n in VARIANTS],
 )
 def test_symbols(tree_of: TreeOf, symbols: Callable[[str], Symbols], name: str) -> None:
     """Everything about one variant in one test: it is compiled only once."""

@@ -23,6 +23,7 @@ print(*headlines([*GOOD, *BAD]), sep="\\n")
 """
 
 
+@pytest.mark.system
 def test_the_reader_says_the_same_with_lark_parser(old_lark_python: str) -> None:
     from tests.support.interfaces.idl_headlines import headlines
 

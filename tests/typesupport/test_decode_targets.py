@@ -134,6 +134,7 @@ def fuzz(program: Path, corpus: Path, *options: str) -> None:
     print(*(line for line in result.stderr.splitlines() if line.startswith("stat::")), sep="\n")
 
 
+@pytest.mark.system
 def test_whatever_the_bytes_nothing_is_out_of_bounds(
     everything: Generated, fuzzer: Path, tmp_path: Path
 ) -> None:

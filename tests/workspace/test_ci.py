@@ -68,6 +68,7 @@ def runner(tmp_path: Path, installed: Installed) -> dict[str, str]:
     )
 
 
+@pytest.mark.system
 def test_the_workflow_passes_in_a_fresh_clone(
     application: Path, tmp_path: Path, installed: Installed
 ) -> None:

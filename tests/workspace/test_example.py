@@ -37,6 +37,7 @@ def test_on_this_machine_its_samples_arrive(project: Project, relay: Relay) -> N
     assert samples == [("/turns", {"data": first + i}) for i in range(len(samples))]
 
 
+@pytest.mark.system
 def test_for_a_board_it_becomes_its_image(board: Project) -> None:
     """Flags, start-up and memory map are the board's. make is the generator here; it, too, has nothing left to do."""
     environment, folder = board.environment, board.build_folder

@@ -178,6 +178,7 @@ def test_an_image_of_somebody_elses_archive(project: Project, tmp_path: Path) ->
     )
 
 
+@pytest.mark.system
 def test_budgets_are_those_of_build(project: Project) -> None:
     """Each is an error at its place in the application file, until the file or the application is fixed."""
     config = project.source / "microros.yaml"
@@ -277,6 +278,7 @@ nodes: [{name: n, publishers: [{topic: t, type: std_msgs/msg/Int32, qos: {reliab
 """
 
 
+@pytest.mark.system
 @pytest.mark.parametrize("generator", ["ninja", pytest.param("make", marks=pytest.mark.long)])
 def test_a_part_of_a_project_that_fetches_the_tool(generator: str, tmp_path: Path) -> None:
     """In a separate folder, so the linker runs elsewhere; its budget is checked there as well."""
@@ -319,6 +321,7 @@ def plain_image_is_checked_by_the_command_of_the_page(project: Project, firmware
         assert found == ([(":6:22", "memory.ram_budget is 128")] if status else [])
 
 
+@pytest.mark.system
 @pytest.mark.skipif(shutil.which("arm-none-eabi-gcc") is None, reason="no arm-none-eabi-gcc")
 def test_of_a_processor_without_a_board_the_library_is_checked(tmp_path: Path) -> None:
     """There is not an image, so `build` bounds the library; so does the build that makes it."""
@@ -345,6 +348,7 @@ def test_of_a_processor_without_a_board_the_library_is_checked(tmp_path: Path) -
     assert project.build().returncode != 0, "nothing but the budget changed"
 
 
+@pytest.mark.system
 def test_a_board_has_a_bound_for_everything(board: Project) -> None:
     """Nothing of its image is left out: start-up, interrupts, the callbacks of the application, the C library."""
     data = sized(board, board.build_folder)

@@ -40,6 +40,7 @@ def test_an_unchanged_project_has_nothing_to_do(project: Project) -> None:
     assert "Re-running CMake" not in done.stdout
 
 
+@pytest.mark.system
 def test_a_message_compiles_what_uses_it(project: Project) -> None:
     message = project.source / "interfaces/robot_msgs/msg/WheelSpeeds.msg"
     rebuilt = rebuilt_after(project, message, "float32 left", "uint8 WHEELS=2\nfloat32 left")
