@@ -18,7 +18,7 @@ def application_limits(node: YamlNode | None) -> tuple[LimitRule, ...]:
 
 
 def endpoint_limits(node: YamlNode | None, type_name: str) -> tuple[LimitRule, ...]:
-    """Return the rules of an endpoint's own `limits:`.
+    """Return the rules of an endpoint's own `limits:`, with paths below its type.
 
     `string` and `sequence` there become a rule for `*`.
     """

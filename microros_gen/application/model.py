@@ -112,7 +112,8 @@ class EndpointDecl:
     what these take together; None: as much as that many of the largest. `stored`: the library has storage for what is
     received (`storage: none`: the program has). `given`: the fully qualified name that the source has, where `remap:`
     makes it `topic`; empty: the same.
-    `of_the_library`: nobody declared it, and the library itself opens it.
+    `of_the_library`: nobody declared it, and the library itself opens it. `usual_limits` are then those of its
+    component, which hold where the application says nothing but `*`.
     """
 
     kind: str
@@ -129,6 +130,21 @@ class EndpointDecl:
     stored: bool = True
     given: str = ""
     of_the_library: bool = False
+    usual_limits: tuple[LimitRule, ...] = ()
+
+
+@dataclass(frozen=True)
+class EndpointChange:
+    """What the application changes of an endpoint that a component opens by itself; `name` is the component's for it.
+
+    Paths of `limits` begin with the member. None: unchanged.
+    """
+
+    name: str
+    depth: int | None = None
+    queue: int | None = None
+    limits: tuple[LimitRule, ...] = ()
+    span: Span | None = None
 
 
 @dataclass(frozen=True)
@@ -243,8 +259,8 @@ class Application:
     `pools` count entities where no nodes are given. `creation` (best_effort, reliable) is the stream of CREATE; None:
     best effort. `clock` (steady, ros) is an axis like `entities` and `liveliness`. `interface_paths` are relative to
     the file. `implied` are the endpoints of the library itself where there are no nodes (with nodes they are among
-    their endpoints). `spans` holds the places of top-level keys and of the keys of `pools` (as `pools.history`), for
-    later steps.
+    their endpoints), `endpoints` what the file changes of those. `spans` holds the places of top-level keys and of
+    the keys of `pools` (as `pools.history`), for later steps.
     """
 
     distro: str = "jazzy"
@@ -269,4 +285,5 @@ class Application:
     error_text: bool = True
     clock: Named | None = None
     implied: tuple[EndpointDecl, ...] = ()
+    endpoints: tuple[EndpointChange, ...] = ()
     spans: Mapping[str, Span] = field(default_factory=dict)

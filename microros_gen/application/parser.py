@@ -8,11 +8,12 @@ import re
 from pathlib import Path
 from types import MappingProxyType
 
-from microros_gen.application.limits import application_limits
+from microros_gen.application.limits import application_limits, endpoint_limits
 from microros_gen.application.model import (
     DISCOVERY_PORT,
     LARGEST_UDP_PAYLOAD,
     Application,
+    EndpointChange,
     Memory,
     TargetRef,
     Transport,
@@ -34,7 +35,7 @@ from microros_gen.documents.tree_values import (
     span_of,
     text_of,
 )
-from microros_gen.documents.yaml_tree import MappingNode, ScalarNode, YamlNode, parse_yaml
+from microros_gen.documents.yaml_tree import Entry, MappingNode, ScalarNode, YamlNode, parse_yaml
 
 SCHEMA = Path(__file__).with_name("application.schema.json")
 LONGEST_BLOCK_MS = 60_000
@@ -103,12 +104,23 @@ def _application(tree: MappingNode, diagnostics: Diagnostics) -> Application:
         interface_paths=_names(child(tree, "interface_paths")),
         pools=MappingProxyType(pools),
         limits=application_limits(child(tree, "limits")),
+        endpoints=tuple(_endpoint_change(e) for e in entries(child(tree, "endpoints"))),
         memory=_memory(child(tree, "memory")),
         on_full=on_full,
         on_full_block_ms=block_ms,
         error_text=text_of(child(tree, "errors")) != "code",
         clock=named_of(child(tree, "clock")),
         spans=MappingProxyType(_spans(tree)),
+    )
+
+
+def _endpoint_change(entry: Entry) -> EndpointChange:
+    return EndpointChange(
+        name=entry.key,
+        depth=int_of(child(entry.value, "depth")),
+        queue=int_of(child(entry.value, "queue")),
+        limits=endpoint_limits(child(entry.value, "limits"), ""),
+        span=entry.key_span,
     )
 
 

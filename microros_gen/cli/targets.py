@@ -13,7 +13,7 @@ import click
 
 from microros_gen.cli.tables import format_table
 from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
-from microros_gen.platform.find import builtin_targets, read_target
+from microros_gen.platform.find import FoundTarget, read_target, target_names
 from microros_gen.platform.part import Part
 from microros_gen.platform.target import Emulator, Region, Target, Uart, UniqueId
 
@@ -43,16 +43,17 @@ def command(name: str | None, kind: str) -> None:
     microros-gen targets cortex-m4f --format cmake > toolchain.cmake
     """
     diagnostics = Diagnostics()
-    names = builtin_targets() if name is None else (name,)
+    names = target_names() if name is None else (name,)
     found = [read_target(n, Path(), None, diagnostics) for n in names]
     diagnostics.check()
-    targets = [f.target for f in found if f is not None]
+    known = [f for f in found if f is not None]
+    targets = [f.target for f in known]
     if kind == "cmake":
         click.echo(_toolchain(targets[0] if name else None), nl=False)
     elif kind == "json":
-        click.echo(json.dumps([_data(t) for t in targets], indent=2, sort_keys=True))
+        click.echo(json.dumps([_data(f) for f in known], indent=2, sort_keys=True))
     elif name is None:
-        click.echo(format_table(_COLUMNS, [_line(t) for t in targets]), nl=False)
+        click.echo(format_table(_COLUMNS, [_line(f) for f in known]), nl=False)
     else:
         click.echo(format_table(("key", "value"), _rows(targets[0])), nl=False)
 
@@ -89,23 +90,26 @@ def missing_packages(target: Target) -> tuple[str, ...]:
     return tuple(missing)
 
 
-def _line(target: Target) -> tuple[str, str, str, str]:
+def _line(found: FoundTarget) -> tuple[str, str, str, str]:
+    target = found.target
     image = "library alone" if not target.has_image else "runs here" if target.hosted else "on the board"
     if target.emulator is not None:
         image = f"in {target.emulator.program}"
     missing = missing_packages(target)
     return (
         target.name,
-        target.summary,
+        f"{target.summary} (from {found.origin})" if found.origin else target.summary,
         image,
         f"apt-get install {' '.join(missing)}" if missing else "nothing more",
     )
 
 
-def _data(target: Target) -> dict[str, Any]:
+def _data(found: FoundTarget) -> dict[str, Any]:
+    target = found.target
     parts = {part.kind: part.component.name for part in target.parts}
     data = dataclasses.asdict(dataclasses.replace(target, parts=()))
-    return {**data, "parts": parts, "missing_packages": missing_packages(target)}
+    origin = {"from": found.origin} if found.origin else {}
+    return {**data, **origin, "parts": parts, "missing_packages": missing_packages(target)}
 
 
 def _rows(target: Target) -> list[tuple[str, str]]:

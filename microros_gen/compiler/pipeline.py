@@ -299,11 +299,18 @@ def _capacities(resolved: Resolved, interfaces: InterfaceSet, diagnostics: Diagn
             endpoint.type_span or endpoint.span,
             room,
             Entity(kind, index, full_name(node, endpoint), node_name(node), bool(KIND[kind].sends)),
+            endpoint.usual_limits,
         )
         for kind in TOPIC_KINDS
         for index, (_, node, endpoint) in enumerate(declarations(application, kind))
     ]
     declared += service_roots(application, interfaces.messages, room)
+    named = {name.name for name in application.interfaces}
+    declared += [
+        Root(type_name(e.type), e.limits, e.span, room, usual=e.usual_limits)
+        for e in application.implied
+        if (e.limits or e.usual_limits) and not named & {e.type, type_name(e.type).package}
+    ]
     known = {root.type for root in declared}
     # A declared service exchanges a request and a response; its event, which ROS 2 derives, needs no limits.
     known |= {

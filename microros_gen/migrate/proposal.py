@@ -25,8 +25,10 @@ from microros_gen.migrate.first import AGENT, first_draft
 from microros_gen.migrate.limits import DEFAULT_LIMITS, limits_of
 from microros_gen.migrate.meta_draft import meta_draft
 from microros_gen.migrate.rclc_draft import Adopted, rclc_draft
+from microros_gen.platform.capabilities import capabilities
 from microros_gen.records import dataclass
 from microros_gen.selection.find_components import declared_functions, load_catalogue
+from microros_gen.selection.outside import with_installed
 from microros_gen.selection.resolve import check_ready
 
 DEFAULT_PROFILE = "pure_sender"
@@ -83,7 +85,7 @@ def draft_of(wish: Wish, warnings: Diagnostics) -> Draft:
 def _of_code(folder: Path, diagnostics: Diagnostics) -> Adopted:
     sources = read_code(folder, diagnostics)
     diagnostics.check()
-    catalogue = load_catalogue()
+    catalogue = with_installed(load_catalogue(), capabilities())
     return rclc_draft(sources, declared_functions(catalogue), catalogue, diagnostics)
 
 

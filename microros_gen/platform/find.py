@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Finds and reads target files: the built-in ones, and a user's own by its path."""
+"""Finds and reads target files: the built-in ones, those of folders and packages, and a user's own by its path."""
 
 from __future__ import annotations
 
@@ -19,15 +19,25 @@ TARGETS = Path(__file__).resolve().parent.parent / "targets"
 
 @dataclass(frozen=True)
 class FoundTarget:
-    """A target, and the files of the user's that it came from, the one that was asked for first."""
+    """A target, and the files of the user's that it came from, the one that was asked for first.
+
+    `origin` says who brings it where that is a folder or a package: `pip package robot`.
+    """
 
     target: Target
     own: tuple[Source, ...] = ()
+    origin: str = ""
 
 
 def builtin_targets() -> tuple[str, ...]:
     """Return the names of the built-in targets, sorted."""
     return tuple(sorted(path.stem for path in TARGETS.glob("[a-z]*.yaml")))
+
+
+def target_names(extensions: Extensions = INSTALLED) -> tuple[str, ...]:
+    """Return the names of all targets that installed packages bring or that are built in; these come first."""
+    brought = {name for extension in extensions.installed() for name in extension.target_names()}
+    return (*builtin_targets(), *sorted(brought - set(builtin_targets())))
 
 
 def read_target(
@@ -39,34 +49,37 @@ def read_target(
 ) -> FoundTarget | None:
     """Read a target by its name, or a file by its path (relative to `near`) with all that it extends.
 
-    Parts that it names and that are not built in come from `extensions`. None and errors in
+    A name, and parts that it names, that are not built in come from `extensions`. None and errors in
     `diagnostics` if it does not exist or one of its files is invalid.
     """
     found = Diagnostics()
-    reader = _Reader(found)
+    reader = _Reader(found, extensions)
     node = reader.read(name, near, span)
     target = target_of(node, found, extensions) if node is not None else None
     diagnostics.extend(found)
-    return FoundTarget(target, tuple(reader.own)) if target is not None else None
+    return FoundTarget(target, tuple(reader.own), reader.origin) if target is not None else None
 
 
 class _Reader:
     """Follows `extends` from file to file."""
 
-    def __init__(self, diagnostics: Diagnostics) -> None:
+    def __init__(self, diagnostics: Diagnostics, extensions: Extensions) -> None:
         self.own: list[Source] = []
+        self.origin = ""
         self._diagnostics = diagnostics
+        self._extensions = extensions
         self._way: list[Path] = []
 
     def read(self, name: str, near: Path, span: Span | None) -> MappingNode | None:
         """Return what a target says, and below it what it extends."""
         known = builtin_targets()
         builtin = name in known or (near == TARGETS and (TARGETS / f"{name}.yaml").is_file())
+        brought = None
         if not builtin and not name.endswith((".yaml", ".yml")):
-            hint = nearest(name, known) or f"There are: {', '.join(known)}; or give the path of a target file"
-            self._diagnostics.error(f"unknown target '{name}'", span, hint, id="MG-6001")
-            return None
-        path = TARGETS / f"{name}.yaml" if builtin else near / name
+            brought = self._brought(name, span)
+            if brought is None:
+                return None
+        path = brought or (TARGETS / f"{name}.yaml" if builtin else near / name)
         if path.resolve() in self._way:
             self._diagnostics.error(
                 f"'{name}' extends itself", span, "Extend a built-in target at the end", id="MG-6002"
@@ -80,6 +93,19 @@ class _Reader:
         if not builtin:
             self.own.append(source)
         return self._extended(node, path.parent)
+
+    def _brought(self, name: str, span: Span | None) -> Path | None:
+        """Return the file of a target that a folder or a package brings; None and an error where none does."""
+        faults = len(tuple(self._diagnostics))
+        extension = self._extensions.target(name, span, self._diagnostics)
+        if extension is None and len(tuple(self._diagnostics)) == faults:
+            known = target_names(self._extensions)
+            hint = nearest(name, known) or f"There are: {', '.join(known)}; or give the path of a target file"
+            self._diagnostics.error(f"unknown target '{name}'", span, hint, id="MG-6001")
+        if extension is None:
+            return None
+        self.origin = self.origin or extension.origin
+        return extension.target(name)
 
     def _extended(self, node: MappingNode, near: Path) -> MappingNode | None:
         below = node.get("extends")

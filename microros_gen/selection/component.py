@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import field
 from pathlib import Path
 
-from microros_gen.application.model import ComponentChange, Qos
+from microros_gen.application.model import ComponentChange, LimitRule, Qos
 from microros_gen.diagnostics import Span
 from microros_gen.documents.named import Named
 from microros_gen.records import dataclass
@@ -53,7 +53,7 @@ class Implied:
     """An endpoint that the library opens by itself: one in the first node, or one in every node.
 
     `name` is that of the topic or service; `{node}` and `{ns}` in it are replaced. `queue`: how many samples wait;
-    None: follows from the depth.
+    None: follows from the depth. `limits` hold where the application has none for its type.
     """
 
     kind: str
@@ -62,6 +62,7 @@ class Implied:
     qos: Qos = Qos()
     queue: int | None = None
     every_node: bool = False
+    limits: tuple[LimitRule, ...] = ()
 
 
 @dataclass(frozen=True)

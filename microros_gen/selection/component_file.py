@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from microros_gen.application.kinds import NAMES
+from microros_gen.application.limits import endpoint_limits
 from microros_gen.application.model import Qos
 from microros_gen.diagnostics import Diagnostics, Source, reads
 from microros_gen.documents.tree_read import check_keys, expect_mapping, read_choice, read_names, read_text
@@ -19,6 +20,7 @@ from microros_gen.selection.xrce import OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
 LAYERS = ("micro-ROS", "middleware", "port")
 _REQUIRED = ("component", "summary", "layer", "status")
 _LISTS = ("needs", "asks", "xrce", "sends", "receives", "objects", "headers", "sources", "implies")
+_IMPLIED = ("type", "every_node", "queue", "qos", "limits")
 _PROVISION = ("sources", "asks", "always")
 _STATUS = ("ready", "planned")
 
@@ -110,7 +112,7 @@ def _provides(node: MappingNode, diagnostics: Diagnostics) -> tuple[Provision, .
 
 
 def _implies(node: MappingNode, diagnostics: Diagnostics) -> tuple[Implied, ...]:
-    """Read a list of `{subscription: /clock, type: …, every_node: true, queue: 1, qos: {…}}`."""
+    """Read a list of `{subscription: /clock, type: …, every_node: true, queue: 1, qos: {…}, limits: {…}}`."""
     found = []
     for item in items(node.get("implies")):
         one = expect_mapping(item, "an item of 'implies'", diagnostics)
@@ -119,11 +121,12 @@ def _implies(node: MappingNode, diagnostics: Diagnostics) -> tuple[Implied, ...]
             hint = f"Write one of {', '.join(f'`{k}: NAME`' for k in NAMES)}"
             diagnostics.error("'implies' must list endpoints", item.span, hint, id="MG-4010")
             continue
-        check_keys(one, (kind, "type", "every_node", "queue", "qos"), (kind, "type"), diagnostics)
+        check_keys(one, (kind, *_IMPLIED), (kind, "type"), diagnostics)
         every_node = bool_of(one.get("every_node")) or False
         name, type_ = read_text(one, kind, diagnostics), read_text(one, "type", diagnostics)
         queue = int_of(one.get("queue"))
-        found.append(Implied(kind, name, type_, _qos(one.get("qos"), diagnostics), queue, every_node))
+        qos, limits = _qos(one.get("qos"), diagnostics), endpoint_limits(one.get("limits"), type_)
+        found.append(Implied(kind, name, type_, qos, queue, every_node, limits))
     return tuple(found)
 
 

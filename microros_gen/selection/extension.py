@@ -2,8 +2,9 @@
 """Where components, profiles and parts of platforms come from that do not ship with the tool.
 
 A folder that the application file names is one component (it has a `component.yaml`) or holds several things, as an
-installed package does: `components/<name>/`, `profiles/<name>.yaml`, `platform/<kind>/<name>/`. Installed packages are
-looked at only for names that nothing else has, so what else is installed never changes an output.
+installed package does: `components/<name>/`, `profiles/<name>.yaml`, `platform/<kind>/<name>/`, `targets/<name>.yaml`.
+Installed packages are looked at only for names that nothing else has, so what else is installed never changes an
+output.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from microros_gen.selection.find_components import COMPONENT_FILE
 from microros_gen.selection.installed import installed_packages
 from microros_gen.selection.presence import EXAMPLE_FILE
 
-_FOLDERS = ("components", "profiles", "platform")
+_FOLDERS = ("components", "profiles", "platform", "targets")
 _OWN_FILES = (COMPONENT_FILE, EXAMPLE_FILE, "cpu.yaml", "os.yaml")
 _OWN_FOLDERS = ("include", "src", "variants")
 
@@ -60,6 +61,11 @@ class Extension:
         path = self.folder / "profiles" / f"{name}.yaml"
         return path if is_file(path) else None
 
+    def target(self, name: str) -> Path | None:
+        """Return the file of the target `name` where it brings that."""
+        path = self.folder / "targets" / f"{name}.yaml"
+        return path if is_file(path) else None
+
     def part(self, kind: str, name: str) -> Path | None:
         """Return the folder of a part of platforms where it brings that."""
         folder = self.folder / "platform" / kind / name
@@ -70,6 +76,10 @@ class Extension:
         if self.is_component:
             return (own_name(self.folder),)
         return tuple(sorted(p.parent.name for p in (self.folder / "components").glob(f"*/{COMPONENT_FILE}")))
+
+    def target_names(self) -> tuple[str, ...]:
+        """Return the names of its targets, sorted; a file `_x.yaml` is only extended."""
+        return tuple(sorted(p.stem for p in (self.folder / "targets").glob("[a-z]*.yaml")))
 
     def profile_names(self) -> tuple[str, ...]:
         """Return the names of its profiles, sorted."""
@@ -90,6 +100,10 @@ class Extensions:
     def profile(self, name: str, span: Span | None, diagnostics: Diagnostics) -> Extension | None:
         """Return who brings the profile `name`; two that do are an error in `diagnostics`."""
         return self._only(f"profile '{name}'", span, diagnostics, lambda e: e.profile(name))
+
+    def target(self, name: str, span: Span | None, diagnostics: Diagnostics) -> Extension | None:
+        """Return who brings the target `name`; two that do are an error in `diagnostics`."""
+        return self._only(f"target '{name}'", span, diagnostics, lambda e: e.target(name))
 
     def part(self, kind: str, name: str, span: Span | None, diagnostics: Diagnostics) -> Extension | None:
         """Return who brings a part of platforms; two that do are an error in `diagnostics`."""
@@ -141,7 +155,7 @@ def take_extensions(
                 f"Add {change.name.rstrip('/')}/{COMPONENT_FILE}; a path is relative to the application file"
             )
             if is_folder(folder):
-                message = f"'{change.name}' brings no component, profile or platform"
+                message = f"'{change.name}' brings no component, profile, platform or target"
                 diagnostics.error(message, change.span, hint, id="MG-4061")
             else:
                 diagnostics.error(f"'{change.name}' is not a folder", change.span, hint, id="MG-4089")

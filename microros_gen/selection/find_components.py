@@ -22,6 +22,10 @@ _FUNCTION = re.compile(
     r"(?:\b|#define )((?:rclc?|rmw|rcutils|rosidl|micro_ros|uxr)_\w+)(?=\(| \w+$)", re.MULTILINE
 )
 
+_ANY_FUNCTION = re.compile(
+    r"^(?!typedef\b|return\b)(?:#define |[A-Za-z_][\w *]*?\b)([A-Za-z_]\w*)\(", re.MULTILINE
+)
+"""A declaration in the first column, or a macro with arguments: names from outside have no common prefix."""
 _COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*|\{#.*?#\}", re.DOTALL)
 
 
@@ -61,7 +65,10 @@ def load_catalogue(folder: Path | None = None) -> Catalogue:
 
 
 def declared_functions(catalogue: Catalogue) -> Mapping[str, str]:
-    """Return which ready component declares each function of the C API, from the public headers below its include/."""
+    """Return which ready component declares each function of the C API, from the public headers below its include/.
+
+    Of a component from outside these are all functions and macros of its public headers.
+    """
     found: dict[str, str] = {}
     for component in catalogue.values():
         folder = component.folder / "include"
@@ -69,7 +76,9 @@ def declared_functions(catalogue: Catalogue) -> Mapping[str, str]:
             path = folder / header
             path = path if path.exists() else path.with_name(f"{path.name}.j2")
             if path.exists():
-                for name in _FUNCTION.findall(_COMMENT.sub("", read_text(path))):
+                for name in (_ANY_FUNCTION if component.origin else _FUNCTION).findall(
+                    _COMMENT.sub("", read_text(path))
+                ):
                     found.setdefault(name, component.name)
     return MappingProxyType(found)
 

@@ -3,10 +3,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
-from microros_gen.application.model import Application, EndpointDecl, NodeDecl
-from microros_gen.diagnostics import Diagnostics
+from microros_gen.application.kinds import KIND
+from microros_gen.application.model import Application, EndpointChange, EndpointDecl, LimitRule, NodeDecl
+from microros_gen.diagnostics import Diagnostics, nearest
+from microros_gen.selection.component import Implied
 from microros_gen.selection.model import Selection
 
 
@@ -16,8 +19,10 @@ def with_implied(application: Application, selection: Selection, diagnostics: Di
     With `nodes:` an endpoint belongs to the first node, or one to every node. Without them the library opens
     subscriptions alone by itself, once: for anything else the nodes have to be declared.
     """
-    once = _endpoints(selection, every_node=False)
-    each = _endpoints(selection, every_node=True)
+    changes = {change.name: change for change in application.endpoints}
+    once = _endpoints(selection, changes, every_node=False)
+    each = _endpoints(selection, changes, every_node=True)
+    _check_changes(application, (*once, *each), diagnostics)
     if application.nodes:
         first, *others = application.nodes
         nodes = (_with(first, (*once, *each)), *(_with(node, each) for node in others))
@@ -33,13 +38,51 @@ def with_implied(application: Application, selection: Selection, diagnostics: Di
     return replace(application, implied=once)
 
 
-def _endpoints(selection: Selection, every_node: bool) -> tuple[EndpointDecl, ...]:
+def _endpoints(
+    selection: Selection, changes: Mapping[str, EndpointChange], every_node: bool
+) -> tuple[EndpointDecl, ...]:
     return tuple(
-        EndpointDecl(i.kind, i.name, i.type, i.qos, queue=i.queue, of_the_library=True)
+        _endpoint(implied, changes.get(implied.name))
         for chosen in selection.components
-        for i in chosen.component.implies
-        if i.every_node == every_node
+        for implied in chosen.component.implies
+        if implied.every_node == every_node
     )
+
+
+def _endpoint(implied: Implied, change: EndpointChange | None) -> EndpointDecl:
+    endpoint = EndpointDecl(
+        *(implied.kind, implied.name, implied.type, implied.qos),
+        queue=implied.queue,
+        of_the_library=True,
+        usual_limits=implied.limits,
+    )
+    if change is None:
+        return endpoint
+    qos = endpoint.qos if change.depth is None else replace(endpoint.qos, depth=change.depth)
+    queue = endpoint.queue if change.queue is None else change.queue
+    limits = tuple(_below(rule, implied.type) for rule in change.limits)
+    return replace(endpoint, qos=qos, queue=queue, limits=limits, span=change.span)
+
+
+def _below(rule: LimitRule, type_name: str) -> LimitRule:
+    """Return a rule whose path begins with the type."""
+    return rule if rule.path == ("*",) else replace(rule, path=(type_name, *rule.path[1:]))
+
+
+def _check_changes(
+    application: Application, endpoints: Iterable[EndpointDecl], diagnostics: Diagnostics
+) -> None:
+    """Report each change of an endpoint that no selected component opens, or of a queue that it does not have."""
+    kinds = {endpoint.topic: KIND[endpoint.kind] for endpoint in endpoints}
+    for change in application.endpoints:
+        kind = kinds.get(change.name)
+        if kind is None:
+            message = f"no selected component opens an endpoint '{change.name}'"
+            hint = nearest(change.name, kinds) or "Endpoints of `nodes:` have their settings there"
+            diagnostics.error(message, change.span, hint, id="MG-4049")
+        elif change.queue is not None and not kind.receives:
+            message = f"the {kind.name} '{change.name}' has no queue"
+            diagnostics.error(message, change.span, "Remove `queue`, or write `depth`", id="MG-4050")
 
 
 def _with(node: NodeDecl, endpoints: tuple[EndpointDecl, ...]) -> NodeDecl:

@@ -10,7 +10,7 @@ from microros_gen.application.model import Application
 from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.documents.named import Named
 from microros_gen.selection.component import Catalogue, Component, ResolvedProfile
-from microros_gen.selection.extension import Extension, Extensions, files_of
+from microros_gen.selection.extension import INSTALLED, Extension, Extensions, files_of
 from microros_gen.selection.extension_file import check_needs, read_outside
 
 
@@ -43,6 +43,19 @@ def with_outside(
         return builtin
     _check_headers(builtin, reader.found, diagnostics)
     return MappingProxyType(dict(sorted({**builtin, **reader.found}.items())))
+
+
+def with_installed(builtin: Catalogue, capabilities: Iterable[str]) -> Catalogue:
+    """Return `builtin` and all components of installed packages; a package whose components do not hold is left out."""
+    capabilities = tuple(capabilities)
+    found: dict[str, Component] = {}
+    for extension in INSTALLED.installed():
+        diagnostics = Diagnostics()
+        reader = _Reader(builtin, INSTALLED, capabilities, diagnostics)
+        reader.take(extension)
+        if not diagnostics.has_errors():
+            found = {**reader.found, **found}
+    return MappingProxyType(dict(sorted({**builtin, **found}.items())))
 
 
 class _Reader:

@@ -24,7 +24,7 @@ from tests.support.outside import write_files
 
 COMPONENT = """\
 component: gauge
-summary: "Made up: plans a table of its own"
+summary: "Made up: plans a separate table"
 layer: middleware
 status: ready
 needs: [publish, executor]

@@ -42,13 +42,18 @@ nodes:
 @pytest.fixture
 def made_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Add a component to those that ship."""
+    return _ships(COMPONENT, tmp_path, monkeypatch)
+
+
+def _ships(text: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Add the component beat to those that ship; return `folder`."""
     diagnostics = Diagnostics()
-    beat = parse_component(Source("beat/component.yaml", COMPONENT), diagnostics)
+    beat = parse_component(Source("beat/component.yaml", text), diagnostics)
     diagnostics.check()
     assert beat is not None
     catalogue = MappingProxyType({**load_catalogue(), "beat": beat})
     monkeypatch.setattr(pipeline, "load_catalogue", lambda: catalogue)
-    return tmp_path
+    return folder
 
 
 def planned(folder: Path, text: str) -> compiler.Planned:
@@ -121,3 +126,93 @@ def test_a_faulty_one_is_refused(item: str, said: str, tmp_path: Path) -> None:
     with pytest.raises(UserError) as caught:
         load_catalogue(tmp_path)
     assert any(said in without_id(diagnostic.headline()) for diagnostic in caught.value.diagnostics)
+
+
+LIMITED = """\
+component: beat
+summary: "Made up: endpoints with limits"
+layer: middleware
+status: ready
+needs: [publish, subscribe, services]
+implies:
+  - {publisher: /words, type: std_msgs/msg/String, limits: {data: 7}}
+  - {subscription: /heard, type: std_msgs/msg/String, qos: {depth: 1}, limits: {string: 5}}
+  - {service: "~/ask", type: example_interfaces/srv/SetBool, every_node: true, limits: {message: 9}}
+"""
+BARE = """\
+version: 1
+profiles: [pure_sender]
+components: [+beat]
+nodes: [{name: one}, {name: two}]
+"""
+
+
+@pytest.fixture
+def limited(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    return _ships(LIMITED, tmp_path, monkeypatch)
+
+
+def sizes(folder: Path, text: str) -> dict[str, int]:
+    """Return the largest size of each message that is exchanged: of an entity with lower limits, and of its type."""
+    found = {}
+    for plan in planned(folder, text).project.types:
+        found[str(plan.name)] = plan.max_encoded_size
+        found |= {e.topic: own.max_encoded_size for own in plan.limit_sets for e in own.entities}
+    return found
+
+
+def test_their_limits_need_not_be_said(limited: Path) -> None:
+    found = sizes(limited, BARE)
+    assert found["std_msgs/msg/String"] == 4 + 7 + 1
+    assert found["/heard"] == 4 + 5 + 1
+    assert found["example_interfaces/srv/SetBool_Response"] == 4 + 4 + 9 + 1
+
+
+@pytest.mark.parametrize(
+    ("more", "words", "heard"),
+    [
+        ("limits: {'*': {string: 99}}\n", 7, 5),
+        ("limits: {std_msgs/msg/String: {data: 30}}\n", 30, 30),
+        ("endpoints: {/heard: {limits: {data: 3}}}\n", 7, 3),
+        ("limits: {std_msgs/msg/String: 30}\nendpoints: {/words: {limits: {string: 40}}}\n", 40, 30),
+    ],
+)
+def test_the_application_changes_them(more: str, words: int, heard: int, limited: Path) -> None:
+    found = sizes(limited, BARE + more.replace("String: 30", "String: {string: 30}"))
+    assert found["std_msgs/msg/String"] == 5 + words
+    assert found.get("/heard", found["std_msgs/msg/String"]) == 5 + heard
+
+
+def test_one_of_every_node_is_changed_in_each(limited: Path) -> None:
+    changes = 'endpoints: {"~/ask": {depth: 3, queue: 2}, /heard: {depth: 4}}\n'
+    project = planned(limited, BARE + changes).project
+    asked = [e for node in project.application.nodes for e in node.endpoints if e.topic == "~/ask"]
+    assert [(e.qos.depth, e.queue) for e in asked] == [(3, 2), (3, 2)]
+    assert [queue.slots for queue in project.runtime.input.queues] == [4, 2, 2]
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ("/herd: {depth: 1}", "no selected component opens an endpoint '/herd'. Did you mean '/heard'?"),
+        ("/words: {queue: 1}", "the publisher '/words' has no queue"),
+        ("/words: {limits: {dat: 3}}", "String has no member 'dat'"),
+    ],
+)
+def test_a_faulty_change_is_refused(change: str, said: str, limited: Path) -> None:
+    with pytest.raises(UserError) as caught:
+        planned(limited, f"{BARE}endpoints: {{{change}}}\n")
+    assert any(said in without_id(d.headline()) for d in caught.value.diagnostics), [
+        d.headline() for d in caught.value.diagnostics
+    ]
+
+
+def test_without_nodes_a_subscription_has_its_limits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    text = "\n".join(
+        line for line in LIMITED.splitlines() if "publisher:" not in line and "~/ask" not in line
+    )
+    _ships(text, tmp_path, monkeypatch)
+    application = (
+        "version: 1\nprofiles: [pure_reader]\ncomponents: [+beat]\ninterfaces: [std_msgs/msg/Int32]\n"
+    )
+    assert sizes(tmp_path, application)["std_msgs/msg/String"] == 4 + 5 + 1

@@ -29,10 +29,6 @@ nodes:
   - name: board
     publishers: [{{topic: count, type: std_msgs/msg/Int32}}]
     timers: [{{name: tick, period: 100 ms}}]
-limits:
-  diagnostic_msgs/msg/DiagnosticArray: {{header: {{frame_id: 1}}, status: 1}}
-  diagnostic_msgs/msg/DiagnosticStatus: {{name: 20, message: 20, hardware_id: 1, values: 6}}
-  diagnostic_msgs/msg/KeyValue: {{key: 12, value: 12}}
 """
 TICKS = 80
 COUNTERS = ["sent", "resent", "received", "malformed", "dropped", "reconnects"]

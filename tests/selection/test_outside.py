@@ -148,10 +148,44 @@ def test_an_installed_package(kind: str, folder: Path, run: Runner, monkeypatch:
     assert f"Sends, and shows it (from {origin})" in listed.out
     rows = json.loads(run("profiles", "--format", "json").out)
     assert [row["from"] for row in rows if "from" in row] == [origin]
+    listed = run("targets")
+    assert f"Made up (from {origin})" in listed.out
+    assert "family" not in listed.out
+    rows = json.loads(run("targets", "--format", "json").out)
+    assert [(row["name"], row["from"]) for row in rows if "from" in row] == [("crag", origin)]
+    done = run("generate", "--profile", "pure_sender", "--target", "crag", "-o", "crag")
+    assert done.status == 0, done.err
+    assert "-DCRAG=1" in (folder / "crag/toolchain.cmake").read_text()
+    inputs = json.loads((folder / "crag/manifest.json").read_text())["inputs"]
+    assert {"target crag.yaml", "target _family.yaml"} <= inputs.keys()
     assert f"from {origin}" in run("profiles", "lighthouse").out
     made = run("init", "new", "--profile", "lighthouse")
     assert made.status == 0, made.err
     assert "lighthouse" in (folder / "new/microros.yaml").read_text()
+
+
+def test_init_looks_in_the_headers_of_packages(
+    folder: Path, run: Runner, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    site = folder.parent / "site"
+    install_with_pip(site)
+    monkeypatch.syspath_prepend(str(site))
+    source = """\
+int main(void)
+{
+  rclc_support_init(&support, 0, NULL, &allocator);
+  rclc_node_init_default(&node, "lamp", "", &support);
+  rclc_publisher_init_default(&publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32), "light");
+  printf("%u", (unsigned)beacon_shown());
+}
+"""
+    write_files(folder / "code", {"main.c": source})
+    done = run("init", "app", "--from", "code")
+    assert done.status == 0, done.err
+    assert "components: [+beacon]" in (folder / "app/microros.yaml").read_text()
+    (site / "robot_parts/components/beacon/component.yaml").write_text(COMPONENT + "typo: 1\n")
+    assert run("init", "other", "--from", "code").status == 0, "a package that does not hold is left out"
+    assert "beacon" not in (folder / "other/microros.yaml").read_text()
 
 
 def test_what_else_is_installed_changes_nothing(
@@ -280,7 +314,7 @@ def test_a_faulty_template_is_told_with_its_line(text: str, said: str, folder: P
     ("name", "said"),
     [
         ("./none", "'./none' is not a folder"),
-        ("./empty", "'./empty' brings no component, profile or platform"),
+        ("./empty", "'./empty' brings no component, profile, platform or target"),
         ("-./beacon", "'components[0]' must be a component to add or drop"),
     ],
 )

@@ -37,7 +37,6 @@ nodes:
   - name: board
     publishers: [{{topic: count, type: std_msgs/msg/Int32}}]
     timers: [{{name: tick, period: 100 ms}}]
-limits: {{"*": {{string: 12, sequence: 2}}}}
 """
 BEACON_APPLICATION = """\
 version: 1

@@ -43,7 +43,12 @@ needs: [support]
 provides:
   time: {sources: [port_rock_time.c], always: true}
 """
+TARGETS = {
+    "targets/crag.yaml": "target: crag\nsummary: Made up\nextends: _family\n",
+    "targets/_family.yaml": "target: family\nsummary: Made up\nextends: cortex-m4\nc_flags: [-DCRAG=1]\n",
+}
 PACKAGE = {
+    **TARGETS,
     **{f"components/beacon/{name}": text for name, text in BEACON.items()},
     "profiles/lighthouse.yaml": PROFILE,
     "platform/os/rock/component.yaml": PART,

@@ -44,7 +44,7 @@ class Feature(Protocol):
         """Return the component's slice, a frozen data class; what is wrong goes to `diagnostics`."""
 
     def record(self, part: Any) -> object:
-        """Return what of its slice changes the library's layout or behavior, as plain data with keys of its own."""
+        """Return what of its slice changes the library's layout or behavior, as plain data with its own keys."""
 
 
 def plan_features(given: Given, diagnostics: Diagnostics) -> Features:

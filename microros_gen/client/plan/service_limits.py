@@ -26,6 +26,7 @@ def service_roots(application: Application, messages: Mapping[TypeName, Message]
             endpoint.type_span or endpoint.span,
             room,
             Entity(kind, index, full_name(node, endpoint), node_name(node), sends),
+            _rules(endpoint.usual_limits, service, part, messages),
         )
         for kind in ("service", "client")
         for index, (_, node, endpoint) in enumerate(declarations(application, kind))

@@ -100,7 +100,7 @@ def example_view(
 ) -> ExampleView:
     """Return what examples/<profile>/main.c prints.
 
-    Parts of components are printed beside it (`has_parts`): they include `headers`, and the first executor has
+    Parts of components are printed with it (`has_parts`): they include `headers`, and the first executor has
     `handles` for them.
     """
     types = {plan.name: plan for plan in project.types}

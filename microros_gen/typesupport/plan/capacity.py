@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Limits → the capacity of every string and sequence, for each declared root.
 
-Precedence (design: "The application file"): the own limits of an entity, then those of the application;
-in each of the two:
+Precedence (design: "The application file"): the own limits of an entity, then those of the application; those of an
+endpoint that a component opens by itself hold where the application has `*` alone. In each of them:
 
 1. the rule with the longest path from the declared root (`Imu` + `header`, `frame_id`; a prefix covers all
    below);
@@ -74,7 +74,8 @@ class Entity:
 class Root:
     """A declared type: by an endpoint (`rules` are its own limits) or by `interfaces:` (`entity` is None).
 
-    `room` is the largest body that its stream takes, bytes; None where the stream follows the message.
+    `usual` are the limits of an endpoint that a component opens by itself. `room` is the largest body that its
+    stream takes, bytes; None where the stream follows the message.
     """
 
     type: TypeName
@@ -82,6 +83,7 @@ class Root:
     span: Span | None = None
     room: int | None = None
     entity: Entity | None = None
+    usual: tuple[LimitRule, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -161,8 +163,9 @@ def plan_capacities(
     own: list[EntityLimits] = []
     unset: list[UnsetRoot] = []
     for root in roots:
-        checker.check(root.rules, root.type)
-        tiers = [_Tier(messages, root.rules, root.type), shared] if root.rules else [shared]
+        checker.check((*root.rules, *root.usual), root.type)
+        tiers = [_Tier(messages, root.rules, root.type)] if root.rules else []
+        tiers += _below_own(messages, root, application) if root.usual else [shared]
         walk = _Walk(messages, root, tiers, defaults)
         found = walk.type_limits(root.type, (), (str(root.type),))
         unset += [root_unset] if (root_unset := walk.unset_root()) else []
@@ -176,6 +179,16 @@ def plan_capacities(
     report_unset(unset, application, diagnostics)
     entities = tuple(e for e in own if e.limits != limits[e.type])
     return Capacities(limits, tuple(decided.values()), _topic_limits(own, limits), entities)
+
+
+def _below_own(
+    messages: Mapping[TypeName, Message], root: Root, application: Iterable[LimitRule]
+) -> list[_Tier]:
+    """Return what holds where a component's endpoint has no own limits: its usual ones come before `*`."""
+    rules = tuple(application)
+    named = [rule for rule in rules if rule.path != ("*",)]
+    anywhere = [rule for rule in rules if rule.path == ("*",)]
+    return [_Tier(messages, named), _Tier(messages, root.usual, root.type), _Tier(messages, anywhere)]
 
 
 def _topic_limits(

@@ -453,6 +453,17 @@ _TOP = {
         "the keys of 'limits' must be \"*\" or types such as sensor_msgs/msg/Imu; 'std_msgs/String' is not. "
         "Write std_msgs/msg/String",
     ),
+    "endpoints": KeyCase(
+        'endpoints: {/diagnostics: {depth: 2, limits: {status: 3}}, "~/ask": {queue: 1, limits: {string: 9}}}\n',
+        lambda a: [(e.name, e.depth, e.queue, _rules(e.limits)) for e in a.endpoints],
+        [
+            ("/diagnostics", 2, None, [(("", "status"), 3, 3, True)]),
+            ("~/ask", None, 1, [(("*",), 9, None, False)]),
+        ],
+        "endpoints: {/diagnostics: {length: 2}}",
+        "1:28",
+        "'endpoints[\"/diagnostics\"]' has no key 'length'. Known are depth, queue, limits",
+    ),
     "memory": KeyCase(
         "memory: {}",
         lambda a: a.memory.arena,
