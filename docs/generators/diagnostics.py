@@ -52,8 +52,8 @@ class Told:
 
 def diagnostics() -> list[Told]:
     """Return every diagnostic of the package, sorted by id; one that several places give is there several times."""
-    found = [told for path in sorted(PACKAGE.rglob("*.py")) for told in _of_module(path)]
-    return sorted(found, key=lambda told: (told.id, told.message))
+    found = [reported for path in sorted(PACKAGE.rglob("*.py")) for reported in _of_module(path)]
+    return sorted(found, key=lambda reported: (reported.id, reported.message))
 
 
 def page() -> str:
@@ -61,7 +61,7 @@ def page() -> str:
     parts = ["# Diagnostics", _INTRODUCTION]
     everything = diagnostics()
     for subject, title in _SUBJECTS.items():
-        rows = [told for told in everything if told.subject == subject]
+        rows = [reported for reported in everything if reported.subject == subject]
         if rows:
             parts += [f"## {title}", _table(rows)]
     return "\n\n".join(parts) + "\n"
@@ -73,12 +73,12 @@ def _table(rows: list[Told]) -> str:
         ("id", "kind", "message and hint", "explanation"),
         (
             (
-                f'<span id="{told.id.lower()}">{told.id}</span>',
-                "error" if told.is_error else "warning",
-                f"{markdown.cell(told.message)}<br>*{markdown.cell(told.hint)}*".removesuffix("<br>**"),
-                markdown.cell(known.get(told.id, "")),
+                f'<span id="{reported.id.lower()}">{reported.id}</span>',
+                "error" if reported.is_error else "warning",
+                f"{markdown.cell(reported.message)}<br>*{markdown.cell(reported.hint)}*".removesuffix("<br>**"),
+                markdown.cell(known.get(reported.id, "")),
             )
-            for told in rows
+            for reported in rows
         ),
     )
 

@@ -111,8 +111,8 @@ class EventLog:
         self._pay(event)
         if self._withheld[event]:
             count = self._withheld.pop(event)
-            told = "{count} events '{of}' before this one were not written: too many at once"
-            self._write(Level.WARNING, "withheld", told, {"of": event, "count": count})
+            reported = "{count} events '{of}' before this one were not written: too many at once"
+            self._write(Level.WARNING, "withheld", reported, {"of": event, "count": count})
         self._write(level, event, text, short)
 
     def finish(self) -> None:

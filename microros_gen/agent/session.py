@@ -144,8 +144,18 @@ class Session:
         reliable = self._reliable_in.get(stream)
         first, missing = reliable.missing(unfinished) if reliable else (0, 0)
         # One goes out for every reliable message: its bytes are put together here.
-        told = (ACKNACK, FLAG_LITTLE, 5, 0, first & 0xFF, first >> 8, missing >> 8, missing & 0xFF, stream)
-        return self.link.header(STREAM_NONE, 0) + bytes(told)
+        reported = (
+            ACKNACK,
+            FLAG_LITTLE,
+            5,
+            0,
+            first & 0xFF,
+            first >> 8,
+            missing >> 8,
+            missing & 0xFF,
+            stream,
+        )
+        return self.link.header(STREAM_NONE, 0) + bytes(reported)
 
     def last_received(self) -> int:
         """Return the number of the last message that was taken from the client's built-in reliable stream."""

@@ -100,8 +100,8 @@ def record(data: bytes) -> dict[str, Json]:
 def dump(data: bytes) -> list[str]:
     """Return the summary, every submessage decoded, then all bytes, 16 a line; never raises."""
     lines = [summary(data)]
-    told = record(data).get("submessages", [])
-    for submessage in told if isinstance(told, list) else []:
+    reported = record(data).get("submessages", [])
+    for submessage in reported if isinstance(reported, list) else []:
         assert isinstance(submessage, dict)
         about = ", ".join(f"{key} {_text(value)}" for key, value in submessage.items() if key != "name")
         lines.append(f"  {submessage['name']}: {about}")

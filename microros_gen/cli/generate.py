@@ -58,12 +58,12 @@ def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
     resolved = compiler.resolve(compiler.read(compiler.Options(**options)))
     out = compiler.output_folder(resolved, output)
     planned = compiler.plan(resolved)
-    told = warnings_text(planned.warnings)
-    click.echo(told, nl=False, err=True)
+    reported = warnings_text(planned.warnings)
+    click.echo(reported, nl=False, err=True)
     report = compiler.write(compiler.render(planned), out)
     summary = plan_summary(planned)
     files = report.written + report.unchanged
-    run = Run(out, summary, len(files), told)
+    run = Run(out, summary, len(files), reported)
     inputs = tuple(read_paths(planned))
     outputs = [out / name for name in files]
     if depfile is not None:

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The compiler as a Python API: read → resolve → plan → render → write → compile.
 
-The command line, the CMake hook, the plugin of `rosidl generate`, `init` and the tests go through it. Each step takes
-the result of the one before it and returns data; nothing is printed. A mistake of the user raises `UserError`, which
-holds every `Diagnostic` of the step; what is no error is in `warnings` of the result. Attributes are imported when they
-are first used, so importing this package costs nothing.
+The command line, the CMake hook, the plugin of `rosidl generate`, `init` and the tests use it. Each step takes the
+result of the previous one and returns frozen data; nothing is printed. A user mistake raises `UserError` with every
+error `Diagnostic` of the step; warnings accumulate in `warnings` of the results. Functions are reentrant; only `write`,
+`generate` and `compile` write files. Attributes are imported on first use, so importing this package costs nothing.
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Generated:
-    """A plan, the output folder that holds its files, and what writing them changed there."""
+    """Result of `generate`: the plan, the output folder with its files, and which files were written or removed."""
 
     planned: Planned
     out: Path
@@ -33,16 +33,17 @@ class Generated:
 
 @dataclass(frozen=True)
 class Built:
-    """What a compilation did, and the size of the library in bytes (None: the tool chain has no `size`)."""
+    """Result of `compile`: paths and objects, and the library's sizes in bytes (None: the tool chain has no `size`)."""
 
     report: BuildReport
     usage: Usage | None
 
 
 def read(options: Options | None = None) -> Request:
-    """Read the application file that `options` name, or the one of the current folder; options win over it.
+    """Read the application file named by `options`, by default microros.yaml of the current folder.
 
-    Raises UserError: the file cannot be read, or says what it must not.
+    Values of `options` override those of the file. Types are not looked up yet.
+    Raises UserError if the file cannot be read, is not YAML 1.2, or violates application.schema.json.
     """
     diagnostics = Diagnostics()
     request = read_request(options or Options(), diagnostics)
@@ -50,8 +51,9 @@ def read(options: Options | None = None) -> Request:
 
 
 def read_source(source: Source | None, near: Path, options: Options | None = None) -> Request:
-    """Read an application file that is a text (None: the options alone); its paths are relative to the folder `near`.
+    """Read an application from text; None uses the options only.
 
+    `near` is the folder to which relative paths of the application refer; it need not contain the file.
     Raises UserError as `read` does.
     """
     diagnostics = Diagnostics()
@@ -60,9 +62,10 @@ def read_source(source: Source | None, near: Path, options: Options | None = Non
 
 
 def resolve(request: Request) -> Resolved:
-    """Resolve profiles, components and axes: what is selected, and why.
+    """Resolve profiles, components and choices to a selection with a reason for each component.
 
-    Raises UserError: an unknown profile or component, or choices that exclude each other.
+    Raises UserError for an unknown profile or component, for a component that is not ready, and for choices that
+    exclude each other.
     """
     diagnostics = _continued(request.warnings)
     resolved = resolve_request(request, diagnostics)
@@ -70,22 +73,24 @@ def resolve(request: Request) -> Resolved:
 
 
 def plan(resolved: Resolved) -> Planned:
-    """Find the interfaces; decide sizes, names, streams and storage. Nothing is written.
+    """Find the interfaces and compute all sizes (bytes), times (milliseconds), names, streams and storage.
 
-    Raises UserError: an unknown type, a limit that is missing or does not fit, a budget that is exceeded.
+    Writes nothing. Sizes are those of plain CDR (OMG DDS-XTypes 1.3, 7.4.1) for the target's data model.
+    Raises UserError for an unknown type, a missing limit, a message or stream that does not fit, and an exceeded
+    RAM budget of the streams.
     """
     return plan_request(resolved, _continued(resolved.warnings))
 
 
 def render(planned: Planned) -> dict[str, bytes]:
-    """Return every file of the output folder by its path there. The same plan gives the same bytes."""
+    """Return the contents of every output file by its relative path (POSIX). Equal plans give equal bytes."""
     return render_request(planned)
 
 
 def output_folder(resolved: Resolved, output: Path | None = None) -> Path:
-    """Return `output`, or where the command line writes without one: `build/<profiles>`.
+    """Return `output`, by default `build/<profiles>` as the command line does.
 
-    Raises UserError: the folder holds files that this tool did not write.
+    Raises UserError if the folder contains files that microros-gen did not write.
     """
     out = output or Path("build") / resolved.selection.name
     check_owned(out)
@@ -93,22 +98,29 @@ def output_folder(resolved: Resolved, output: Path | None = None) -> Path:
 
 
 def write(files: Mapping[str, bytes], out: Path) -> WriteReport:
-    """Make `out` hold exactly `files`, replacing only what differs.
+    """Write `files` to the folder `out` and remove other generated files; equal files keep their time stamps.
 
-    Raises UserError: the folder cannot be written, or is not this tool's; then nothing was changed.
+    Each file is replaced atomically. Compiled files below `out` stay.
+    Raises UserError, with nothing changed, if the folder is not writable or not from microros-gen.
     """
     return write_tree(out, files)
 
 
 def differences(files: Mapping[str, bytes], golden: Path) -> tuple[str, ...]:
-    """Return how `files` differ from a golden copy, a unified diff for each; none: they are the same."""
+    """Return a unified diff for each file that differs from the golden copy; empty if all are equal.
+
+    Raises UserError if the folder `golden` does not exist.
+    """
     from microros_gen.output.golden import golden_differences
 
     return golden_differences(golden, files)
 
 
 def generate(options: Options | None = None, output: Path | None = None) -> Generated:
-    """Read, resolve, plan, render and write. Raises UserError as these do."""
+    """Run `read`, `resolve`, `plan`, `render` and `write`.
+
+    Raises UserError as these do. The output folder is checked before the plan is made.
+    """
     resolved = resolve(read(options))
     out = output_folder(resolved, output)
     planned = plan(resolved)
@@ -116,9 +128,10 @@ def generate(options: Options | None = None, output: Path | None = None) -> Gene
 
 
 def toolchain(planned: Planned, environ: Mapping[str, str] | None = None) -> Toolchain:
-    """Return the tool chain of the plan's target; `environ` (the process's by default) may name another for the host.
+    """Find the tool chain of the plan's target on the PATH.
 
-    Raises UserError that names what to install.
+    `environ` (default: os.environ) provides PATH, and CC, AR and CFLAGS for the host.
+    Raises UserError with the packages to install if no suitable compiler is found.
     """
     from microros_gen.toolchain.toolchain import find_toolchain
 
@@ -126,9 +139,10 @@ def toolchain(planned: Planned, environ: Mapping[str, str] | None = None) -> Too
 
 
 def compile(planned: Planned, out: Path, tools: Toolchain | None = None) -> Built:
-    """Compile the sources in `out`: lib/libmicroros.a, and the example's image where the target has one.
+    """Compile the sources in `out` to lib/libmicroros.a, and to the example's image if the target supports one.
 
-    Raises UserError with status 1: a source does not compile, or the image is larger than the target's memory.
+    `out` must contain the rendered files of `planned`. `tools` defaults to `toolchain(planned)`.
+    Raises UserError with status 1 if a source does not compile or the image exceeds the target's memory.
     """
     from microros_gen.toolchain.compile import compile_project
     from microros_gen.toolchain.measure import measure_library

@@ -10,12 +10,13 @@ from microros_gen.records import dataclass
 
 @dataclass(frozen=True)
 class Options:
-    """Selection by the caller. Omitted values come from the application file or a default.
+    """Selection by the caller; omitted values come from the application file or a default.
 
-    `config`: the application file (None: `microros.yaml` of the current folder where there is one). `profiles` and
-    `target` replace those of the file, `components` (`timers`, `-ping`) and `interfaces` (`pkg`, `pkg/msg/Type`) add to
-    them. `interface_paths` are searched before the ament index, pip and the shipped set. `agent` is `HOST:PORT` or a
-    device. `default_target` is taken where neither file nor `target` names one and a built-in target has this name.
+    `config`: path of the application file (None: microros.yaml of the current folder, if it exists). `profiles` and
+    `target` replace those of the file; `components` (`timers`, `-ping`) and `interfaces` (`pkg`, `pkg/msg/Type`) add
+    to it. `interface_paths` are searched before the ament index, pip and the shipped interfaces.
+    `agent` is `HOST:PORT` or a device path. `default_target` applies if neither the file nor `target` names a target
+    and a built-in target has this name.
     """
 
     config: Path | None = None

@@ -56,7 +56,7 @@ DEFAULT_INTERFACE = "std_msgs/msg/Int32"
 
 @dataclass(frozen=True)
 class Resolved:
-    """A request with its selection and the user's own profiles that it came from."""
+    """Result of `resolve`: the request, its selection, and the user's own profiles that contributed to it."""
 
     request: Request
     own_profiles: tuple[Profile, ...]

@@ -29,11 +29,10 @@ class Severity(Enum):
 
 @dataclass(frozen=True)
 class Diagnostic:
-    """One message to the user: what is wrong, where, and what to do (`hint`).
+    """One message to the user: what is wrong (`message`), where (`span`), and what to do (`hint`).
 
-    `block` are lines that can be pasted into the file; they are printed below the place. `too_large`: a message
-    is larger than what carries it, so lower limits would help. `id` stays the same from version to version
-    (`MG-3012`); a page of the documentation lists all.
+    `block` contains lines to paste into the file, printed after the source line. `too_large`: a message exceeds its
+    stream, so lower limits would help. `id` (`MG-3012`) is stable across versions; `microros-gen explain` explains it.
     """
 
     message: str
@@ -83,7 +82,11 @@ def _shown(line: str, span: Span) -> tuple[str, int, int]:
 
 
 class UserError(Exception):
-    """The one exception for user mistakes; it holds every diagnostic of the step that raised it."""
+    """The exception for user mistakes.
+
+    `diagnostics` are all of the step that raised it, errors and warnings in the order of discovery; `status` is the
+    exit status of the command line: 1 for failed checks and compilations, 2 for wrong input.
+    """
 
     def __init__(self, diagnostics: Iterable[Diagnostic], status: int = 2) -> None:
         """Hold `diagnostics` (at least one); `status` is the exit status that the command line ends with."""

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """CDR of any message from its interface file, without ROS 2 and without generated code.
 
-A message is a dict of its members: numbers (`char` and `wchar` of .idl files too, by their code), bool, str, nested
-dicts. Arrays and sequences are lists, those of `byte`, `char` and `uint8` are bytes. A member that is missing has its
-default of the interface file, else zero, False or nothing. What does not fit the interface is refused, both ways.
+A message is a dict of its members: numbers (including `char` and `wchar` of .idl files, as code numbers), bool, str,
+nested dicts. Arrays and sequences are lists; those of `byte`, `char` and `uint8` are bytes. A missing member has its
+default from the interface file, otherwise zero, False or empty. Values outside of the interface are refused when
+encoding and decoding.
 
-Written is XCDR1, little endian, after the encapsulation header of four bytes; read are both byte orders. Bytes
-after the message are passed over, as ROS 2 does. docs/explanation/typesupport.md has what ROS 2 adds to the standard.
+The encoding is XCDR1, little endian, after an encapsulation header of four bytes; decoding accepts both byte orders and
+ignores bytes after the message, as ROS 2 does. docs/explanation/typesupport.md lists ROS 2's additions to the standard.
 """
 
 from __future__ import annotations
@@ -26,10 +27,10 @@ _ORDERS = {b"\0\0": ">", b"\0\1": "<"}
 
 
 class Codec:
-    """Compiles a type when it is first used."""
+    """Encodes and decodes messages; a type is compiled on its first use. Not thread-safe."""
 
     def __init__(self, interfaces: InterfaceSet | Mapping[TypeName, Message]) -> None:
-        """`interfaces` has what is encoded, and everything that it is made of."""
+        """Use `interfaces`, which must contain the messages and all nested types."""
         self._messages = interfaces.messages if isinstance(interfaces, InterfaceSet) else interfaces
         self._programs: dict[TypeName, Program] = {}
         self._by_text: dict[str, Program] = {}

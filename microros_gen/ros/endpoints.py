@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a peer has: publishers, subscriptions, service clients and services of any type, with dicts as messages."""
+"""Publishers, subscriptions, service clients and servers of any type, with dicts as messages (see `codec`)."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ delivered only with the writer's next heartbeat, 3 s later."""
 
 
 class Publisher:
-    """Publishes dicts."""
+    """Publishes dicts on a topic."""
 
     def __init__(self, handle: Any, known: KnownType) -> None:
         self._handle = handle
         self._known = known
 
     def publish(self, value: Mapping[str, Any]) -> None:
-        """Publish a message; CodecError when it does not fit its type."""
+        """Encode and publish a message. Raises CodecError for an invalid value, RosError if DDS refuses it."""
         data = self._known.codec.encode(self._known.name, value)
         try:
             self._handle.publish_raw(data)
@@ -39,12 +39,12 @@ class Publisher:
             raise RosError(f"publish: {first_line(error)}") from error
 
     def subscriptions(self) -> int:
-        """Return how many subscriptions it is connected with."""
+        """Return the number of matched subscriptions."""
         return int(self._handle.get_subscription_count())
 
 
 class Subscription:
-    """Calls back with dicts."""
+    """Passes received messages to a callback as dicts."""
 
     kind = "subscription"
 
@@ -54,18 +54,18 @@ class Subscription:
         self._callback = callback
 
     def publishers(self) -> int:
-        """Return how many publishers it is connected with."""
+        """Return the number of matched publishers."""
         return int(self.handle.get_publisher_count())
 
     def look(self) -> None:
-        """Take one message, if there is one. CodecError: a publisher has another type under this name."""
+        """Take at most one message and call back. Raises CodecError if a publisher uses another type of this name."""
         taken = self.handle.take_message(None, True)
         if taken is not None:
             self._callback(self._known.codec.decode(self._known.name, taken[0]))
 
 
 class _ServiceEnd:
-    """Takes and sends the messages of a service."""
+    """Common part of service clients and servers: takes and sends messages."""
 
     def __init__(self, handle: Any, known: KnownType, name: ServiceName, types: RawTypes) -> None:
         self.handle = handle
@@ -90,7 +90,7 @@ class _ServiceEnd:
 
 
 class Client(_ServiceEnd):
-    """Calls a service."""
+    """A service client."""
 
     kind = "client"
 
@@ -101,11 +101,11 @@ class Client(_ServiceEnd):
         self._settled = False
 
     def available(self) -> bool:
-        """Return whether somebody serves it."""
+        """Return whether a server is matched."""
         return bool(self.handle.service_server_is_available())
 
     def wait(self, timeout_s: float) -> bool:
-        """Spin until somebody serves it; return whether somebody does."""
+        """Spin until a server is matched, for at most `timeout_s` seconds; return whether one is."""
         if not self._spin(self.available, timeout_s):
             self._settled = False
             return False
@@ -115,7 +115,10 @@ class Client(_ServiceEnd):
         return True
 
     def send(self, request: Mapping[str, Any], done: Callable[[Value], object]) -> int:
-        """Send a request now; `done` gets the response within a later `spin_once`. Return its number."""
+        """Send a request without waiting; return its sequence number.
+
+        `done` is called with the response by a later `spin_once`. Raises CodecError for an invalid value.
+        """
         number = c_int64()
         data = self._codec.encode(self.name.request, request)
         result = self._libraries.send_request(self.handle.pointer, byref(_raw(data)), byref(number))
@@ -124,13 +127,14 @@ class Client(_ServiceEnd):
         return number.value
 
     def forget(self, number: int) -> None:
-        """Ignore the response to a request, when it comes."""
+        """Ignore the response to the request with this number."""
         self._waiting.pop(number, None)
 
     def call(self, request: Mapping[str, Any], timeout_s: float = 5.0) -> Value | None:
-        """Wait for the service, send a request and spin until its response is there; None when time is over.
+        """Wait for a server, send a request and spin until the response arrives; return None after a time-out.
 
-        Other callbacks of the peer run meanwhile. Not for callbacks themselves: these use `send`.
+        `timeout_s` limits both waits, in seconds each. Other callbacks of the peer run meanwhile. Callbacks must use
+        `send` instead. Raises CodecError for an invalid value.
         """
         responses: list[Value] = []
         if not self.wait(timeout_s):
@@ -143,7 +147,7 @@ class Client(_ServiceEnd):
         return responses[0] if responses else None
 
     def look(self) -> None:
-        """Take one response, if there is one that is for this client."""
+        """Take at most one response; call back if its request is outstanding."""
         data = self._take(self._libraries.take_response)
         done = None if data is None else self._waiting.pop(self._info.request.number, None)
         if data is not None and done is not None:
@@ -151,7 +155,7 @@ class Client(_ServiceEnd):
 
 
 class Server(_ServiceEnd):
-    """Answers requests with what a function makes of them."""
+    """A service server; a function maps each request to its response."""
 
     kind = "service"
 
@@ -167,7 +171,7 @@ class Server(_ServiceEnd):
         self._answer = answer
 
     def look(self) -> None:
-        """Take one request, if there is one, and answer it; RosError where its client cannot be reached."""
+        """Take at most one request and send its response. Raises RosError if its client cannot be reached."""
         data = self._take(self._libraries.take_request)
         if data is None:
             return
@@ -180,9 +184,9 @@ class Server(_ServiceEnd):
 
 
 Waited = Subscription | Client | Server
-"""What a peer waits for."""
+"""Entities that a peer waits for."""
 
 
 def _raw(data: bytes) -> RawMessage:
-    """Return a message that borrows `data`; ctypes keeps it as long as the message."""
+    """Return a message that borrows `data`, which ctypes keeps alive with it."""
     return RawMessage(ctypes.cast(c_char_p(data), c_void_p), len(data))

@@ -16,7 +16,7 @@ from microros_gen.ros.errors import RosError
 
 
 class KnownType:
-    """A message or service of an interface file."""
+    """A message or service from an interface file, with the codec of its messages."""
 
     def __init__(self, name: TypeName, interfaces: InterfaceSet) -> None:
         self.name = name
@@ -24,12 +24,15 @@ class KnownType:
         self.interfaces = interfaces
 
     def type_hash(self, name: TypeName) -> str:
-        """Return the hash of the type, or of a message of the service."""
+        """Return the type hash (RIHS01, REP-2011) of the type, or of a message of the service."""
         return self.interfaces.type_hash(name)
 
 
 class KnownTypes:
-    """Looks for files as all commands do: `interface_paths`, the ament index, pip, the shipped set."""
+    """Types found in `interface_paths`, the ament index, pip packages and the shipped interfaces, in this order.
+
+    Raises UserError for an interface path that does not exist.
+    """
 
     def __init__(self, interface_paths: Iterable[Path] = ()) -> None:
         self._finder = InterfaceFinder.from_environment(interface_paths)
@@ -39,17 +42,23 @@ class KnownTypes:
         self._known: dict[TypeName, KnownType] = {}
 
     def message(self, text: str) -> KnownType:
-        """Return a message: `pkg/msg/Type`, `pkg/Type` or a derived one. Raise UserError if it has no file."""
+        """Return the message `pkg/msg/Type` or `pkg/Type`, or a derived one such as `pkg/srv/Type_Request`.
+
+        Raises UserError if no interface file declares it or the file is invalid, RosError if it is not a message.
+        """
         known = self._find(text, "msg")
         if known.name not in known.interfaces.messages:
             raise RosError(f"{known.name} is not a message")
         return known
 
     def service(self, text: str) -> KnownType:
-        """Return a service: `pkg/srv/Type` or `pkg/Type`. UserError as above."""
+        """Return the service `pkg/srv/Type` or `pkg/Type`.
+
+        Raises UserError if no interface file declares it or the file is invalid, RosError if it is not a service.
+        """
         known = self._find(text, "srv")
         if known.name not in known.interfaces.services:
-            raise RosError(f"{known.name} is no service")
+            raise RosError(f"{known.name} is not a service")
         return known
 
     def _find(self, text: str, kind: str) -> KnownType:

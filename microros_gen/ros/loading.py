@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Finds rclpy with the RMW implementation that type supports are made for here."""
+"""Loads rclpy with the RMW implementation for which `raw_types` creates type supports."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from microros_gen.ros.errors import RosUnusableError
 from microros_gen.ros.libraries import INSTALL
 
 RMW = "rmw_fastrtps_cpp"
-"""The one RMW implementation whose type supports are made here."""
+"""The only supported RMW implementation."""
 
 
 def load_rclpy() -> Any:
-    """Return rclpy's handles; RosUnusableError when it is missing, does not load, or is not the one that is needed."""
+    """Return rclpy's handles. Raises RosUnusableError if rclpy is missing or broken, or uses another RMW."""
     _check_implementation(
         os.environ.get("RMW_IMPLEMENTATION") or RMW
     )  # to load rclpy with a wrong one may exit

@@ -10,25 +10,25 @@ from microros_gen.records import dataclass
 
 
 def cpp_namespace(name: TypeName) -> str:
-    """Return the C++ namespace of a type, as type supports have it: `std_msgs::msg`."""
+    """Return the C++ namespace of a type, as in type supports of rosidl: `std_msgs::msg`."""
     return f"{name.package}::{name.kind}"
 
 
 @dataclass(frozen=True)
 class ServiceName:
-    """A service by its ROS names."""
+    """A service: its fully qualified ROS name and its type."""
 
     name: str
     type: TypeName
 
     @property
     def request(self) -> TypeName:
-        """The message type of its requests."""
+        """Return the message type of its requests, `pkg/srv/Type_Request`."""
         return derived_name(self.type, "Request")
 
     @property
     def response(self) -> TypeName:
-        """The message type of its responses."""
+        """Return the message type of its responses, `pkg/srv/Type_Response`."""
         return derived_name(self.type, "Response")
 
     def __str__(self) -> str:
@@ -36,10 +36,10 @@ class ServiceName:
 
     @property
     def request_topic(self) -> str:
-        """The DDS topic of its requests."""
+        """Return the DDS topic of its requests, `rq/…Request` (rmw_fastrtps_cpp)."""
         return request_topic(self.name)
 
     @property
     def reply_topic(self) -> str:
-        """The DDS topic of its replies."""
+        """Return the DDS topic of its replies, `rr/…Reply` (rmw_fastrtps_cpp)."""
         return reply_topic(self.name)

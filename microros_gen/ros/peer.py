@@ -6,8 +6,9 @@
         while True:
             peer.spin_once(1.0)
 
-It has no thread: everything happens in calls of the one thread that uses it. Type hashes are those of the interface
-files, as installed nodes announce them. The node shows nothing but what was made of it: no parameters, no /rosout.
+It has no thread: callbacks run in calls of the one thread that uses it. Type hashes are computed from the interface
+files (RIHS01, REP-2011), as installed nodes announce them. The node has only the entities that are created with it: no
+parameters, no /rosout. Times are in seconds.
 """
 
 from __future__ import annotations
@@ -29,11 +30,11 @@ from microros_gen.ros.qos import Qos, c_profile
 from microros_gen.ros.raw_types import raw_types
 
 _SLICE_S = 0.1
-"""How long one wait is: Python sees a signal (Ctrl-C) after it."""
+"""Longest single wait in seconds: Python handles signals (Ctrl-C) after it."""
 
 
 class Peer:
-    """A node with its own context. `with` closes it."""
+    """A node with a separate context; use it with `with`, or call `close`. Not thread-safe."""
 
     def __init__(
         self,
@@ -42,7 +43,11 @@ class Peer:
         domain: int | None = None,
         interface_paths: Iterable[Path] = (),
     ) -> None:
-        """Join `domain` (default: ROS_DOMAIN_ID). RosUnusableError: no ROS 2 Jazzy; UserError: a wrong path."""
+        """Create the node in `domain` (0 to 232; default: ROS_DOMAIN_ID).
+
+        Raises RosUnusableError without ROS 2 Jazzy and rmw_fastrtps_cpp, UserError for an interface path that does not
+        exist, RosError for an invalid name.
+        """
         self._types = KnownTypes(interface_paths)
         self._handles = load_rclpy()
         self._raw = raw_types()
@@ -68,11 +73,14 @@ class Peer:
 
     @property
     def name(self) -> str:
-        """The fully qualified name of the node."""
+        """Return the fully qualified name of the node."""
         return str(self._node.get_fully_qualified_name())
 
     def publisher(self, topic: str, type_name: str, qos: Qos | None = None) -> Publisher:
-        """Return a publisher; topics are absolute (`/a/b`) or in the namespace of the node."""
+        """Create a publisher; topics are absolute (`/a/b`) or relative to the node's namespace.
+
+        Raises UserError for an unknown type, RosError for an invalid name or QoS, TypeLimitError for too many types.
+        """
         known = self._types.message(type_name)
         handle = self._topic(self._handles.Publisher, topic, known, qos)
         return Publisher(handle, known)
@@ -80,14 +88,14 @@ class Peer:
     def subscribe(
         self, topic: str, type_name: str, callback: Callable[[Value], object], qos: Qos | None = None
     ) -> Subscription:
-        """Call `callback` with each message of a topic, from within `spin_once`."""
+        """Create a subscription; `spin_once` calls `callback` with each message. Errors as for `publisher`."""
         known = self._types.message(type_name)
         made = Subscription(self._topic(self._handles.Subscription, topic, known, qos), known, callback)
         self._waited.append(made)
         return made
 
     def client(self, service: str, type_name: str) -> Client:
-        """Return a client of a service."""
+        """Create a service client. Errors as for `publisher`."""
         known = self._types.service(type_name)
         name = ServiceName(service, known.name)
         made = Client(self._service(self._handles.Client, name, known), known, name, self._raw, self.spin)
@@ -95,7 +103,7 @@ class Peer:
         return made
 
     def serve(self, service: str, type_name: str, answer: Callable[[Value], Mapping[str, Any]]) -> Server:
-        """Answer each request of a service with what `answer` returns, from within `spin_once`."""
+        """Create a service server; `spin_once` replies with `answer(request)`. Errors as for `publisher`."""
         known = self._types.service(type_name)
         name = ServiceName(service, known.name)
         made = Server(self._service(self._handles.Service, name, known), known, name, self._raw, answer)
@@ -103,9 +111,10 @@ class Peer:
         return made
 
     def spin_once(self, timeout_s: float = 0.0) -> bool:
-        """Wait until something is there, at most so long, and call back; return whether something was.
+        """Wait for data for at most `timeout_s` seconds and run callbacks; return whether any entity was ready.
 
-        What a callback raises comes out here, CodecError for a message that is none of its type; it is taken then.
+        Exceptions of callbacks propagate, as does CodecError for a message that is invalid for its type; that message
+        has been removed. Raises RosError when called from a callback.
         """
         if self._spinning:
             raise RosError("a callback cannot spin: use `send` there")
@@ -119,7 +128,7 @@ class Peer:
             self._spinning = False
 
     def spin(self, done: Callable[[], object], timeout_s: float) -> bool:
-        """Spin until `done` returns something true, at most so long; return whether it does."""
+        """Spin until `done()` is true, for at most `timeout_s` seconds; return whether it is."""
         end = time.monotonic() + timeout_s
         while not done():
             left = end - time.monotonic()
@@ -129,7 +138,7 @@ class Peer:
         return True
 
     def close(self) -> None:
-        """Leave the graph. Nothing of the peer can be used afterwards; closing it again does nothing."""
+        """Destroy the node and its entities, none of which can be used afterwards; idempotent."""
         self._waited.clear()
         while self._entities:
             self._entities.pop().destroy_when_not_in_use()
@@ -142,7 +151,7 @@ class Peer:
             self._context.destroy()
 
     def _ready(self, timeout_s: float) -> list[Waited]:
-        """Return what has something, after at most this time."""
+        """Return the entities with data, after at most `timeout_s` seconds."""
         end = time.monotonic() + timeout_s
         kinds = [one.kind for one in self._waited]
         counts = (kinds.count("subscription"), 0, 0, kinds.count("client"), kinds.count("service"), 0)

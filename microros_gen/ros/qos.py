@@ -11,7 +11,10 @@ from microros_gen.records import dataclass
 
 @dataclass(frozen=True)
 class Qos:
-    """Defaults are those of ROS 2. `depth` samples are kept, or all with None; a duration of 0 is none."""
+    """QoS policies with ROS 2's defaults (rmw_qos_profile_default).
+
+    `depth`: keep the last samples, 1 or more; None keeps all. `deadline_ms`, `lifespan_ms`: 0 or more; 0 sets none.
+    """
 
     reliable: bool = True
     transient_local: bool = False
@@ -21,7 +24,7 @@ class Qos:
 
 
 def c_profile(qos: Qos) -> Any:
-    """Return what rclpy's handles take; rclpy is there."""
+    """Return the profile as rclpy's handles expect it; rclpy must be importable."""
     module = importlib.import_module("rclpy.qos")
     duration = importlib.import_module("rclpy.duration").Duration
     reliability, durability, history = (

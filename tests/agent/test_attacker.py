@@ -447,7 +447,7 @@ def test_guessing_session_ids_from_elsewhere(stage: Stage) -> None:
     assert stage.bench.agent.clients.at(VICTIM) is not None
 
 
-def test_a_port_that_another_client_gets_is_no_rival(stage: Stage) -> None:
+def test_a_port_reused_by_another_client_is_no_conflict(stage: Stage) -> None:
     """Systems give a port to one after another; only who goes on in the session had the key."""
     crashed = captured.CREATE_CLIENT.replace("a1 b2 c3 d4", "00 00 00 99")
     stage.bench.say(crashed, "port 1")
@@ -561,7 +561,7 @@ def test_lines_are_short_and_not_too_many_bytes() -> None:
     assert "the last words are said" in out.getvalue()
 
 
-def test_what_was_withheld_is_told() -> None:
+def test_suppressed_reports_are_counted() -> None:
     out, moment = io.StringIO(), [0.0]
     log = EventLog(out, clock=lambda: moment[0])
     for number in range(BURST + 7):
@@ -570,8 +570,8 @@ def test_what_was_withheld_is_told() -> None:
     assert out.getvalue().splitlines()[BURST - 1 :] == [str(BURST - 1), "other events are not meant"]
     moment[0] += 1.0
     log.emit(Level.INFO, "created", "again")
-    told = "warning: 7 events 'created' before this one were not written: too many at once"
-    assert out.getvalue().splitlines()[-2:] == [told, "again"]
+    reported = "warning: 7 events 'created' before this one were not written: too many at once"
+    assert out.getvalue().splitlines()[-2:] == [reported, "again"]
 
 
 @pytest.mark.parametrize("moment", ["time-out", "end"])

@@ -46,7 +46,9 @@ def test_the_implementation_that_was_loaded_counts(monkeypatch: pytest.MonkeyPat
         rclpy_bridge.open_bridge(1)
 
 
-def test_what_ros_2_lacks_is_told_as_what_the_agent_cannot_use(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_missing_in_ros_2_is_reported_as_unusable_by_the_agent(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     def refuse() -> None:
         raise RosUnusableError("cannot use this ROS 2: a part of it is missing", "Run: this")
 

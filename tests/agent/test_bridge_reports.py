@@ -40,7 +40,7 @@ def is_told(bridged: Bridged, wanted: GraphReport) -> Callable[[], bool]:
     return lambda: wanted in bridged.reports
 
 
-def test_matches_and_departures_are_told(bridged: Bridged, bridge_observer: Observer) -> None:
+def test_matches_and_departures_are_reported(bridged: Bridged, bridge_observer: Observer) -> None:
     node = bridged.bridge.create_node("ns/matching", bridged.domain)
     reader = node.create_reader(Topic("rt/matched", DDS_INT32), Qos())
     writer = node.create_writer(Topic("rt/matched", DDS_INT32), Qos())
@@ -54,7 +54,7 @@ def test_matches_and_departures_are_told(bridged: Bridged, bridge_observer: Obse
     node.destroy()
 
 
-def test_another_quality_of_service_is_told_by_policy(bridged: Bridged, bridge_observer: Observer) -> None:
+def test_an_incompatible_qos_is_reported_by_policy(bridged: Bridged, bridge_observer: Observer) -> None:
     bridge_observer.subscribe("/picky", INT32, transient_local=True)
     bridge_observer.ask(do="publish", topic="/plain", type=INT32, values=[], reliable=False)
     node = bridged.bridge.create_node("qos_of_another", bridged.domain)
@@ -68,7 +68,7 @@ def test_another_quality_of_service_is_told_by_policy(bridged: Bridged, bridge_o
     node.destroy()
 
 
-def test_another_definition_is_told_with_both_hashes(bridged: Bridged, bridge_observer: Observer) -> None:
+def test_another_definition_is_reported_with_both_hashes(bridged: Bridged, bridge_observer: Observer) -> None:
     right = type_hashes()(INT32)
     assert right is not None
     bridge_observer.subscribe("/defined", INT32)
@@ -88,7 +88,7 @@ def test_another_definition_is_told_with_both_hashes(bridged: Bridged, bridge_ob
     node.destroy()
 
 
-def test_another_definition_of_a_service_is_told(bridged: Bridged, bridge_observer: Observer) -> None:
+def test_another_definition_of_a_service_is_reported(bridged: Bridged, bridge_observer: Observer) -> None:
     right = type_hashes()
     bridge_observer.ask(do="serve", service="/serves", type=GET_TYPES, hold=1)
     manifest = {f"{GET_TYPES}_Response": WRONG}.get
@@ -101,7 +101,7 @@ def test_another_definition_of_a_service_is_told(bridged: Bridged, bridge_observ
     node.destroy()
 
 
-def test_another_type_of_the_same_topic_is_told(bridged: Bridged, bridge_observer: Observer) -> None:
+def test_another_type_of_the_same_topic_is_reported(bridged: Bridged, bridge_observer: Observer) -> None:
     node = bridged.bridge.create_node("numbers", bridged.domain)
     node.create_writer(Topic("rt/confused", DDS_INT32), Qos())
     bridge_observer.subscribe("/confused", "std_msgs/msg/String")
@@ -110,7 +110,7 @@ def test_another_type_of_the_same_topic_is_told(bridged: Bridged, bridge_observe
     node.destroy()
 
 
-def test_a_type_without_definition_is_told_once() -> None:
+def test_a_type_without_definition_is_reported_once() -> None:
     from tests.support.agent.bridging import opened
 
     with opened(5, hash_of=lambda _name: None) as blind:
@@ -122,7 +122,7 @@ def test_a_type_without_definition_is_told_once() -> None:
 
 
 @pytest.mark.parametrize(
-    ("told", "level", "event"),
+    ("reported", "level", "event"),
     [
         (Matched("/n", "publisher", "/t [a/msg/B]", 2), "debug", "matched"),
         (Incompatible("/n", "publisher", "/t [a/msg/B]", "deadline", 1), "warning", "incompatible_qos"),
@@ -134,24 +134,24 @@ def test_a_type_without_definition_is_told_once() -> None:
         (NoClient("/n", "/s [a/srv/B]", 1), "info", "no_client"),
     ],
 )
-def test_reports_in_the_log(told: Any, level: str, event: str) -> None:
+def test_reports_in_the_log(reported: Any, level: str, event: str) -> None:
     out = io.StringIO()
-    graph_reporter(EventLog(out, as_json=True, verbosity=1))(told)
+    graph_reporter(EventLog(out, as_json=True, verbosity=1))(reported)
     line = json.loads(out.getvalue())
-    assert (line["level"], line["event"], line["message"]) == (level, event, str(told))
+    assert (line["level"], line["event"], line["message"]) == (level, event, str(reported))
     out = io.StringIO()
-    graph_reporter(EventLog(out))(told)
-    assert out.getvalue() == {"debug": "", "info": f"{told}\n"}.get(level, f"{level}: {told}\n")
+    graph_reporter(EventLog(out))(reported)
+    assert out.getvalue() == {"debug": "", "info": f"{reported}\n"}.get(level, f"{level}: {reported}\n")
 
 
-def test_a_domain_that_is_not_the_shells_is_told_once(bridged: Bridged) -> None:
+def test_a_domain_other_than_the_shells_is_reported_once(bridged: Bridged) -> None:
     """A client of domain 0 where ROS_DOMAIN_ID is another: nothing is wrong, and `ros2` sees nothing of it."""
     other = bridged.domain % 100 + 101
     nodes = [bridged.bridge.create_node(f"elsewhere_{n}", other) for n in range(2)]
     own = bridged.bridge.create_node("here", bridged.domain)
     assert [node.domain for node in (*nodes, own)] == [other, other, bridged.domain]
-    told = [report for report in bridged.reports if isinstance(report, OtherDomain)]
-    assert told == [OtherDomain("/elsewhere_0", other, bridged.domain)]
-    assert f"Start the agent with --domain {bridged.domain}" in str(told[0])
+    reported = [report for report in bridged.reports if isinstance(report, OtherDomain)]
+    assert reported == [OtherDomain("/elsewhere_0", other, bridged.domain)]
+    assert f"Start the agent with --domain {bridged.domain}" in str(reported[0])
     for node in (*nodes, own):
         node.destroy()

@@ -30,9 +30,7 @@ from tests.support.agent.observer import Observer
 pytestmark = pytest.mark.ros
 
 
-def test_twenty_slow_requests_are_all_answered_each_with_its_own(
-    bridged: Bridged, bridge_observer: Observer
-) -> None:
+def test_twenty_slow_requests_each_get_their_answer(bridged: Bridged, bridge_observer: Observer) -> None:
     """All requests come before the first is answered, and they are answered backwards."""
     node = bridged.bridge.create_node("server", bridged.domain)
     replier = node.create_replier(get_types("many"))
@@ -100,7 +98,9 @@ def test_a_big_endian_request_is_understood(bridged: Bridged, bridge_observer: O
     node.destroy()
 
 
-def test_requests_wait_for_a_service_that_comes_later(bridged: Bridged, bridge_observer: Observer) -> None:
+def test_requests_wait_for_a_service_that_is_created_later(
+    bridged: Bridged, bridge_observer: Observer
+) -> None:
     """Of too many the last are dropped, with a report; no reply reaches another client."""
     node = bridged.bridge.create_node("early", bridged.domain)
     requester = node.create_requester(get_types("later"))
@@ -126,18 +126,22 @@ def test_what_waits_of_all_services_together_is_bounded(
     one.request(names_body(["n" * 600]))
     assert not lost(bridged, "/many")
     two.request(names_body(["n" * 600]))
-    assert [told.endpoint for told in lost(bridged, "/many")] == [f"/nobody_2 [{GET_TYPES}]"]
+    assert [reported.endpoint for reported in lost(bridged, "/many")] == [f"/nobody_2 [{GET_TYPES}]"]
     one.destroy()
     two.request(names_body(["n" * 600]))
-    assert [told.lost for told in lost(bridged, "/many")] == [1, 1], "the first one's was lost with it"
+    assert [reported.lost for reported in lost(bridged, "/many")] == [1, 1], (
+        "the first one's was lost with it"
+    )
     node.destroy()
 
 
 def lost(bridged: Bridged, node: str) -> list[NoServer]:
-    return [told for told in bridged.reports if isinstance(told, NoServer) and told.node == node]
+    return [
+        reported for reported in bridged.reports if isinstance(reported, NoServer) and reported.node == node
+    ]
 
 
-def test_a_service_that_goes_and_comes_again(bridged: Bridged, bridge_observer: Observer) -> None:
+def test_a_service_that_is_deleted_and_created_again(bridged: Bridged, bridge_observer: Observer) -> None:
     """Requests meanwhile wait, or are dropped with a report: ROS 2 would drop them silently."""
     node = bridged.bridge.create_node("patient", bridged.domain)
     requester = node.create_requester(get_types("absent"))
@@ -169,7 +173,7 @@ def test_a_service_that_goes_and_comes_again(bridged: Bridged, bridge_observer: 
     assert bridged.reports.count(ServerFound("/patient", label, 1)) == 2
 
 
-def test_what_is_lost_is_told_once_and_counted() -> None:
+def test_losses_are_reported_once_and_counted() -> None:
     text = io.StringIO()
     log = EventLog(text)
     report = graph_reporter(log)
@@ -206,7 +210,7 @@ def test_services_of_the_graph(bridged: Bridged, bridge_observer: Observer) -> N
     bridge_observer.see(lambda g: "/robot/services" not in g["nodes"])
 
 
-def test_a_client_that_vanished_holds_nobody_up(bridged: Bridged, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_vanished_client_delays_no_other(bridged: Bridged, monkeypatch: pytest.MonkeyPatch) -> None:
     """ROS 2 waits 100 ms for a client that it does not know: it is not asked to before the graph has the client."""
     node = bridged.bridge.create_node("forsaken", bridged.domain)
     asker = bridged.bridge.create_node("leaving", bridged.domain)
@@ -225,7 +229,7 @@ def test_a_client_that_vanished_holds_nobody_up(bridged: Bridged, monkeypatch: p
         replier.reply(identity, types_body([1]))
     assert time.monotonic() - start < 0.09
     gone = [NoClient("/forsaken", f"/forsaken [{GET_TYPES}]", lost) for lost in range(1, 6)]
-    bridged.wait(lambda: [told for told in bridged.reports if isinstance(told, NoClient)] == gone)
+    bridged.wait(lambda: [reported for reported in bridged.reports if isinstance(reported, NoClient)] == gone)
     # Who was only not discovered in time is answered as soon as the graph has it.
     asker = bridged.bridge.create_node("staying", bridged.domain)
     requester = asker.create_requester(get_types("forsaken"))

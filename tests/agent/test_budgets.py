@@ -174,7 +174,7 @@ def test_objects_of_all_clients_are_bounded_by_their_bytes() -> None:
 
 
 @pytest.mark.parametrize("action", ["delete", "delete all", "leave", "refused"])
-def test_what_an_object_takes_comes_back(action: str) -> None:
+def test_memory_of_an_object_is_returned(action: str) -> None:
     bench = publisher()
     objects = shares(bench).objects
     whole = sum(cost_of(create.object, len(create.representation.body)) for create in entities())
@@ -252,7 +252,7 @@ def test_output_of_all_clients_is_bounded_and_nothing_of_it_lost() -> None:
     assert shares(bench, address).output._pool.free == 200_000  # type: ignore[union-attr]
 
 
-def test_requests_that_nobody_answers_are_bounded() -> None:
+def test_unanswered_requests_are_bounded() -> None:
     """Of one client in all its objects together; what is answered makes room."""
     limits = Limits(clients=2, call_bytes=40 * CALL_BYTES)
     bench = Bench(limits)

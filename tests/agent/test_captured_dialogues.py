@@ -139,7 +139,7 @@ def test_a_recorded_client_is_answered_as_by_the_public_agent(name: str) -> None
 @pytest.mark.parametrize(
     "name", ["binary", "xml", "reference", "session_with_key", "fragments", "best_effort"]
 )
-def test_the_same_comes_of_it_in_ros_whichever_way_it_is_described(name: str) -> None:
+def test_every_representation_gives_the_same_entities_in_ros(name: str) -> None:
     replay = Replay(lines(name))
     assert [text.replace("62:", "61:") for text in replay.graph] == MADE
     size = 1500 if name == "fragments" else 16

@@ -117,7 +117,7 @@ def test_discovery_as_a_word(tmp_path: Path) -> None:
     assert options(head, tmp_path, discovery=True).discovery == 7400
 
 
-def test_every_fault_is_told_at_its_place(tmp_path: Path) -> None:
+def test_every_fault_is_reported_at_its_place(tmp_path: Path) -> None:
     text = """\
 version: 2
 transports:
@@ -135,8 +135,8 @@ references: refs.xml
     with pytest.raises(UserError) as error:
         options(text, tmp_path)
     path = tmp_path / "agent.yaml"
-    told = [without_id(d.headline()).removeprefix(f"{path}:") for d in error.value.diagnostics]
-    assert told == [
+    reported = [without_id(d.headline()).removeprefix(f"{path}:") for d in error.value.diagnostics]
+    assert reported == [
         "1:10: error: 'version' must be 1, the only version; it is 2",
         "3:5: error: 'transports[0]' has no key 'upd4'. Did you mean 'udp4'?",
         "4:12: error: 'transports[1].udp4' has no key 'prot'. Did you mean 'port'?",
@@ -200,11 +200,11 @@ def test_options_of_several_places() -> None:
 def test_the_schema_has_every_limit_and_its_default() -> None:
     schema = load_schema(SCHEMA)
     Draft202012Validator.check_schema(schema)
-    told = schema["properties"]["limits"]["properties"]
-    assert {name: about["default"] for name, about in told.items()} == asdict(Limits())
+    reported = schema["properties"]["limits"]["properties"]
+    assert {name: about["default"] for name, about in reported.items()} == asdict(Limits())
     for field in fields(Limits):
-        assert told[field.name]["type"] == {"int": "integer", "float": "number"}[str(field.type)]
-        assert told[field.name]["description"]
+        assert reported[field.name]["type"] == {"int": "integer", "float": "number"}[str(field.type)]
+        assert reported[field.name]["description"]
     tcp = schema["$defs"]["tcp"]["properties"]
     assert {name: tcp[name]["default"] for name in asdict(TcpLimits())} == asdict(TcpLimits())
 
@@ -218,18 +218,18 @@ def test_the_example_holds(tmp_path: Path) -> None:
 
 def manifest(path: Path, *nodes: str, **types: str) -> ManifestOf:
     places = [node.rpartition("/")[::2] for node in nodes]
-    told = {
+    reported = {
         "types": {f"p/msg/{name}": {"hash": value} for name, value in types.items()},
         "entities": {"nodes": [{"namespace": space or "/", "name": name} for space, name in places]},
     }
-    path.write_text(json.dumps(told))
+    path.write_text(json.dumps(reported))
     return ManifestOf(path)
 
 
 ONE, TWO = "RIHS01_" + "1" * 64, "RIHS01_" + "2" * 64
 
 
-def test_hashes_of_clients_come_before_those_of_files(tmp_path: Path) -> None:
+def test_hashes_of_clients_precede_those_of_files(tmp_path: Path) -> None:
     diagnostics = Diagnostics()
     manifests = [manifest(tmp_path / "a.json", A=ONE), manifest(tmp_path / "b.json", A=ONE, B=TWO)]
     clients = read_manifests(manifests, diagnostics)
@@ -287,8 +287,8 @@ def test_manifests_that_do_not_hold(tmp_path: Path) -> None:
         ManifestOf(tmp_path / "missing.json"),
     ]
     read_manifests(manifests, diagnostics)
-    told = [d.message.replace(f"{tmp_path}/", "") for d in diagnostics]
-    assert told == [
+    reported = [d.message.replace(f"{tmp_path}/", "") for d in diagnostics]
+    assert reported == [
         "b.json and a.json have different definitions of p/msg/A",
         "c.json is not a manifest of microros-gen",
         "e.json and d.json have different definitions of p/msg/A",
@@ -297,13 +297,13 @@ def test_manifests_that_do_not_hold(tmp_path: Path) -> None:
     ]
 
 
-def test_another_system_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_another_system_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("sys.platform", "win32")
     with pytest.raises(UserError, match="the agent needs Linux"):
         serve(AgentOptions(transports=(PtyChoice(),)))
 
 
-def test_what_the_file_names_and_is_not_there_is_told_at_its_place(tmp_path: Path) -> None:
+def test_a_missing_file_is_reported_where_it_is_named(tmp_path: Path) -> None:
     """All of one kind in one run: first files, then transports."""
     text = "version: 1\ntransports:\n  - udp4: {port: 0, bind: 10.1.2.300}\n  - serial: {device: x, baud: 115201}\n"
     missing = "references: [r.xml]\nentities: [e.json]\nmanifests: [m.json]\ninterface_paths: [idl]\n"
@@ -313,10 +313,10 @@ def test_what_the_file_names_and_is_not_there_is_told_at_its_place(tmp_path: Pat
     ):
         with pytest.raises(UserError) as caught:
             serve(options(text + more, tmp_path))
-        told = [
+        reported = [
             without_id(d.headline()).replace(f"{tmp_path}/", "").replace("error: ", "")
             for d in caught.value.diagnostics
         ]
-        assert len(told) == len(wanted)
-        for line, begin in zip(told, wanted, strict=True):
+        assert len(reported) == len(wanted)
+        for line, begin in zip(reported, wanted, strict=True):
             assert line.startswith(f"agent.yaml:{begin}"), line

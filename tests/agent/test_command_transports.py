@@ -97,9 +97,11 @@ def _free_port() -> int:
 @pytest.mark.ros
 def test_a_client_of_another_definition_is_named(tmp_path: Path) -> None:
     """Its manifest says a hash that neither this machine nor the subscriber has."""
-    told = {"std_msgs/msg/Int32": {"hash": "RIHS01_" + "12" * 32}}
+    reported = {"std_msgs/msg/Int32": {"hash": "RIHS01_" + "12" * 32}}
     path = tmp_path / "manifest.json"
-    path.write_text(json.dumps({"types": told, "entities": {"nodes": [{"namespace": "/", "name": "old"}]}}))
+    path.write_text(
+        json.dumps({"types": reported, "entities": {"nodes": [{"namespace": "/", "name": "old"}]}})
+    )
     with running_agent(DOMAIN, "--manifest", str(path)) as agent, XrceClient(agent.port) as client:
         client.connect()
         client.publisher("old", "aged", INT32, DOMAIN)
@@ -129,7 +131,7 @@ def test_every_message_as_json() -> None:
         assert answer["submessages"][0]["status"] == "OK"
 
 
-def test_faults_of_the_file_come_before_everything_else(tmp_path: Path) -> None:
+def test_faults_of_the_file_are_reported_before_everything_else(tmp_path: Path) -> None:
     (tmp_path / "agent.yaml").write_text("version: 1\ntransports: [upd4: {}]\ndomain: x\n")
     result = run("--config", "agent.yaml", path=tmp_path)
     assert result.returncode == 2
@@ -165,7 +167,7 @@ def test_wrong_use_says_what_to_do(arguments: tuple[str, ...], wanted: str, tmp_
     assert wanted in result.stderr
 
 
-def test_a_service_manager_is_told(tmp_path: Path) -> None:
+def test_a_service_manager_is_notified(tmp_path: Path) -> None:
     with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager:
         manager.bind(str(tmp_path / "notify"))
         manager.settimeout(1)

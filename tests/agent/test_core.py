@@ -176,7 +176,7 @@ def test_several_clients_have_objects_of_their_own() -> None:
 @pytest.mark.parametrize(
     ("stream", "answer_stream"), [(0x00, "01"), (0x01, "01"), (0x80, "80"), (0x83, "80")]
 )
-def test_status_comes_on_the_same_kind_of_stream(stream: int, answer_stream: str) -> None:
+def test_status_uses_the_same_kind_of_stream(stream: int, answer_stream: str) -> None:
     bench = connected()
     answers = bench.say(message(entities()[0], stream=stream))
     assert answers[-1] == f"81 {answer_stream} 00 00 05 01 06 00 00 0a 00 11 00 00"
@@ -278,7 +278,7 @@ def test_several_samples_in_one_message() -> None:
         ("07 01 02 00 00 05", "truncated"),
     ],
 )
-def test_samples_for_nobody_are_counted(said: str, kind: str) -> None:
+def test_samples_without_a_reader_are_counted(said: str, kind: str) -> None:
     bench = publishing()
     assert bench.say("81 01 04 00" + said) == []
     assert bench.bridge.published == []
@@ -297,7 +297,7 @@ def test_fragments_are_joined() -> None:
     assert bench.bridge.published == [(GRAPH[1], b"\0\1\0\0" + body)]
 
 
-def test_more_than_65535_bytes_come_with_length_zero() -> None:
+def test_more_than_65535_bytes_have_length_zero() -> None:
     bench = publishing(Limits(message_bytes=100_000))
     body = bytes(70_000)
     whole = bytes.fromhex("07 01 00 00 00 01 00 15") + body
@@ -344,7 +344,7 @@ def test_a_malformed_message_does_not_take_its_successors_along() -> None:
     assert sum(bench.log.counters.values()) == 1
 
 
-def test_a_message_whose_end_is_lost_has_not_come() -> None:
+def test_a_truncated_message_is_not_received() -> None:
     """On a reliable stream it is not acknowledged, whatever is left of it, and comes again."""
     bench = publishing()
     whole = message(WriteData(1, 0x15, b"1234"), stream=0x80, sequence=0)
@@ -475,7 +475,7 @@ def test_a_client_that_answers_stays() -> None:
     assert bench.bridge.graph == GRAPH
 
 
-def test_a_client_may_ask_for_a_time_out_of_its_own() -> None:
+def test_a_client_may_ask_for_a_separate_time_out() -> None:
     bench = Bench()
     properties = bytes.fromhex("01 0000 01000000 07000000") + b"uxr_hl\0" + b"\0"
     properties = bytes.fromhex("01000000") + b"\x07\0\0\0uxr_hl\0\0" + b"\x05\0\0\x00" + b"0500\0"
@@ -514,7 +514,7 @@ def test_streams_are_limited() -> None:
 # Faults
 
 
-def test_a_kind_of_fault_is_told_once_and_counted() -> None:
+def test_a_kind_of_fault_is_reported_once_and_counted() -> None:
     bench = Bench()
     for _ in range(100):
         bench.say("ff")
@@ -522,7 +522,7 @@ def test_a_kind_of_fault_is_told_once_and_counted() -> None:
     assert bench.text.getvalue().count("\n") == 1
 
 
-def test_a_fault_of_the_program_is_told_and_survived(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_fault_of_the_program_is_reported_and_survived(monkeypatch: pytest.MonkeyPatch) -> None:
     bench = publishing()
 
     def broken(*_arguments: object) -> None:

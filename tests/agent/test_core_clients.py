@@ -130,7 +130,7 @@ def test_a_manifest_is_handed_to_the_ros_side(name: str) -> None:
     assert hash_of("std_msgs/msg/Int64") is None
 
 
-def test_without_a_manifest_the_bridge_has_its_own() -> None:
+def test_without_a_manifest_the_bridge_uses_its_own_definitions() -> None:
     bench = Bench(manifests=Manifests({"0x01020304": {}, "/b": {}}))
     bench.say(CREATE_CLIENT)
     bench.say(message(entities()[0]))
@@ -228,7 +228,7 @@ def test_time_is_that_of_arrival_and_of_sending(monkeypatch: pytest.MonkeyPatch)
     assert numbers == [1_700_000_000, 250_000, 1_699_999_999, 999_000_000]
 
 
-def test_a_session_with_id_zero_is_none() -> None:
+def test_a_session_with_id_zero_is_invalid() -> None:
     """8.3.2.1: 0x00 and 0x80 mean *no session*."""
     bench = Bench()
     keyed = captured.CREATE_CLIENT_KEYED.replace("d4 01", "d4 00")
@@ -250,7 +250,7 @@ def test_nothing_is_read_by_one_that_sleeps_for_good() -> None:
     assert GRAPH[0] not in bench.bridge.graph
 
 
-def test_the_domain_of_a_node_is_told() -> None:
+def test_the_domain_of_a_node_is_reported() -> None:
     bench = connected()
     bench.say(message(replace(entities()[0], domain=7), stream=0))
     assert "client A1B2C3D4: node 7:/a in ROS domain 7" in bench.text.getvalue()

@@ -98,9 +98,9 @@ def test_what_follows_the_last_fragment_follows_it_to_dds(room: int) -> None:
     whole = encode(samples(7)[0])
     bench.say(message(Fragment(whole[:8], False), stream=RELIABLE, sequence=0))
     tail = message(Fragment(whole[8:], True), *samples(8, 9), Delete(9, 0x15), stream=RELIABLE, sequence=1)
-    told = acknacks(bench.say(tail))
+    reported = acknacks(bench.say(tail))
     assert values(bench) == [7, 8, 9][:room]
-    assert told[-1] == ((1 if room < 3 else 2), 0)
+    assert reported[-1] == ((1 if room < 3 else 2), 0)
     assert acknacks(bench.say(write(2, 10)))[-1] == ((1 if room < 3 else 3), 0)
     assert drain(bench)[-1:] == ([(3, 0)] if room < 3 else [])
     assert values(bench) == [7, 8, 9]
@@ -109,7 +109,7 @@ def test_what_follows_the_last_fragment_follows_it_to_dds(room: int) -> None:
     assert client.session._holder.held == 0
 
 
-def test_what_waits_behind_a_gap_follows() -> None:
+def test_messages_after_a_gap_follow() -> None:
     bench = full()
     bench.say(write(1, 2))
     bench.say(write(2, 3))
@@ -122,19 +122,19 @@ def test_what_waits_behind_a_gap_follows() -> None:
     assert values(bench) == [1, 2, 3, 4, 5]
 
 
-def test_an_answer_does_not_acknowledge_what_comes_after_the_question() -> None:
+def test_an_answer_does_not_acknowledge_messages_after_the_request() -> None:
     """Answers go out with the acknowledgements that are due; samples after the question are not done then."""
     bench = full()
     bench.bridge.room = None
     question = entities()[0]
     bench.say(write(1, 1))
-    told = acknacks(bench.say(message(question, stream=RELIABLE, sequence=0)))
-    assert told == [(1, 0), (2, 0)]
-    told = acknacks(bench.say(message(question, *samples(2), stream=RELIABLE, sequence=2)))
-    assert told == [(2, 0), (3, 0)]
+    reported = acknacks(bench.say(message(question, stream=RELIABLE, sequence=0)))
+    assert reported == [(1, 0), (2, 0)]
+    reported = acknacks(bench.say(message(question, *samples(2), stream=RELIABLE, sequence=2)))
+    assert reported == [(2, 0), (3, 0)]
     bench.bridge.room = 0
-    told = acknacks(bench.say(message(question, *samples(3), stream=RELIABLE, sequence=3)))
-    assert told == [(3, 0), (3, 0)]
+    reported = acknacks(bench.say(message(question, *samples(3), stream=RELIABLE, sequence=3)))
+    assert reported == [(3, 0), (3, 0)]
     assert drain(bench) == [(4, 0)]
     assert values(bench) == [1, 2, 3]
 
@@ -191,7 +191,7 @@ def test_a_writer_that_waits_long_is_tried_seldom(monkeypatch: pytest.MonkeyPatc
     assert 4 <= len(tries) <= 7
 
 
-def test_a_client_that_gives_a_sample_up_goes_on_behind_it() -> None:
+def test_a_client_that_drops_a_sample_continues_after_it() -> None:
     bench = full()
     bench.say(write(0, 1))
     bench.say(write(1, 2))

@@ -45,7 +45,7 @@ def test_data_as_the_public_agent_sends_it() -> None:
     assert bench.agent.delivered == 2
 
 
-def test_a_subscription_is_told_of() -> None:
+def test_a_subscription_is_reported() -> None:
     text = subscribing().text.getvalue()
     assert "subscription /a [std_msgs/msg/Int32] (reliable, volatile, keep_last 10)" in text
 
@@ -59,7 +59,7 @@ def test_a_big_endian_sample_says_so() -> None:
     assert bench.transport.sent[0][1].hex() == "81010400" + "09000800" + "00200016" + "00000005"
 
 
-def test_what_came_before_the_request_is_delivered_with_it() -> None:
+def test_earlier_samples_are_delivered_with_the_request() -> None:
     bench = subscribing()
     put(bench, 1, 2)
     assert Listener(bench).take() == []
@@ -183,7 +183,7 @@ def test_only_what_is_there_and_has_data_is_read(object_id: int) -> None:
     assert (answer.request, answer.object, answer.status) == (1, object_id, 0x84)
 
 
-def test_an_empty_filter_is_none() -> None:
+def test_an_empty_filter_is_no_filter() -> None:
     bench = subscribing()
     put(bench, 1)
     assert values(Listener(bench).read(content_filter="")) == [1]
@@ -321,7 +321,7 @@ def test_with_its_reader_a_reading_ends(object_id: int) -> None:
     assert listener.take() == []
 
 
-def test_a_reader_that_is_replaced_has_to_be_read_anew() -> None:
+def test_a_replaced_reader_needs_a_new_request() -> None:
     bench = subscribing()
     listener = Listener(bench)
     listener.read()
@@ -362,7 +362,7 @@ def test_who_connects_again_has_to_ask_again() -> None:
     )
 
 
-def test_a_client_that_leaves_or_times_out_leaves_nothing_behind() -> None:
+def test_a_client_that_leaves_or_times_out_leaves_no_state() -> None:
     bench = subscribing()
     listener = Listener(bench)
     listener.read(control=DeliveryControl(0xFFFF, min_pace_period=100))
@@ -423,7 +423,7 @@ def test_a_fault_of_the_bridge_is_survived(monkeypatch: pytest.MonkeyPatch) -> N
     assert bench.log.counters == {"internal_KeyError": 1}
 
 
-def test_readings_that_are_replaced_leave_nothing_behind() -> None:
+def test_replaced_readings_leave_no_state() -> None:
     """READ_DATA over and over, never acknowledged, or with the longest pace: nothing grows."""
     bench = subscribing(Limits(client_timeout_s=1_000.0))
     listener = Listener(bench)

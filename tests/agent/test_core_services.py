@@ -132,7 +132,7 @@ def test_many_calls_at_once_each_get_their_reply(seed: int) -> None:
         assert answer.data == answer.data[4:] + b"\0\x17" + answer.data[4:]
 
 
-def test_a_reply_to_nobody_is_counted() -> None:
+def test_a_reply_without_a_client_is_counted() -> None:
     bench, listener = serving(REPLIER)
     replier(bench).put((IDENTITY, LITTLE))
     listener.take()

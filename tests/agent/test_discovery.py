@@ -107,7 +107,7 @@ HOME = (
         ("::", "203.0.113.9", ["2001:db8::5"]),
     ],
 )
-def test_who_is_told_what(host: str, who: str, wanted: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_reports_by_audience(host: str, who: str, wanted: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
     """Another machine has no use for the loopback address, and a loopback agent says nothing to it."""
     monkeypatch.setattr("microros_gen.agent.transport.discovery._facing", lambda _asker: None)
     bench = Bench()
@@ -119,7 +119,7 @@ def test_who_is_told_what(host: str, who: str, wanted: list[str], monkeypatch: p
     transport.close()
 
 
-def test_the_interface_of_the_asker_comes_first() -> None:
+def test_the_interface_of_the_requester_is_listed_first() -> None:
     bench = Bench()
     transport = Udp(UDP4, "0.0.0.0", 0)
     discovery = Discovery([transport], bench.log, free_port())
@@ -235,6 +235,6 @@ def test_two_agents_on_one_machine(asker: socket.socket) -> None:
         transport.close()
 
 
-def test_serial_lines_cannot_be_told_of() -> None:
+def test_serial_lines_cannot_be_discovered() -> None:
     with pytest.raises(UserError, match="needs a UDP or TCP transport"):
         Discovery([], Bench().log)

@@ -80,7 +80,7 @@ def test_a_client_that_asks_for_less_than_its_share_is_always_first() -> None:
         work.do(light if due else work.first(*floods), 0.0002 if due else 0.002)
 
 
-def test_shares_are_equal_whatever_a_piece_of_work_costs() -> None:
+def test_shares_are_equal_whatever_a_unit_of_work_costs() -> None:
     work = Work()
     cheap, dear = Paid("cheap", 0.0), Paid("dear", 0.0)
     done = dict.fromkeys((cheap, dear), 0.0)
@@ -166,15 +166,15 @@ class Graph:
 
 def test_a_topic_is_asked_about_once_for_all_its_endpoints() -> None:
     wakeups: Wakeups[Any] = Wakeups()
-    graph, told, topics = Graph(), list[GraphReport](), TopicTypes()
-    comparison = Comparison(graph, wakeups, told.append)
+    graph, reported, topics = Graph(), list[GraphReport](), TopicTypes()
+    comparison = Comparison(graph, wakeups, reported.append)
     endpoints = [Endpoint(f"/n{n}", "publisher", "/t [x]", "/t", "x", None) for n in range(100)]
     for endpoint in endpoints:
         topics.claim([endpoint])
         comparison.soon("node", topics, endpoint)
     comparison.look()
     assert graph.asked == ["/t", "/t"]
-    assert len(told) == 100
+    assert len(reported) == 100
     comparison.look()
     assert len(graph.asked) == 2, "nothing is left"
     for endpoint in endpoints:
@@ -201,7 +201,7 @@ def peer(transport: Udp) -> socket.socket:
     return made
 
 
-def test_a_client_that_sends_very_much_fills_a_queue_of_its_own(udp: Udp) -> None:
+def test_a_client_that_sends_very_much_fills_only_its_queue(udp: Udp) -> None:
     """S12: and whoever cost less is read first."""
     flood, honest, stranger = peer(udp), peer(udp), peer(udp)
     now = time.monotonic()
@@ -223,7 +223,7 @@ def test_a_client_that_sends_very_much_fills_a_queue_of_its_own(udp: Udp) -> Non
     assert honest.recv(100) == b"answer"
 
 
-def test_nothing_is_lost_or_mixed_up_while_clients_come_and_go(udp: Udp) -> None:
+def test_nothing_is_lost_or_mixed_up_while_clients_connect_and_leave(udp: Udp) -> None:
     clients = [peer(udp) for _ in range(20)]
     got: dict[Any, list[int]] = {client.getsockname(): [] for client in clients}
 
@@ -292,7 +292,7 @@ def test_of_connections_the_one_that_cost_least_is_read_first() -> None:
     transport.close()
 
 
-def test_what_a_client_said_before_it_had_a_queue_comes_first(udp: Udp) -> None:
+def test_messages_before_a_client_had_a_queue_are_handled_first(udp: Udp) -> None:
     client = peer(udp)
     address = (udp, client.getsockname())
     for number in range(3):

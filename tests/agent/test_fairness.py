@@ -180,7 +180,7 @@ def test_flooders_of_creates_wait_and_a_client_that_begins_does_not() -> None:
     is_served(bench, 1)
 
 
-def test_a_client_that_comes_and_goes_pays_for_its_entities() -> None:
+def test_a_client_that_reconnects_is_charged_for_its_entities() -> None:
     """S4: a time-out of 1 ms, and 480 writers that leave and come back with each message."""
     bench = costly(Limits(operations_per_second=1_000_000, graph_ms_per_second=200))
     hello = CreateClient(bytes(3) + b"\x09", 0x81, 512, (("uxr_hl", "1"),))
@@ -234,7 +234,7 @@ def test_what_takes_long_goes_on_in_turns_and_others_are_served_between() -> Non
     assert len([label for label in bench.bridge.graph if label.startswith("/s10 ")]) == WRITERS - 1
 
 
-def test_messages_behind_something_long_wait_in_order_and_are_acknowledged_when_done() -> None:
+def test_messages_after_a_long_operation_wait_in_order_and_are_acknowledged_when_done() -> None:
     bench = costly()
     bench.say(message(*entities(1), stream=0x80, sequence=0))
     turns(bench)
@@ -250,7 +250,7 @@ def test_messages_behind_something_long_wait_in_order_and_are_acknowledged_when_
     assert acknacks([data.hex() for data in sent])[-1] == (6, 0)
 
 
-def test_what_waits_for_a_turn_is_bounded_and_reliable_messages_come_again() -> None:
+def test_waiting_messages_are_bounded_and_reliable_ones_are_repeated() -> None:
     bench = costly()
     for place, create in enumerate(entities(1)):
         bench.say(message(create, stream=0x80, sequence=place))
@@ -318,7 +318,7 @@ def test_a_long_sequence_is_cut_in_turns_and_nothing_of_a_broken_one_is_publishe
     assert [body for _, body in bench.bridge.published] == [sample(n) for n in range(2_000)]
 
 
-def test_a_client_that_waits_for_its_turn_is_told_again_what_it_has_not_acknowledged() -> None:
+def test_a_waiting_client_gets_unacknowledged_messages_again() -> None:
     bench = costly(Limits(graph_ms_per_second=60))
     for create in reader_entities(1, topic="r"):
         bench.say(message(create, stream=0))
@@ -358,7 +358,7 @@ def test_who_leaves_in_the_middle_leaves_nothing() -> None:
     assert not [label for label in bench.bridge.graph if "s10" in label]
 
 
-def test_who_comes_again_waits_for_what_it_had_to_leave() -> None:
+def test_a_returning_client_waits_for_its_unfinished_work() -> None:
     bench = costly(Limits(graph_ms_per_second=1_000))
     bench.say(message(application(WRITERS, "rt/z"), stream=0))
     turns(bench)
@@ -427,7 +427,7 @@ def test_malformed_messages_count_more_and_those_of_strangers_do_not() -> None:
 # Deliveries
 
 
-def test_a_client_that_reads_very_much_is_behind_one_that_reads_little() -> None:
+def test_a_client_that_reads_much_is_served_after_one_that_reads_little() -> None:
     bench = costly()
     for number in range(4, 34):
         for create in reader_entities(number, topic=f"n{number}"):

@@ -26,12 +26,12 @@ class Listener:
 
     def __init__(self, largest: int = 0xFFFF) -> None:
         self.faults: Counter[str] = Counter()
-        self.told: list[str] = []
+        self.reported: list[str] = []
         self.decoder = FrameDecoder(self._fault, largest=largest)
 
     def _fault(self, kind: str, found: str) -> None:
         self.faults[kind] += 1
-        self.told.append(found)
+        self.reported.append(found)
 
     def hear(self, *pieces: bytes) -> list[bytes]:
         return [payload for piece in pieces for _, payload in self.decoder.feed(piece)]
@@ -69,7 +69,7 @@ def test_encoder(found: list[bytes], destination: int, source: int) -> None:
 
 
 @given(payloads, st.data())
-def test_pieces_make_no_difference(found: list[bytes], data: st.DataObject) -> None:
+def test_the_size_of_reads_makes_no_difference(found: list[bytes], data: st.DataObject) -> None:
     stream = b"".join(frame(payload, source=i) for i, payload in enumerate(found))
     cuts = sorted(data.draw(st.lists(st.integers(0, len(stream)), max_size=12)))
     ends = [0, *cuts, len(stream)]

@@ -69,7 +69,7 @@ def test_fragments_of_all_clients_together_are_bounded() -> None:
     assert bench.log.counters == {"input_full": 2}
 
 
-def test_what_is_behind_a_gap_waits_with_the_client_where_there_is_no_room() -> None:
+def test_messages_after_a_gap_wait_at_the_client_without_room() -> None:
     bench = publishing(Limits(input_bytes=100, clients=2))
     for sequence in (1, 2, 3, 4, 5, 6, 7, 8, 9):
         bench.say(write(sequence, sequence))

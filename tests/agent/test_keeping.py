@@ -112,7 +112,7 @@ def test_another_reader_inherits_nothing() -> None:
 
 
 @pytest.mark.parametrize(("away", "kept"), [(12.0, True), (50.0, False)])
-def test_one_that_is_given_up_gets_what_dds_had_when_it_is_heard_again(away: float, kept: bool) -> None:
+def test_a_timed_out_client_gets_the_samples_of_dds_when_it_is_heard_again(away: float, kept: bool) -> None:
     bench = subscribing(Limits(client_timeout_s=5, keep_s=30))
     listener = Listener(bench)
     listener.read(stream=0x80)
@@ -131,7 +131,7 @@ def test_one_that_is_given_up_gets_what_dds_had_when_it_is_heard_again(away: flo
 
 
 @pytest.mark.parametrize("arrived", [0, 7, 16])
-def test_nothing_comes_twice_to_a_client_whose_session_lives(arrived: int) -> None:
+def test_no_sample_is_delivered_twice_in_a_session(arrived: int) -> None:
     """It was silent for long, and its acknowledgements were lost: what comes again is known by its number."""
     bench = subscribing(Limits(client_timeout_s=5))
     listener = Listener(bench)

@@ -53,7 +53,7 @@ def test_a_line_that_loses_a_third_is_not_dead(timeout_ms: int) -> None:
     assert live(bench, 3_600, 0.3, chance) <= 1
 
 
-def test_on_a_line_that_loses_nothing_the_time_out_is_as_it_was_set() -> None:
+def test_on_a_lossless_line_the_time_out_stays_as_set() -> None:
     bench = quiet(2_000)
     assert live(bench, 60, 0.0, random.Random(1)) == 0
     (client,) = bench.agent.clients

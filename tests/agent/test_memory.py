@@ -95,7 +95,7 @@ def test_what_is_free_goes_back_first() -> None:
     assert process.trims == 1
 
 
-def test_it_goes_back_when_clients_gave_up_much_and_not_too_often() -> None:
+def test_memory_is_returned_after_clients_freed_much_and_not_too_often() -> None:
     process = Process()
     for now, held in ((1.0, 0), (2.0, 20 * MIB), (3.0, 15 * MIB)):
         process.guard.look(held, now)
@@ -158,7 +158,7 @@ def lasting(client: XrceClient, number: int, depth: int) -> int:
 
 
 @pytest.mark.ros
-def test_histories_stay_below_the_limit_that_was_said_and_come_back() -> None:
+def test_histories_stay_below_the_configured_limit_and_recover() -> None:
     """S1: it was 3.0 GB, of which 833 MB stayed. A client that behaves is served meanwhile."""
     with running_agent(own_domain(), "--log-format", "json") as agent:
         said, descriptors = event(agent, "memory"), event(agent, "descriptors")
@@ -192,7 +192,7 @@ def test_histories_stay_below_the_limit_that_was_said_and_come_back() -> None:
 
 
 @pytest.mark.ros
-def test_objects_stay_below_the_limit_and_come_back() -> None:
+def test_objects_stay_below_the_limit_and_recover() -> None:
     """S2: 512 TYPE objects of 64 kB of each of eight clients were 558 MB."""
     text = f'<types><struct name="T">{" " * 60_000}</struct></types>'.encode()
     with running_agent(own_domain()) as agent, contextlib.ExitStack() as stack:

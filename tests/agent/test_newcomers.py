@@ -49,7 +49,7 @@ def test_a_client_is_one_after_its_first_word() -> None:
     assert len(bench.bridge.graph) == 1
 
 
-def test_the_first_word_comes_from_the_address_of_the_session() -> None:
+def test_the_first_message_has_the_address_of_the_session() -> None:
     bench = over_udp()
     bench.say(hello(1, 0x01), "a")
     first = join(Header(1, 0, 0, (1).to_bytes(4, "big")), [encode(entities()[0])])
@@ -60,7 +60,7 @@ def test_the_first_word_comes_from_the_address_of_the_session() -> None:
     assert len(bench.agent.clients) == 1
 
 
-def test_a_flood_of_forged_sessions_locks_nobody_out() -> None:
+def test_a_flood_of_forged_sessions_locks_no_client_out() -> None:
     """With long time-outs, more than there are places: a new client is served at once, those in session stay."""
     limits = Limits(clients=8, newcomers=64, strangers_per_second=1_000_000)
     bench = over_udp(limits)
@@ -142,7 +142,7 @@ def test_those_that_are_heard_keep_their_places() -> None:
 
 
 @pytest.mark.parametrize("forgeable", [True, False])
-def test_who_may_be_somewhere_else_is_not_told_more_than_it_said(forgeable: bool) -> None:
+def test_an_unverified_address_gets_no_more_bytes_than_it_sent(forgeable: bool) -> None:
     """S9: 200 times the 60 kB of a TYPE, asked in one datagram from a forged address, was 4,997 times what came."""
     bench = over_udp()
     bench.transport.forgeable = forgeable

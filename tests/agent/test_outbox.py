@@ -121,7 +121,7 @@ def test_bytes_are_never_more_than_the_limit(pipe: tuple[int, int]) -> None:
         assert len(set(frame)) == 1
 
 
-def test_a_slow_line_tells_of_it() -> None:
+def test_a_slow_line_is_reported() -> None:
     bench = Bench()
     cable = Cable()
     line = serial_line(cable.device, 115_200, bench.log)
@@ -143,7 +143,7 @@ def test_a_slow_line_tells_of_it() -> None:
     assert len(numbers) == 20_000 - bench.log.counters["line_slow"]
 
 
-def test_a_slow_connection_tells_of_it() -> None:
+def test_a_slow_connection_is_reported() -> None:
     bench = Bench()
     transport = tcp(bench)
     link = TcpLink("127.0.0.1", transport.port)

@@ -139,10 +139,10 @@ def test_a_client_reads_serves_and_calls_without_creating() -> None:
     bench = bench_with(everything())
     bench.say(CREATE_CLIENT)
     assert bench.bridge.graph == [*GRAPH, GRAPH[1], SERVICE, SERVICE]
-    told = bench.text.getvalue()
-    assert "subscription /count [std_msgs/msg/Int32] (reliable, volatile, keep_last 5)" in told
-    assert f"service {SERVICE}" in told
-    assert f"service client {SERVICE}" in told
+    reported = bench.text.getvalue()
+    assert "subscription /count [std_msgs/msg/Int32] (reliable, volatile, keep_last 5)" in reported
+    assert f"service {SERVICE}" in reported
+    assert f"service client {SERVICE}" in reported
     reader, replier, requester = sources(bench)
     for number, wanted in enumerate((0x16, 0x18, 0x17)):
         assert bench.say(message(ReadData(9, wanted, 1, delivery=FOREVER), sequence=number)) == []
@@ -160,7 +160,7 @@ def test_a_client_reads_serves_and_calls_without_creating() -> None:
 
 
 @pytest.mark.parametrize(("object_id", "adopted"), [(5, True), (0x16, False), (0x17, True), (0x18, True)])
-def test_who_is_adopted_writes_to_what_takes_samples(object_id: int, adopted: bool) -> None:
+def test_an_adopted_client_writes_to_existing_readers(object_id: int, adopted: bool) -> None:
     bench = bench_with(everything(adopt=True))
     for sequence in (1, 2):
         bench.say(message(WriteData(1, object_id, bytes(28)), sequence=sequence))
@@ -168,7 +168,7 @@ def test_who_is_adopted_writes_to_what_takes_samples(object_id: int, adopted: bo
     assert bool(bench.bridge.graph) is adopted
 
 
-def test_what_cannot_be_made_is_told() -> None:
+def test_objects_that_cannot_be_created_are_reported() -> None:
     unknown = content()
     unknown["clients"][0]["objects"][1]["type"] = "no_such_package::msg::dds_::T_"
     bench = bench_with(unknown)
@@ -180,7 +180,7 @@ def test_what_cannot_be_made_is_told() -> None:
 # A client that never comes again
 
 
-def test_without_leave_to_adopt_a_stranger_stays_one() -> None:
+def test_without_permission_to_adopt_an_unknown_client_is_refused() -> None:
     bench = bench_with()
     bench.say(sample(5, 40))
     assert bench.bridge.graph == []
@@ -337,7 +337,7 @@ def test_every_fault_in_one_run() -> None:
     assert len(faults(json.dumps(made))) == 3
 
 
-def test_a_client_that_reads_and_is_to_be_adopted_is_warned_of() -> None:
+def test_adopting_a_client_that_reads_is_a_warning() -> None:
     """A new agent cannot reach it: it asked the one before, and says nothing more."""
     made = content(adopt=True)
     assert faults(json.dumps(made)) == []

@@ -168,7 +168,7 @@ def test_kinds_without_a_representation() -> None:
             of(kind, Format.BINARY, b"")
 
 
-def test_references_come_from_the_agent() -> None:
+def test_references_are_defined_at_the_agent() -> None:
     known = References({(ObjectKind.TOPIC, "chatter"): CHATTER})
     create = Create(1, 0x12, ObjectKind.TOPIC, Format.REFERENCE, b"chatter")
     assert describe(create, known) == CHATTER

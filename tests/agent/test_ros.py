@@ -173,7 +173,7 @@ def test_ping(agent: AgentProcess) -> None:
             assert client.ping() == 0
 
 
-def test_a_type_that_no_file_has_is_bridged_and_told_once(
+def test_an_unknown_type_is_bridged_and_reported_once(
     client: XrceClient, agent: AgentProcess, observer: Observer, domain: int
 ) -> None:
     client.publisher("stranger", "strange", "no_such_msgs/msg/Thing", domain, number=1)

@@ -42,12 +42,12 @@ def everything(client: XrceClient, domain: int) -> None:
 
 def in_graph(observer: Observer) -> tuple[bool, bool, bool]:
     """Return whether ROS 2 sees the subscription, the service and the service client."""
-    told = any(e["node"] == NODE for e in observer.ask(do="endpoints", topic="/told"))
+    reported = any(e["node"] == NODE for e in observer.ask(do="endpoints", topic="/told"))
     graph = observer.ask(do="graph")
     if NODE not in graph["nodes"]:
-        return told, False, False
+        return reported, False, False
     services, clients = observer.ask(do="node", node=NODE[1:], namespace="/")
-    return told, ["/done_here", [GET_TYPES]] in services, ["/done_there", [GET_TYPES]] in clients
+    return reported, ["/done_here", [GET_TYPES]] in services, ["/done_there", [GET_TYPES]] in clients
 
 
 def awake_until(client: XrceClient, done: Callable[[], object]) -> None:
@@ -71,10 +71,10 @@ def data(client: XrceClient, object_id: int, wanted: Callable[[bytes], bool] = l
 
 def use(client: XrceClient, observer: Observer, number: int) -> None:
     """A sample, a request and a call arrive."""
-    told: dict[str, Any] = {"do": "publish", "topic": "/told", "type": INT32}
-    observer.ask(**told, values=[{"data": 0}])
+    reported: dict[str, Any] = {"do": "publish", "topic": "/told", "type": INT32}
+    observer.ask(**reported, values=[{"data": 0}])
     awake_until(client, lambda: observer.ask(do="matched", topic="/told") == 1)
-    observer.ask(**told, values=[{"data": number}])
+    observer.ask(**reported, values=[{"data": number}])
     assert data(client, READER, lambda body: body == int32_body(number))
     observer.ask(do="call", service="/done_here", type=GET_TYPES, names=[["x" * number]])
     request = data(client, REPLIER)

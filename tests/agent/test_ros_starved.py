@@ -85,7 +85,7 @@ def test_nothing_is_lost_to_a_reader_that_takes_nothing_for_long(
 ) -> None:
     bridge_observer.ask(do="starve", topic="/starved_a", type="std_msgs/msg/Int32")
     sender = Sender(bridged, "00 00 00 0a", "a")
-    bridged.wait(lambda: any(getattr(told, "count", 0) == 1 for told in bridged.reports))
+    bridged.wait(lambda: any(getattr(reported, "count", 0) == 1 for reported in bridged.reports))
     stuck_since, before = time.monotonic(), -1
     while sender.acknowledged < MESSAGES and time.monotonic() < stuck_since + 2:
         sender.write()

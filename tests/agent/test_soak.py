@@ -72,14 +72,14 @@ def check(world: World, stopped: dict[str, object]) -> None:
     assert world.count["samples down"] > 0
 
 
-def test_clients_come_and_go(tmp_path: Path) -> None:
+def test_clients_connect_and_leave(tmp_path: Path) -> None:
     """Sleep is left out here: test_ros_sleepers.py has it."""
     world, stopped = soak(tmp_path, places=20, seconds=2, timeout_s=6, sleeping=False)
     check(world, stopped)
 
 
 @pytest.mark.long
-def test_a_hundred_clients_come_and_go_for_ten_minutes(tmp_path: Path) -> None:
+def test_a_hundred_clients_connect_and_leave_for_ten_minutes(tmp_path: Path) -> None:
     seconds = float(os.environ.get("SOAK_SECONDS", "600"))
     world, stopped = soak(tmp_path, places=100, seconds=seconds, timeout_s=30, sleeping=True)
     warm = [kib for at, kib in world.rss if seconds / 4 < at < seconds / 2]

@@ -127,7 +127,7 @@ def test_a_last_fragment_too_many_does_not_spoil_the_next() -> None:
     assert joined.add(b"ok", True) == b"ok"
 
 
-def test_after_a_lost_piece_the_rest_is_dropped() -> None:
+def test_after_a_lost_fragment_the_rest_is_dropped() -> None:
     joined = Reassembly(100)
     joined.add(b"lost ", False)
     joined.drop()

@@ -126,7 +126,7 @@ def test_the_same_port_of_udp_and_of_both_versions() -> None:
         assert len(served.ready) == 4
 
 
-def test_a_slow_reader_holds_up_nobody() -> None:
+def test_a_slow_reader_delays_no_other() -> None:
     """What it does not take is bounded and counted; others go on meanwhile; messages that arrive are whole."""
     bench = Bench()
     transport = tcp(bench, output_bytes=20_000)
@@ -264,7 +264,7 @@ def from_host(host: str, transport: Tcp) -> socket.socket:
     )
 
 
-def test_half_open_connections_keep_nobody_waiting() -> None:
+def test_half_open_connections_delay_no_other() -> None:
     """S7: 500 that say nothing or nonsense, opened again when they are closed; a new client is served at once."""
     bench = Bench()
     transport = tcp(bench, connections=64, connections_per_host=32)
@@ -286,7 +286,7 @@ def test_half_open_connections_keep_nobody_waiting() -> None:
             each.close()
 
 
-def test_a_host_that_has_all_that_it_may_displaces_its_own() -> None:
+def test_a_host_at_its_limit_displaces_its_own_clients() -> None:
     bench = Bench()
     transport = tcp(bench, connections=8, connections_per_host=4)
     with Served(transport, bench=bench) as served:

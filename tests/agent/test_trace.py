@@ -27,8 +27,8 @@ def test_captured_messages_by_name() -> None:
         " body 00 01 00 00 08 00 00 00 6d 79 5f 6e 6f 64 65 00, parent 0x0000, domain 77, reuse True, replace True",
         "  0000  81 80 00 00 01 07 1e 00 00 0a 00 11 01 03 00 00  ................",
     ]
-    told: Any = record(bytes.fromhex(captured.CREATE_CLIENT))
-    (client,) = told["submessages"]
+    reported: Any = record(bytes.fromhex(captured.CREATE_CLIENT))
+    (client,) = reported["submessages"]
     assert client["name"] == "CREATE_CLIENT"
     assert client["key"] == "a1 b2 c3 d4"
 

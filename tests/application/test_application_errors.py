@@ -331,7 +331,7 @@ ERRORS: dict[str, tuple[str, str]] = {
 
 
 @pytest.mark.parametrize("case", ERRORS)
-def test_a_fault_is_told_at_its_place(case: str) -> None:
+def test_a_fault_is_reported_at_its_place(case: str) -> None:
     text, expected = ERRORS[case]
     application, lines = parse(text)
     assert application is None
@@ -344,7 +344,7 @@ def test_every_fault_has_a_hint() -> None:
     assert hintless == [], "a diagnostic that says neither what is accepted nor what to do"
 
 
-def test_all_faults_come_in_one_run_and_in_the_order_of_the_text() -> None:
+def test_all_faults_are_reported_in_one_run_and_in_the_order_of_the_text() -> None:
     text = (
         "profles: []\nentities: binry\ntransport: {agent: 'a:99999'}\n"
         "nodes:\n  - name: 1\n  - name: b-c\n    publishers: [{topic: //a}]\non_full: wait\n"
@@ -415,7 +415,7 @@ def test_what_is_not_said_is_the_default() -> None:
     assert (application.entities, application.liveliness, application.error_text) == (None, None, True)
 
 
-def test_pools_beside_nodes_are_a_warning() -> None:
+def test_pools_next_to_nodes_are_a_warning() -> None:
     application, lines = parse("nodes: [{name: n}]\npools: {publishers: 3, history: 2}\n")
     assert application is not None
     assert lines == [

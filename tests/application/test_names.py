@@ -83,10 +83,10 @@ def test_namespaces_are_what_ros_takes(ros: Any, name: str) -> None:
 def test_the_place_of_a_fault_is_the_one_ros_names(ros: Any, name: str) -> None:
     """Where both blame the same character class, they name the same character."""
     fault = topic_fault(name)
-    told = ros.impl.implementation_singleton.rclpy_implementation.rclpy_get_validation_error_for_topic_name(
-        name
+    reported = (
+        ros.impl.implementation_singleton.rclpy_implementation.rclpy_get_validation_error_for_topic_name(name)
     )
-    if fault is not None and "has the character" in fault.message and told is not None:
-        message, index = told
+    if fault is not None and "has the character" in fault.message and reported is not None:
+        message, index = reported
         if "characters other than" in message and "substitution" not in message:
             assert index == len(name[: fault.index].encode())

@@ -28,7 +28,7 @@ def test_a_named_file_is_named_as_the_user_wrote_it(tmp_path: Path) -> None:
     assert source.name == str(path)
 
 
-def test_what_cannot_be_read_is_told(tmp_path: Path) -> None:
+def test_unreadable_files_are_reported(tmp_path: Path) -> None:
     (tmp_path / "bad.yaml").write_bytes(b"a: \xff\n")
     for name, reason in (("none.yaml", "No such file"), ("bad.yaml", "it is not UTF-8 text")):
         said = Diagnostics()

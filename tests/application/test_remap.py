@@ -58,7 +58,7 @@ def test_a_rule_that_cannot_hold_is_an_error_at_its_place(name: str) -> None:
     assert [line[: len(expected)] for line in said] == [expected]
 
 
-def test_names_of_the_source_are_kept_beside_those_on_the_wire() -> None:
+def test_names_of_the_source_are_kept_next_to_those_on_the_wire() -> None:
     node, said = parse("__ns: /left, data: /robot/imu, reset: ~/restart")
     assert said == []
     assert node is not None

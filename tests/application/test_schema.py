@@ -65,15 +65,15 @@ def test_a_good_value_is_taken_and_read(path: str) -> None:
 @pytest.mark.parametrize("path", CASES)
 def test_a_bad_value_is_refused_at_its_place(path: str) -> None:
     case = CASES[path]
-    assert any(line.startswith(f"f:{case.place}: error: {case.told}") for line in said(case.bad)), said(
+    assert any(line.startswith(f"f:{case.place}: error: {case.reported}") for line in said(case.bad)), said(
         case.bad
     )
 
 
 @pytest.mark.parametrize("key", RESERVED)
 def test_a_reserved_key_says_so(key: str) -> None:
-    text, place, told = RESERVED[key]
-    assert said(text)[0].startswith(f"f:{place}: error: {told}")
+    text, place, reported = RESERVED[key]
+    assert said(text)[0].startswith(f"f:{place}: error: {reported}")
     assert not any(key in line for line in said("zzz: 1\n")), "a reserved key is no suggestion"
 
 
@@ -192,7 +192,7 @@ def test_every_key_of_the_profile_schema_has_its_cases() -> None:
 
 @pytest.mark.parametrize("key", PROFILE_CASES)
 def test_keys_of_a_profile(key: str) -> None:
-    good, value, bad, told = PROFILE_CASES[key]
+    good, value, bad, reported = PROFILE_CASES[key]
     found = Diagnostics()
     profile = parse_profile(Source("f", f"profile: p\n{good}\n"), found)
     assert [without_id(d.headline()) for d in found] == []
@@ -200,4 +200,4 @@ def test_keys_of_a_profile(key: str) -> None:
     assert profile_value(profile, key) == value
     text = bad if bad.startswith("profile") else f"profile: p\n{bad}"
     assert parse_profile(Source("f", text), found) is None
-    assert next(without_id(d.headline()) for d in found).startswith(f"f:{told}")
+    assert next(without_id(d.headline()) for d in found).startswith(f"f:{reported}")

@@ -232,8 +232,8 @@ def agent_under_test(folder: Path, domain: int, options: Sequence[str]) -> Itera
         )
     try:
         assert process.stdout is not None
-        told = [json.loads(process.stdout.readline()) for _ in range(2)]
-        ports = {line["transport"]: int(line["address"].rpartition(":")[2]) for line in told}
+        reported = [json.loads(process.stdout.readline()) for _ in range(2)]
+        ports = {line["transport"]: int(line["address"].rpartition(":")[2]) for line in reported}
         yield AgentUnderTest(process, log, ports)
     finally:
         process.terminate()

@@ -62,7 +62,7 @@ def bench_client(work: Path) -> None:
         line("round trip, reliable, median, ns", "echo", 0, COUNT // 10)
         line("round trip, reliable, 99 %, ns", "echo", 1, COUNT // 10)
         for task in ("best_effort", "reliable"):
-            told(port)
+            reported(port)
             wire = [wire_bytes(load, port, task, size) for size in SIZES]
             print(
                 f"  {'bytes to the agent for a sample, ' + task.replace('_', ' '):58} {wire[0]:14.1f} {wire[1]:14.1f}"
@@ -73,7 +73,7 @@ def bench_client(work: Path) -> None:
 def wire_bytes(load: Path, port: int, task: str, size: int) -> float:
     """Return the bytes of all datagrams to the agent, by sample; session and entities are spread over them."""
     run([str(load), task, str(size), str(COUNT)])
-    sent, _, samples = told(port)
+    sent, _, samples = reported(port)
     return sent / samples
 
 
@@ -83,7 +83,7 @@ def acknowledge_each(port: int, count: int) -> None:
         line.sendto(str(count).encode(), ("127.0.0.1", port))
 
 
-def told(port: int) -> list[int]:
+def reported(port: int) -> list[int]:
     """Return bytes, datagrams and samples that the agent saw since the last time."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as line:
         line.settimeout(5)

@@ -70,14 +70,14 @@ def test_a_changed_file_is_shown_as_a_unified_diff(run: Runner, copy: Path) -> N
     assert "1 of" in outcome.err
 
 
-def test_a_missing_file_comes_as_added(run: Runner, copy: Path) -> None:
+def test_a_missing_file_is_shown_as_added(run: Runner, copy: Path) -> None:
     (copy / A_SOURCE).unlink()
     outcome = check(run)
     assert outcome.status == 1
     assert outcome.out.splitlines()[:2] == ["--- /dev/null", f"+++ generated/{A_SOURCE}"]
 
 
-def test_a_surplus_file_comes_as_removed(run: Runner, copy: Path) -> None:
+def test_a_surplus_file_is_shown_as_removed(run: Runner, copy: Path) -> None:
     (copy / "src" / "surplus.c").write_text("int surplus;\n")
     outcome = check(run)
     assert outcome.status == 1
@@ -89,7 +89,7 @@ def test_a_surplus_file_comes_as_removed(run: Runner, copy: Path) -> None:
     ]
 
 
-def test_all_differences_come_in_one_run(run: Runner, copy: Path) -> None:
+def test_all_differences_are_reported_in_one_run(run: Runner, copy: Path) -> None:
     (copy / "README.md").write_text("")
     (copy / "sources.txt").unlink()
     (copy / "new.c").write_text("\n")

@@ -194,7 +194,7 @@ def test_what_needs_no_message_gets_none(run: Runner, folder: Path, component: s
     assert not list((folder / "build/application").rglob("*__type_support.c"))
 
 
-def test_a_message_that_nobody_sends_is_refused(run: Runner, folder: Path) -> None:
+def test_a_message_that_is_never_sent_is_refused(run: Runner, folder: Path) -> None:
     text = "version: 1\ncomponents: [+ping]\ninterfaces: [std_msgs/msg/String]\n"
     (folder / "microros.yaml").write_text(text, encoding="utf-8")
     outcome = run("generate")

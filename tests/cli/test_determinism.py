@@ -180,7 +180,7 @@ def test_crlf_and_a_byte_order_mark_of_an_application_file_change_no_source(
     assert differing <= {"manifest.json"}
 
 
-def test_nothing_tells_of_the_machine(inputs: Path, expected: dict[str, bytes], tmp_path: Path) -> None:
+def test_nothing_depends_on_the_machine(inputs: Path, expected: dict[str, bytes], tmp_path: Path) -> None:
     """No path, host name, user or time: in no file."""
     secrets = [str(tmp_path), str(ROOT), str(Path.home()) + "/", sys.prefix, os.sep + "tmp" + os.sep]
     host, user = socket.gethostname(), getpass.getuser()

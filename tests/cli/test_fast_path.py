@@ -122,7 +122,7 @@ def test_an_application_file_of_the_same_size(
     assert settled
 
 
-def test_an_application_file_that_is_gone_and_one_that_comes(run: Runner, folder: Path) -> None:
+def test_an_application_file_that_is_deleted_and_created(run: Runner, folder: Path) -> None:
     assert run("generate", "--profile", "pure_sender").status == 0
     time.sleep(0.03)
     assert run("generate", "--profile", "pure_sender").status == 0
@@ -186,7 +186,7 @@ def test_an_interrupted_run_of_another_selection(
     assert not (application / OUT / ".microros-gen-journal.json").exists()
 
 
-def test_a_package_that_comes_at_an_earlier_place(
+def test_a_package_that_appears_at_an_earlier_place(
     application: Path, generate: Runner, settled: list[str]
 ) -> None:
     put(application / "microros.yaml", APPLICATION.replace("own_msgs", "other_msgs"))
@@ -226,7 +226,7 @@ def test_another_ament_prefix_path(
     assert "cdr_put_4" in (application / OUT / "src/std_msgs/int32__type_support.c").read_text()
 
 
-def test_a_package_that_comes_into_the_ament_prefix(
+def test_a_package_that_appears_in_the_ament_prefix(
     application: Path, generate: Runner, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     put(application / "microros.yaml", APPLICATION.replace("own_msgs", "std_msgs/msg/Int32"))

@@ -113,12 +113,12 @@ def test_a_mutated_text_never_ends_in_an_exception(kind: str) -> None:
             read(Source("file", text), diagnostics)
         except UserError as error:
             diagnostics.extend(error.diagnostics)
-        told = "\n".join(d.render() for d in diagnostics)
-        assert "internal error" not in told, f"{told}\n{text!r}"
+        reported = "\n".join(d.render() for d in diagnostics)
+        assert "internal error" not in reported, f"{reported}\n{text!r}"
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "reported"),
     [
         ("version: 1\nmemory: {arena: " + "9" * 5000 + "}\n", "a number of 5000 characters"),
         ("version: 1\nmemory: {arena: " + "9" * 5000 + " kB}\n", "must be a size in bytes"),
@@ -135,11 +135,11 @@ def test_a_mutated_text_never_ends_in_an_exception(kind: str) -> None:
     ],
     ids=lambda value: value[:40] if len(value) < 60 else "",
 )  # fmt: skip
-def test_what_was_once_a_traceback(run: Runner, folder: Path, text: str, told: str) -> None:
+def test_what_was_once_a_traceback(run: Runner, folder: Path, text: str, reported: str) -> None:
     (folder / "microros.yaml").write_text(text)
     outcome = run("generate", "-o", "out")
     assert outcome.status == 2
-    assert told in outcome.err
+    assert reported in outcome.err
     assert "internal error" not in outcome.err
     assert max(map(len, outcome.err.splitlines())) < 1200
 
@@ -203,9 +203,7 @@ def test_only_build_starts_the_program_that_a_target_file_names(
     assert (folder / "started").exists() == (command[0] == "build")
 
 
-def test_an_exception_that_nobody_expected_names_the_text(
-    run: Runner, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_unexpected_exception_names_the_text(run: Runner, monkeypatch: pytest.MonkeyPatch) -> None:
     @reads
     def fails(source: Source) -> None:
         raise IndexError("tuple index out of range")

@@ -18,7 +18,7 @@ def generated_types(folder: Path) -> set[str]:
     return set(manifest["types"])
 
 
-def test_services_beside_a_message(run: Runner, folder: Path) -> None:
+def test_services_next_to_a_message(run: Runner, folder: Path) -> None:
     outcome = run(*ARGUMENTS, "std_srvs", "--interface", "std_msgs/Bool")
     assert (outcome.status, outcome.err) == (0, "")
     assert "publishes  up to 1 of std_msgs/msg/Bool" in outcome.out

@@ -136,7 +136,7 @@ def test_an_interface_larger_than_a_message_is_shown_where_it_is_named(run: Runn
         assert "microros.yaml:3:14: error: std_msgs/msg/ByteMultiArray takes up to" in outcome.err
 
 
-def test_several_faults_are_told_in_one_run(run: Runner, folder: Path) -> None:
+def test_several_faults_are_reported_in_one_run(run: Runner, folder: Path) -> None:
     put(folder, APPLICATION.replace("limits:", "limit:").replace("version: 1", "versoin: 1"))
     outcome = run("generate", "-o", "out")
     assert outcome.err.count(": error: ") >= 2

@@ -216,7 +216,7 @@ def test_a_device_s_own_key_is_any(tmp_path: Path) -> None:
     assert json.loads(files["agent/entities.json"])["clients"][0]["key"] == "*"
 
 
-def test_a_client_that_never_comes_again_is_to_be_adopted(tmp_path: Path) -> None:
+def test_a_client_that_never_reconnects_has_to_be_adopted(tmp_path: Path) -> None:
     silent = "entities: preconfigured\nliveliness: none\n"
     (client,) = json.loads(rendered(tmp_path, NODES + silent)["agent/entities.json"])["clients"]
     assert client["adopt"] is True
@@ -225,7 +225,7 @@ def test_a_client_that_never_comes_again_is_to_be_adopted(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("entities", ["binary", "xml"])
-def test_an_agent_that_is_told_everything_needs_no_file(tmp_path: Path, entities: str) -> None:
+def test_an_agent_with_all_options_needs_no_file(tmp_path: Path, entities: str) -> None:
     files = rendered(tmp_path, NODES + f"entities: {entities}\n")
     assert not [path for path in files if path.startswith("agent/")]
     assert f"({entities})" in files["README.md"].decode()

@@ -49,7 +49,7 @@ def test_who_supplies_the_key(tmp_path: Path, text: str, device: bool) -> None:
     assert device or re.fullmatch("0x[0-9a-f]{8}u", key)
 
 
-def test_a_target_without_a_unique_id_is_told_with_the_key_to_write(tmp_path: Path) -> None:
+def test_a_target_without_a_unique_id_is_reported_with_the_key_to_write(tmp_path: Path) -> None:
     board = "target: {name: cortex-m4}\ntransport: {type: serial}\n"
     said = warnings(planned(tmp_path, board))
     assert "the target cortex-m4 names no unique id" in said

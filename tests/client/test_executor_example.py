@@ -125,7 +125,7 @@ def test_everything_is_run_where_nothing_is_declared(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_a_place_for_a_timer_that_nobody_declares_is_used(
+def test_a_place_for_an_undeclared_timer_is_used(
     text: str, period: str, sends: tuple[str, ...], tmp_path: Path
 ) -> None:
     (timer,) = running(text, tmp_path).timers

@@ -144,9 +144,9 @@ def test_each_stream_is_sized_for_those_that_write_to_it(
 def test_a_message_must_fit_its_own_stream_under_its_own_limits(tmp_path: Path) -> None:
     """The large one goes in fragments; the best-effort one, which cannot, has low limits and is no error."""
     assert application(tmp_path, 20, 400).project.runtime.streams.fragments
-    with pytest.raises(UserError) as told:
+    with pytest.raises(UserError) as reported:
         application(tmp_path, 240, 400)
-    (found,) = told.value.diagnostics
+    (found,) = reported.value.diagnostics
     assert "std_msgs/msg/String on /small takes up to 260 bytes in its stream" in found.message
 
 

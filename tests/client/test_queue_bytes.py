@@ -68,7 +68,7 @@ def test_nothing_else_of_the_plan_knows_it(tmp_path: Path) -> None:
     assert without.project.streams == shared.project.streams
 
 
-def test_a_sample_that_waits_alone_comes_in_pieces(tmp_path: Path) -> None:
+def test_a_sample_that_waits_alone_arrives_in_fragments(tmp_path: Path) -> None:
     """As with `queue: 1`: below two of the largest the input buffer is smaller, too."""
     sizes = [
         planned(tmp_path, NODES.format(f", queue_bytes: {size}", "")).project.streams.input_size
@@ -144,13 +144,13 @@ def test_bytes_for_less_than_one_sample_are_refused(
         ),
     ],
 )
-def test_bytes_that_save_nothing_are_told(tmp_path: Path, text: str, words: str) -> None:
+def test_bytes_that_save_nothing_are_reported(tmp_path: Path, text: str, words: str) -> None:
     found = planned(tmp_path, text)
     assert found.project.runtime.input.queue_mode == "slots"
     assert words in [warning.message for warning in found.warnings]
 
 
-def test_beside_nodes_the_key_of_pools_has_no_effect(tmp_path: Path) -> None:
+def test_next_to_nodes_the_key_of_pools_has_no_effect(tmp_path: Path) -> None:
     found = planned(tmp_path, NODES.format("", "") + "pools: {queue_bytes: 2000}\n")
     said = [warning.message for warning in found.warnings if "has no effect" in warning.message]
     assert said == ["'pools.queue_bytes' has no effect: with `nodes` there is what they declare"]

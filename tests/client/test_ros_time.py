@@ -52,7 +52,7 @@ def test_with_nodes_it_is_the_first_subscription_of_the_first_node(tmp_path: Pat
     assert runtime.clock.ros_clocks_max == 2, "one of rclc's support"
 
 
-def test_without_nodes_it_is_beside_the_pool(tmp_path: Path) -> None:
+def test_without_nodes_it_is_next_to_the_pool(tmp_path: Path) -> None:
     text = (
         "version: 1\nprofiles: [simulation_node, pure_reader]\ninterfaces: [std_msgs/msg/Float64MultiArray]\n"
     )

@@ -59,8 +59,8 @@ def test_a_line_takes_large_reliable_messages_from_their_slots() -> None:
     """Then its ring has what is copied: CREATE of 92 bytes, best-effort messages. Small ones are not worth the code."""
 
     def kept(*written: Written, application: Application | None = None) -> tuple[bool, int]:
-        told = application or Application()
-        streams = plan_streams(told, "serial", written, 92, Diagnostics(), keeps_output=True)
+        reported = application or Application()
+        streams = plan_streams(reported, "serial", written, 92, Diagnostics(), keeps_output=True)
         return streams.keeps_output, streams.send_buffer
 
     created, copied = 1 + 2 * (92 + 6) + 1 + 2, 1 + 2 * (412 + 6) + 1 + 2
@@ -115,7 +115,7 @@ def test_reliable_creation_alone_needs_no_best_effort_stream() -> None:
     assert list(stream_demands(RELIABLE, frozenset(), "preconfigured")) == []
 
 
-def test_reliable_creation_beside_best_effort_messages() -> None:
+def test_reliable_creation_with_best_effort_messages() -> None:
     streams, _ = plan(large(20, reliable=False), application=RELIABLE, reliable_input=True)
     assert (streams.best_effort_size, streams.reliable_slots, streams.creation_size) == (32, 1, 92)
 
@@ -141,7 +141,7 @@ def test_a_slot_holds_the_whole_message(size: int, mtu: int) -> None:
     assert streams.mtu <= mtu
 
 
-def test_the_largest_message_is_told() -> None:
+def test_the_largest_message_is_reported() -> None:
     assert plan(large(LARGEST_BODY))[1] == []
     _, said = plan(large(LARGEST_BODY + 1))
     (line,) = said
@@ -231,7 +231,7 @@ FAST = replace(SCAN, reliable=False, best_effort=True)
 SMALL = Received("std_msgs/msg/String on /said", 100, True, False)
 
 
-def test_a_reliable_sample_that_waits_alone_comes_in_pieces() -> None:
+def test_a_reliable_sample_that_waits_alone_arrives_in_fragments() -> None:
     """The agent is told the input buffer; what else comes whole makes it larger, and so does pools.slot_size."""
     streams = reception(SCAN)
     assert (streams.input_size, streams.arrives_in_fragments, streams.input_buffer) == (988, True, 988)

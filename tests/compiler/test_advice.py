@@ -176,7 +176,7 @@ def taken(err: str) -> list[int]:
     ],
     ids=["queue", "behind /clock", "pools stay", "together", "type stays", "history", "pool of queues"],
 )
-def test_streams_over_the_budget_come_with_lines_that_fit(
+def test_streams_over_the_budget_are_refused_with_lines_that_fit(
     run: Runner, folder: Path, text: str, budget: int
 ) -> None:
     """Each alternative, or all lines together, bring the streams to the size that they name."""
@@ -220,7 +220,7 @@ def test_a_rule_of_two_equal_numbers_keeps_both(run: Runner, folder: Path) -> No
 
 
 @pytest.mark.system
-def test_advice_about_memory_is_exact_and_the_largest_saving_comes_first(run: Runner, folder: Path) -> None:
+def test_advice_about_memory_is_exact_and_the_largest_saving_is_first(run: Runner, folder: Path) -> None:
     """What each line promises is what a build takes less with it pasted; keys that exist are replaced."""
     text = HEAD.replace("tf2_msgs/msg/TFMessage", "tf2_msgs/msg/TFMessage, queue: 4")
     text += 'limits:\n  "*": {string: 32, sequence: 16}\nerrors: text\n'

@@ -18,7 +18,7 @@ DOCUMENTED = documented()
 
 
 def test_every_diagnostic_is_explained() -> None:
-    assert set(TEXTS) == {told.id for told in DOCUMENTED}
+    assert set(TEXTS) == {reported.id for reported in DOCUMENTED}
 
 
 def test_the_texts_are_short_sentences() -> None:
@@ -43,11 +43,11 @@ def _words(text: str) -> set[str]:
 def test_none_repeats_its_message() -> None:
     """At most seven of ten words of an explanation are in the message and hint."""
     repeated = [
-        told.id
-        for told in DOCUMENTED
-        if len(_words(TEXTS[told.id]) & _words(f"{told.message} {told.hint}"))
-        > 0.7 * len(_words(TEXTS[told.id]))
-        or (len(told.message) > 20 and told.message in TEXTS[told.id])
+        reported.id
+        for reported in DOCUMENTED
+        if len(_words(TEXTS[reported.id]) & _words(f"{reported.message} {reported.hint}"))
+        > 0.7 * len(_words(TEXTS[reported.id]))
+        or (len(reported.message) > 20 and reported.message in TEXTS[reported.id])
     ]
     assert repeated == []
 

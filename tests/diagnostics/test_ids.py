@@ -97,7 +97,9 @@ def test_an_id_is_never_used_again_for_something_else() -> None:
 def test_every_id_has_a_text() -> None:
     """One id is one message: an entry of the page that is a placeholder alone would explain nothing."""
     empty = {
-        told.id for told in documented() if not re.search(r"[a-z]{2}", re.sub(r"\{[^}]*\}", "", told.message))
+        reported.id
+        for reported in documented()
+        if not re.search(r"[a-z]{2}", re.sub(r"\{[^}]*\}", "", reported.message))
     }
     assert empty == PASSED_ON
 

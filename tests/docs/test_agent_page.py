@@ -106,10 +106,10 @@ def test_every_option_is_there() -> None:
 
 
 def test_every_limit_is_there_with_its_default() -> None:
-    told = {
+    reported = {
         name: float(cells[1]) for name, cells in rows("limit").items() if re.fullmatch(r"[\d.]+", cells[1])
     }
-    assert told == {**asdict(Limits()), **asdict(TcpLimits())}
+    assert reported == {**asdict(Limits()), **asdict(TcpLimits())}
 
 
 def calls() -> Iterator[tuple[str, ast.Call]]:

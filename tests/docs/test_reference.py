@@ -39,12 +39,12 @@ def calls(group: click.Group, path: tuple[str, ...] = ()) -> Iterator[tuple[str,
 
 @pytest.mark.parametrize("call", list(calls(cli)), ids=" ".join)
 def test_every_option_of_the_help_is_there(call: tuple[str, ...]) -> None:
-    told = CliRunner().invoke(cli, [*call, "--help"], prog_name="microros-gen").output
+    reported = CliRunner().invoke(cli, [*call, "--help"], prog_name="microros-gen").output
     (section,) = re.findall(rf"(?ms)^##+ {' '.join(call)}$(.*?)(?=^#|\Z)", command_line.page())
-    options = set(re.findall(r"^  (?:-\w, )?(--[\w-]+|-v+)\b", told, re.MULTILINE)) - {"--help"}
+    options = set(re.findall(r"^  (?:-\w, )?(--[\w-]+|-v+)\b", reported, re.MULTILINE)) - {"--help"}
     cells = re.findall(r"(?m)^\| `([^`]+)` \|", section)
     assert options <= set(re.findall(r"(?:^|, )(-[\w-]+)", "\n".join(cells), re.MULTILINE))
-    usage = " ".join(told.split("\n\n")[0].removeprefix("Usage: ").split())
+    usage = " ".join(reported.split("\n\n")[0].removeprefix("Usage: ").split())
     assert usage in section
 
 
@@ -103,7 +103,7 @@ def test_each_anchor_is_there_once() -> None:
         assert "{% " not in text
 
 
-def test_a_header_is_read_as_the_house_writes_it() -> None:
+def test_a_header_is_read_in_the_style_of_this_project() -> None:
     text = """/* SPDX-License-Identifier: Apache-2.0 */
 /* Of the file. */
 #ifndef MICROROS_X_H
@@ -194,6 +194,6 @@ def test_the_example_of_the_python_api_runs(tmp_path: Path) -> None:
     assert python_api.EXAMPLE in generated()["reference/python_api.md"]
 
 
-def test_everything_that_the_python_api_exports_is_told() -> None:
+def test_everything_that_the_python_api_exports_is_documented() -> None:
     page = generated()["reference/python_api.md"]
     assert [name for name in compiler.__all__ if f"### {name}\n" not in page] == []

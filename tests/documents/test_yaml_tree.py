@@ -132,7 +132,7 @@ FAULTS = {
 
 @pytest.mark.parametrize("c_loader", LOADERS)
 @pytest.mark.parametrize("case", FAULTS)
-def test_faults_are_told_at_their_place(case: str, c_loader: bool) -> None:
+def test_faults_are_reported_at_their_place(case: str, c_loader: bool) -> None:
     text, expected = FAULTS[case]
     _, lines = read(text, c_loader)
     assert len(lines) == 1
@@ -157,7 +157,7 @@ def test_aliases_of_aliases_are_bounded() -> None:
         )
 
 
-def test_places_count_from_one_and_end_behind() -> None:
+def test_places_count_from_one_and_end_after_the_last_column() -> None:
     tree = parse_yaml(Source("f", "ä: 1\nb:\n  - [x, 'y z']\n"), Diagnostics())
     assert isinstance(tree, MappingNode)
     entry = tree.entries["b"]

@@ -335,7 +335,7 @@ def test_two_images_at_once_and_a_restart_with_the_same_key(
 
 @pytest.mark.ros
 @pytest.mark.parametrize("liveliness", ["ping", "acknack", "none"])
-def test_a_killed_agent_comes_back(
+def test_a_killed_agent_restarts(
     images: Images,
     pool_image: Image,
     acknack_image: Image,

@@ -79,7 +79,7 @@ def test_an_entity_that_is_not_declared(declared: Live, call: str, text: str) ->
     declared.ok("publisher 0 0 Int32 count reliable")
 
 
-def test_the_line_that_the_error_gives_mends_it(
+def test_the_line_of_the_hint_fixes_the_error(
     declared: Live, declared_image: Image, images: Images, port: int
 ) -> None:
     """Put into the application file, it makes the same call succeed."""

@@ -89,7 +89,7 @@ limits: {"*": {string: 17, sequence: 4}}
 @pytest.mark.parametrize(
     "flags", [SANITIZE, pytest.param(("-m32", "-O1"), marks=pytest.mark.system)], ids=["sanitized", "m32"]
 )
-def test_strings_of_services_reach_rclpy_and_come_from_it(
+def test_strings_of_services_are_exchanged_with_rclpy(
     images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, flags: tuple[str, ...]
 ) -> None:
     image = images.build(image_port.port, SERVICES, "gcc", flags)

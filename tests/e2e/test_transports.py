@@ -66,7 +66,7 @@ def _free_port() -> int:
     return port
 
 
-def test_tcp_and_an_agent_that_starts_anew(images: Images, observer: Observer, domain: int) -> None:
+def test_tcp_and_an_agent_that_restarts(images: Images, observer: Observer, domain: int) -> None:
     """The connection breaks with the agent; the example goes on over another one by itself."""
     port = _free_port()
     text = APPLICATION.format(transport=f'tcp, agent: "127.0.0.1:{port}"', key=14, topic="tcp")

@@ -19,7 +19,7 @@ def still_time(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize("name", recorded())
-def test_an_exchange_stays_as_it_was_recorded(name: str, tmp_path: Path, still_time: Path) -> None:
+def test_an_exchange_equals_its_recording(name: str, tmp_path: Path, still_time: Path) -> None:
     recorded_text = (GOLDEN / f"{name}.txt").read_text(encoding="utf-8")
     assert exchange_of(name, tmp_path, still_time) == recorded_text
 

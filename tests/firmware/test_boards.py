@@ -130,7 +130,7 @@ def test_the_usual_loops_outlive_an_outage_of_the_agent(builds: Builds, loop: st
     assert (begun == 1) == keeps
 
 
-def test_bytes_that_nobody_reads_in_time_are_counted_and_the_line_recovers(builds: Builds) -> None:
+def test_bytes_not_read_in_time_are_counted_and_the_line_recovers(builds: Builds) -> None:
     built = builds.build("qemu-mps2-an385")
     image = builds.application(built, "counter.c", "-DCOUNTER_LAST=20", "-DCOUNTER_PERIOD_MS=100u")
     agent = FakeAgent()
@@ -147,7 +147,7 @@ def test_bytes_that_nobody_reads_in_time_are_counted_and_the_line_recovers(build
     assert agent.values() == list(range(1, 21))
 
 
-def test_a_device_with_a_number_of_its_own_is_known_by_it(builds: Builds) -> None:
+def test_a_device_with_a_unique_number_is_known_by_it(builds: Builds) -> None:
     built = builds.build("qemu-microbit", DEVICE_KEY)
     with board(built) as running, scripted_agent(running.device, FakeAgent()) as agent:
         running.go_on()

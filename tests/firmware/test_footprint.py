@@ -65,7 +65,7 @@ def test_the_promise_for_the_cortex_m4(builds: Builds) -> None:
     assert best_effort["publish"] <= 350
 
 
-def test_the_painted_stack_is_within_what_is_proven(builds: Builds) -> None:
+def test_the_measured_stack_is_within_the_proven_bound(builds: Builds) -> None:
     """What an image used in the emulator, against the bound over its call graph and the goal of 700 bytes."""
     need(CORTEX_M4, emulator=True)
     built = builds.build(CORTEX_M4, Sender().application)

@@ -55,7 +55,7 @@ def built(home: Path, text: str) -> Built:
     return Built(home / "out", found.target)
 
 
-def test_an_image_behind_a_bootloader_has_its_vectors_hooks_and_memories(tmp_path: Path) -> None:
+def test_an_image_after_a_bootloader_has_its_vectors_hooks_and_memories(tmp_path: Path) -> None:
     need("qemu-mps2-an386", emulator=True)
     boot = tmp_path / "boot.bin"
     compiler = ["arm-none-eabi-gcc", "-mcpu=cortex-m4", "-mthumb", "-nostdlib", "-Wl,-Ttext=0", "-Wl,-e,0"]
@@ -81,7 +81,7 @@ def test_an_image_behind_a_bootloader_has_its_vectors_hooks_and_memories(tmp_pat
     } == {True}
 
 
-def test_a_hook_that_the_application_lacks_is_named(tmp_path: Path) -> None:
+def test_a_hook_missing_in_the_application_is_named(tmp_path: Path) -> None:
     need("cortex-m3")
     made = built(tmp_path, "target: mine\nextends: qemu-mps2-an385\nhooks: {watchdog: feed_the_dog}\n")
     assert "feed_the_dog" in (made.out / "README.md").read_text()

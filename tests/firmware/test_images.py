@@ -41,7 +41,7 @@ def test_an_image_has_no_part_of_a_c_library_that_is_not_needed(builds: Builds, 
 
 
 @pytest.mark.parametrize("name", EACH_BOARD)
-def test_beside_the_elf_file_are_the_formats_of_programs_that_flash(builds: Builds, name: str) -> None:
+def test_next_to_the_elf_file_are_the_formats_of_programs_that_flash(builds: Builds, name: str) -> None:
     built = builds.build(name)
     binary = built.image.with_suffix(".bin").read_bytes()
     assert len(binary) < 16 * 1024

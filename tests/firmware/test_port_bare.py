@@ -72,9 +72,7 @@ def test_the_ring_holds_the_longest_message_and_an_answer_for_each_slot(slots: i
 @pytest.mark.parametrize(
     ("baud", "size", "ring"), [(115_200, 3000, 232), (921_600, 3000, 752), (9600, 3000, 76)]
 )
-def test_of_a_large_best_effort_sample_the_ring_holds_what_comes_in_20_ms(
-    baud: int, size: int, ring: int
-) -> None:
+def test_the_ring_holds_20_ms_of_a_large_best_effort_sample(baud: int, size: int, ring: int) -> None:
     """Ten bits a byte; a quarter of the sample at most, and never less than what must not be lost: 64 bytes."""
     assert ring_size(changed(plan(0, size), transport__line_input=64, transport__baud=baud)) == ring
 

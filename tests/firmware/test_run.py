@@ -46,7 +46,7 @@ PATIENT = (
 
 
 @pytest.mark.ros
-def test_rclpy_hears_the_board_also_after_its_agent_was_killed_and_another_came(
+def test_rclpy_hears_the_board_after_its_agent_was_replaced(
     builds: Builds, observer: Observer, domain: int
 ) -> None:
     built = builds.build(BOARD, ROOMY)

@@ -95,7 +95,7 @@ def test_of_several_images_one_is_named(folder: BuildFolder) -> None:
     assert found.image.map == folder.path / "other.map"
 
 
-def test_each_configuration_has_its_own_library(folder: BuildFolder) -> None:
+def test_each_configuration_has_a_separate_library(folder: BuildFolder) -> None:
     """Ninja Multi-Config: the image of Release was linked with the library of Release."""
     for config in ("Debug", "Release"):
         folder.library("multi", config)

@@ -250,7 +250,7 @@ def run_with(tree: Path, folder: Path, main: str) -> SizeReport:
     return measure(out)
 
 
-def test_the_stack_of_a_painted_run_is_below_the_bound(probe_tree: Path, tmp_path: Path) -> None:
+def test_the_measured_high_water_mark_is_below_the_bound(probe_tree: Path, tmp_path: Path) -> None:
     """The same calls with a measured high-water mark, port functions included: it does not exceed the bound."""
     main = (Path(__file__).parent / "c" / "stack_probe.c").read_text(encoding="utf-8")
     report = run_with(probe_tree, tmp_path, main)

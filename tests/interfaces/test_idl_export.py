@@ -172,7 +172,7 @@ def test_a_tree_has_what_it_includes_and_no_more(tmp_path: Path) -> None:
     assert run(*arguments).stdout == f"{tmp_path}: 0 files written, 5 unchanged\n"
 
 
-def test_a_derived_type_stands_in_the_file_of_its_service() -> None:
+def test_a_derived_type_is_in_the_file_of_its_service() -> None:
     assert (
         run("std_srvs/srv/SetBool_Event", "--format", "idl").stdout
         == run("std_srvs/SetBool", "--format", "idl").stdout

@@ -166,7 +166,7 @@ def test_warnings_do_not_stop(text: str, said: str) -> None:
     assert said in found[0]
 
 
-def test_columns_behind_a_byte_order_mark_are_those_of_an_editor() -> None:
+def test_columns_after_a_byte_order_mark_are_those_of_an_editor() -> None:
     _, found = read("\ufeffint32 A")
     assert any(line.startswith("Foo.msg:1:7: error") for line in found), found
 

@@ -177,7 +177,7 @@ BACKSLASHES += [
 BACKSLASHES += [f"int32 a # a{count * chr(92)}" for count in range(1, 7)]
 
 
-def test_a_comment_that_the_adapter_stops_at_is_told(tmp_path: Path) -> None:
+def test_a_comment_that_stops_the_adapter_is_reported(tmp_path: Path) -> None:
     """It takes a backslash in a comment for that of a Python string."""
     refused = 0
     for text in BACKSLASHES:

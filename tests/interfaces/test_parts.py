@@ -115,7 +115,7 @@ def test_separators(text: str, kind: str, said: list[str]) -> None:
         assert line.startswith(expected)
 
 
-def test_every_fault_of_every_part_is_told_at_its_line() -> None:
+def test_every_fault_of_every_part_is_reported_at_its_line() -> None:
     text = "int8 X\n\tint8 a\n---\nint8 a\nint8 a\n--- \nint9 c\nuint8 d 300\n---\nfloat32 e = 1"
     assert [re.match(r"(\d+):(\d+): error", line).groups() for line in errors(text)] == [  # type: ignore[union-attr]
         ("6", "1"),
@@ -129,7 +129,7 @@ def test_every_fault_of_every_part_is_told_at_its_line() -> None:
     ]
 
 
-def test_names_are_told_apart_by_part() -> None:
+def test_names_are_distinguished_by_part() -> None:
     service, said = read("int8 same\nint8 SAME=1\n---\nint16 same\nint16 SAME=2")
     assert service is not None
     assert said == []
@@ -151,7 +151,7 @@ UNLIKE = [
 
 
 @pytest.mark.parametrize(("text", "kind"), ALIKE)
-def test_constants_declared_alike_in_two_parts_are_told(text: str, kind: str) -> None:
+def test_constants_declared_alike_in_two_parts_are_reported(text: str, kind: str) -> None:
     """Their C does not compile in ROS 2 Jazzy, which gives both to the first part."""
     (said,) = errors(text, kind)
     line = max(i for i, written in enumerate(text.splitlines(), 1) if "=" in written)
@@ -189,7 +189,7 @@ def test_an_interface_with_the_name_of_a_part_has_a_warning(kind: str, name: str
     assert not read("---\n---" if kind == "action" else "---", kind, f"{name}s")[1]
 
 
-def test_a_byte_order_mark_is_told_once() -> None:
+def test_a_byte_order_mark_is_reported_once() -> None:
     diagnostics = Diagnostics()
     assert parse_srv(Source("F", "\ufeff---\n"), TypeName("pkg_a", "srv", "Foo"), diagnostics) is not None
     assert [d.severity for d in diagnostics] == [Severity.WARNING]

@@ -155,7 +155,7 @@ def test_an_idl_file_alone_is_read(tmp_path: Path) -> None:
     assert interfaces.interfaces[TypeName("a", "srv", "Do")].source.name == str(folder / "srv/Do.idl")
 
 
-def test_an_idl_file_beside_another_one_is_not_read(tmp_path: Path) -> None:
+def test_an_idl_file_next_to_another_one_is_not_read(tmp_path: Path) -> None:
     folder = package(tmp_path, "a", A="int8 x")
     (folder / "msg/A.idl").write_text("not IDL", encoding="utf-8")
     interfaces, said = resolve(InterfaceFinder((tmp_path,)), "a")
@@ -217,7 +217,7 @@ def test_requests_that_name_nothing(request_: str, said: str) -> None:
     assert said in found[0]
 
 
-def test_a_fault_stands_at_the_request() -> None:
+def test_a_fault_is_reported_at_the_request() -> None:
     span = Span(Source("microros.yaml", "interfaces: [nope]"), 1, 14, 18)
     diagnostics = Diagnostics()
     resolve_interfaces((Named("nope", span),), InterfaceFinder(), diagnostics)
@@ -228,7 +228,7 @@ def test_a_fault_stands_at_the_request() -> None:
     assert "Looked in nowhere" in without_id(found.headline())
 
 
-def test_a_missing_dependency_stands_at_the_field_that_needs_it(tmp_path: Path) -> None:
+def test_a_missing_dependency_is_reported_at_the_field_that_needs_it(tmp_path: Path) -> None:
     package(tmp_path, "a", A="int8 x\nHeader header\nnope/Type[3] other\nstd_msgs/Int33 number")
     _, said = resolve(InterfaceFinder((tmp_path,), shipped=shipped_folder()), "a")
     place = f"{tmp_path}/a/msg/A.msg"
@@ -242,7 +242,7 @@ def test_a_missing_dependency_stands_at_the_field_that_needs_it(tmp_path: Path) 
     assert "Did you mean 'Int32'?" in said[2]
 
 
-def test_faults_of_every_file_come_in_one_run(tmp_path: Path) -> None:
+def test_faults_of_every_file_are_reported_in_one_run(tmp_path: Path) -> None:
     package(tmp_path, "a", A="int32 X\nb/B b", C="int33 c")
     package(tmp_path, "b", B="int32 Y")
     _, said = resolve(InterfaceFinder((tmp_path,)), "a", "b", "c")
@@ -260,7 +260,7 @@ def test_cycles_are_reported_once_each_at_a_field(tmp_path: Path) -> None:
     assert names(interfaces) == ["a/msg/Outside"]
 
 
-def test_dependencies_come_first_and_the_order_is_fixed() -> None:
+def test_dependencies_are_first_and_the_order_is_fixed() -> None:
     finder = InterfaceFinder(shipped=shipped_folder())
     requests = ["nav_msgs", "sensor_msgs/Imu", "std_msgs/Header"]
     orders = [names(resolve(finder, *order)[0]) for order in permutations(requests)]

@@ -126,7 +126,7 @@ def test_what_ros_adds_is_missed_by_name(tmp_path: Path) -> None:
     assert "which the field 'info' of a/srv/Do_Event needs" in said[0]
 
 
-def test_faults_of_all_kinds_come_in_one_run(tmp_path: Path) -> None:
+def test_faults_of_all_kinds_are_reported_in_one_run(tmp_path: Path) -> None:
     package(tmp_path, "a", A="int32 X")
     package(tmp_path, "a", "srv", B="int8 a\n---\nint8 a\nnope/X x\nB_Request b")
     package(tmp_path, "a", "action", C="---\nint9 a")

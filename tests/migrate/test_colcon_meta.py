@@ -142,7 +142,7 @@ def test_what_is_not_needed_is_named_with_its_reason_and_line(init: Init, tmp_pa
         ("RMW_UXRCE_MAX_SUBSCRIPTIOS=2", "not known here. Did you mean 'RMW_UXRCE_MAX_SUBSCRIPTIONS'?"),
     ],
 )
-def test_what_could_not_be_decided_is_told(setting: str, said: str) -> None:
+def test_undecided_settings_are_reported(setting: str, said: str) -> None:
     (remark,) = draft(rmw_microxrcedds=[setting]).remarks
     assert remark.undecided
     assert str(remark.span) == "a.meta:5:17"
@@ -172,7 +172,7 @@ def test_several_files_the_last_one_wins_and_yaml_is_taken(init: Init, tmp_path:
     assert pools == {"publishers": 2, "nodes": 5, "clients": 1}
 
 
-def test_a_package_that_stands_twice_is_told(init: Init, tmp_path: Path) -> None:
+def test_a_duplicate_package_is_reported(init: Init, tmp_path: Path) -> None:
     one = '"rcutils": {"cmake-args": []}'
     (tmp_path / "a.meta").write_text(f'{{\n\t"names": {{\n\t\t{one},\n\t\t{one}\n\t}}\n}}\n')
     _, _, err = init("app", "--from-colcon-meta", "a.meta")

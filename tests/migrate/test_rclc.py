@@ -84,14 +84,14 @@ def test_a_topic_is_found(topic: str, before: str) -> None:
         ("NULL", "", "it is NULL"),
     ],
 )
-def test_a_topic_that_is_not_known_is_told_with_its_reason(topic: str, before: str, reason: str) -> None:
+def test_an_unknown_topic_is_reported_with_its_reason(topic: str, before: str, reason: str) -> None:
     text = program(f"rclc_publisher_init_default(&p, &node, {INT32}, {topic});", before)
     text = text.replace("main(void)", "main(int argc, char ** argv)")
     assert only(text).name == ""
-    (told,) = reasons(text)
+    (reported,) = reasons(text)
     line = text[: text.index("rclc_publisher")].count("\n") + 1
-    assert told.startswith(f"0.c:{line}:3: the topic of the publisher: ")
-    assert told.endswith(reason)
+    assert reported.startswith(f"0.c:{line}:3: the topic of the publisher: ")
+    assert reported.endswith(reason)
 
 
 @pytest.mark.parametrize(
@@ -122,7 +122,7 @@ def test_a_call_over_lines_in_a_macro_of_the_program() -> None:
     assert endpoints(program(call, before)) == [("publisher", "a", "std_msgs/msg/Int32")]
 
 
-def test_a_macro_that_creates_something_is_told() -> None:
+def test_a_macro_that_creates_an_entity_is_reported() -> None:
     before = f"#define PUBLISHER(p, topic) rclc_publisher_init_default(&p, &node, {INT32}, topic)"
     text = program('PUBLISHER(p, "a");', before)
     assert reasons(text) == [
@@ -162,7 +162,7 @@ def test_type_supports_in_variables_and_macros() -> None:
     assert adopted(text).draft.components == ("+services",)
 
 
-def test_a_type_of_the_wrong_kind_is_told() -> None:
+def test_a_type_of_the_wrong_kind_is_reported() -> None:
     wrong = "ROSIDL_GET_SRV_TYPE_SUPPORT(std_srvs, srv, SetBool)"
     text = program(f'rclc_publisher_init_default(&p, &node, {wrong}, "a");')
     assert reasons(text) == ["0.c:5:3: the type of the publisher is std_srvs/srv/SetBool"]
@@ -190,7 +190,7 @@ def test_qos(call: str, qos: dict[str, object]) -> None:
     assert reasons(text) == []
 
 
-def test_qos_that_is_not_known_is_told() -> None:
+def test_unknown_qos_is_reported() -> None:
     text = program(
         "rmw_qos_profile_t q = rmw_qos_profile_default; q.liveliness = RMW_QOS_POLICY_LIVELINESS_AUTOMATIC;"
         f' rclc_publisher_init(&p, &node, {INT32}, "a", &q);'
@@ -228,7 +228,7 @@ def test_periods_of_timers(period: str, nanoseconds: int) -> None:
         ("x ? 1 : 2", "runs"),
     ],
 )
-def test_a_period_that_is_not_known_is_told(period: str, reason: str) -> None:
+def test_an_unknown_period_is_reported(period: str, reason: str) -> None:
     text = program(f"rclc_timer_init_default(&t, &support, {period}, tick);")
     (timer,) = adopted(text).draft.nodes[0].timers
     assert timer.period_ns is None
@@ -306,16 +306,16 @@ def test_settings_of_transport_session_and_domain() -> None:
         ),
     ],
 )
-def test_calls_that_need_somebody_are_told(call: str, reason: str) -> None:
-    assert any(reason in told for told in reasons(program(call)))
+def test_calls_that_need_manual_work_are_reported(call: str, reason: str) -> None:
+    assert any(reason in reported for reported in reasons(program(call)))
 
 
 def test_messages_that_are_sent_need_no_arena() -> None:
     """They have storage that follows from their limits."""
-    told = reasons(
+    reported = reasons(
         program("std_msgs__msg__Header__create(); rosidl_runtime_c__double__Sequence__init(&s, 6);")
     )
-    assert not any("memory.arena" in reason for reason in told)
+    assert not any("memory.arena" in reason for reason in reported)
 
 
 @pytest.mark.parametrize(

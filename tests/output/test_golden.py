@@ -42,7 +42,7 @@ def test_a_changed_file_is_a_unified_diff(tmp_path: Path) -> None:
     assert difference == "--- golden/a.c\n+++ generated/a.c\n@@ -1 +1 @@\n-int a;\n+int b;\n"
 
 
-def test_missing_and_surplus_files_are_told(tmp_path: Path) -> None:
+def test_missing_and_surplus_files_are_reported(tmp_path: Path) -> None:
     write_tree(tmp_path, files(b_c="int b;\n"))
     missing, surplus = golden_differences(tmp_path, files(c_c="int c;\n"))
     assert missing.startswith("--- golden/b.c\n+++ /dev/null\n")
@@ -55,6 +55,6 @@ def test_a_lost_line_end_shows(tmp_path: Path) -> None:
     assert "\\ No newline at end of file" in difference
 
 
-def test_no_golden_folder_is_told(tmp_path: Path) -> None:
+def test_a_missing_golden_folder_is_reported(tmp_path: Path) -> None:
     with pytest.raises(UserError, match="Write it with --update"):
         golden_differences(tmp_path / "none", files())

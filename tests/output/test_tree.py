@@ -175,20 +175,20 @@ def test_compiling_does_not_write_through_a_link(tmp_path: Path, name: str) -> N
         tree.check_build_folders(out)
 
 
-def test_a_file_in_place_of_the_folder_is_told(tmp_path: Path) -> None:
+def test_a_file_in_place_of_the_folder_is_reported(tmp_path: Path) -> None:
     (tmp_path / "out").write_text("")
     with pytest.raises(UserError, match="is not a folder"):
         write_tree(tmp_path / "out", tree_of(src__a_c="a"))
 
 
 @pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root may write everywhere")
-def test_an_unwritable_folder_is_told(tmp_path: Path) -> None:
+def test_an_unwritable_folder_is_reported(tmp_path: Path) -> None:
     (tmp_path / "out").mkdir(mode=0o555)
     with pytest.raises(UserError, match="cannot write the output folder"):
         write_tree(tmp_path / "out", tree_of(src__a_c="a"))
 
 
-def test_a_path_below_a_file_is_told(tmp_path: Path) -> None:
+def test_a_path_below_a_file_is_reported(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(UserError, match="cannot write the output folder"):
         write_tree(tmp_path / "file" / "out", tree_of(src__a_c="a"))
@@ -199,7 +199,7 @@ class Interrupted(BaseException):
 
 
 @pytest.mark.parametrize("after", range(6))
-def test_an_interrupted_run_leaves_old_or_new_files_and_the_next_run_mends_it(
+def test_an_interrupted_run_leaves_old_or_new_files_and_the_next_run_repairs_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, after: int
 ) -> None:
     old = tree_of(src__a_c="old a", src__b_c="old b", src__gone_c="gone")

@@ -83,7 +83,7 @@ SERIAL = [
 MISSING = ["int64_t port_time_epoch_ns(void);", "int64_t port_time_steady_ns(void);", *SERIAL]
 
 
-def test_what_a_kernel_lacks_is_named_and_can_be_pasted(demo: Path, run: Runner) -> None:
+def test_functions_missing_from_a_kernel_are_named_and_can_be_pasted(demo: Path, run: Runner) -> None:
     done = run("generate", "-o", "out")
     assert done.status == 0, done.err
     assert (
@@ -242,7 +242,7 @@ def target_of(folder: Path, text: str) -> Target:
         ("port_riscv", {"os": "port_bare", "cpu": "port_riscv"}),
     ],
 )
-def test_port_still_stands_for_processor_and_system(port: str, parts: dict[str, str], tmp_path: Path) -> None:
+def test_port_still_selects_processor_and_system(port: str, parts: dict[str, str], tmp_path: Path) -> None:
     """Target files of 2026-11 and before."""
     text = "target: t\nsummary: x\ncompilers: [cc]\narchivers: [ar]\npackage: gcc\n"
     target = target_of(tmp_path, f"{text}port: {port}\n")

@@ -153,6 +153,6 @@ def test_what_is_wrong_has_a_place_and_a_hint(tmp_path: Path, text: str, expecte
     assert any(expected in line for line in said), said
 
 
-def test_all_errors_of_a_file_come_at_once(tmp_path: Path) -> None:
+def test_all_errors_of_a_file_are_reported_at_once(tmp_path: Path) -> None:
     _, said = read(tmp_path, BOARD + "hosted: 5\nemulator: {}\nunique_id: {address: 2, words: 9}\n")
     assert [line.split(":")[1] for line in said] == ["6", "7", "7", "8", "8"]

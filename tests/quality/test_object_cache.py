@@ -103,7 +103,7 @@ def test_what_differs_is_compiled(workshop: Workshop) -> None:
         assert changed[1].returncode == 0
 
 
-def test_an_error_is_told_each_time_and_never_kept(workshop: Workshop) -> None:
+def test_an_error_is_reported_each_time_and_never_cached(workshop: Workshop) -> None:
     for _ in range(2):
         compiled, done, home = workshop.compile("a", "-Werror", "-Wall")
         assert compiled
@@ -120,7 +120,7 @@ def test_a_call_that_makes_no_object_passes_through(workshop: Workshop, tmp_path
     assert version.startswith("gcc")
 
 
-def test_the_frames_of_functions_come_with_an_object_that_is_kept(workshop: Workshop) -> None:
+def test_a_cached_object_has_the_stack_frames_of_its_functions(workshop: Workshop) -> None:
     flags = ("-O1", "-fstack-usage", "-w")
     compiled, _, home = workshop.compile("one", *flags)
     assert compiled

@@ -185,7 +185,7 @@ def test_what_is_refused(peer: Peer) -> None:
         publisher.publish({"count": -1})
     with pytest.raises(RosError, match="own_msgs/srv/Add is not a message"):
         peer.publisher("/state", "own_msgs/srv/Add")
-    with pytest.raises(RosError, match="own_msgs/msg/Report is no service"):
+    with pytest.raises(RosError, match="own_msgs/msg/Report is not a service"):
         peer.client("/state", "own_msgs/msg/Report")
     with pytest.raises(RosError, match="no topic"):
         peer.subscribe("/no topic", "own_msgs/msg/Report", print)

@@ -107,7 +107,9 @@ def test_deletion_goes_on_the_stream_of_creation(bench: Bench, plan: RuntimePlan
 @pytest.mark.parametrize(
     ("kind", "shown"), [("participant", "node my_node"), ("datawriter", "datawriter /chatter")]
 )
-def test_a_refusal_is_told_and_others_go_on(bench: Bench, plan: RuntimePlan, kind: str, shown: str) -> None:
+def test_a_refusal_is_reported_and_others_continue(
+    bench: Bench, plan: RuntimePlan, kind: str, shown: str
+) -> None:
     agent = CreatingAgent(refuse={kind: 0x84})
     client = bench.start(plan, "ping", agent)
     results = [client.call(call) for call in CALLS]
@@ -123,7 +125,7 @@ def test_a_refusal_is_told_and_others_go_on(bench: Bench, plan: RuntimePlan, kin
     assert agent.written
 
 
-def test_a_request_is_repeated_until_its_status_comes(bench: Bench, plan: RuntimePlan) -> None:
+def test_a_request_is_repeated_until_its_status_arrives(bench: Bench, plan: RuntimePlan) -> None:
     agent = CreatingAgent()
     client = bench.start(plan, "ping", agent)
     client.ok("init")

@@ -107,7 +107,7 @@ def test_tcp(tmp_path: Path) -> None:
     assert agent.agent.values() == list(range(100))
 
 
-def test_a_place_where_nobody_answers_is_given_up(tmp_path: Path) -> None:
+def test_a_locator_without_an_answer_is_abandoned(tmp_path: Path) -> None:
     agent = udp_agent()
     places = [locator("127.0.0.1", silent_port()), locator("127.0.0.1", agent.port)]
     with answering(lambda: [info(*places)]) as group:

@@ -51,7 +51,7 @@ def bodies(agent: FakeAgent) -> list[bytes]:
 @pytest.mark.parametrize(
     "size", [1, 20, 21, PIECE - 8, PIECE - 7, 2 * PIECE - 8, 2 * PIECE - 7, 200, 600, 1008]
 )
-def test_pieces_join_to_the_submessage(bench: Bench, size: int) -> None:
+def test_fragments_join_to_the_submessage(bench: Bench, size: int) -> None:
     client = bench.connected(LARGE)
     client.ok(f"large 0 {size} 3")
     client.ok("flush 1000")
@@ -72,7 +72,7 @@ def test_pieces_join_to_the_submessage(bench: Bench, size: int) -> None:
     assert (client.agent.discarded, client.agent.spoiled) == (0, 0)
 
 
-def test_a_session_begins_with_an_empty_last_piece(bench: Bench) -> None:
+def test_a_session_begins_with_an_empty_last_fragment(bench: Bench) -> None:
     client = bench.start(LARGE)
     client.agent.pieces = b"\x07\x01\xff\0 what another session left"
     for call in ("init", "node 0 talker -", "publisher 0 0 Int32 chatter reliable"):
@@ -108,7 +108,7 @@ def test_no_more_than_sixteen_numbers_are_in_use(bench: Bench) -> None:
     assert client.statistics()["resent"] == 16, "each that was lost, once"
 
 
-def test_only_the_missing_piece_is_sent_again(bench: Bench) -> None:
+def test_only_the_missing_fragment_is_sent_again(bench: Bench) -> None:
     client = bench.connected(LARGE)
     lost = {4, 9}
 
@@ -176,7 +176,7 @@ def test_drop_oldest_leaves_alone_what_is_on_its_way(bench: Bench) -> None:
     assert client.agent.spoiled == 0
 
 
-def test_a_message_on_its_way_is_not_given_up(bench: Bench) -> None:
+def test_a_partly_sent_message_is_not_dropped(bench: Bench) -> None:
     """One slot, which the plan refuses with drop_oldest: the newer message is refused."""
     client = bench.connected(changed(LARGE_DROP, streams__reliable_slots=1))
     client.ok("flush 500")

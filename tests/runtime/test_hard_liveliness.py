@@ -26,7 +26,7 @@ def connected(bench: Bench, liveliness: str) -> Client:
 
 
 @pytest.mark.parametrize("liveliness", ["ping", "acknack"])
-def test_the_agent_is_told_and_hears_something_in_time(bench: Bench, liveliness: str) -> None:
+def test_the_agent_gets_the_time_out_and_a_sign_of_life_in_time(bench: Bench, liveliness: str) -> None:
     client = connected(bench, liveliness)
     login = next(d for d in client.sent if d[4] == 0)
     assert login[8:51] == CAPTURED

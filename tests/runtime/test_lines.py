@@ -111,7 +111,7 @@ def test_serial_over_a_pseudo_terminal(noisy: bool, tmp_path: Path) -> None:
     assert values[-1] == 99
 
 
-def test_a_terminal_that_nobody_reads_stops_nothing_and_gets_all_of_it_later(tmp_path: Path) -> None:
+def test_an_unread_terminal_blocks_nothing_and_gets_everything_later(tmp_path: Path) -> None:
     """The port alone: what the system has no room for waits in the port, and no call does."""
     plan = changed(SERIAL, executor__max=1, executor__handles_max=1)
     tree = render(tmp_path, plan, components(plan))

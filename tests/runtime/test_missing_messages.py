@@ -59,7 +59,7 @@ class Line:
 
 @pytest.mark.parametrize("slots", [1, 2, 16])
 @pytest.mark.parametrize("lost", range(PIECES))
-def test_a_lost_piece_is_requested_once(bench: Bench, slots: int, lost: int) -> None:
+def test_a_lost_fragment_is_requested_once(bench: Bench, slots: int, lost: int) -> None:
     """Without a HEARTBEAT the agent sends the lost piece and, where there was no slot, those after it: once each."""
     line = Line(bench, slots)
     first = line.agent.statuses
@@ -77,7 +77,7 @@ def test_a_lost_piece_is_requested_once(bench: Bench, slots: int, lost: int) -> 
     assert sorted(line.named()) == sorted({first + lost, *again})
 
 
-def test_two_losses_cost_two_pieces(bench: Bench) -> None:
+def test_two_losses_cost_two_fragments(bench: Bench) -> None:
     line = Line(bench, 16)
     first = line.agent.statuses
     line.lost = {first + 1, first + 5}

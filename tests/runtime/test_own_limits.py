@@ -107,7 +107,7 @@ def test_each_stream_has_room_for_those_that_write_to_it(client: Client) -> None
     assert client.call(f"say 1 {'y' * 82}").error == refusal(82, 81)
 
 
-def test_its_own_largest_message_decides_whether_a_publisher_fits_a_stream(client: Client) -> None:
+def test_the_largest_message_of_a_publisher_decides_whether_it_fits_a_stream(client: Client) -> None:
     """The best-effort stream is too small for 90 characters, and that is the largest of the type."""
     client.ok("publisher 0 0 String short best_effort")
     refused = client.call("publisher 1 0 String long best_effort")
@@ -126,7 +126,7 @@ def test_places_of_one_topic_are_taken_in_the_order_of_the_file(client: Client) 
     assert client.call("say 1 abc").error == refusal(3, 2)
 
 
-def test_a_type_without_limits_goes_beside_them(client: Client) -> None:
+def test_a_type_without_limits_next_to_limited_ones(client: Client) -> None:
     client.ok("publisher 0 0 Int32 count reliable")
     client.ok("publish 0 7")
     client.ok("flush 1000")

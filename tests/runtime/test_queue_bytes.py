@@ -72,7 +72,7 @@ def test_a_reliable_one_asks_for_what_fits_whatever_the_sizes_are(bench: Bench) 
     assert places.counted(GO) == (0, 0)
 
 
-def test_as_many_of_the_largest_fit_whatever_came_before(bench: Bench) -> None:
+def test_as_many_of_the_largest_fit_after_any_sequence(bench: Bench) -> None:
     """The end of the queue is never too near: waiting samples move, also while fragments of the next one arrive."""
     places = Places(bench, PLAN, OPENED)
     offered(places, GO, (20, "s"), (395, "a"))
@@ -167,7 +167,7 @@ def test_what_waits_stays_over_a_new_session(bench: Bench) -> None:
     assert places.counted(GO) == (0, 0)
 
 
-def test_what_nobody_asked_for_is_dropped_and_loses_nothing(bench: Bench) -> None:
+def test_unrequested_samples_are_dropped_and_lose_nothing(bench: Bench) -> None:
     """An agent that sends more than was granted: what was acknowledged before stays."""
     places = Places(bench, PLAN, OPENED)
     offered(places, GO, (395, "a"), (395, "b"))

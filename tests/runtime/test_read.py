@@ -248,7 +248,7 @@ def test_read_data_is_sent_again_until_it_is_acknowledged(bench: Bench) -> None:
     assert not [d for d in reader.client.sent[count:] if d[4] == READ_DATA]
 
 
-def test_a_refused_read_is_told_and_tried_again(bench: Bench) -> None:
+def test_a_refused_read_is_reported_and_repeated(bench: Bench) -> None:
     reader = Reader(bench)
     reader.agent.read_status = 0x84
     reader.client.ok("read_init 1 0 Int32 more reliable")
@@ -339,7 +339,7 @@ def test_two_subscriptions_do_not_mix(bench: Bench) -> None:
     assert reader.take_all() == [1]
 
 
-def test_larger_than_a_slot_is_refused_and_told(bench: Bench) -> None:
+def test_larger_than_a_slot_is_refused_and_reported(bench: Bench) -> None:
     reader = Reader(bench, type_name="String")
     reader.send(reader.agent.offer(FIRST, struct.pack("<I", 20) + b"x" * 19 + b"\0"))
     reader.send(reader.agent.offer(FIRST, struct.pack("<I", 2) + b"y\0"))
@@ -509,7 +509,7 @@ def test_fragments_where_none_are_planned(bench: Bench) -> None:
     assert reader.client.ok("read_text 0 1000").lines == ("text zzzzz",)
 
 
-def test_a_piece_that_cannot_be_had(bench: Bench) -> None:
+def test_a_missing_fragment(bench: Bench) -> None:
     """A HEARTBEAT says so: what is here of that sample is thrown away up to its last piece."""
     reader = Reader(bench, LARGE, type_name="String")
     pieces = reader.agent.offer(FIRST, _text(200))

@@ -34,7 +34,7 @@ THREE = ("String go reliable", "String other reliable", "Int32 number reliable")
 TWO = ("String go best_effort", "Int32 number reliable")
 
 
-def test_a_sample_waits_where_its_fragments_came(bench: Bench) -> None:
+def test_a_sample_waits_where_its_fragments_arrived(bench: Bench) -> None:
     """The queue has one slot and there is no second buffer; the agent holds back the next sample meanwhile."""
     places = Places(bench, FRAGMENTS, THREE)
     places.send(places.agent.offer(FIRST, text(300, "a"), text(390, "b")))
@@ -97,7 +97,7 @@ def test_fragments_of_a_subscription_that_is_closed_meanwhile(bench: Bench) -> N
     assert places.counted() == (0, 0)
 
 
-def test_a_sample_that_nobody_asked_for_between_fragments(bench: Bench) -> None:
+def test_an_unrequested_sample_between_fragments(bench: Bench) -> None:
     """It takes the slot; a partly received sample is counted, and never delivered."""
     places = Places(bench, FRAGMENTS, THREE)
     pieces = places.agent.offer(FIRST, text(300, "a"))
@@ -146,7 +146,7 @@ def test_the_newest_sample_takes_the_place(bench: Bench) -> None:
     assert places.counted() == (3, 0)
 
 
-def test_a_large_message_that_is_none_takes_the_place_too(bench: Bench) -> None:
+def test_a_large_invalid_message_takes_the_place_too(bench: Bench) -> None:
     """The sample is counted, and never given in part."""
     places = Places(bench, LENT, TWO)
     places.send(places.agent.offer(FIRST, text(395, "a")))

@@ -142,7 +142,7 @@ def test_a_request_waits_until_its_reply_has_room(bench: Bench) -> None:
     assert peer.client.ok("serve_ready 0").lines == ("ready 1",)
 
 
-def test_replies_come_in_the_order_of_the_server(bench: Bench) -> None:
+def test_replies_arrive_in_the_order_of_the_server(bench: Bench) -> None:
     peer = Peer(bench)
     assert [peer.ask(value) for value in (7, 8, 9)] == [1, 2, 3]
     assert [body for _, _, body in peer.agent.asked] == [struct.pack("<i", v) for v in (7, 8, 9)]
@@ -153,7 +153,7 @@ def test_replies_come_in_the_order_of_the_server(bench: Bench) -> None:
     assert [peer.reply(), peer.reply(), peer.reply(), peer.reply()] == [(102, 3), (100, 1), (101, 2), None]
 
 
-def test_a_reply_that_nobody_waits_for(bench: Bench) -> None:
+def test_a_reply_without_a_request(bench: Bench) -> None:
     """A second reply to one request, one of another object, one that is cut off: counted, and the next one comes."""
     peer = Peer(bench)
     peer.ask(1)
@@ -197,7 +197,7 @@ def test_more_requests_than_there_is_room_for_replies(bench: Bench) -> None:
     ],
     ids=["too large", "cut off", "no message"],
 )
-def test_a_request_that_is_none(bench: Bench, sample: bytes, code: int, words: str) -> None:
+def test_a_malformed_request(bench: Bench, sample: bytes, code: int, words: str) -> None:
     peer = Peer(bench)
     peer.send(peer.agent.give(REPLIER, sample))
     peer.request(2, 22)
@@ -256,8 +256,11 @@ def test_a_lost_session(bench: Bench) -> None:
     peer.agent.restart()
     peer.client.spin(30, 50)
     assert {REPLIER, REQUESTER} <= set(peer.agent.objects)
-    told = peer.client.call("serve_reply 0")
-    assert (told.code, told.error) == (1, "service /far/ask: a session was lost with 2 requests under way")
+    reported = peer.client.call("serve_reply 0")
+    assert (reported.code, reported.error) == (
+        1,
+        "service /far/ask: a session was lost with 2 requests under way",
+    )
     assert peer.reply() is None
     assert peer.counted("client") == [0, 0, 0, 2]
     peer.ask(3)

@@ -15,12 +15,12 @@ PERIOD = POOL.times.liveliness_period_ms
 
 
 class Watched:
-    """A client with a publisher and a subscription; `told` are (state, reason) in their order."""
+    """A client with a publisher and a subscription; `reported` are (state, reason) in their order."""
 
     def __init__(self, bench: Bench, liveliness: str = "ping") -> None:
         self.agent = ReadingAgent()
         self.client: Client = bench.start(PLAN, liveliness, agent=self.agent)
-        self.told: list[tuple[int, int]] = []
+        self.reported: list[tuple[int, int]] = []
         self.counters: dict[str, int] = {}
         for call in (
             "extra_watch",
@@ -37,7 +37,7 @@ class Watched:
         for line in result.lines:
             word, *rest = line.split()
             if word == "event":
-                self.told.append((int(rest[0]), int(rest[1])))
+                self.reported.append((int(rest[0]), int(rest[1])))
                 self.counters = {k: int(v) for k, v in (pair.split("=") for pair in rest[2:])}
         return result.lines
 
@@ -47,11 +47,11 @@ class Watched:
             self.call("spin")
 
     def news(self) -> list[tuple[int, int]]:
-        told, self.told = self.told, []
-        return told
+        reported, self.reported = self.reported, []
+        return reported
 
 
-def test_the_agent_starts_anew(bench: Bench) -> None:
+def test_the_agent_restarts(bench: Bench) -> None:
     """Entities come back, the publisher counts what it gave up, the subscription goes on."""
     watched = Watched(bench)
     assert watched.news() == [(CONNECTING, NONE), (CONNECTED, NONE)]

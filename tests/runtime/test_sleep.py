@@ -135,7 +135,7 @@ def test_what_is_under_way_is_not_lost(bench: Bench, memory: Path) -> None:
     assert device.agent.values() == [1, 2, 3]
 
 
-def test_what_comes_before_the_application_is_there_again(bench: Bench, memory: Path) -> None:
+def test_samples_before_the_application_has_restarted(bench: Bench, memory: Path) -> None:
     device = Device(bench, memory)
     device.client.spin(2)
     device.sleep()

@@ -77,7 +77,7 @@ def test_a_closed_connection_is_opened_again(
     assert values[-1] == 99
 
 
-def test_a_connection_that_breaks_is_told_as_such(tmp_path: Path) -> None:
+def test_a_broken_connection_is_reported_as_such(tmp_path: Path) -> None:
     plan = changed(PLAN, streams__on_full="block", streams__on_full_block_ms=50, session__has_state=True)
     with serving(TcpAgent()) as agent:
         agent.before = lambda count: count != 30
@@ -90,7 +90,7 @@ def test_a_connection_that_breaks_is_told_as_such(tmp_path: Path) -> None:
     assert done.stdout.splitlines() == [connecting, connected, lost, reconnecting, connected, closed]
 
 
-def test_a_slow_peer_blocks_nobody(tmp_path: Path) -> None:
+def test_a_slow_peer_blocks_no_other(tmp_path: Path) -> None:
     """It reads a few bytes at a time, with pauses; nothing is lost and nothing is cut."""
     with serving(TcpAgent(read=16, pause_s=0.002)) as agent:
         done = run(
@@ -125,7 +125,7 @@ def test_ipv6(transport: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("host", "place"), [("127.0.0.1", "127.0.0.1"), ("::1", "[::1]")])
-def test_nobody_listens(host: str, place: str, tmp_path: Path) -> None:
+def test_no_listener(host: str, place: str, tmp_path: Path) -> None:
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     with socket.socket(family, socket.SOCK_STREAM) as taken:
         taken.bind((host, 0))

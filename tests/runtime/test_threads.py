@@ -68,7 +68,7 @@ def test_nothing_is_lost_and_nothing_races(tmp_path: Path, queue: QueuePlan) -> 
         assert mine == list(range(VALUES))
 
 
-def test_two_tasks_that_ask_for_agents_do_not_share_what_came(tmp_path: Path) -> None:
+def test_two_tasks_that_search_for_agents_do_not_share_answers(tmp_path: Path) -> None:
     plan = changed(EXECUTOR, session__multithread=True, transport__kind="custom", transport__framing="on")
     tree = render(tmp_path, plan, components(plan))
     program = build(tree, ["unit_inquiry.c"], "unit", "gcc", THREAD_SANITIZER)

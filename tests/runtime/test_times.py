@@ -99,7 +99,7 @@ def test_the_session_stays_with_three_seconds_of_round_trip(slow: Client) -> Non
     assert 32 <= questions <= 34, "after 15 s of silence, and the answer takes three"
 
 
-def test_what_is_lost_comes_again_with_three_seconds_of_round_trip(slow: Client) -> None:
+def test_losses_are_repeated_with_three_seconds_of_round_trip(slow: Client) -> None:
     lost = iter([True, True])
     slow.agent.drop = lambda datagram: datagram[4] == 0x07 and next(lost, False)
     slow.ok("publish 0 1")
@@ -136,7 +136,7 @@ def test_questions_to_a_silent_agent_grow_apart(bench: Bench) -> None:
     assert pauses[-1] <= 600_100
 
 
-def test_a_heartbeat_that_nobody_answers_grows_rare(bench: Bench) -> None:
+def test_unanswered_heartbeats_become_rare(bench: Bench) -> None:
     client = bench.connected(with_times(POOL, SessionTimes(retry_max=15_000)), "none")
     client.ok("publish 0 1")
     client.agent.silent = True

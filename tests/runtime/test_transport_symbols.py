@@ -82,7 +82,7 @@ def _text(plan: RuntimePlan, folder: Path) -> int:
     ("transport", "framing", "most"),
     [("serial", "either", 520), ("custom", "on", 860), ("custom", "off", 280)],
 )
-def test_size_beside_udp(transport: str, framing: str, most: int, tmp_path: Path) -> None:
+def test_size_with_udp(transport: str, framing: str, most: int, tmp_path: Path) -> None:
     udp = changed(DECLARED, streams__best_effort_size=92, streams__reliable_slot_size=16)
     other = changed(udp, transport__kind=transport, transport__framing=framing)
     assert _text(other, tmp_path / "other") - _text(udp, tmp_path / "udp") <= most

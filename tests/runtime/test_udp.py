@@ -42,7 +42,7 @@ def test_publishes_over_a_real_socket(restarts: bool, tmp_path: Path) -> None:
     assert INT32.name.encode() in b"".join(agent.agent.log)
 
 
-def test_nobody_listens(tmp_path: Path) -> None:
+def test_no_listener(tmp_path: Path) -> None:
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
         taken.bind(("127.0.0.1", 0))
         port = taken.getsockname()[1]

@@ -129,14 +129,14 @@ ERRORS = {
 
 @pytest.mark.parametrize("case", ERRORS)
 def test_a_faulty_component_is_refused(case: str, tmp_path: Path) -> None:
-    before, after, told = ERRORS[case]
+    before, after, reported = ERRORS[case]
     assert before in GOOD
     text = GOOD.replace(before, after, 1)
     write(tmp_path, "x", text.replace("}}]", "}}}", 1) if case == "sources" else text)
     with pytest.raises(UserError) as caught:
         load_catalogue(tmp_path)
     lines = [without_id(d.headline()) for d in caught.value.diagnostics]
-    assert any(line.startswith(told) for line in lines), lines
+    assert any(line.startswith(reported) for line in lines), lines
 
 
 def test_every_axis_value_has_its_component(real_catalogue: Catalogue, middleware: Middleware) -> None:

@@ -74,7 +74,7 @@ def test_contributions_are_read(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("before", "after", "told"),
+    ("before", "after", "reported"),
     [
         ("step/receive", "stop/receive", "x/component.yaml:9:3: error: unknown hook point 'stop'"),
         ("step/receive", "step/recieve", "x/component.yaml:9:3: error: unknown phase 'recieve' of 'step'"),
@@ -90,11 +90,11 @@ def test_contributions_are_read(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_a_faulty_hook_is_refused(before: str, after: str, told: str, tmp_path: Path) -> None:
+def test_a_faulty_hook_is_refused(before: str, after: str, reported: str, tmp_path: Path) -> None:
     with pytest.raises(UserError) as caught:
         catalogue_of(tmp_path, GOOD.replace(before, after, 1))
     lines = [d.headline() for d in caught.value.diagnostics]
-    assert any(line.startswith(told) for line in lines), lines
+    assert any(line.startswith(reported) for line in lines), lines
 
 
 @pytest.mark.parametrize(
@@ -117,7 +117,7 @@ def test_every_component_fits_the_schema(real_catalogue: Catalogue) -> None:
         assert schema_words(name, text) == []
 
 
-def test_each_error_has_a_name_and_a_number_of_its_own(real_catalogue: Catalogue) -> None:
+def test_each_error_has_a_unique_name_and_number(real_catalogue: Catalogue) -> None:
     errors = [error for component in real_catalogue.values() for error in component.contributes.errors]
     names, codes = Counter(e.name for e in errors), Counter(e.code for e in errors)
     assert [name for name, count in names.items() if count > 1] == []
@@ -167,5 +167,5 @@ def test_two_components_do_not_replace_one_header() -> None:
 
     with pytest.raises(UserError) as caught:
         component_files((component("a"), component("b")), lambda when: True)
-    (told,) = [d.headline() for d in caught.value.diagnostics]
-    assert "'a' and 'b' both replace 'microros/lock.h'" in told
+    (reported,) = [d.headline() for d in caught.value.diagnostics]
+    assert "'a' and 'b' both replace 'microros/lock.h'" in reported

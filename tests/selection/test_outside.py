@@ -258,7 +258,9 @@ FAULTS = [
 @pytest.mark.parametrize(
     ("good", "bad", "said"), FAULTS, ids=[said.split("error: ")[1][:30] for *_, said in FAULTS]
 )
-def test_a_fault_is_told_with_its_place(good: str, bad: str, said: str, folder: Path, run: Runner) -> None:
+def test_a_fault_is_reported_with_its_place(
+    good: str, bad: str, said: str, folder: Path, run: Runner
+) -> None:
     assert good in COMPONENT
     write_files(folder / "beacon", {**BEACON, "component.yaml": COMPONENT.replace(good, bad)})
     application(folder)
@@ -302,7 +304,7 @@ def test_names_of_others_are_refused(folder: Path, run: Runner) -> None:
         ("{{ plan.nothing }}\n", "beacon_text.c.j2:2:1: error: the template cannot be rendered: "),
     ],
 )
-def test_a_faulty_template_is_told_with_its_line(text: str, said: str, folder: Path, run: Runner) -> None:
+def test_a_faulty_template_is_reported_with_its_line(text: str, said: str, folder: Path, run: Runner) -> None:
     write_files(folder / "beacon", {**BEACON, "src/beacon_text.c.j2": f"/* first */\n{text}"})
     application(folder)
     done = run("generate", "-o", "out")

@@ -67,7 +67,7 @@ def test_the_same_profile_twice_is_one(tmp_path: Path) -> None:
     assert fold(tmp_path, "pure_sender", "pure_sender")[1] == {"pure_sender": ("node", "publish")}
 
 
-def test_what_stands_nearer_wins(tmp_path: Path, resolve: Resolve) -> None:
+def test_the_nearest_definition_wins(tmp_path: Path, resolve: Resolve) -> None:
     write(
         tmp_path,
         far="profile: far\nextends: [pure_sender]\nentities: xml\ncomponents: [+clock]\n",
@@ -193,7 +193,7 @@ ERRORS = {
 
 
 @pytest.mark.parametrize("case", ERRORS)
-def test_faulty_profiles_are_told_with_their_place(case: str, tmp_path: Path) -> None:
+def test_faulty_profiles_are_reported_with_their_place(case: str, tmp_path: Path) -> None:
     files, expected = ERRORS[case]
     write(tmp_path, **files)
     said, _ = fold(tmp_path, "x")
@@ -256,7 +256,7 @@ def test_a_faulty_middleware_table_is_refused(tmp_path: Path) -> None:
     with pytest.raises(UserError, match=r"cannot read 'profiles/middleware\.yaml'"):
         load_middleware(tmp_path)
     text = (profiles_folder() / "middleware.yaml").read_text(encoding="utf-8")
-    for before, after, told in (
+    for before, after, reported in (
         ("all_but: [CREATE, INFO, WRITE_DATA", "all_but: [CREATE, INFOS, WRITE_DATA", "Did you mean 'INFO'"),
         ("  publish: [write]", "  publish: [writes]", "Did you mean 'write'"),
         ("default: ping", "default: pong", "Did you mean 'ping'"),
@@ -265,4 +265,6 @@ def test_a_faulty_middleware_table_is_refused(tmp_path: Path) -> None:
         assert before in text
         said = Diagnostics()
         parse_middleware(Source("m.yaml", text.replace(before, after)), said)
-        assert any(told in without_id(d.headline()) for d in said), [without_id(d.headline()) for d in said]
+        assert any(reported in without_id(d.headline()) for d in said), [
+            without_id(d.headline()) for d in said
+        ]

@@ -247,7 +247,7 @@ def test_contradictions_name_both_places(case: str, resolve: Resolve) -> None:
     assert any(line.startswith(expected) for line in said), said
 
 
-def test_all_contradictions_are_told_in_one_run(resolve: Resolve) -> None:
+def test_all_contradictions_are_reported_in_one_run(resolve: Resolve) -> None:
     text = "profiles: [pure_sender]\ncomponents: [-node, -ping, +tymers]\nentities: xml\n"
     assert len([line for line in resolve(text=text).said if ": error: " in line]) == 3
 

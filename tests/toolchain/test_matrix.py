@@ -94,7 +94,7 @@ def _including(tree: Tree, folder: Path, ending: str) -> list[str]:
 @pytest.mark.parametrize(
     ("name", "compiler"), [("demo", "clang"), ("pool-none-drop-code-arena-device", "gcc")]
 )
-def test_each_header_stands_alone_in_c(tree_of: TreeOf, tmp_path: Path, name: str, compiler: str) -> None:
+def test_each_header_compiles_alone_in_c(tree_of: TreeOf, tmp_path: Path, name: str, compiler: str) -> None:
     if not has(compiler):
         pytest.skip(f"no {compiler}")
     tree = tree_of(name)
@@ -106,7 +106,7 @@ def test_each_header_stands_alone_in_c(tree_of: TreeOf, tmp_path: Path, name: st
 @pytest.mark.parametrize(
     ("name", "compiler"), [("demo", "g++"), ("pool-none-drop-code-arena-device", "clang++")]
 )
-def test_each_header_stands_alone_in_cpp(tree_of: TreeOf, tmp_path: Path, name: str, compiler: str) -> None:
+def test_each_header_compiles_alone_in_cpp(tree_of: TreeOf, tmp_path: Path, name: str, compiler: str) -> None:
     if not has(compiler):
         pytest.skip(f"no {compiler}")
     tree = tree_of(name)
@@ -123,8 +123,8 @@ def test_the_header_of_what_is_not_selected_names_the_key(tree_of: TreeOf, tmp_p
         command = f"gcc -fsyntax-only -Iinclude '{tmp_path / 'use.c'}' 2>&1 && exit 1; exit 0"
         said = check(["sh", "-c", command], tree.out)
         keys = ("components: [+", "transport: {type: ", "target: {name: ")
-        told = [f"is not selected: add `{key}" for key in keys] + ["is not in this version yet"]
-        assert any(text in said for text in told), header
+        reported = [f"is not selected: add `{key}" for key in keys] + ["is not in this version yet"]
+        assert any(text in said for text in reported), header
 
 
 @pytest.mark.parametrize("name", VARIANTS)

@@ -78,18 +78,18 @@ def test_every_limit_is_checked(limits_case: Generated, library: ctypes.CDLL) ->
             seen.add(path)
             full, data = member.size, member.data
             member.size = full + 1
-            told, found, fits, kind = encoder.refusal(value)
-            assert names_member(told, path), (plan.name, path, told)
+            reported, found, fits, kind = encoder.refusal(value)
+            assert names_member(reported, path), (plan.name, path, reported)
             assert (found, fits) == (full + 1, full), (plan.name, path)
             assert kind in (LIMIT, BOUND), (plan.name, path)
             member.size, member.data = max(full, 1), None
             again, found, _, kind = encoder.refusal(value)
-            assert (again, found) == (told, max(full, 1))
+            assert (again, found) == (reported, max(full, 1))
             assert kind == DATA or not full, (plan.name, path)
             member.size, member.data = full, data
             encoder.encode(value)
             checked += 2
-            nested += "]." in told
+            nested += "]." in reported
     assert checked > 1000
     assert nested > 100
 

@@ -100,8 +100,8 @@ class Functions:
     def serialize(self, message: Any) -> bytes:
         """Return encapsulation and body, from a buffer of the size that was told before."""
         size = ctypes.c_size_t()
-        told = self._library.rmw_uros_get_serialized_message_size
-        assert told(ctypes.byref(message), self._handle, ctypes.byref(size)) == 0
+        reported = self._library.rmw_uros_get_serialized_message_size
+        assert reported(ctypes.byref(message), self._handle, ctypes.byref(size)) == 0
         room = ctypes.create_string_buffer(b"\xa5" * (size.value + MARK), size.value + MARK)
         into = Serialized(ctypes.addressof(room), 0, size.value)
         assert self._library.rmw_serialize(ctypes.byref(message), self._handle, ctypes.byref(into)) == 0

@@ -175,7 +175,7 @@ def test_a_budget_is_checked_as_build_checks_it(built: Built, tmp_path: Path) ->
     )
 
 
-def test_a_mistake_in_the_application_file_is_told_as_the_tool_tells_it(built: Built, tmp_path: Path) -> None:
+def test_a_mistake_in_the_application_file_is_reported_as_by_the_tool(built: Built, tmp_path: Path) -> None:
     shutil.copytree(WORKSPACE / "robot_firmware", tmp_path / "src/robot_firmware")
     replace(tmp_path / "src/robot_firmware/microros.yaml", "msg/Robot", "msg/Robott")
     source = f". {shlex.quote(str(built.folder / 'install/local_setup.sh'))}\n"

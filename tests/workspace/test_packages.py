@@ -123,7 +123,7 @@ def test_rosidl_finds_the_generator(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 
 @pytest.mark.ros
-def test_rosidl_tells_the_tools_diagnostics(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_rosidl_prints_the_tools_diagnostics(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     from microros_gen.cli.rosidl import Generator
 
     (tmp_path / "msg").mkdir()

@@ -78,7 +78,7 @@ def test_what_the_output_does_not_depend_on_compiles_nothing(project: Project) -
 
 
 @pytest.mark.long
-def test_an_output_folder_that_was_deleted_comes_back(project: Project) -> None:
+def test_a_deleted_output_folder_is_written_again(project: Project) -> None:
     shutil.rmtree(project.out)
     rebuilt = project.rebuilt()
     assert {"app", "app.c"} < rebuilt

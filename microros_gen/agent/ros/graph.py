@@ -174,9 +174,9 @@ class Comparison(Watcher):
         return nameless
 
     def _tell(self, endpoint: Endpoint, report: GraphReport | None) -> None:
-        told = self._told[endpoint]
-        if report is not None and report not in told and len(told) < MOST_TOLD:
-            told.add(report)
+        reported = self._told[endpoint]
+        if report is not None and report not in reported and len(reported) < MOST_TOLD:
+            reported.add(report)
             self._report(report)
 
     def _others(self, node: Any, place: _Place) -> Iterator[dict[str, Any]]:

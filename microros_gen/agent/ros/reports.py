@@ -39,12 +39,12 @@ def graph_reporter(log: EventLog) -> Callable[[GraphReport], None]:
     Of requests and replies that are dropped the first one of each endpoint is told; all are counted.
     """
 
-    def report(told: GraphReport) -> None:
-        level, event = _EVENTS[type(told)]
-        if isinstance(told, NoServer | NoClient):
+    def report(reported: GraphReport) -> None:
+        level, event = _EVENTS[type(reported)]
+        if isinstance(reported, NoServer | NoClient):
             log.counters[event] += 1
-            if told.lost > 1:
+            if reported.lost > 1:
                 return
-        log.emit(level, event, "{told}", told=str(told), **asdict(told))
+        log.emit(level, event, "{told}", told=str(reported), **asdict(reported))
 
     return report

@@ -83,8 +83,8 @@ def serve(options: AgentOptions) -> None:
     _tell_descriptors(log, limits, streams)
     if options.verbose:
         transports = [TracedTransport(transport, log) for transport in transports]
-    told = ", ".join(f"{name} {value:.10g}" for name, value in asdict(limits).items())
-    log.emit(Level.INFO, "limits", f"limits: {told}", **asdict(limits))
+    reported = ", ".join(f"{name} {value:.10g}" for name, value in asdict(limits).items())
+    log.emit(Level.INFO, "limits", f"limits: {reported}", **asdict(limits))
     server = Server(agent, transports, log)
     announcements = EventLog(sys.stdout, as_json)
     gc.collect()

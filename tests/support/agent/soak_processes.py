@@ -52,8 +52,8 @@ def agent_process(folder: Path, domain: int, timeout_s: float, forget_s: float) 
         )
     assert process.stdout is not None
     try:
-        told = [json.loads(process.stdout.readline()) for _ in range(3)]
-        yield Agent(process, {t["transport"]: t["address"] for t in told}, log, timeout_s)
+        reported = [json.loads(process.stdout.readline()) for _ in range(3)]
+        yield Agent(process, {t["transport"]: t["address"] for t in reported}, log, timeout_s)
     finally:
         if process.poll() is None:
             process.terminate()

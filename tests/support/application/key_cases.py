@@ -13,14 +13,14 @@ from microros_gen.application.model import Application, LimitRule, ParameterDecl
 
 @dataclass(frozen=True)
 class KeyCase:
-    """`good` parses to an application whose `read` gives `value`; `bad` is refused at `place` with `told`."""
+    """`good` parses to an application whose `read` gives `value`; `bad` is refused at `place` with `reported`."""
 
     good: str
     read: Callable[[Application], Any]
     value: Any
     bad: str
     place: str
-    told: str
+    reported: str
 
 
 def _node(app: Application) -> Any:

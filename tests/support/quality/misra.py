@@ -109,10 +109,10 @@ def _check(unit: Unit, addon: Path) -> str:
     tree = unit.tree.out
     dumped = run(["cppcheck", "-q", *OPTIONS, "--dump", unit.source], tree)
     assert dumped.returncode == 0, dumped.stderr
-    told = run([sys.executable, str(addon), "--cli", f"{unit.source}.dump"], tree)
-    assert told.returncode in (0, 1), f"{unit.source}: {told.stderr}"
+    reported = run([sys.executable, str(addon), "--cli", f"{unit.source}.dump"], tree)
+    assert reported.returncode in (0, 1), f"{unit.source}: {reported.stderr}"
     whole = (tree / f"{unit.source}.ctu-info").read_text(encoding="utf-8")
-    return told.stdout + SEPARATOR + whole
+    return reported.stdout + SEPARATOR + whole
 
 
 def _findings(text: str) -> set[tuple[str, str, int, int]]:
@@ -136,15 +136,15 @@ def _same_place(summaries: Sequence[str]) -> Iterator[str]:
 def _whole_program(tree: Tree, summaries: Sequence[str], addon: Path) -> str:
     path = tree.out / "all.ctu-info"
     path.write_text("".join(_same_place(summaries)), encoding="utf-8")
-    told = run([sys.executable, str(addon), "--cli", str(path)], tree.out)
-    assert told.returncode in (0, 1), told.stderr
-    return told.stdout
+    reported = run([sys.executable, str(addon), "--cli", str(path)], tree.out)
+    assert reported.returncode in (0, 1), reported.stderr
+    return reported.stdout
 
 
 def check(trees: Sequence[Tree], every: Sequence[Unit], is_whole: bool = True) -> Places:
     """Return what the addon finds in `trees`, whose files are `every`.
 
-    `is_whole`: with the rules about all files of a program together. Without them where a file stands for the same
+    `is_whole`: with the rules about all files of a program together. Without them where a file represents the same
     one of other trees: its headers may differ there, and two trees are no program.
     """
     addon = find_addon()
@@ -153,7 +153,7 @@ def check(trees: Sequence[Tree], every: Sequence[Unit], is_whole: bool = True) -
     places: Places = Counter()
     for tree in trees:
         parts = [answers[unit.key].split(SEPARATOR) for unit in every if unit.tree == tree]
-        found = set().union(*(_findings(told) for told, _ in parts))
+        found = set().union(*(_findings(reported) for reported, _ in parts))
         if is_whole:
             found |= _findings(_whole_program(tree, [whole for _, whole in parts], addon))
         places |= Counter((rule, path) for rule, path, _, _ in found)

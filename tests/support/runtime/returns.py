@@ -24,12 +24,12 @@ FLAGS = (
 
 def said(folder: Path, *command: str | Path, **environment: str) -> list[tuple[str, int]]:
     """Return what a program of c/ tells, in its order."""
-    told = folder / "told.txt"
-    known = {**os.environ, **environment, "TELL": str(told)}
+    reported = folder / "told.txt"
+    known = {**os.environ, **environment, "TELL": str(reported)}
     done = subprocess.run(
         command, env=known, capture_output=True, text=True, check=False, timeout=seconds(60)
     )
-    lines = told.read_text(encoding="utf-8").splitlines()
+    lines = reported.read_text(encoding="utf-8").splitlines()
     assert done.returncode == 0, (lines[-1], done.stderr[-2000:])
     return returned(lines)
 

@@ -83,12 +83,12 @@ class Encoder:
         body = ctypes.create_string_buffer(self.type.max_encoded_size)
         assert self.type.encode(ctypes.addressof(value), ctypes.addressof(body), fault) == 0
         assert self.type.encoded_size(ctypes.addressof(value), other) == 0
-        told = (fault.path, fault.found, fault.fits, fault.kind)
-        assert told == (other.path, other.found, other.fits, other.kind)
-        return told
+        reported = (fault.path, fault.found, fault.fits, fault.kind)
+        assert reported == (other.path, other.found, other.fits, other.kind)
+        return reported
 
 
-def names_member(told: str, path: str) -> bool:
-    """Whether `told` is a member's `path` in the first element of each sequence, the middle of long ones aside."""
-    start, dots, end = told.replace("[0]", "[]").partition("...")
+def names_member(reported: str, path: str) -> bool:
+    """Whether `reported` is a member's `path` in the first element of each sequence, the middle of long ones aside."""
+    start, dots, end = reported.replace("[0]", "[]").partition("...")
     return path.startswith(f"{start}.") and path.endswith(f".{end}") if dots else path == start
