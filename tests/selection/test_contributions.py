@@ -169,3 +169,12 @@ def test_two_components_do_not_replace_one_header() -> None:
         component_files((component("a"), component("b")), lambda when: True)
     (reported,) = [d.headline() for d in caught.value.diagnostics]
     assert "'a' and 'b' both replace 'microros/lock.h'" in reported
+
+
+def test_a_member_of_two_components_has_one_comment() -> None:
+    """It is printed once, where both are selected."""
+    comments: dict[tuple[str, str], set[str]] = {}
+    for component in load_catalogue().values():
+        for state in component.contributes.state:
+            comments.setdefault((state.section, state.declaration), set()).add(state.comment)
+    assert {member: found for member, found in comments.items() if len(found) > 1} == {}

@@ -247,8 +247,11 @@ def _member(state: State) -> Member:
 
 
 def _members(states: Iterable[State]) -> tuple[Member, ...]:
-    """Return the members; what two components declare alike is there once."""
-    return tuple(dict.fromkeys(map(_member, states)))
+    """Return the members; what two components declare is there once, with the first one's comment."""
+    found: dict[str, Member] = {}
+    for state in states:
+        found.setdefault(state.declaration, _member(state))
+    return tuple(found.values())
 
 
 def _output(function: str, streams: Mapping[str, Mapping[str, str]]) -> Output:
