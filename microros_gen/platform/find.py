@@ -9,6 +9,7 @@ from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
 from microros_gen.documents.files import read_text
 from microros_gen.documents.tree_values import text_of
 from microros_gen.documents.yaml_tree import MappingNode
+from microros_gen.platform.board_file import board_facts
 from microros_gen.platform.target import Target
 from microros_gen.platform.target_file import merge_target, parse_target, target_of
 from microros_gen.records import dataclass
@@ -92,7 +93,7 @@ class _Reader:
             return None
         if not builtin:
             self.own.append(source)
-        return self._extended(node, path.parent)
+        return self._extended(self._with_board(node), path.parent)
 
     def _brought(self, name: str, span: Span | None) -> Path | None:
         """Return the file of a target that a folder or a package brings; None and an error where none does."""
@@ -106,6 +107,15 @@ class _Reader:
             return None
         self.origin = self.origin or extension.origin
         return extension.target(name)
+
+    def _with_board(self, node: MappingNode) -> MappingNode:
+        """Lay a target file over the facts of the board that it names: both win over what it extends."""
+        board = node.get("board")
+        if board is None:
+            return node
+        near = Path(board.span.source.name).parent
+        facts = board_facts(text_of(board) or "", near, board.span, self._diagnostics, self._extensions)
+        return merge_target(node, facts) if facts is not None else node
 
     def _extended(self, node: MappingNode, near: Path) -> MappingNode | None:
         below = node.get("extends")

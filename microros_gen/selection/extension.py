@@ -24,7 +24,7 @@ from microros_gen.selection.installed import installed_packages
 from microros_gen.selection.presence import EXAMPLE_FILE
 
 _FOLDERS = ("components", "profiles", "platform", "targets")
-_OWN_FILES = (COMPONENT_FILE, EXAMPLE_FILE, "cpu.yaml", "os.yaml")
+_OWN_FILES = (COMPONENT_FILE, EXAMPLE_FILE, "cpu.yaml", "os.yaml", "board.yaml")
 _OWN_FOLDERS = ("include", "src", "variants")
 
 

@@ -168,6 +168,69 @@ def test_a_board_precedes_network_system_and_processor(demo: Path, run: Runner) 
     assert rows["time"]["provider"] == "port_demo"
 
 
+BOARD_PART = """\
+component: port_{name}
+summary: "Made up"
+layer: port
+status: ready
+needs: [support]
+provides: {{}}
+"""
+TWO_BOARDS = {"hawk": ("8000000", "0x40001000", 1), "kite": ("16000000", "0x40002000", 2)}
+
+
+def write_board(folder: Path, name: str, more: str = "") -> None:
+    """Write a part with the facts of a board: clock, memories and serial line."""
+    clock, base, irq = TWO_BOARDS[name]
+    (folder / name).mkdir()
+    (folder / name / "component.yaml").write_text(BOARD_PART.format(name=name))
+    (folder / name / "board.yaml").write_text(
+        f"clock_hz: {clock}\nflash: {{origin: 0, size: 64 KiB}}\nram: {{origin: 0x20000000, size: 16 KiB}}\n"
+        f"uart: {{driver: cmsdk, base: {base}, irq: {irq}}}\n{more}"
+    )
+    (folder / f"{name}.yaml").write_text(
+        f"target: {name}\nsummary: Made up\nextends: qemu-mps2-an385\nboard: ./{name}\n"
+    )
+
+
+def test_two_boards_share_everything_but_their_facts(folder: Path, run: Runner) -> None:
+    """What differs in the output is what the two files board.yaml say: clock, address and interrupt."""
+    outputs = []
+    for name in TWO_BOARDS:
+        write_board(folder, name)
+        done = run("generate", "--profile", "pure_sender", "--target", f"{name}.yaml", "-o", f"out-{name}")
+        assert done.status == 0, done.err
+        out = folder / f"out-{name}"
+        outputs.append({p.relative_to(out).as_posix(): p.read_text() for p in out.rglob("*") if p.is_file()})
+    left, right = outputs
+    assert left.keys() == right.keys()
+    differ = {path for path in left if left[path].replace("hawk", "kite") != right[path]}
+    assert sorted(differ) == [
+        "include/microros/port_board.h",  # clock, address, divisor
+        "include/microros_config.h",  # the plan id: libraries of two boards do not link
+        "manifest.json",
+        "src/port_cortex_m/port_cortex_m_vectors.c",  # the interrupt
+    ]
+    assert "0x40001000" in left["include/microros/port_board.h"]
+    manifest = json.loads(left["manifest.json"])
+    assert "part port_hawk/board.yaml" in manifest["inputs"]
+
+
+def test_a_target_file_wins_over_its_board_and_that_over_what_it_extends(folder: Path, run: Runner) -> None:
+    write_board(folder, "hawk")
+    path = folder / "hawk.yaml"
+    path.write_text(f"{path.read_text()}clock_hz: 12000000\n")
+    (shown,) = json.loads(run("targets", "hawk.yaml", "--format", "json").out)
+    assert (shown["clock_hz"], shown["uart"]["base"], shown["flash"]["size"]) == (12000000, 0x40001000, 65536)
+
+
+def test_a_board_says_nothing_of_the_compiler(folder: Path, run: Runner) -> None:
+    write_board(folder, "hawk", "c_flags: [-mcpu=cortex-m4]\n")
+    done = run("targets", "hawk.yaml")
+    assert done.status == 2
+    assert "hawk/board.yaml:5:1: error: the file has no key 'c_flags'" in without_id(done.err)
+
+
 ERRORS = {
     "capability": (
         {"component.yaml": PART.replace("lock:", "lok:")},
