@@ -112,7 +112,8 @@ class EndpointDecl:
     what these take together; None: as much as that many of the largest. `stored`: the library has storage for what is
     received (`storage: none`: the program has). `given`: the fully qualified name that the source has, where `remap:`
     makes it `topic`; empty: the same.
-    `of_the_library`: nobody declared it, and the library itself opens it. `usual_limits` are then those of its
+    `of_the_library`: nobody declared it, and the library itself opens it; `executed`: an executor runs it all the
+    same. `usual_limits` are then those of its
     component, which hold where the application says nothing but `*`.
     """
 
@@ -130,7 +131,13 @@ class EndpointDecl:
     stored: bool = True
     given: str = ""
     of_the_library: bool = False
+    executed: bool = False
     usual_limits: tuple[LimitRule, ...] = ()
+
+    @property
+    def takes_handle(self) -> bool:
+        """Whether an executor of the application can have a handle for it."""
+        return self.executed or not self.of_the_library
 
 
 @dataclass(frozen=True)

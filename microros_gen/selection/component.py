@@ -53,7 +53,8 @@ class Implied:
     """An endpoint that the library opens by itself: one in the first node, or one in every node.
 
     `name` is that of the topic or service; `{node}` and `{ns}` in it are replaced. `queue`: how many samples wait;
-    None: follows from the depth. `limits` hold where the application has none for its type.
+    None: follows from the depth. `limits` hold where the application has none for its type. `executed`: an executor
+    of the application runs it. `stored`: the library has storage for what it receives.
     """
 
     kind: str
@@ -63,6 +64,8 @@ class Implied:
     queue: int | None = None
     every_node: bool = False
     limits: tuple[LimitRule, ...] = ()
+    executed: bool = False
+    stored: bool = True
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from microros_gen.selection.xrce import OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
 LAYERS = ("micro-ROS", "middleware", "port")
 _REQUIRED = ("component", "summary", "layer", "status")
 _LISTS = ("needs", "asks", "xrce", "sends", "receives", "objects", "headers", "sources", "implies")
-_IMPLIED = ("type", "every_node", "queue", "qos", "limits")
+_IMPLIED = ("type", "every_node", "queue", "qos", "limits", "executed", "storage")
 _PROVISION = ("sources", "asks", "always")
 _STATUS = ("ready", "planned")
 
@@ -126,7 +126,8 @@ def _implies(node: MappingNode, diagnostics: Diagnostics) -> tuple[Implied, ...]
         name, type_ = read_text(one, kind, diagnostics), read_text(one, "type", diagnostics)
         queue = int_of(one.get("queue"))
         qos, limits = _qos(one.get("qos"), diagnostics), endpoint_limits(one.get("limits"), type_)
-        found.append(Implied(kind, name, type_, qos, queue, every_node, limits))
+        executed, stored = bool_of(one.get("executed")) or False, text_of(one.get("storage")) != "none"
+        found.append(Implied(kind, name, type_, qos, queue, every_node, limits, executed, stored))
     return tuple(found)
 
 

@@ -27,8 +27,11 @@ def with_implied(application: Application, selection: Selection, diagnostics: Di
         first, *others = application.nodes
         nodes = (_with(first, (*once, *each)), *(_with(node, each) for node in others))
         return replace(application, nodes=nodes)
+    ready = all(
+        chosen.component.ready for chosen in selection.components
+    )  # else the build is refused for that
     refused = [e for e in once if e.kind != "subscription"]
-    for endpoint in (*refused, *each):
+    for endpoint in (*refused, *each) if ready else ():
         diagnostics.error(
             f"the {endpoint.kind} '{endpoint.topic}', which a component opens by itself, needs a declared node",
             application.spans.get("components"),
@@ -53,7 +56,9 @@ def _endpoint(implied: Implied, change: EndpointChange | None) -> EndpointDecl:
     endpoint = EndpointDecl(
         *(implied.kind, implied.name, implied.type, implied.qos),
         queue=implied.queue,
+        stored=implied.stored,
         of_the_library=True,
+        executed=implied.executed,
         usual_limits=implied.limits,
     )
     if change is None:

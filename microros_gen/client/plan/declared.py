@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from microros_gen.application.kinds import KIND
 from microros_gen.application.model import Application, EndpointDecl, NodeDecl
 from microros_gen.application.names import expand_topic_name
@@ -25,9 +27,17 @@ def declarations(application: Application, *kinds: str) -> tuple[tuple[int, Node
 
 def implied(application: Application, *kinds: str) -> int:
     """Return how many endpoints of these kinds the library opens by itself."""
-    of_nodes = (endpoint for _, _, endpoint in declarations(application, *kinds))
-    own = (endpoint for endpoint in application.implied if endpoint.kind in kinds)
-    return sum(endpoint.of_the_library for endpoint in (*of_nodes, *own))
+    return sum(endpoint.of_the_library for endpoint in _endpoints(application, kinds))
+
+
+def without_handle(application: Application, *kinds: str) -> int:
+    """Return how many endpoints of these kinds no executor of the application runs."""
+    return sum(not endpoint.takes_handle for endpoint in _endpoints(application, kinds))
+
+
+def _endpoints(application: Application, kinds: tuple[str, ...]) -> Iterator[EndpointDecl]:
+    yield from (endpoint for _, _, endpoint in declarations(application, *kinds))
+    yield from (endpoint for endpoint in application.implied if endpoint.kind in kinds)
 
 
 def timed_qos(application: Application, entities: str, diagnostics: Diagnostics) -> bool:

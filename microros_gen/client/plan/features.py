@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import replace
 from importlib import import_module
 from typing import Any, Protocol, cast
 
-from microros_gen.application.model import Application
+from microros_gen.application.model import Application, LimitRule
 from microros_gen.client.plan.feature_slices import NO_FEATURES, Features, FeatureSlice
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.diagnostics import Diagnostics
@@ -38,13 +39,30 @@ class Given:
 
 
 class Feature(Protocol):
-    """The functions of a component's plan.py."""
+    """The functions of a component's plan.py; one that has no `limits` implies none."""
 
     def plan(self, given: Given, diagnostics: Diagnostics) -> object:
         """Return the component's slice, a frozen data class; what is wrong goes to `diagnostics`."""
 
     def record(self, part: Any) -> object:
         """Return what of its slice changes the library's layout or behavior, as plain data with its own keys."""
+
+
+class Limiting(Protocol):
+    """What a plan.py has as well, where endpoints that the component implies have limits."""
+
+    def limits(self, application: Application) -> tuple[LimitRule, ...]:
+        """Return rules for what they exchange, without those that the application has itself."""
+
+
+def with_limits(application: Application, selection: Selection) -> Application:
+    """Return the application with the limits of what selected components exchange, after its own."""
+    rules = list(application.limits)
+    for chosen in selection.components:
+        feature = feature_of(chosen.component)
+        if feature is not None and hasattr(feature, "limits"):
+            rules += cast(Limiting, feature).limits(application)
+    return replace(application, limits=tuple(rules)) if len(rules) > len(application.limits) else application
 
 
 def plan_features(given: Given, diagnostics: Diagnostics) -> Features:

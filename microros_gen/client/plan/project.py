@@ -10,7 +10,7 @@ from functools import cached_property
 from microros_gen.application.model import Application
 from microros_gen.client.plan.board import BoardPlan, has_own_line, plan_board
 from microros_gen.client.plan.create_messages import DEFAULT_NAME_SIZE, largest_create, longest_type
-from microros_gen.client.plan.declared import implied, pool, timed_qos, type_name
+from microros_gen.client.plan.declared import implied, pool, timed_qos, type_name, without_handle
 from microros_gen.client.plan.entities import EntitiesPlan, Places
 from microros_gen.client.plan.features import Given, plan_features
 from microros_gen.client.plan.nodes import plan_nodes
@@ -143,7 +143,7 @@ def plan_project(
         keeps_output=own_driver,
     )
     receivers = receiving.subscriptions_max + serving.services_max + serving.clients_max
-    receivers -= implied(application, "subscription", "service", "client")  # nobody adds these to an executor
+    receivers -= without_handle(application, "subscription", "service", "client")
     running = plan_running(application, selection, receivers, diagnostics)
     storage = plan_sent_storage(application, selection, by_name, roots, services)
     baud = application.transport.baud if selection.transport == "serial" else None

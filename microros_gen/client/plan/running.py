@@ -157,9 +157,10 @@ def _places(application: Application, key: str, declared: int, diagnostics: Diag
 def _handles(node: NodeDecl, executor: ExecutorDecl) -> int:
     """Return how many handles an executor has: those that it names, or all that its node has.
 
-    A name may be that of a service and of a client; a name before `remap:` is what the sources have.
+    A name may be that of a service and of a client; a name before `remap:` is what the sources have. What a component
+    has for an executor has no name there and always takes its handles.
     """
     names = {handle.name for handle in executor.handles}
-    received = [e for e in node.endpoints if KIND[e.kind].waited and not e.of_the_library]
+    received = [e for e in node.endpoints if KIND[e.kind].waited and e.takes_handle]
     timers = sum(not names or timer.name in names for timer in node.timers)
-    return timers + sum(not names or (e.given or e.topic) in names for e in received)
+    return timers + sum(not names or e.executed or (e.given or e.topic) in names for e in received)
