@@ -30,6 +30,7 @@ _SUBJECTS = {
     "migrate": "init",
     "ros": "ROS 2",
     "agent": "The agent",
+    "components": "Components",
     "cli": "The command line",
 }
 _PLACE_FIRST = {"IdlError", "_DeclarationError", "self._error"}
@@ -75,7 +76,9 @@ def _table(rows: list[Told]) -> str:
             (
                 f'<span id="{reported.id.lower()}">{reported.id}</span>',
                 "error" if reported.is_error else "warning",
-                f"{markdown.cell(reported.message)}<br>*{markdown.cell(reported.hint)}*".removesuffix("<br>**"),
+                f"{markdown.cell(reported.message)}<br>*{markdown.cell(reported.hint)}*".removesuffix(
+                    "<br>**"
+                ),
                 markdown.cell(known.get(reported.id, "")),
             )
             for reported in rows

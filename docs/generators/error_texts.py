@@ -54,7 +54,10 @@ def _words(literals: str) -> str:
 
 def _sources(files: str) -> str:
     """Return the named files, with texts, of a library with every component of the micro-ROS layer."""
-    ready = [c.name for c in load_catalogue().values() if c.ready and c.layer == "micro-ROS"]
+    components = load_catalogue().values()
+    # One that opens endpoints in nodes is left out: its texts are in its component.yaml.
+    found = (c for c in components if not any(endpoint.every_node for endpoint in c.implies))
+    ready = [c.name for c in found if c.ready and c.layer == "micro-ROS"]
     text = _APPLICATION.format(components=", ".join(f"+{name}" for name in ready))
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "microros.yaml").write_text(text, encoding="utf-8")

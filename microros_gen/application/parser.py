@@ -53,6 +53,7 @@ _POOLS_BESIDE_NODES = (
     "wait_sets",
     "ros_clocks",
     "jump_callbacks",
+    "parameters",
 )
 _WITHOUT_ADDRESS = ("serial", "custom")
 _ONLY_FOR = {

@@ -132,6 +132,9 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "    services: [{name: on, type: std_srvs/srv/SetBool, limits: {message: 9}}]\n"
         + "    clients: [{name: ask, type: std_srvs/srv/SetBool, limits: {message: 20}}]\n"
         + "profiles: [pure_reader]\ncomponents: [-subscribe, +services, +executor]\ntransport: {type: custom}\n",
+        "parameters": _BUSY
+        + "    parameters: [{name: gain, type: double, default: 0.5, range: {min: 0, max: 1}}]\n"
+        + "profiles: [pure_sender]\ncomponents: [+parameters]\n",
         "custom-packets-threads": _BUSY
         + _ASKS
         + "profiles: [pure_sender]\ncomponents: [-publish, +services, +executor, +multithread]\n"

@@ -415,6 +415,7 @@ _TOP = {
             "wait_sets": 0,
             "ros_clocks": 251,
             "jump_callbacks": 0,
+            "parameters": 251,
             "history": 17,
             "input_history": 0,
             "queue": 251,
@@ -747,7 +748,6 @@ RESERVED = {
     "logging": ("logging: console", "1:1", "the key 'logging' is reserved for log messages"),
     "links": ("links: {}", "1:1", "the key 'links' is reserved for delivery from board to board"),
     "agents": ("agents: [a]", "1:1", "the key 'agents' is reserved for more than one agent"),
-    "pools.parameters": ("pools: {parameters: 1}", "1:9", "the key 'parameters' is reserved for parameters"),
     "target.network": (
         "target: {name: m4, network: lwip}",
         "1:20",

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Writes parts of replies and events as CDR, within the room that a message has. Internal. */
+#ifndef MICROROS_RCLC_PARAMETER_OUT_H
+#define MICROROS_RCLC_PARAMETER_OUT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "microros/rclc_parameters.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A body that is being written. What finds no room is left out, and `full` is set. */
+typedef struct parameter_out_t {
+  uint8_t * body;
+  uint32_t position;
+  uint32_t room; /* bytes of the body at most */
+  bool full;
+} parameter_out_t;
+
+void parameter_out_1(parameter_out_t * out, uint8_t value);
+void parameter_out_4(parameter_out_t * out, uint32_t value);
+
+/* Writes 8 bytes of any type. */
+void parameter_out_8(parameter_out_t * out, const void * value);
+
+/* Writes a string of several pieces, one after the other. */
+void parameter_out_pieces(parameter_out_t * out, const parameter_text_t * pieces, uint32_t count);
+void parameter_out_text(parameter_out_t * out, const char * text);
+
+/* Writes an rcl_interfaces/msg/ParameterValue; without a value for a NULL place. */
+void parameter_out_value(parameter_out_t * out, const rclc_parameter_place_t * place);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RCLC_PARAMETER_OUT_H */

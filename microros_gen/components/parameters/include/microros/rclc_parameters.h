@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The store of parameters, requests as they are on the wire, and what became of each set. Internal. */
+#ifndef MICROROS_RCLC_PARAMETERS_H
+#define MICROROS_RCLC_PARAMETERS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "microros/cdr_decode.h"
+#include "rclc_parameter/rclc_parameter.h"
+#include "rosidl_runtime_c/message_type_support_struct.h"
+#include "rosidl_runtime_c/service_type_support_struct.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What an event says of a parameter. */
+enum { PARAMETER_EVENT_NONE, PARAMETER_EVENT_NEW, PARAMETER_EVENT_CHANGED, PARAMETER_EVENT_DELETED };
+
+/* What became of a parameter of a set request. */
+typedef enum parameter_outcome_t {
+  PARAMETER_SET,
+  PARAMETER_NONE, /* nothing was asked for */
+  PARAMETER_UNNAMED,
+  PARAMETER_UNDECLARED,
+  PARAMETER_READ_ONLY,
+  PARAMETER_STATIC, /* not to be deleted */
+  PARAMETER_OTHER_TYPE,
+  PARAMETER_OUTSIDE_INTEGER,
+  PARAMETER_OUTSIDE_FLOATING_POINT,
+  PARAMETER_REJECTED,
+  PARAMETER_NAME_LONG,
+  PARAMETER_FULL,
+  PARAMETER_UNSUPPORTED /* a value of a type that a server cannot hold */
+} parameter_outcome_t;
+
+/* A string inside a request; no NUL ends it. */
+typedef struct parameter_text_t {
+  const char * data;
+  uint32_t size;
+} parameter_text_t;
+
+/* A parameter of a request. `type` may be any number; `value` has one for the types that a server holds. */
+typedef struct parameter_asked_t {
+  parameter_text_t name;
+  uint8_t type;
+  rclc_parameter_scalar_t value;
+} parameter_asked_t;
+
+/* A parameter as the callback sees it; the name belongs to a place. */
+typedef struct parameter_state_t {
+  char * name;
+  uint8_t type;
+  rclc_parameter_scalar_t value;
+} parameter_state_t;
+
+/* --- requests: rclc_parameter_request.c --- */
+
+/* Begins to read the request that the server has. It was checked when it arrived, so nothing in it fails. */
+cdr_in_t parameter_request_begin(const rclc_parameter_server_t * server, cdr_fault_t * fault);
+
+/* Read one member and move on. */
+uint32_t parameter_request_length(cdr_in_t * in);
+parameter_text_t parameter_request_text(cdr_in_t * in);
+parameter_asked_t parameter_request_parameter(cdr_in_t * in);
+
+/* Decoders of message types whose message is the server: they check the request and keep it there. */
+void parameter_decode_names(cdr_in_t * in, void * server);
+void parameter_decode_parameters(cdr_in_t * in, void * server);
+void parameter_decode_list(cdr_in_t * in, void * server);
+
+/* --- the store: rclc_parameter_store.c --- */
+
+/* Returns the place of that name, or NULL; what is deleted only waits for its event. */
+const rclc_parameter_place_t * parameter_find(
+  const rclc_parameter_server_t * server, const parameter_text_t * name);
+
+/* Fills a free place, whose name and value fit; there is one. It counts when `count` is raised. */
+rclc_parameter_place_t * parameter_place(
+  rclc_parameter_server_t * server, const parameter_text_t * name, uint8_t type);
+
+/* Removes the place, and moves those after it. */
+void parameter_remove(rclc_parameter_server_t * server, const rclc_parameter_place_t * place);
+
+/* Whether the callback accepts a change; either state may be NULL. */
+bool parameter_accepts(
+  rclc_parameter_server_t * server, const parameter_state_t * old_state, const parameter_state_t * new_state);
+
+/* --- set requests: rclc_parameter_set.c --- */
+
+/* Applies each parameter of the request by itself; fills the outcomes. */
+void parameter_set_each(rclc_parameter_server_t * server);
+
+/* Applies all parameters of the request, or none. */
+void parameter_set_all(rclc_parameter_server_t * server);
+
+/* --- replies and events: rclc_parameter_reply.c, rclc_parameter_event.c --- */
+
+/* Publishes the places that have an `event`, clears it, and removes those that are deleted. Without room for the event all
+ * stays as it is, and is published together with what changes meanwhile. */
+void parameter_publish(rclc_parameter_server_t * server);
+
+/* The type of /parameter_events whose message is the server. */
+extern const rosidl_message_type_support_t parameter_event_type;
+
+/* The types of the services whose messages are the server. */
+extern const rosidl_service_type_support_t parameter_get_type;
+extern const rosidl_service_type_support_t parameter_get_types_type;
+extern const rosidl_service_type_support_t parameter_set_type;
+extern const rosidl_service_type_support_t parameter_set_atomically_type;
+extern const rosidl_service_type_support_t parameter_list_type;
+extern const rosidl_service_type_support_t parameter_describe_type;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RCLC_PARAMETERS_H */

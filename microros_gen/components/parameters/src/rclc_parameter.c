@@ -1,0 +1,222 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What the application does with its parameters. */
+#include "microros/error.h"
+#include "microros/rclc_parameters.h"
+#include "microros/text.h"
+
+#include <string.h>
+
+static rcl_ret_t parameter_refuse(rcl_ret_t result, const char * name, const char * why)
+{
+  microros_error_set(microros_error_parameter, name, why, 0, 0);
+  return result;
+}
+
+static rcl_ret_t parameter_refuse_argument(void)
+{
+  return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "parameter_server or another argument");
+}
+
+static parameter_text_t parameter_text(const char * text)
+{
+  const parameter_text_t result = {text, (uint32_t)microros_text_size(text)};
+
+  return result;
+}
+
+/* Returns the place of a parameter; NULL: *result says why. */
+static rclc_parameter_place_t * parameter_look(
+  rclc_parameter_server_t * server, const char * name, rcl_ret_t * result)
+{
+  const rclc_parameter_place_t * found;
+  parameter_text_t text;
+
+  if (server == NULL || name == NULL) {
+    *result = parameter_refuse_argument();
+    return NULL;
+  }
+  text = parameter_text(name);
+  found = parameter_find(server, &text);
+  if (found == NULL) {
+    *result = parameter_refuse(RCL_RET_ERROR, name, MICROROS_ERROR_WORDS("unknown"));
+    return NULL;
+  }
+  *result = RCL_RET_OK;
+  return &server->places[found - server->places];
+}
+
+/* The same where the parameter is to be changed, which its callback must not. */
+static rclc_parameter_place_t * parameter_look_to_change(
+  rclc_parameter_server_t * server, const char * name, rcl_ret_t * result)
+{
+  if (server != NULL && server->on_callback) {
+    *result = parameter_refuse(
+      RCLC_PARAMETER_DISABLED_ON_CALLBACK, name, MICROROS_ERROR_WORDS("not to be changed by the callback"));
+    return NULL;
+  }
+  return parameter_look(server, name, result);
+}
+
+rcl_ret_t rclc_add_parameter(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, rclc_parameter_type_t type)
+{
+  parameter_text_t name;
+  rclc_parameter_place_t * place = NULL;
+
+  if (parameter_server == NULL || parameter_name == NULL) {
+    return parameter_refuse_argument();
+  }
+  if (parameter_server->on_callback) {
+    return parameter_refuse(
+      RCLC_PARAMETER_DISABLED_ON_CALLBACK, parameter_name,
+      MICROROS_ERROR_WORDS("not to be added by the callback"));
+  }
+  name = parameter_text(parameter_name);
+  if (name.size == 0u || name.size >= (uint32_t)MICROROS_PARAMETER_NAME_SIZE) {
+    return parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("empty or too long a name"));
+  }
+  if (type != RCLC_PARAMETER_BOOL && type != RCLC_PARAMETER_INT && type != RCLC_PARAMETER_DOUBLE) {
+    return parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("no type of a value"));
+  }
+  if (parameter_find(parameter_server, &name) != NULL) {
+    return parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("added already"));
+  }
+  if (parameter_server->count == parameter_server->max_params) {
+    const uint32_t count = (uint32_t)parameter_server->count;
+
+    microros_error_set(microros_error_parameters_full, parameter_name, NULL, count, count + 1u);
+    return RCL_RET_ERROR;
+  }
+  place = parameter_place(parameter_server, &name, (uint8_t)type);
+  place->event = (uint8_t)PARAMETER_EVENT_NEW;
+  ++parameter_server->count;
+  parameter_publish(parameter_server);
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rclc_delete_parameter(rclc_parameter_server_t * parameter_server, const char * parameter_name)
+{
+  rcl_ret_t result;
+  rclc_parameter_place_t * place = parameter_look_to_change(parameter_server, parameter_name, &result);
+
+  if (place != NULL) {
+    place->event = (uint8_t)PARAMETER_EVENT_DELETED;
+    parameter_publish(parameter_server);
+  }
+  return result;
+}
+
+static rcl_ret_t parameter_set(
+  rclc_parameter_server_t * server, const char * name, rclc_parameter_type_t type,
+  const rclc_parameter_scalar_t * value)
+{
+  rcl_ret_t result;
+  rclc_parameter_place_t * place = parameter_look_to_change(server, name, &result);
+  parameter_state_t old_state;
+  parameter_state_t new_state;
+
+  if (place == NULL) {
+    return result;
+  }
+  if (place->type != (uint8_t)type) {
+    return parameter_refuse(RCLC_PARAMETER_TYPE_MISMATCH, name, MICROROS_ERROR_WORDS("it has another type"));
+  }
+  old_state.name = place->name;
+  old_state.type = place->type;
+  old_state.value = place->value;
+  new_state = old_state;
+  new_state.value = *value;
+  if (!parameter_accepts(server, &old_state, &new_state)) {
+    return parameter_refuse(
+      RCLC_PARAMETER_MODIFICATION_REJECTED, name, MICROROS_ERROR_WORDS("the callback refused the value"));
+  }
+  place->value = *value;
+  place->event = (uint8_t)PARAMETER_EVENT_CHANGED;
+  parameter_publish(server);
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rclc_parameter_set_bool(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, bool value)
+{
+  const rclc_parameter_scalar_t scalar = {.bool_value = value};
+
+  return parameter_set(parameter_server, parameter_name, RCLC_PARAMETER_BOOL, &scalar);
+}
+
+rcl_ret_t rclc_parameter_set_int(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, int64_t value)
+{
+  const rclc_parameter_scalar_t scalar = {.integer_value = value};
+
+  return parameter_set(parameter_server, parameter_name, RCLC_PARAMETER_INT, &scalar);
+}
+
+rcl_ret_t rclc_parameter_set_double(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, double value)
+{
+  const rclc_parameter_scalar_t scalar = {.double_value = value};
+
+  return parameter_set(parameter_server, parameter_name, RCLC_PARAMETER_DOUBLE, &scalar);
+}
+
+/* Gives the value of a parameter of that type. */
+static rcl_ret_t parameter_get(
+  rclc_parameter_server_t * server, const char * name, rclc_parameter_type_t type, const void * output,
+  rclc_parameter_scalar_t * value)
+{
+  const rclc_parameter_place_t * place;
+  rcl_ret_t result;
+
+  if (output == NULL) {
+    return parameter_refuse_argument();
+  }
+  place = parameter_look(server, name, &result);
+  if (place == NULL) {
+    return result;
+  }
+  if (place->type != (uint8_t)type) {
+    return parameter_refuse(RCL_RET_INVALID_ARGUMENT, name, MICROROS_ERROR_WORDS("it has another type"));
+  }
+  *value = place->value;
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rclc_parameter_get_bool(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, bool * output)
+{
+  rclc_parameter_scalar_t value = {.integer_value = 0};
+  const rcl_ret_t result =
+    parameter_get(parameter_server, parameter_name, RCLC_PARAMETER_BOOL, output, &value);
+
+  if (result == RCL_RET_OK) {
+    *output = value.bool_value;
+  }
+  return result;
+}
+
+rcl_ret_t rclc_parameter_get_int(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, int64_t * output)
+{
+  rclc_parameter_scalar_t value = {.integer_value = 0};
+  const rcl_ret_t result =
+    parameter_get(parameter_server, parameter_name, RCLC_PARAMETER_INT, output, &value);
+
+  if (result == RCL_RET_OK) {
+    *output = value.integer_value;
+  }
+  return result;
+}
+
+rcl_ret_t rclc_parameter_get_double(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, double * output)
+{
+  rclc_parameter_scalar_t value = {.integer_value = 0};
+  const rcl_ret_t result =
+    parameter_get(parameter_server, parameter_name, RCLC_PARAMETER_DOUBLE, output, &value);
+
+  if (result == RCL_RET_OK) {
+    *output = value.double_value;
+  }
+  return result;
+}

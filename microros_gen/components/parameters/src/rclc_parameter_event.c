@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/port.h"
+#include "microros/rclc_parameter_out.h"
+#include "microros/rclc_parameters.h"
+#include "microros/rmw_parameters.h"
+#include "microros/text.h"
+
+#include <stddef.h>
+
+static void event_out_stamp(parameter_out_t * out)
+{
+  const int64_t ns_per_s = 1000000000;
+  const int64_t now = port_time_epoch_ns();
+
+  parameter_out_4(out, (uint32_t)(now / ns_per_s));
+  parameter_out_4(out, (uint32_t)(now % ns_per_s));
+}
+
+/* The fully qualified name: the namespace ends with the only slash where it is "/". */
+static void event_out_node(parameter_out_t * out, const rcl_node_t * node)
+{
+  const char * namespace_ = rcl_node_get_namespace(node);
+  const char * name = rcl_node_get_name(node);
+  const uint32_t size = (uint32_t)microros_text_size(namespace_);
+  const parameter_text_t pieces[3] = {
+    {namespace_, size}, {"/", size > 1u ? 1u : 0u}, {name, (uint32_t)microros_text_size(name)}};
+
+  parameter_out_pieces(out, pieces, 3u);
+}
+
+/* Writes the parameters of which the event says `what`. */
+static void event_out_list(parameter_out_t * out, const rclc_parameter_server_t * server, uint8_t what)
+{
+  uint32_t count = 0;
+
+  for (size_t i = 0; i < server->count; ++i) {
+    count += server->places[i].event == what ? 1u : 0u;
+  }
+  parameter_out_4(out, count);
+  for (size_t i = 0; i < server->count; ++i) {
+    if (server->places[i].event == what) {
+      parameter_out_text(out, server->places[i].name);
+      parameter_out_value(out, &server->places[i]);
+    }
+  }
+}
+
+static uint32_t event_encode(const void * message, uint8_t * body, cdr_fault_t * fault)
+{
+  const rclc_parameter_server_t * server = message;
+  parameter_out_t out = {body, 0, rcl_interfaces__msg__ParameterEvent__MAX_ENCODED_SIZE, false};
+
+  event_out_stamp(&out);
+  event_out_node(&out, server->node);
+  event_out_list(&out, server, (uint8_t)PARAMETER_EVENT_NEW);
+  event_out_list(&out, server, (uint8_t)PARAMETER_EVENT_CHANGED);
+  event_out_list(&out, server, (uint8_t)PARAMETER_EVENT_DELETED);
+  if (out.full) {
+    (void)cdr_refuse(fault, CDR_FAULT_LIMIT, "parameters", server->count, 0u);
+  }
+  return out.full ? 0u : out.position;
+}
+
+static const microros_message_type_t event_message = {
+  .dds_type_name = "rcl_interfaces::msg::dds_::ParameterEvent_",
+  .max_encoded_size = rcl_interfaces__msg__ParameterEvent__MAX_ENCODED_SIZE,
+  .encode = event_encode};
+
+const rosidl_message_type_support_t parameter_event_type = {
+  .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &event_message};
+
+static bool event_is_due(const rclc_parameter_server_t * server)
+{
+  for (size_t i = 0; i < server->count; ++i) {
+    if (server->places[i].event != (uint8_t)PARAMETER_EVENT_NONE) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void parameter_publish(rclc_parameter_server_t * server)
+{
+  size_t i = 0;
+
+  if (!event_is_due(server)) {
+    return;
+  }
+  if (
+    server->notify_changed_over_dds &&
+    (!rmw_parameters_have_room(rcl_publisher_get_rmw_handle(&server->event_publisher)) ||
+     rcl_publish(&server->event_publisher, server, NULL) != RCL_RET_OK)) {
+    return; /* the executor tries again when there is room */
+  }
+  while (i < server->count) {
+    const bool deleted = server->places[i].event == (uint8_t)PARAMETER_EVENT_DELETED;
+
+    server->places[i].event = (uint8_t)PARAMETER_EVENT_NONE;
+    if (deleted) {
+      parameter_remove(server, &server->places[i]);
+    } else {
+      ++i;
+    }
+  }
+}

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/rclc_parameter_out.h"
+
+#include "microros/cdr.h"
+#include "microros/text.h"
+
+#include <string.h>
+
+enum { ARRAYS = 5 }; /* of bytes, bools, integers, doubles and strings */
+
+/* Returns where `bytes` go that are aligned to `width`, and moves on; NULL: no room. */
+static uint8_t * out_take(parameter_out_t * out, uint32_t width, uint32_t bytes)
+{
+  const uint32_t start = cdr_aligned(out->position, width);
+  uint8_t * to = &out->body[out->position];
+
+  if (start > out->room || bytes > out->room - start) {
+    out->full = true;
+    return NULL;
+  }
+  (void)memset(to, 0, start - out->position);
+  out->position = start + bytes;
+  return &out->body[start];
+}
+
+void parameter_out_1(parameter_out_t * out, uint8_t value)
+{
+  uint8_t * to = out_take(out, 1u, 1u);
+
+  if (to != NULL) {
+    *to = value;
+  }
+}
+
+void parameter_out_4(parameter_out_t * out, uint32_t value)
+{
+  uint8_t * to = out_take(out, 4u, 4u);
+
+  if (to != NULL) {
+    cdr_put_4(to, &value);
+  }
+}
+
+void parameter_out_8(parameter_out_t * out, const void * value)
+{
+  uint8_t * to = out_take(out, 8u, 8u);
+
+  if (to != NULL) {
+    cdr_put_8(to, value);
+  }
+}
+
+void parameter_out_pieces(parameter_out_t * out, const parameter_text_t * pieces, uint32_t count)
+{
+  uint32_t size = 1; /* the NUL */
+  uint8_t * to;
+
+  for (uint32_t i = 0; i < count; ++i) {
+    size += pieces[i].size;
+  }
+  to = out_take(out, 4u, 4u + size);
+  if (to == NULL) {
+    return;
+  }
+  cdr_put_4(to, &size);
+  to = &to[4];
+  for (uint32_t i = 0; i < count; ++i) {
+    cdr_copy(to, pieces[i].data, pieces[i].size);
+    to = &to[pieces[i].size];
+  }
+  *to = 0;
+}
+
+void parameter_out_text(parameter_out_t * out, const char * text)
+{
+  const parameter_text_t piece = {text, (uint32_t)microros_text_size(text)};
+
+  parameter_out_pieces(out, &piece, 1u);
+}
+
+void parameter_out_value(parameter_out_t * out, const rclc_parameter_place_t * place)
+{
+  const uint8_t type = place != NULL ? place->type : (uint8_t)RCLC_PARAMETER_NOT_SET;
+  const int64_t integer = type == (uint8_t)RCLC_PARAMETER_INT ? place->value.integer_value : 0;
+  const double number = type == (uint8_t)RCLC_PARAMETER_DOUBLE ? place->value.double_value : 0.0;
+  const bool truth = type == (uint8_t)RCLC_PARAMETER_BOOL && place->value.bool_value;
+
+  parameter_out_1(out, type);
+  parameter_out_1(out, truth ? 1u : 0u);
+  parameter_out_8(out, &integer);
+  parameter_out_8(out, &number);
+  parameter_out_text(out, "");
+  for (uint32_t i = 0; i < (uint32_t)ARRAYS; ++i) {
+    parameter_out_4(out, 0u);
+  }
+}

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/rclc_parameter_reason.h"
+
+#include "microros/text.h"
+
+#include <stddef.h>
+
+enum { PIECES_MAX = 7 };
+
+/* The words of an outcome: %n becomes the name, %o the type that the parameter has, %t the type that was asked for. */
+static const char * reason_words(uint8_t outcome)
+{
+  switch (outcome) {
+    case PARAMETER_SET:
+      return "";
+    case PARAMETER_NONE:
+      return "parameter list cannot be empty";
+    case PARAMETER_UNNAMED:
+      return "parameter name must not be empty";
+    case PARAMETER_UNDECLARED:
+      return "parameter '%n' cannot be set because it was not declared";
+    case PARAMETER_READ_ONLY:
+      return "parameter '%n' cannot be set because it is read-only";
+    case PARAMETER_STATIC:
+      return "cannot undeclare a statically typed parameter";
+    case PARAMETER_OTHER_TYPE:
+      return "Wrong parameter type, parameter {%n} is of type {%o}, setting it to {%t} is not allowed.";
+    case PARAMETER_OUTSIDE_INTEGER:
+      return "Parameter {%n} doesn't comply with integer range.";
+    case PARAMETER_OUTSIDE_FLOATING_POINT:
+      return "Parameter {%n} doesn't comply with floating point range.";
+    case PARAMETER_REJECTED:
+      return "rejected by the callback";
+    case PARAMETER_NAME_LONG:
+      return "parameter name '%n' is too long";
+    case PARAMETER_FULL:
+      return "no place for parameter '%n'";
+    case PARAMETER_UNSUPPORTED:
+    default:
+      return "parameter '%n' cannot have a value of type {%t}";
+  }
+}
+
+static const char * reason_type(uint8_t type)
+{
+  static const char * const names[] = {"not set",      "bool",        "integer",    "double",
+                                       "string",       "byte_array",  "bool_array", "integer_array",
+                                       "double_array", "string_array"};
+
+  return type < sizeof(names) / sizeof(names[0]) ? names[type] : "unknown type";
+}
+
+static parameter_text_t reason_text(const char * text)
+{
+  const parameter_text_t result = {text, (uint32_t)microros_text_size(text)};
+
+  return result;
+}
+
+/* A name that no parameter can have is cut, between two characters of UTF-8. */
+static parameter_text_t reason_name(const parameter_text_t * name)
+{
+  parameter_text_t result = *name;
+
+  if (result.size >= (uint32_t)MICROROS_PARAMETER_NAME_SIZE) {
+    result.size = (uint32_t)MICROROS_PARAMETER_NAME_SIZE - 1u;
+    while (result.size != 0u && ((uint8_t)result.data[result.size] & 0xC0u) == 0x80u) {
+      --result.size;
+    }
+  }
+  return result;
+}
+
+static parameter_text_t reason_insertion(
+  char letter, const rclc_parameter_place_t * place, const parameter_asked_t * asked)
+{
+  if (letter == 'n') {
+    return reason_name(&asked->name);
+  }
+  if (letter == 't') {
+    return reason_text(reason_type(asked->type));
+  }
+  return reason_text(reason_type(place != NULL ? place->type : (uint8_t)RCLC_PARAMETER_NOT_SET));
+}
+
+void parameter_out_reason(
+  parameter_out_t * out, const rclc_parameter_server_t * server, const parameter_asked_t * asked,
+  uint8_t outcome)
+{
+  const rclc_parameter_place_t * place = parameter_find(server, &asked->name);
+  const char * words = reason_words(outcome);
+  parameter_text_t pieces[PIECES_MAX];
+  uint32_t count = 0;
+
+  while (*words != '\0' && count < (uint32_t)PIECES_MAX) {
+    uint32_t size = 0;
+
+    if (*words == '%') {
+      pieces[count] = reason_insertion(words[1], place, asked);
+      words = &words[2];
+    } else {
+      while (words[size] != '\0' && words[size] != '%') {
+        ++size;
+      }
+      pieces[count].data = words;
+      pieces[count].size = size;
+      words = &words[size];
+    }
+    ++count;
+  }
+  parameter_out_pieces(out, pieces, count);
+}

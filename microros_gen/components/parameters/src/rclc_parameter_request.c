@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Requests stay as they are on the wire: they are checked when they arrive, copied once, and read again when they are
+ * answered. So a name may be as long as it likes, and no message of their types takes memory.
+ */
+#include "microros/rclc_parameters.h"
+
+#include <string.h>
+
+/* Returns where `count` elements of `width` bytes are, and moves to the byte after; NULL where the body ends before. */
+static const uint8_t * request_take(cdr_in_t * in, uint32_t count, uint32_t width)
+{
+  const uint32_t start = cdr_aligned(in->position, width);
+  const uint64_t bytes = (uint64_t)count * width;
+
+  if (in->failed || start > in->size || bytes > (uint64_t)in->size - start) {
+    cdr_in_refuse(in, CDR_FAULT_END, "request", bytes, in->size - in->position);
+    return NULL;
+  }
+  in->position = start + (uint32_t)bytes;
+  return &in->body[start];
+}
+
+uint32_t parameter_request_length(cdr_in_t * in)
+{
+  return cdr_in_length(in, 1u, "request");
+}
+
+/* As for ROS, a string ends at its first NUL, or where its length says. */
+parameter_text_t parameter_request_text(cdr_in_t * in)
+{
+  const uint32_t length = parameter_request_length(in);
+  const uint8_t * bytes = request_take(in, length, 1u);
+  parameter_text_t text = {"", 0};
+
+  if (bytes != NULL) {
+    text.data = (const char *)bytes;
+    while (text.size < length && bytes[text.size] != 0u) {
+      ++text.size;
+    }
+  }
+  return text;
+}
+
+/* Passes over a sequence of numbers. */
+static void request_skip(cdr_in_t * in, uint32_t width)
+{
+  const uint32_t count = cdr_in_length(in, width, "request");
+
+  if (count != 0u) {
+    (void)request_take(in, count, width);
+  }
+}
+
+static void request_skip_texts(cdr_in_t * in)
+{
+  const uint32_t count = parameter_request_length(in);
+
+  for (uint32_t i = 0; i < count && !in->failed; ++i) {
+    (void)parameter_request_text(in);
+  }
+}
+
+parameter_asked_t parameter_request_parameter(cdr_in_t * in)
+{
+  parameter_asked_t asked = {{"", 0}, (uint8_t)RCLC_PARAMETER_NOT_SET, {false}};
+  bool truth = false;
+  int64_t integer = 0;
+  double number = 0.0;
+
+  asked.name = parameter_request_text(in);
+  cdr_get_1(in, &asked.type, 1u, "request");
+  cdr_get_bool(in, &truth, 1u, "request");
+  cdr_get_8(in, &integer, 1u, "request");
+  cdr_get_8(in, &number, 1u, "request");
+  (void)parameter_request_text(in);
+  request_skip(in, 1u);
+  request_skip(in, 1u);
+  request_skip(in, 8u);
+  request_skip(in, 8u);
+  request_skip_texts(in);
+  if (asked.type == (uint8_t)RCLC_PARAMETER_BOOL) {
+    asked.value.bool_value = truth;
+  } else if (asked.type == (uint8_t)RCLC_PARAMETER_DOUBLE) {
+    asked.value.double_value = number;
+  } else {
+    asked.value.integer_value = integer;
+  }
+  return asked;
+}
+
+cdr_in_t parameter_request_begin(const rclc_parameter_server_t * server, cdr_fault_t * fault)
+{
+  const cdr_in_t in = {server->request, server->request_size, 0, server->request_swaps, false, fault};
+
+  return in;
+}
+
+/* Keeps a request that was read to its end. */
+static void request_keep(cdr_in_t * in, rclc_parameter_server_t * server)
+{
+  if (in->failed) {
+    return;
+  }
+  if (in->size > sizeof(server->request)) {
+    cdr_in_refuse(in, CDR_FAULT_CAPACITY, "request", in->size, sizeof(server->request));
+    return;
+  }
+  (void)memcpy(server->request, in->body, in->size);
+  server->request_size = in->size;
+  server->request_swaps = in->swap;
+}
+
+void parameter_decode_names(cdr_in_t * in, void * server)
+{
+  request_skip_texts(in);
+  request_keep(in, server);
+}
+
+void parameter_decode_list(cdr_in_t * in, void * server)
+{
+  uint64_t depth;
+
+  request_skip_texts(in);
+  cdr_get_8(in, &depth, 1u, "request");
+  request_keep(in, server);
+}
+
+void parameter_decode_parameters(cdr_in_t * in, void * server)
+{
+  const uint32_t count = parameter_request_length(in);
+
+  for (uint32_t i = 0; i < count && !in->failed; ++i) {
+    (void)parameter_request_parameter(in);
+  }
+  request_keep(in, server);
+}

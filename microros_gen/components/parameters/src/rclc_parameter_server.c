@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/error.h"
+#include "microros/executor_handles.h"
+#include "microros/rclc_parameters.h"
+#include "rclc/publisher.h"
+#include "rclc/service.h"
+
+#include <string.h>
+
+rcl_ret_t rclc_parameter_server_init_default(rclc_parameter_server_t * parameter_server, rcl_node_t * node)
+{
+  static const rclc_parameter_options_t options = {
+    .notify_changed_over_dds = true,
+    .max_params = MICROROS_PARAMETERS_MAX,
+    .allow_undeclared_parameters = false,
+    .low_mem_mode = false};
+
+  return rclc_parameter_server_init_with_option(parameter_server, node, &options);
+}
+
+/* Notes the first result that is no RCL_RET_OK. */
+static void server_note(rcl_ret_t * first, rcl_ret_t result)
+{
+  if (*first == RCL_RET_OK) {
+    *first = result;
+  }
+}
+
+static rcl_ret_t server_open_service(
+  rcl_ret_t before, rcl_service_t * service, const rcl_node_t * node,
+  const rosidl_service_type_support_t * type, const char * name)
+{
+  return before == RCL_RET_OK ? rclc_service_init(service, node, type, name, &rmw_qos_profile_parameters)
+                              : before;
+}
+
+static rcl_ret_t server_open(rclc_parameter_server_t * server, const rcl_node_t * node)
+{
+  rcl_ret_t result = RCL_RET_OK;
+
+  result = server_open_service(
+    result, &server->describe_service, node, &parameter_describe_type, "~/describe_parameters");
+  result = server_open_service(
+    result, &server->get_types_service, node, &parameter_get_types_type, "~/get_parameter_types");
+  result = server_open_service(result, &server->get_service, node, &parameter_get_type, "~/get_parameters");
+  result =
+    server_open_service(result, &server->list_service, node, &parameter_list_type, "~/list_parameters");
+  result = server_open_service(result, &server->set_service, node, &parameter_set_type, "~/set_parameters");
+  result = server_open_service(
+    result, &server->set_atomically_service, node, &parameter_set_atomically_type,
+    "~/set_parameters_atomically");
+  if (result == RCL_RET_OK && server->notify_changed_over_dds) {
+    result = rclc_publisher_init(
+      &server->event_publisher, node, &parameter_event_type, "/parameter_events",
+      &rmw_qos_profile_parameter_events);
+  }
+  return result;
+}
+
+/* Closes what is open; a service or publisher that is not stays as it is. */
+static rcl_ret_t server_close(rclc_parameter_server_t * server, rcl_node_t * node)
+{
+  rcl_ret_t result = RCL_RET_OK;
+
+  server_note(&result, rcl_service_fini(&server->describe_service, node));
+  server_note(&result, rcl_service_fini(&server->get_types_service, node));
+  server_note(&result, rcl_service_fini(&server->get_service, node));
+  server_note(&result, rcl_service_fini(&server->list_service, node));
+  server_note(&result, rcl_service_fini(&server->set_service, node));
+  server_note(&result, rcl_service_fini(&server->set_atomically_service, node));
+  if (rcl_publisher_is_valid(&server->event_publisher)) {
+    server_note(&result, rcl_publisher_fini(&server->event_publisher, node));
+  }
+  return result;
+}
+
+rcl_ret_t rclc_parameter_server_init_with_option(
+  rclc_parameter_server_t * parameter_server, rcl_node_t * node, const rclc_parameter_options_t * options)
+{
+  rcl_ret_t result;
+
+  if (parameter_server == NULL || node == NULL || options == NULL || options->max_params == 0u) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "parameter_server, node, options or max_params");
+  }
+  if (options->max_params > MICROROS_PARAMETERS_MAX) {
+    microros_error_set(
+      microros_error_parameters_full, rcl_node_get_name(node), NULL, MICROROS_PARAMETERS_MAX,
+      (uint32_t)options->max_params);
+    return RCL_RET_INVALID_ARGUMENT;
+  }
+  (void)memset(parameter_server, 0, sizeof(*parameter_server)); /* it may be uninitialized memory */
+  parameter_server->node = node;
+  parameter_server->max_params = options->max_params;
+  parameter_server->notify_changed_over_dds = options->notify_changed_over_dds;
+  parameter_server->allow_undeclared_parameters = options->allow_undeclared_parameters;
+  parameter_server->low_mem_mode = options->low_mem_mode;
+  result = server_open(parameter_server, node);
+  if (result != RCL_RET_OK) {
+    (void)server_close(parameter_server, node); /* the first error is told */
+    parameter_server->node = NULL;
+  }
+  return result;
+}
+
+rcl_ret_t rclc_parameter_server_fini(rclc_parameter_server_t * parameter_server, rcl_node_t * node)
+{
+  if (parameter_server == NULL || node == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "parameter_server or node");
+  }
+  parameter_server->count = 0;
+  parameter_server->on_modification = NULL;
+  return server_close(parameter_server, node);
+}
+
+/* Replies are written from the store, by the encoders of their types. */
+static void server_reply(const void * request, void * response, void * context)
+{
+  (void)request;
+  (void)response;
+  (void)context;
+}
+
+static void server_set_each(const void * request, void * response, void * context)
+{
+  (void)request;
+  (void)response;
+  parameter_set_each(context);
+}
+
+static void server_set_all(const void * request, void * response, void * context)
+{
+  (void)request;
+  (void)response;
+  parameter_set_all(context);
+}
+
+static rclc_handle_kind_t server_kind; /* that of a service, which also sends what events are due */
+static rcl_ret_t (*server_service_look)(
+  const rclc_executor_handle_t * handle, bool * is_ready, int64_t * look_again_ns);
+
+static rcl_ret_t server_look(const rclc_executor_handle_t * handle, bool * is_ready, int64_t * look_again_ns)
+{
+  parameter_publish(handle->callback_context);
+  return server_service_look(handle, is_ready, look_again_ns);
+}
+
+/* Has the executor try again with events that found no room, whenever it looks at the handle that was added last. */
+static void server_watch(rclc_executor_t * executor)
+{
+  rclc_executor_handle_t * handle = &executor->handles[executor->index - 1u];
+
+  server_kind = *handle->kind;
+  server_service_look = handle->kind->look;
+  server_kind.look = server_look;
+  handle->kind = &server_kind;
+}
+
+static rcl_ret_t server_add(
+  rcl_ret_t before, rclc_executor_t * executor, rclc_parameter_server_t * server, rcl_service_t * service,
+  rclc_service_callback_with_context_t callback)
+{
+  return before == RCL_RET_OK
+           ? rclc_executor_add_service_with_context(executor, service, server, server, callback, server)
+           : before;
+}
+
+rcl_ret_t rclc_executor_add_parameter_server_with_context(
+  rclc_executor_t * executor, rclc_parameter_server_t * parameter_server,
+  rclc_parameter_callback_t on_modification, void * context)
+{
+  rcl_ret_t result = RCL_RET_OK;
+
+  if (executor == NULL || parameter_server == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "parameter_server or executor");
+  }
+  parameter_server->on_modification = on_modification;
+  parameter_server->context = context;
+  result = server_add(result, executor, parameter_server, &parameter_server->list_service, server_reply);
+  result = server_add(result, executor, parameter_server, &parameter_server->get_types_service, server_reply);
+  result = server_add(result, executor, parameter_server, &parameter_server->set_service, server_set_each);
+  result =
+    server_add(result, executor, parameter_server, &parameter_server->set_atomically_service, server_set_all);
+  result = server_add(result, executor, parameter_server, &parameter_server->get_service, server_reply);
+  result = server_add(result, executor, parameter_server, &parameter_server->describe_service, server_reply);
+  if (result == RCL_RET_OK) {
+    server_watch(executor);
+  }
+  return result;
+}
+
+rcl_ret_t rclc_executor_add_parameter_server(
+  rclc_executor_t * executor, rclc_parameter_server_t * parameter_server,
+  rclc_parameter_callback_t on_modification)
+{
+  return rclc_executor_add_parameter_server_with_context(executor, parameter_server, on_modification, NULL);
+}

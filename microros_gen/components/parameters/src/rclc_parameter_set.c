@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Set requests, by the rules of rclcpp: each change is checked, then the callback decides, then it is made. */
+#include "microros/rclc_parameters.h"
+
+static bool integer_holds(const rclc_parameter_range_t * range, int64_t value)
+{
+  const uint64_t above = (uint64_t)value - (uint64_t)range->integer.from_value;
+
+  if (value == range->integer.to_value) {
+    return true;
+  }
+  return value >= range->integer.from_value && value <= range->integer.to_value &&
+         (range->integer.step == 0u || above % range->integer.step == 0u);
+}
+
+static parameter_outcome_t set_check_range(
+  const rclc_parameter_server_t * server, const rclc_parameter_place_t * place,
+  const parameter_asked_t * asked)
+{
+  if (!place->has_range || asked->type != place->type) {
+    return PARAMETER_SET;
+  }
+  if (asked->type == (uint8_t)RCLC_PARAMETER_INT) {
+    return integer_holds(&place->range, asked->value.integer_value) ? PARAMETER_SET
+                                                                    : PARAMETER_OUTSIDE_INTEGER;
+  }
+  return server->floating_point_holds(&place->range, asked->value.double_value)
+           ? PARAMETER_SET
+           : PARAMETER_OUTSIDE_FLOATING_POINT;
+}
+
+/* Of a parameter that does not exist, after `fresh` others that the same request creates. */
+static parameter_outcome_t set_check_new(
+  const rclc_parameter_server_t * server, const parameter_asked_t * asked, size_t fresh)
+{
+  if (!server->allow_undeclared_parameters || asked->type == (uint8_t)RCLC_PARAMETER_NOT_SET) {
+    return PARAMETER_UNDECLARED;
+  }
+  if (asked->name.size >= (uint32_t)MICROROS_PARAMETER_NAME_SIZE) {
+    return PARAMETER_NAME_LONG;
+  }
+  if (asked->type > (uint8_t)RCLC_PARAMETER_DOUBLE) {
+    return PARAMETER_UNSUPPORTED;
+  }
+  return server->count + fresh < server->max_params ? PARAMETER_SET : PARAMETER_FULL;
+}
+
+static parameter_outcome_t set_check(
+  const rclc_parameter_server_t * server, const parameter_asked_t * asked, size_t fresh)
+{
+  const rclc_parameter_place_t * place = parameter_find(server, &asked->name);
+
+  if (asked->name.size == 0u) {
+    return PARAMETER_UNNAMED;
+  }
+  if (place == NULL) {
+    return set_check_new(server, asked, fresh);
+  }
+  if (place->read_only) {
+    return PARAMETER_READ_ONLY;
+  }
+  if (asked->type == (uint8_t)RCLC_PARAMETER_NOT_SET) {
+    return place->dynamic_typing ? PARAMETER_SET : PARAMETER_STATIC;
+  }
+  if (asked->type != place->type && !place->dynamic_typing) {
+    return PARAMETER_OTHER_TYPE;
+  }
+  if (asked->type > (uint8_t)RCLC_PARAMETER_DOUBLE) {
+    return PARAMETER_UNSUPPORTED;
+  }
+  return set_check_range(server, place, asked);
+}
+
+/* Whether the callback accepts what was checked. A name that does not exist yet is shown from a free place. */
+static bool set_accepts(rclc_parameter_server_t * server, const parameter_asked_t * asked)
+{
+  const rclc_parameter_place_t * found = parameter_find(server, &asked->name);
+  rclc_parameter_place_t * place;
+  parameter_state_t old_state;
+  parameter_state_t new_state;
+
+  new_state.type = asked->type;
+  new_state.value = asked->value;
+  if (found == NULL) {
+    new_state.name = parameter_place(server, &asked->name, asked->type)->name;
+    return parameter_accepts(server, NULL, &new_state);
+  }
+  place = &server->places[found - server->places];
+  old_state.name = place->name;
+  old_state.type = place->type;
+  old_state.value = place->value;
+  new_state.name = place->name;
+  return parameter_accepts(
+    server, &old_state, asked->type != (uint8_t)RCLC_PARAMETER_NOT_SET ? &new_state : NULL);
+}
+
+static void set_make(rclc_parameter_server_t * server, const parameter_asked_t * asked)
+{
+  const rclc_parameter_place_t * found = parameter_find(server, &asked->name);
+  rclc_parameter_place_t * place;
+
+  if (found == NULL) {
+    place = parameter_place(server, &asked->name, asked->type);
+    place->dynamic_typing = true;
+    place->event = (uint8_t)PARAMETER_EVENT_NEW;
+    ++server->count;
+  } else {
+    place = &server->places[found - server->places];
+  }
+  if (asked->type == (uint8_t)RCLC_PARAMETER_NOT_SET) {
+    place->event = (uint8_t)PARAMETER_EVENT_DELETED;
+    return;
+  }
+  place->type = asked->type;
+  place->value = asked->value;
+  if (place->event != (uint8_t)PARAMETER_EVENT_NEW) {
+    place->event = (uint8_t)PARAMETER_EVENT_CHANGED;
+  }
+}
+
+void parameter_set_each(rclc_parameter_server_t * server)
+{
+  cdr_fault_t fault;
+  cdr_in_t in = parameter_request_begin(server, &fault);
+  const uint32_t count = parameter_request_length(&in);
+
+  for (uint32_t i = 0; i < count; ++i) {
+    const parameter_asked_t asked = parameter_request_parameter(&in);
+    parameter_outcome_t outcome = set_check(server, &asked, 0);
+
+    if (outcome == PARAMETER_SET && !set_accepts(server, &asked)) {
+      outcome = PARAMETER_REJECTED;
+    }
+    if (outcome == PARAMETER_SET) {
+      set_make(server, &asked);
+      parameter_publish(server);
+    }
+    server->outcomes[i] = (uint8_t)outcome;
+  }
+}
+
+/* The passes over a request that is applied as a whole. */
+typedef enum set_pass_t { SET_PASS_CHECK, SET_PASS_ACCEPT, SET_PASS_MAKE } set_pass_t;
+
+/* Returns whether all parameters passed; else the outcome of the first that did not is noted. */
+static bool set_pass(rclc_parameter_server_t * server, set_pass_t pass)
+{
+  cdr_fault_t fault;
+  cdr_in_t in = parameter_request_begin(server, &fault);
+  const uint32_t count = parameter_request_length(&in);
+  size_t fresh = 0;
+  parameter_outcome_t outcome = PARAMETER_SET;
+
+  for (uint32_t i = 0; i < count && outcome == PARAMETER_SET; ++i) {
+    const parameter_asked_t asked = parameter_request_parameter(&in);
+
+    if (pass == SET_PASS_CHECK) {
+      outcome = set_check(server, &asked, fresh);
+      fresh += parameter_find(server, &asked.name) == NULL ? 1u : 0u;
+    } else if (pass == SET_PASS_ACCEPT) {
+      outcome = set_accepts(server, &asked) ? PARAMETER_SET : PARAMETER_REJECTED;
+    } else {
+      set_make(server, &asked);
+    }
+    server->outcomes[i] = (uint8_t)outcome;
+  }
+  return outcome == PARAMETER_SET;
+}
+
+void parameter_set_all(rclc_parameter_server_t * server)
+{
+  if (set_pass(server, SET_PASS_CHECK) && set_pass(server, SET_PASS_ACCEPT)) {
+    (void)set_pass(server, SET_PASS_MAKE);
+    parameter_publish(server);
+  }
+}

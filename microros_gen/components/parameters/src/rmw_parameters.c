@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/rmw_parameters.h"
+
+#include "microros/lock.h"
+#include "microros/xrce_write.h"
+
+#include <stddef.h>
+
+bool rmw_parameters_have_room(const rmw_publisher_t * publisher)
+{
+  bool result;
+
+  if (publisher == NULL) {
+    return false;
+  }
+  microros_lock();
+  result = xrce_write_reserve(publisher->data) != NULL;
+  microros_unlock();
+  return result;
+}

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the component `parameters` plans: endpoints, places, sizes of names, texts and requests, the example."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from microros_gen import compiler
+from microros_gen.components.parameters.plan import ParametersPlan
+from microros_gen.diagnostics import UserError
+from microros_gen.interfaces.find import shipped_folder
+from microros_gen.interfaces.types import TypeName
+from tests.support.ids import without_id
+
+BARE = """\
+version: 1
+profiles: [pure_sender]
+components: [+parameters]
+nodes:
+  - {name: arm, namespace: /left}
+"""
+DECLARED = """\
+version: 1
+profiles: [pure_sender]
+nodes:
+  - name: arm
+    parameters:
+      - {name: gain, type: double, default: 1, range: {min: 0, max: 2, step: 0.5}}
+      - {name: steps, type: integer, default: -3, description: "Steps of \\"one\\" turn", read_only: true}
+      - {name: on, type: bool, default: true}
+  - name: leg
+components: [+parameters]
+"""
+SERVICES = [
+    *("describe_parameters", "get_parameter_types", "get_parameters"),
+    *("list_parameters", "set_parameters", "set_parameters_atomically"),
+]
+
+
+def planned(folder: Path, text: str) -> compiler.Planned:
+    config = folder / "microros.yaml"
+    config.write_text(text)
+    options = compiler.Options(config=config, interface_paths=(shipped_folder(),))
+    return compiler.plan(compiler.resolve(compiler.read(options)))
+
+
+def slice_of(found: compiler.Planned) -> ParametersPlan:
+    part = found.project.runtime.features.of("parameters")
+    assert isinstance(part, ParametersPlan)
+    return part
+
+
+def largest(found: compiler.Planned, name: str) -> int:
+    kind, _, short = name.partition("/")
+    wanted = TypeName("rcl_interfaces", kind, short)
+    return next(t.max_encoded_size for t in found.project.types if t.name == wanted)
+
+
+def text_size(characters: int) -> int:
+    """Return what a string takes, with its length and NUL, up to the next multiple of 4."""
+    return 4 + (characters + 1 + 3) // 4 * 4
+
+
+def test_six_services_and_the_events_of_a_node(tmp_path: Path) -> None:
+    found = planned(tmp_path, BARE)
+    entities, executor = found.project.runtime.entities, found.project.runtime.executor
+    assert [s.name for s in entities.services.declared] == [f"/left/arm/{name}" for name in SERVICES]
+    assert [p.topic for p in entities.publishers.declared] == ["/parameter_events"]
+    assert not any(m.storage for s in entities.services.declared for m in s.stored)
+    assert executor.handles_max == len(SERVICES)
+    assert {queue.slots for queue in found.project.runtime.input.queues} == {1}
+
+
+def test_without_declared_parameters_there_is_room_as_in_rclc(tmp_path: Path) -> None:
+    found = planned(tmp_path, BARE)
+    part = slice_of(found)
+    assert (part.max, part.name_size, part.text_size) == (4, 50, 50)
+    assert part.request_size == largest(found, "srv/SetParameters_Request")
+    assert largest(found, "srv/GetParameters_Request") == 4 + 3 * text_size(49) + 4 + 50
+    more = slice_of(planned(tmp_path, BARE + "pools: {parameters: 9}\n"))
+    assert more.max == 9
+    assert more.request_size > 2 * part.request_size
+    assert more.outcomes_max >= 9
+
+
+def test_declared_parameters_have_places_of_their_sizes(tmp_path: Path) -> None:
+    found = planned(tmp_path, DECLARED)
+    part = slice_of(found)
+    assert (part.max, part.name_size, part.text_size) == (3, len("steps") + 1, len('Steps of "one" turn') + 1)
+    assert largest(found, "srv/GetParameters_Request") == 4 + 2 * text_size(5) + 4 + 6
+    assert found.project.runtime.executor.handles_max == part.handles == 2 * len(SERVICES)
+    more = slice_of(planned(tmp_path, DECLARED + "pools: {parameters: 5}\n"))
+    assert (more.max, more.name_size) == (5, 50)
+
+
+def test_an_event_has_room_for_every_parameter(tmp_path: Path) -> None:
+    """Whatever it says of them: new, changed or deleted."""
+    found = planned(tmp_path, BARE)
+    value = largest(found, "srv/GetParameters_Response") // 4
+    assert (
+        largest(found, "msg/ParameterEvent")
+        >= 4 * (text_size(49) + value) + 8 + text_size(len("/left/arm")) + 12
+    )
+
+
+def test_limits_of_the_application_win(tmp_path: Path) -> None:
+    limits = "limits: {rcl_interfaces/srv/SetParameters_Request: {parameters: 8}}\n"
+    assert slice_of(planned(tmp_path, BARE + limits)).request_size > 800
+    assert slice_of(planned(tmp_path, BARE)).request_size < 450
+
+
+def test_another_number_makes_another_plan_id(tmp_path: Path) -> None:
+    """`text_size` shows in no message: only in the struct that the application has."""
+    texts = (BARE, BARE + "pools: {parameters: 5}\n", DECLARED, DECLARED.replace("turn", "full turn"))
+    assert len({planned(tmp_path, text).project.runtime.plan_id for text in texts}) == len(texts)
+
+
+def test_the_example_adds_what_is_declared(tmp_path: Path) -> None:
+    found = planned(tmp_path, DECLARED)
+    files = compiler.render(found)
+    example = files["examples/pure_sender/main.c"].decode()
+    for line in (
+        'rclc_add_parameter(&node_parameters, "gain", RCLC_PARAMETER_DOUBLE)',
+        'rclc_parameter_set_double(&node_parameters, "gain", 1.0)',
+        'rclc_add_parameter_constraint_double(&node_parameters, "gain", 0.0, 2.0, 0.5)',
+        'rclc_parameter_set_int(&node_parameters, "steps", -3)',
+        r'rclc_add_parameter_description(&node_parameters, "steps", "Steps of \"one\" turn", "")',
+        'rclc_set_parameter_read_only(&node_parameters, "steps", true)',
+        'rclc_parameter_set_bool(&node_parameters, "on", true)',
+        "rclc_parameter_server_init_default(&node_1_parameters, &node_1)",
+    ):
+        assert line in example
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (
+            DECLARED.replace("type: bool, default: true", "type: string"),
+            "8:9: error: the parameter 'on' is a string, which a parameter server on the device does not hold yet",
+        ),
+        (
+            BARE + 'endpoints: {"~/get_parameters": {limits: {names: {sequence: 9, string: 9}}}}\n',
+            "error: the limits of '~/get_parameters' cannot differ from those of its type",
+        ),
+        (
+            BARE.partition("nodes:")[0],
+            "error: the service '~/describe_parameters', which a component opens by itself, needs a declared node",
+        ),
+    ],
+    ids=["string", "limits of one", "no node"],
+)
+def test_what_cannot_be_served_is_refused(tmp_path: Path, text: str, told: str) -> None:
+    with pytest.raises(UserError) as caught:
+        planned(tmp_path, text)
+    assert any(told in without_id(d.headline()) for d in caught.value.diagnostics)
