@@ -41,7 +41,7 @@ braces are placeholders for names, numbers and paths. `microros-gen explain MG-3
 
 
 @dataclass(frozen=True)
-class Told:
+class Documented:
     """One diagnostic: `message` and `hint` with parts in braces; `is_error` false: a warning."""
 
     id: str
@@ -51,7 +51,7 @@ class Told:
     subject: str
 
 
-def diagnostics() -> list[Told]:
+def diagnostics() -> list[Documented]:
     """Return every diagnostic of the package, sorted by id; one that several places give is there several times."""
     found = [reported for path in sorted(PACKAGE.rglob("*.py")) for reported in _of_module(path)]
     return sorted(found, key=lambda reported: (reported.id, reported.message))
@@ -68,7 +68,7 @@ def page() -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def _table(rows: list[Told]) -> str:
+def _table(rows: list[Documented]) -> str:
     known = explanations()
     return markdown.table(
         ("id", "kind", "message and hint", "explanation"),
@@ -86,7 +86,7 @@ def _table(rows: list[Told]) -> str:
     )
 
 
-def _of_module(path: Path) -> Iterator[Told]:
+def _of_module(path: Path) -> Iterator[Documented]:
     tree = ast.parse(path.read_text(encoding="utf-8"))
     functions = [n for n in ast.walk(tree) if isinstance(n, (ast.FunctionDef, ast.AsyncFunctionDef))]
     for function in functions:
@@ -133,7 +133,7 @@ def _owner(functions: list[ast.FunctionDef | ast.AsyncFunctionDef], node: ast.Ca
     return max(holding, key=lambda f: f.lineno, default=None)
 
 
-def _of_call(node: ast.Call, texts: dict[str, ast.expr], subject: str) -> Iterator[Told]:
+def _of_call(node: ast.Call, texts: dict[str, ast.expr], subject: str) -> Iterator[Documented]:
     named = {keyword.arg: keyword.value for keyword in node.keywords}
     identity = named.get("id")
     if not isinstance(identity, ast.Constant) or not str(identity.value).startswith("MG-"):
@@ -149,7 +149,7 @@ def _of_call(node: ast.Call, texts: dict[str, ast.expr], subject: str) -> Iterat
     hint = arguments[2] if len(arguments) > 2 else named.get("hint")
     warns = isinstance(node.func, ast.Attribute) and node.func.attr == "warning"
     warns |= "severity" in named or ast.unparse(node.func) == "Caveat"
-    yield Told(str(identity.value), _pattern(message, texts), _pattern(hint, texts), not warns, subject)
+    yield Documented(str(identity.value), _pattern(message, texts), _pattern(hint, texts), not warns, subject)
 
 
 def _pattern(node: ast.expr | None, texts: dict[str, ast.expr]) -> str:

@@ -98,7 +98,7 @@ class Admission:
         self._never_adopted: set[bytes] = set()
         self._strangers = Strangers(limits.adopt_after_s, limits.clients)
 
-    def visit(
+    def handle_outside_session(
         self,
         data: bytes,
         start: int,
@@ -124,9 +124,9 @@ class Admission:
         # What is out of session may be another client's by now: systems give a port to one after another.
         left = client is None and header.session not in OUT_OF_SESSION
         key = self._conflicts.heard(transport, address, now) if left else None
-        rival = self._clients.with_key(key) if key else None
-        if rival is not None:
-            self._conflicts.fight(rival, transport, address)
+        holder = self._clients.with_key(key) if key else None
+        if holder is not None:
+            self._conflicts.fight(holder, transport, address)
         for identifier, flags, at, end in split(data, start)[:1]:
             submessage = decode(identifier, flags, data, at, end)
             if isinstance(submessage, WriteData | Heartbeat) and client is None:

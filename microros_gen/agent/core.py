@@ -202,7 +202,7 @@ class Agent:
         client = self.clients.at(address) if start == 4 else self.clients.with_key(data[4:8])
         self._turns.start(now)
         if client is None or session_id != client.session.link.session:
-            client = self._admission.visit(data, start, client, address, transport, now)
+            client = self._admission.handle_outside_session(data, start, client, address, transport, now)
             if client is None:
                 return
         self._payer = client.account
@@ -230,7 +230,7 @@ class Agent:
         for message in client.session.incoming(stream, data[2] | data[3] << 8, data):
             client.ready.append((message, start, stream, False, 0))
         if stream >= STREAM_RELIABLE:
-            self._processor.came(client, stream)
+            self._processor.note_arrival(client, stream)
         if not waits:
             self._processor.process(client)
 

@@ -103,7 +103,7 @@ class Deliveries:
         at = now
         for reading in readings:
             if at >= now + TURN_S:
-                self._come_again(reading, now)
+                self._retry(reading, now)
                 continue
             self._go(reading, at)
             before, at = at, self._clock()
@@ -122,9 +122,9 @@ class Deliveries:
         if reading.over:
             self._drop(reading.client, reading.entity.id)
         elif at is not None:
-            self._come_again(reading, at)
+            self._retry(reading, at)
 
-    def _come_again(self, reading: Reading, at: float) -> None:
+    def _retry(self, reading: Reading, at: float) -> None:
         if reading.over or reading.scheduled:
             return
         reading.scheduled = True

@@ -52,9 +52,9 @@ class GraphWork:
         account.graph_s = _fade(account, now) + seconds
 
     def _refill(self, now: float) -> None:
-        came = max(0.0, now - self._at) * self._share
-        self._left = min(self._most, self._left + came)
-        self._left_now = min(self._most_now, self._left_now + PEAK * came)
+        refill = max(0.0, now - self._at) * self._share
+        self._left = min(self._most, self._left + refill)
+        self._left_now = min(self._most_now, self._left_now + PEAK * refill)
         self._at = now
 
 

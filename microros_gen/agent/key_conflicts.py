@@ -23,7 +23,7 @@ class KeyConflicts:
         self._log = log
         self._limit = limit
         self._before: dict[Place, tuple[bytes, float]] = {}
-        self._told: set[bytes] = set()
+        self._reported: set[bytes] = set()
 
     def moved(self, client: Client, transport: Transport, address: Hashable, now: float) -> None:
         """Note that the key of `client` comes from another place now; a way back and forth is one of two clients."""
@@ -46,9 +46,9 @@ class KeyConflicts:
         self._tell(client.session.link.key, client.place, transport.name_of(address))
 
     def _tell(self, key: bytes, place: str, other: str) -> None:
-        if key in self._told or len(self._told) >= self._limit:
+        if key in self._reported or len(self._reported) >= self._limit:
             return
-        self._told.add(key)
+        self._reported.add(key)
         self._log.emit(
             Level.WARNING,
             "same_key_twice",

@@ -3,7 +3,7 @@
 
 Budgets bound what the agent knows of. What it does not see (samples that nobody reads, in DDS; gaps on the heap) is in
 what the system says. Near the limit nothing more is made. Beyond that the client that takes most is sent away; and what
-is freed is given back to the system, as the C library keeps it otherwise.
+is freed is returned to the system, as the C library keeps it otherwise.
 """
 
 from __future__ import annotations

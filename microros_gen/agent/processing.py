@@ -78,7 +78,7 @@ class Processor:
             client.acknowledge()
         self._to_acknowledge.clear()
 
-    def came(self, client: Client, stream: int) -> None:
+    def note_arrival(self, client: Client, stream: int) -> None:
         """Note that a message came on a reliable stream, to be acknowledged."""
         client.unacknowledged.add(stream)
         self._to_acknowledge.add(client)

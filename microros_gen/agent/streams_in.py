@@ -50,7 +50,7 @@ class ReliableIn:
         return self._stopped
 
     def stop(self, followers: Sequence[bytes]) -> None:
-        """Acknowledge no further: the caller could not finish a message, and gives back the `followers` of it.
+        """Acknowledge no further: the caller could not finish a message, and returns the `followers` of it.
 
         Nothing is handed on until `go_on`; meanwhile what comes is held as after a gap.
         """

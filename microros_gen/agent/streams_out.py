@@ -93,7 +93,7 @@ class ReliableOut:
         self._holder = holder or Holder()
         self._bytes = 0
         """What is in the window and the backlog, with the samples in it; the holder counts `_told` of it."""
-        self._told = 0
+        self._reported = 0
         self._link = link
         self._head = len(link.header(0, 0))
         self.stream = stream
@@ -142,7 +142,7 @@ class ReliableOut:
                 self._kept.append((self._numbered, kept, size))
                 size += size
             self._bytes += size
-            if self._bytes - self._told >= STEP_BYTES:
+            if self._bytes - self._reported >= STEP_BYTES:
                 self._tell()
             return [message]
         if self._backlog_bytes + size > (self._backlog_limit if self._backlog else self._largest):
@@ -172,7 +172,7 @@ class ReliableOut:
             while kept and kept[0][0] <= arrived:
                 size += kept.popleft()[2]
             self._bytes -= size
-            if self._told - self._bytes >= STEP_BYTES:
+            if self._reported - self._bytes >= STEP_BYTES:
                 self._tell()
             self._went_on(first, now)
         again = self._repeat(first, missing, now) if missing else []
@@ -239,8 +239,8 @@ class ReliableOut:
 
     def _tell(self) -> None:
         """Tell the holder what is here: in steps, as this changes with each message."""
-        self._holder.add(self._bytes - self._told)
-        self._told = self._bytes
+        self._holder.add(self._bytes - self._reported)
+        self._reported = self._bytes
 
     def _release(self, now: float) -> list[bytes]:
         released = []

@@ -17,7 +17,7 @@ from microros_gen.image.folder import Folder
 
 def check_planned(planned: compiler.Planned, read: Callable[[], Folder]) -> None:
     """Check the budgets of a plan against the folder that `read` returns. Raises UserError with status 1."""
-    with _told() as warnings:
+    with _reported() as warnings:
         check_plan(planned, read, warnings)
 
 
@@ -36,12 +36,12 @@ def check_recorded(folder: Folder) -> None:
         else:
             check_planned(planned, lambda: folder)
             return
-    with _told() as warnings:
+    with _reported() as warnings:
         check_manifest(folder, warnings)
 
 
 @contextmanager
-def _told() -> Iterator[Diagnostics]:
+def _reported() -> Iterator[Diagnostics]:
     """Print the warnings, whatever else happens."""
     warnings = Diagnostics()
     try:

@@ -51,7 +51,7 @@ def write_tree(out: Path, files: Mapping[str, bytes]) -> WriteReport:
     Raises UserError when the folder cannot be written, holds something that this tool did not write, or a symbolic
     link where one of its folders belongs; then nothing was changed.
     """
-    with _told_as_user_error(out):
+    with _as_user_error(out):
         owned = _owned_files(out)
         _refuse_links(out, files)
         out.mkdir(parents=True, exist_ok=True)
@@ -85,7 +85,7 @@ def write_files(folder: Path, files: Mapping[str, bytes]) -> tuple[str, ...]:
 
     Nothing is removed. Raises UserError when the folder cannot be written.
     """
-    with _told_as_user_error(folder):
+    with _as_user_error(folder):
         changed = _changed(folder, files)
         for name in changed:
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -95,7 +95,7 @@ def write_files(folder: Path, files: Mapping[str, bytes]) -> tuple[str, ...]:
 
 def check_owned(out: Path) -> None:
     """Raise UserError when `out` exists and holds something that this tool did not write."""
-    with _told_as_user_error(out):
+    with _as_user_error(out):
         _owned_files(out)
 
 
@@ -256,7 +256,7 @@ def _remove_empty_parents(out: Path, path: Path) -> None:
 
 
 @contextmanager
-def _told_as_user_error(out: Path) -> Iterator[None]:
+def _as_user_error(out: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:

@@ -63,7 +63,7 @@ HOOK_POINTS: Mapping[str, HookPoint] = MappingProxyType(
         # the output streams, in xrce_routes.c
         "full": HookPoint(("client", "reliable"), value=True),
         "committing": HookPoint(("client", "reliable")),
-        # who waits: xrce_wait_left.h
+        # for waiting functions: xrce_wait_left.h
         "due": HookPoint(("client", "left", "now"), value=True),
         # rcl and rclc
         "support_opened": HookPoint(("support", "allocator"), value=True),

@@ -36,7 +36,7 @@ DDS_INT32 = "std_msgs::msg::dds_::Int32_"
 WRONG = "RIHS01_" + "5" * 64
 
 
-def is_told(bridged: Bridged, wanted: GraphReport) -> Callable[[], bool]:
+def is_reported(bridged: Bridged, wanted: GraphReport) -> Callable[[], bool]:
     return lambda: wanted in bridged.reports
 
 
@@ -45,11 +45,11 @@ def test_matches_and_departures_are_reported(bridged: Bridged, bridge_observer: 
     reader = node.create_reader(Topic("rt/matched", DDS_INT32), Qos())
     writer = node.create_writer(Topic("rt/matched", DDS_INT32), Qos())
     label = f"/matched [{INT32}]"
-    bridged.wait(is_told(bridged, Matched("/ns/matching", "publisher", label, 1)))
+    bridged.wait(is_reported(bridged, Matched("/ns/matching", "publisher", label, 1)))
     bridge_observer.subscribe("/matched", INT32)
-    bridged.wait(is_told(bridged, Matched("/ns/matching", "publisher", label, 2)))
+    bridged.wait(is_reported(bridged, Matched("/ns/matching", "publisher", label, 2)))
     writer.destroy()
-    bridged.wait(is_told(bridged, Matched("/ns/matching", "subscription", label, 0)))
+    bridged.wait(is_reported(bridged, Matched("/ns/matching", "subscription", label, 0)))
     reader.destroy()
     node.destroy()
 
@@ -62,8 +62,8 @@ def test_an_incompatible_qos_is_reported_by_policy(bridged: Bridged, bridge_obse
     node.create_reader(Topic("rt/plain", DDS_INT32), Qos())
     offered = Incompatible("/qos_of_another", "publisher", f"/picky [{INT32}]", "durability", 1)
     wanted = Incompatible("/qos_of_another", "subscription", f"/plain [{INT32}]", "reliability", 1)
-    bridged.wait(is_told(bridged, offered))
-    bridged.wait(is_told(bridged, wanted))
+    bridged.wait(is_reported(bridged, offered))
+    bridged.wait(is_reported(bridged, wanted))
     assert "another quality of service, durability" in str(offered)
     node.destroy()
 
@@ -76,13 +76,13 @@ def test_another_definition_is_reported_with_both_hashes(bridged: Bridged, bridg
     node = bridged.bridge.create_node("old_firmware", bridged.domain, manifest)
     node.create_writer(Topic("rt/defined", DDS_INT32), Qos())
     label = f"/defined [{INT32}]"
-    bridged.wait(is_told(bridged, HashMismatch("/old_firmware", label, WRONG, "/observer", right)))
+    bridged.wait(is_reported(bridged, HashMismatch("/old_firmware", label, WRONG, "/observer", right)))
     node.destroy()
     # The same with the right hash: it is compared, and nothing is told.
     before = len(bridged.reports)
     node = bridged.bridge.create_node("new_firmware", bridged.domain, type_hashes())
     node.create_writer(Topic("rt/defined", DDS_INT32), Qos())
-    bridged.wait(is_told(bridged, Matched("/new_firmware", "publisher", label, 1)))
+    bridged.wait(is_reported(bridged, Matched("/new_firmware", "publisher", label, 1)))
     bridged.wait_for(0.8)
     assert not [r for r in bridged.reports[before:] if isinstance(r, HashMismatch)]
     node.destroy()
@@ -97,7 +97,7 @@ def test_another_definition_of_a_service_is_reported(bridged: Bridged, bridge_ob
     expected = right(f"{GET_TYPES}_Response")
     assert expected is not None
     mismatch = HashMismatch("/old_asker", f"/serves [{GET_TYPES}]", WRONG, "/observer", expected)
-    bridged.wait(is_told(bridged, mismatch))
+    bridged.wait(is_reported(bridged, mismatch))
     node.destroy()
 
 
@@ -106,7 +106,7 @@ def test_another_type_of_the_same_topic_is_reported(bridged: Bridged, bridge_obs
     node.create_writer(Topic("rt/confused", DDS_INT32), Qos())
     bridge_observer.subscribe("/confused", "std_msgs/msg/String")
     wanted = TypeMismatch("/numbers", f"/confused [{INT32}]", "/observer", "std_msgs/msg/String")
-    bridged.wait(is_told(bridged, wanted))
+    bridged.wait(is_reported(bridged, wanted))
     node.destroy()
 
 

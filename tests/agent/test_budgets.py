@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What clients may make the agent hold, kind by kind: refused with a status, shared, and given back."""
+"""What clients may make the agent hold, kind by kind: refused with a status, shared, and released."""
 
 from __future__ import annotations
 

@@ -31,17 +31,17 @@ def quiet(timeout_ms: int, **limits: int) -> Bench:
 def live(bench: Bench, seconds: float, loss: float, chance: random.Random) -> int:
     """Answer requests if request and answer arrive; return how often the client timed out."""
     (client,) = bench.agent.clients
-    given_up = 0
+    dropped = 0
     for _ in range(round(seconds / STEP_S)):
         was_asleep = client.asleep
         asked = bench.wait(STEP_S, STEP_S)
-        given_up += client.asleep and not was_asleep
+        dropped += client.asleep and not was_asleep
         if client.asleep:
             bench.say(SIGN_OF_LIFE)
         for _ in asked:
             if chance.random() >= loss and chance.random() >= loss:
                 bench.say(SIGN_OF_LIFE)
-    return given_up
+    return dropped
 
 
 @pytest.mark.parametrize("timeout_ms", [2_000, 10_000])

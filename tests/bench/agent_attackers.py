@@ -160,7 +160,7 @@ def _topic_with_ends(client: Attacker, place: int, number: int) -> bytes:
     return client.message(1, 0, creates)[4:]
 
 
-def comes_and_goes(port: int, _tcp: int, domain: int, seconds: float) -> None:
+def leaves_and_returns(port: int, _tcp: int, domain: int, seconds: float) -> None:
     """S4: a time-out of 1 ms and 480 writers: each datagram creates all of them again."""
     one = Attacker(port, domain, 0xBAD00400, [("uxr_hl", "1")])
     one.node("s4")
@@ -354,7 +354,7 @@ ATTACKS: MappingProxyType[str, Attack] = MappingProxyType(
         "S1": history,
         "S2": types,
         "S3": creates,
-        "S4": comes_and_goes,
+        "S4": leaves_and_returns,
         "S5": blocked,
         "S6": forged,
         "S7": half_open,

@@ -15,7 +15,7 @@ from tests.support.firmware.footprint import (
     bounded_stack,
     buffers,
     image_sections,
-    painted_stack,
+    measured_stack,
     sections,
     work,
 )
@@ -75,6 +75,6 @@ def row(builds: Builds, name: str, sender: Sender) -> None:
     built = builds.build(name, sender.application)
     size, done = sections(built), work(builds, name, sender)
     print(
-        f"  {sender.label:<44} {size.text:6} {size.data:5} {size.bss:6} {painted_stack(built):6}"
+        f"  {sender.label:<44} {size.text:6} {size.data:5} {size.bss:6} {measured_stack(built):6}"
         f" {bounded_stack(built):6} {done.ready:6} {done.first_publish:6} {done.publish:8}"
     )

@@ -296,7 +296,7 @@ def test_explain_what_is_not_in_the_image(run: Runner, built: Path) -> None:
     assert "Did you mean 'rcl_publish'?" in outcome.err
 
 
-def test_a_folder_that_is_none(run: Runner, folder: Path) -> None:
+def test_a_missing_folder(run: Runner, folder: Path) -> None:
     for command in (("size", "."), ("explain", ".", "main")):
         outcome = run(*command)
         assert outcome.status == 2

@@ -32,7 +32,7 @@ def put(folder: Path, text: str, name: str = "microros.yaml") -> Path:
     return path
 
 
-def left_behind(folder: Path) -> list[str]:
+def remaining(folder: Path) -> list[str]:
     return sorted(p.name for p in folder.iterdir() if p.name != "microros.yaml")
 
 
@@ -56,7 +56,7 @@ def test_a_wrong_name_on_the_command_line(run: Runner, folder: Path, command: st
     assert "error:" in outcome.err
     assert named in outcome.err
     assert hint in outcome.err
-    assert left_behind(folder) == []
+    assert remaining(folder) == []
 
 
 @pytest.mark.parametrize("profile", ["pure_sender", "pure_reader"])
@@ -123,7 +123,7 @@ def test_a_fault_in_the_application_file(run: Runner, folder: Path, case: str) -
     outcome = run("build", "-o", "out")
     assert outcome.status == 2
     assert re.search(pattern, outcome.err), outcome.err
-    assert left_behind(folder) == []
+    assert remaining(folder) == []
 
 
 def test_an_interface_larger_than_a_message_is_shown_where_it_is_named(run: Runner, folder: Path) -> None:
@@ -168,7 +168,7 @@ def test_a_missing_compiler(run: Runner, folder: Path, monkeypatch: pytest.Monke
     assert outcome.status == 2
     assert "C compiler" in outcome.err
     assert "apt-get install gcc" in outcome.err
-    assert left_behind(folder) == ["empty"]
+    assert remaining(folder) == ["empty"]
 
 
 def test_a_compiler_that_fails_shows_what_it_said(

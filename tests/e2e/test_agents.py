@@ -365,7 +365,7 @@ def test_a_killed_agent_restarts(
                 live.ok(f"open 0x700 {relay.port}")
                 live.ok("node 0 talker -")
                 live.ok(f"publisher 0 0 Int32 {topic} reliable")
-            comes_back(live, observer, topic)
+            reconnects(live, observer, topic)
             if liveliness != "none":
                 assert live.statistics()["reconnects"] >= 1
             live.ok("close")
@@ -380,7 +380,7 @@ def stays_lost(live: Live) -> None:
     assert live.call("close").took_us < 300_000 + HICCUP_US
 
 
-def comes_back(live: Live, observer: Observer, topic: str, timeout_s: float = 15.0) -> None:
+def reconnects(live: Live, observer: Observer, topic: str, timeout_s: float = 15.0) -> None:
     """Publish until samples arrive again."""
     end = deadline(timeout_s)
     value = 5000

@@ -53,7 +53,7 @@ def begin(observer: Observer) -> None:
 def echo(observer: Observer, program: Path, count: int, timeout_s: float) -> dict[str, int]:
     """Send `count` samples through the device; return what it counted. AssertionError unless all come back in order."""
     begin(observer)
-    came: list[int] = []
+    arrived: list[int] = []
     sent, end, began = 0, deadline(timeout_s), time.monotonic()
     with started(program, str(count - 1)) as process:
         while not observer.ask(do="matched", topic="/echo_in"):
@@ -61,17 +61,19 @@ def echo(observer: Observer, program: Path, count: int, timeout_s: float) -> dic
             assert process.poll() is None, process.communicate()
             time.sleep(0.05)
         time.sleep(0.5)  # and the other way
-        while len(came) < count:
+        while len(arrived) < count:
             assert process.poll() is None or sent == count, process.communicate()
-            more = min(count, len(came) + AHEAD) - sent
+            more = min(count, len(arrived) + AHEAD) - sent
             if more >= min(50, count - sent) and more:
                 values = [{"data": value} for value in range(sent, sent + more)]
                 observer.ask(do="publish", topic="/echo_in", type="std_msgs/msg/Int32", values=values)
                 sent += more
             time.sleep(0.02)
-            came += [value["data"] for topic, value in observer.ask(do="samples") if topic == "/echo_out"]
-            assert came == list(range(len(came))), f"after {time.monotonic() - began:.0f} s: {came[-20:]}"
-            assert time.monotonic() < end, f"{len(came)} of {count} after {timeout_s} s"
+            arrived += [value["data"] for topic, value in observer.ask(do="samples") if topic == "/echo_out"]
+            assert arrived == list(range(len(arrived))), (
+                f"after {time.monotonic() - began:.0f} s: {arrived[-20:]}"
+            )
+            assert time.monotonic() < end, f"{len(arrived)} of {count} after {timeout_s} s"
         out, errors = process.communicate(timeout=seconds(60))
     assert (process.returncode, errors) == (0, "")
     counted = {key: int(value) for key, value in (pair.split("=") for pair in out.split())}

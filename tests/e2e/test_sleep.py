@@ -59,7 +59,7 @@ def test_samples_go_on_over_sleeps(
             assert awake.returncode == 0, awake.stderr
             assert awake.stdout.split()[0] == "woken"
             taken += [int(value) for value in awake.stdout.split()[2:]]
-        came = [value["data"] for _, value in observer.got(CYCLES * EACH)]
-    assert taken == came == list(range(CYCLES * EACH))
+        arrived = [value["data"] for _, value in observer.got(CYCLES * EACH)]
+    assert taken == arrived == list(range(CYCLES * EACH))
     assert not relay.sent.keys() & {CREATE_CLIENT, CREATE, DELETE}
     assert relay.sent[GET_INFO] >= CYCLES, "with each wake-up the agent is asked whether it has the session"

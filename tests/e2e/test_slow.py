@@ -61,13 +61,13 @@ def exchange(observer: Observer, program: Path, timeout_s: float, how: str) -> d
     *replies, counted = out.splitlines()
     print(f"{time.monotonic() - began:.0f} s: {counted}")
     assert replies == ["sum 11", "sum 22"], "what rclpy answered"
-    came: list[int] = []
+    arrived: list[int] = []
     end = deadline(20)
-    while len(came) < len(SAMPLES) or None in observer.ask(do="sums"):
-        assert time.monotonic() < end, (came, observer.ask(do="sums"))
-        came += [value["data"] for topic, value in observer.ask(do="samples") if topic == "/slow_out"]
+    while len(arrived) < len(SAMPLES) or None in observer.ask(do="sums"):
+        assert time.monotonic() < end, (arrived, observer.ask(do="sums"))
+        arrived += [value["data"] for topic, value in observer.ask(do="samples") if topic == "/slow_out"]
         time.sleep(0.1)
-    assert came == SAMPLES
+    assert arrived == SAMPLES
     assert observer.ask(do="sums") == [sum(pair) for pair in SUMS]
     return {key: int(value) for key, value in (pair.split("=") for pair in counted.split())}
 

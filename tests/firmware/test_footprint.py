@@ -15,7 +15,7 @@ from tests.support.firmware.footprint import (
     Sender,
     bounded_stack,
     buffers,
-    painted_stack,
+    measured_stack,
     sections,
 )
 
@@ -69,8 +69,8 @@ def test_the_measured_stack_is_within_the_proven_bound(builds: Builds) -> None:
     """What an image used in the emulator, against the bound over its call graph and the goal of 700 bytes."""
     need(CORTEX_M4, emulator=True)
     built = builds.build(CORTEX_M4, Sender().application)
-    painted = painted_stack(built)
-    assert 100 < painted <= min(bounded_stack(built), 700)
+    used = measured_stack(built)
+    assert 100 < used <= min(bounded_stack(built), 700)
 
 
 def test_with_the_buffers_of_the_existing_stack(builds: Builds) -> None:

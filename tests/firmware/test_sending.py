@@ -70,7 +70,7 @@ def fragments(agent: FakeAgent) -> Iterator[tuple[bool, bytes]]:
 
 def test_a_publish_returns_at_once_when_the_line_takes_nothing(builds: Builds) -> None:
     """A fragment alone takes 45 ms on a line of 115,200 baud, and the 15 of a message 0.6 s."""
-    stopped, agent = published_while_the_line_stands(builds, application(512, LARGE))
+    stopped, agent = published_while_the_line_stalls(builds, application(512, LARGE))
     joined = [part for _, part in fragments(agent)]
     assert b"".join(joined).count(text_of(LARGE)) == 2, "what was taken arrives whole"
     assert len(joined) >= 2 * 14
@@ -82,13 +82,13 @@ def test_a_message_that_is_not_copied_arrives_whole(builds: Builds) -> None:
     text = application(1024, WHOLE)
     built = builds.build(NAME, text)
     assert built.symbol_sizes()["port_output"] < WHOLE
-    stopped, agent = published_while_the_line_stands(builds, text, f"-DLARGE_SIZE={WHOLE}")
+    stopped, agent = published_while_the_line_stalls(builds, text, f"-DLARGE_SIZE={WHOLE}")
     whole = {m[2:4]: m for m in agent.log if m[1] == 0x80 and m[4] == 0x07}
     assert [text_of(WHOLE) in message for message in whole.values()] == [True, True]
     assert 0 < stopped["small_taken"] < SMALL
 
 
-def published_while_the_line_stands(
+def published_while_the_line_stalls(
     builds: Builds, text: str, *flags: str
 ) -> tuple[dict[str, int], FakeAgent]:
     """Return what was so when all was published, and the agent that got it when the line went on."""

@@ -83,9 +83,9 @@ def test_the_processor_rests(framing: str, tmp_path: Path) -> None:
         sent = time.monotonic()
         for answer in agent.numbers(plan.entities.publisher_places, 7):
             served.sendto(answer, peers[-1])
-        came = float(process.stdout.readline())
+        arrived = float(process.stdout.readline())
         assert process.wait(timeout=seconds(20)) == 0
     assert took_ms >= 999
     assert reads <= 250, "two for each rest of 10 ms"
     assert busy_ms < took_ms / 3
-    assert came - sent < 2, "not at the end of the wait of five seconds"
+    assert arrived - sent < 2, "not at the end of the wait of five seconds"

@@ -510,7 +510,7 @@ def test_fragments_where_none_are_planned(bench: Bench) -> None:
 
 
 def test_a_missing_fragment(bench: Bench) -> None:
-    """A HEARTBEAT says so: what is here of that sample is thrown away up to its last piece."""
+    """A HEARTBEAT reports it: received fragments of that sample are discarded up to its last one."""
     reader = Reader(bench, LARGE, type_name="String")
     pieces = reader.agent.offer(FIRST, _text(200))
     number = struct.unpack_from("<H", pieces[1], 2)[0]

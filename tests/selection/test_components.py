@@ -216,12 +216,12 @@ def test_no_two_components_have_the_same_public_header(real_catalogue: Catalogue
 def test_needs_have_no_cycle(real_catalogue: Catalogue) -> None:
     done: set[str] = set()
 
-    def visit(name: str, path: tuple[str, ...]) -> None:
+    def walk(name: str, path: tuple[str, ...]) -> None:
         assert name not in path, f"{' → '.join((*path, name))}"
         if name not in done:
             for need in real_catalogue[name].needs:
-                visit(need, (*path, name))
+                walk(need, (*path, name))
             done.add(name)
 
     for name in real_catalogue:
-        visit(name, ())
+        walk(name, ())

@@ -28,7 +28,7 @@ LOOK_S, BETWEEN_S = 0.001, 0.02
 """Seconds for comparisons before it is others' turn, and until they go on."""
 MOST_COMPARED = 128
 """Endpoints of one topic in this agent up to which it is compared: to ask for very many takes as long as they are."""
-MOST_TOLD = 64
+MOST_REPORTED = 64
 """Differences that are told of one endpoint."""
 FEW, TOGETHER_S = 32, 0.05
 """Endpoints of a node that are asked at once what happened; more are asked some time later, for all that happened."""
@@ -123,12 +123,12 @@ class Comparison(Watcher):
         self._report = report
         self._due: dict[_Place, dict[Endpoint, tuple[Any, int]]] = {}
         """What is to be compared, with the handle of its node and how often a nameless other one is waited for."""
-        self._told: dict[Endpoint, set[GraphReport]] = {}
+        self._reported: dict[Endpoint, set[GraphReport]] = {}
         self._timer = wakeups.add_timer(self)
 
     def soon(self, node: Any, topics: TopicTypes, endpoint: Endpoint) -> None:
         """Compare `endpoint` in a moment; `node` is the handle of its node, `topics` are those of its domain."""
-        self._told.setdefault(endpoint, set())
+        self._reported.setdefault(endpoint, set())
         if not self._due:
             self._wakeups.set_timer(self._timer, CHECK_AFTER_S)
         self._due.setdefault((topics, endpoint.topic, endpoint.mangled), {}).setdefault(
@@ -142,7 +142,7 @@ class Comparison(Watcher):
         due.pop(endpoint, None)
         if not due:
             self._due.pop(place, None)
-        self._told.pop(endpoint, None)
+        self._reported.pop(endpoint, None)
 
     def look(self) -> None:
         """See Watcher. A topic is asked for once, however many endpoints it has here; then it is others' turn."""
@@ -174,8 +174,8 @@ class Comparison(Watcher):
         return nameless
 
     def _tell(self, endpoint: Endpoint, report: GraphReport | None) -> None:
-        reported = self._told[endpoint]
-        if report is not None and report not in reported and len(reported) < MOST_TOLD:
+        reported = self._reported[endpoint]
+        if report is not None and report not in reported and len(reported) < MOST_REPORTED:
             reported.add(report)
             self._report(report)
 

@@ -45,7 +45,7 @@ DOMAIN_OF_AGENT = 255
 OWN_NODE = "_microros_agent"
 """Begin of the name of the agent's own node in a domain; `ros2 node list` leaves out names with an underscore."""
 TRIM_AFTER, TRIM_EVERY_S = 64, 30.0
-"""Nodes that have left since free memory was given back to the system, and the least time in between: it takes some
+"""Nodes that have left since free memory was returned to the system, and the least time in between: it takes some
 milliseconds. What Fast DDS frees lies between what it has in use, and glibc keeps it."""
 
 

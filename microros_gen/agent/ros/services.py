@@ -38,7 +38,7 @@ _NUMBER = struct.Struct("<iI")
 
 
 class Waiter(Protocol):
-    """Who waits for somebody in the graph."""
+    """Waits for a service or client to appear in the graph."""
 
     def still_waits(self) -> bool:
         """Look for who is waited for, and go on when there is somebody; return whether to look again."""
@@ -126,19 +126,19 @@ class RawService(RawSource):
         self._compared = False
         self._types = ros.types
         self._take = take
-        self._told = 0
+        self._reported = 0
         self._info = ServiceInfo()
         self._ignored = RawMessage()
         self._arguments = (self._pointer, byref(self._info), byref(self._ignored))
 
     def _take_next(self) -> bytes | None:
         while self._descriptor >= 0:
-            if not self._told:
+            if not self._reported:
                 try:
-                    self._told = os.eventfd_read(self._descriptor)
+                    self._reported = os.eventfd_read(self._descriptor)
                 except BlockingIOError:
                     return None
-            self._told -= 1
+            self._reported -= 1
             result = self._take(*self._arguments)
             if result == OK:
                 self._compare()
@@ -151,8 +151,8 @@ class RawService(RawSource):
         """See Source."""
         if self._descriptor >= 0:
             with contextlib.suppress(BlockingIOError):
-                self._told += os.eventfd_read(self._descriptor)
-        return self._told
+                self._reported += os.eventfd_read(self._descriptor)
+        return self._reported
 
     def _compare(self) -> None:
         """ROS 2 has no events of services: the first message shows that somebody is there to compare with."""

@@ -38,7 +38,7 @@ class Line:
         self._fd = -1
         self._epoll = select.epoll()  # its descriptor stays, whatever becomes of the line
         self._retry_at = 0.0
-        self._told = ""
+        self._reported = ""
         self._was_open = False
         self._outbox = Outbox(QUEUE_BYTES, self._too_slow)
         self._watches_room = False
@@ -110,7 +110,7 @@ class Line:
         try:
             self._fd = self._open()
         except OSError as error:
-            self._told = error.strerror or str(error)
+            self._reported = error.strerror or str(error)
             raise
         self._epoll.register(self._fd, select.EPOLLIN)
         self._watches_room = False
@@ -119,7 +119,7 @@ class Line:
     def wait(self) -> None:
         """Tell that a line which could not be opened is waited for."""
         text = "serial {device} cannot be opened ({why}); waiting for it"
-        self._tell("device_waiting", text, why=self._told)
+        self._tell("device_waiting", text, why=self._reported)
 
     def tick(self, now: float) -> None:
         """See Transport."""
@@ -143,14 +143,14 @@ class Line:
             self._fd = -1
 
     def _try(self) -> None:
-        known, before = self._was_open, self._told
+        known, before = self._was_open, self._reported
         try:
             self.start()
         except OSError:
-            if self._told != before:
+            if self._reported != before:
                 self.wait()
             return
-        self._told = ""
+        self._reported = ""
         text = "serial {device} is back" if known else "serial {device} is there now"
         self._tell("device_back", text)
 
@@ -158,7 +158,7 @@ class Line:
         self._give_back()
         self._outbox.clear()
         self._decoder.reset()
-        self._told = os.strerror(errno.ENOENT)  # the ordinary reason needs no separate line
+        self._reported = os.strerror(errno.ENOENT)  # the ordinary reason needs no separate line
         self._tell("device_lost", "serial {device} is gone ({why}); waiting for it", why=why)
 
     def _tell(self, event: str, text: str, **fields: str) -> None:

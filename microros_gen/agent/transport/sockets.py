@@ -80,7 +80,7 @@ def open_socket(protocol: Protocol, host: str, port: int) -> socket.socket:
     return made
 
 
-def open_twin(listener: socket.socket, peer: tuple[object, ...]) -> socket.socket:
+def open_connected(listener: socket.socket, peer: tuple[object, ...]) -> socket.socket:
     """Return a socket at the port of `listener` (UDP) that receives only from `peer`; OSError if none is free.
 
     The port is shared among the sockets of this user alone (SO_REUSEPORT), and only from when the listener was bound: a

@@ -17,7 +17,7 @@ from typing import Any
 
 from microros_gen.agent.fairness import TURN_S, Account, Fairness
 from microros_gen.agent.transport.base import Receive
-from microros_gen.agent.transport.sockets import Protocol, open_socket, open_twin, place_name
+from microros_gen.agent.transport.sockets import Protocol, open_connected, open_socket, place_name
 
 BATCH = 64
 """Datagrams that are read from one socket before the answers go out."""
@@ -115,7 +115,7 @@ class Udp:
         peer: Peer = address[1]  # type: ignore[index]
         self.release(address)
         try:
-            twin = open_twin(self._socket, peer)
+            twin = open_connected(self._socket, peer)
         except OSError:
             return  # no descriptor is left: it is read with everybody's
         self._keep(self._socket)  # what it said before comes before what it says from now on

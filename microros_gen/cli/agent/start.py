@@ -134,7 +134,7 @@ class Shared:
     """What the agent and its transports have in common.
 
     What all hold of messages that are not complete counts in `pool`, what waits to be sent in `output`; `fair` says
-    whose turn it is; `strangers` pays for who has no session.
+    whose turn it is; `strangers` pays for clients without a session.
     """
 
     pool: InputPool
@@ -241,7 +241,7 @@ def _files(options: AgentOptions) -> _Files:
     profiles = read_sources(options.references, diagnostics, places)
     entities = read_sources(options.entities, diagnostics, places)
     clients = read_manifests(options.manifests, diagnostics)
-    of_files: HashOf = _nobody
+    of_files: HashOf = _no_hash
     try:
         of_files = type_hashes(options.interface_paths)
     except UserError as error:
@@ -262,7 +262,7 @@ def _files(options: AgentOptions) -> _Files:
     return _Files(references, preconfigured, clients, TypeHashes(of_files, clients.common))
 
 
-def _nobody(_type_name: str) -> None:
+def _no_hash(_type_name: str) -> None:
     """Know no type."""
 
 

@@ -177,7 +177,7 @@ static rcl_ret_t call(char ** word)
   return strcmp(word[0], "say") == 0 ? say(word) : call_session(word);
 }
 
-/* Carries the session on until there is a line; false at the end of input. */
+/* Runs the session until a line is available; false at the end of input. */
 static bool read_line(char * line)
 {
   struct pollfd input = {0, POLLIN, 0};

@@ -131,7 +131,7 @@ void port_sleep_ms(uint32_t duration_ms)
   const char * line;
 
   if (lock_depth > 1u) {
-    fprintf(stderr, "the lock is not given back\n");
+    fprintf(stderr, "the lock is not released\n");
     abort();
   }
   fake_pass(duration_ms);

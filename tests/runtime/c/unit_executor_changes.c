@@ -328,7 +328,7 @@ static void begin(rclc_executor_semantics_t semantics)
   agent_reply_count = 0;
 }
 
-/* Every slot can be used again: none is kept back. */
+/* Every slot can be used again: none is reserved. */
 static void end(void)
 {
   const std_msgs__msg__Int32 message = {1};

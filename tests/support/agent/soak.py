@@ -321,7 +321,7 @@ class World:
         self._line.close()
 
     def _tell_minute(self) -> None:
-        """Print what a minute that is over looked like, for who waits and sees (`pytest -s`)."""
+        """Print a summary of the last minute, for an observer (`pytest -s`)."""
         minute = int(self.rss[-1][0]) // 60
         if minute > self._minute:
             self._minute = minute
@@ -364,7 +364,7 @@ class _Course:
     def go(self, now: float) -> bool:
         """Go on if it can; return whether there is more to come."""
         if self._until is not None and not self._until():
-            assert now - self._since < PATIENCE_S, "it waits in vain"
+            assert now - self._since < PATIENCE_S, "no answer in time"
             return True
         if self._until is None and now < self._at:
             return True

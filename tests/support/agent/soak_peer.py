@@ -39,12 +39,12 @@ class Ledger:
         self._calls: dict[str, tuple[Any, list[int]]] = {}
         self._number = 0
         latched = QoSProfile(depth=5000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        node.create_subscription(String, "/soak/up", self._came, latched)
+        node.create_subscription(String, "/soak/up", self._arrived, latched)
         node.create_service(GetParameterTypes, "/soak/ledger", self._asked)
         self._down = node.create_publisher(String, "/soak/down", DEPTH)
         node.create_timer(DOWN_S, self._publish)
 
-    def _came(self, message: Any) -> None:
+    def _arrived(self, message: Any) -> None:
         key, life, number, size, rest = message.data.split(":", 4)
         good = self._good.setdefault((key, life), 0)
         if int(number) == good and rest == "x" * int(size):

@@ -159,7 +159,7 @@ def _symbol_sizes(built: Built) -> str:
     ).stdout
 
 
-def painted_stack(built: Built, samples: int = 5) -> int:
+def measured_stack(built: Built, samples: int = 5) -> int:
     """Return how many bytes of the stack the image has used when `samples` samples have left the board."""
     agent = FakeAgent(objects={b"\0\5": b""})  # a preconfigured client writes to existing objects
     with board(built) as running, scripted_agent(running.device, agent):

@@ -48,7 +48,7 @@ def idl_compiler(folder: Path) -> IdlCompiler:
     assert spec.origin is not None
     package = Path(spec.origin).parent
     program = folder / "idlc"
-    program.write_bytes(_mended(package / ".libs" / "idlc"))
+    program.write_bytes(_repaired(package / ".libs" / "idlc"))
     program.chmod(0o755)
     source, back_end = folder / "back_end.c", folder / "back_end.so"
     source.write_text(BACK_END, encoding="utf-8")
@@ -56,7 +56,7 @@ def idl_compiler(folder: Path) -> IdlCompiler:
     return IdlCompiler(program, back_end, package.with_name("cyclonedds.libs"))
 
 
-def _mended(program: Path) -> bytes:
+def _repaired(program: Path) -> bytes:
     """Return the program with its dynamic section writable.
 
     patchelf moved that of the wheel 11.0.1 across a page that is loaded read-only, so the program ends in the loader.

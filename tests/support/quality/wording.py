@@ -26,6 +26,8 @@ EXCLUDED = (
     "microros_gen/idl/",
     "tests/quality/wording.yaml",
     "tests/quality/test_wording.py",
+    "tests/quality/names.yaml",
+    "tests/quality/test_names.py",
 )
 _PAGE_CODE = re.compile(
     r"^( *)```.*?^\1```|`[^`\n]+`|\]\([^)]*\)|<!-- misra: begin.*?misra: end -->", re.M | re.S

@@ -24,7 +24,7 @@ typedef struct xrce_service_t {
   const microros_message_type_t * sent; /* with the limits of this endpoint */
 } xrce_service_t;
 
-/* A request without a reply; all zero: none. */
+/* A request without a reply; zero-initialized: none. */
 typedef struct xrce_request_t {
   uint32_t sequence; /* low half of its sequence number */
   uint16_t request;  /* its number on the wire */
