@@ -93,12 +93,12 @@ void parameter_out_reason(
   uint32_t count = 0;
 
   while (*words != '\0' && count < (uint32_t)PIECES_MAX) {
-    uint32_t size = 0;
-
     if (*words == '%') {
       pieces[count] = reason_insertion(words[1], place, asked);
       words = &words[2];
     } else {
+      uint32_t size = 0;
+
       while (words[size] != '\0' && words[size] != '%') {
         ++size;
       }

@@ -65,7 +65,7 @@ typedef enum reply_part_t { REPLY_VALUE, REPLY_TYPE, REPLY_DESCRIPTOR } reply_pa
 static uint32_t reply_of_names(const void * message, uint8_t * body, uint32_t room, reply_part_t part)
 {
   const rclc_parameter_server_t * server = message;
-  cdr_fault_t fault;
+  cdr_fault_t fault = {.field = ""};
   cdr_in_t in = parameter_request_begin(server, &fault);
   const uint32_t count = parameter_request_length(&in);
   parameter_out_t out = reply_begin(body, room);
@@ -185,7 +185,7 @@ static bool reply_is_below(const char * name, const parameter_text_t * prefix)
 static bool reply_lists(const rclc_parameter_server_t * server, const rclc_parameter_place_t * place)
 {
   const char * name = place->name;
-  cdr_fault_t fault;
+  cdr_fault_t fault = {.field = ""};
   cdr_in_t in = parameter_request_begin(server, &fault);
   const uint32_t count = parameter_request_length(&in);
   bool below = false;

@@ -120,7 +120,7 @@ static void set_make(rclc_parameter_server_t * server, const parameter_asked_t *
 
 void parameter_set_each(rclc_parameter_server_t * server)
 {
-  cdr_fault_t fault;
+  cdr_fault_t fault = {.field = ""};
   cdr_in_t in = parameter_request_begin(server, &fault);
   const uint32_t count = parameter_request_length(&in);
 
@@ -145,7 +145,7 @@ typedef enum set_pass_t { SET_PASS_CHECK, SET_PASS_ACCEPT, SET_PASS_MAKE } set_p
 /* Returns whether all parameters passed; else the outcome of the first that did not is noted. */
 static bool set_pass(rclc_parameter_server_t * server, set_pass_t pass)
 {
-  cdr_fault_t fault;
+  cdr_fault_t fault = {.field = ""};
   cdr_in_t in = parameter_request_begin(server, &fault);
   const uint32_t count = parameter_request_length(&in);
   size_t fresh = 0;
