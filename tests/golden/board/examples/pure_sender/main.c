@@ -19,7 +19,7 @@
 #define EXAMPLE_PERIOD_MS 100
 #endif
 
-/* How often it does so before it ends: here, for years. */
+/* Number of samples before the program ends: by default enough for years. */
 #ifndef EXAMPLE_SAMPLES
 #define EXAMPLE_SAMPLES UINT32_MAX
 #endif
@@ -32,8 +32,8 @@ static rcl_publisher_t publisher_1;
 static std_msgs__msg__Header header_1;
 static std_msgs__msg__Header__Storage header_1_storage;
 
-/* Into the storage that the message is bound to. rosidl_runtime_c__String__assign does it too, and links storage of its
- * own for what is longer; a message that is bound needs none. */
+/* Copies into the storage that the message is bound to. rosidl_runtime_c__String__assign does that, too,
+ * but links further storage for longer texts, which a bound message does not need. */
 static bool put_text(rosidl_runtime_c__String * string, const char * text)
 {
   const size_t size = strlen(text);
@@ -98,7 +98,7 @@ static rcl_ret_t publish_int32_0(uint32_t count)
 
 static rcl_ret_t publish_header_1(uint32_t count)
 {
-  const uint32_t now_ms = port_time_ms(); /* since the start; once the time of day is set, port_time_epoch_ns() has it */
+  const uint32_t now_ms = port_time_ms(); /* since the start; port_time_epoch_ns(): time of day */
 
   header_1.stamp.sec = (int32_t)(now_ms / 1000u);
   header_1.stamp.nanosec = now_ms % 1000u * 1000000u;
@@ -106,10 +106,10 @@ static rcl_ret_t publish_header_1(uint32_t count)
   return rcl_publish(&publisher_1, &header_1, NULL);
 }
 
-/* Why a call failed: the library keeps the text of the last error. */
+/* Reports why a call failed: the library keeps the text of the last error. */
 static void report(const char * what)
 {
-  (void)what; /* a debugger finds the text in rcl_get_error_string() */
+  (void)what; /* in a debugger, look at rcl_get_error_string() */
   rcl_reset_error();
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the application file declares, as constant tables; only where it has `nodes:`. */
+/* Declarations of the application file as constant tables; only with `nodes:`. */
 #ifndef MICROROS_PLAN_H
 #define MICROROS_PLAN_H
 
@@ -16,7 +16,7 @@ typedef struct microros_declared_node_t {
 
 typedef struct microros_declared_endpoint_t {
   const char * name;     /* fully qualified */
-  const char * dds_type; /* "std_msgs::msg::dds_::Int32_"; of a service its own */
+  const char * dds_type; /* "std_msgs::msg::dds_::Int32_"; of a service: its service type */
   uint16_t node;         /* index of its node */
 } microros_declared_endpoint_t;
 
@@ -25,7 +25,7 @@ extern const microros_declared_node_t microros_declared_nodes[MICROROS_NODES_MAX
 /* In the order of their places: publishers, subscriptions, services, clients. */
 extern const microros_declared_endpoint_t microros_declared_endpoints[XRCE_ENDPOINTS];
 
-/* The names by which the source knows them: those on the wire. */
+/* The names in the source code: the same as on the wire. */
 static inline const char * microros_declared_node_name(const microros_declared_node_t * node)
 {
   return node->name;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Is an agent at the other end of a transport that is no session's? Internal. */
+/* Asks for an agent over a transport that belongs to no session. Internal. */
 #ifndef MICROROS_RMW_INQUIRY_H
 #define MICROROS_RMW_INQUIRY_H
 
@@ -13,13 +13,13 @@ extern "C" {
 #endif
 
 /*
- * Opens a prepared transport, asks `attempts` times, waits `timeout_ms` for each answer, and closes it. Returns whether one
- * came. The caller has the lock; it is given back where this waits, unless the line may become that of a session
- * meanwhile: before there is one.
+ * Opens a prepared transport, sends up to `attempts` requests, waits `timeout_ms` for each answer, and
+ * closes it. Returns whether an answer arrived. The caller holds the lock; it is released while this
+ * function waits, unless no session exists, which could then be opened over the same line.
  */
 bool rmw_inquiry_ask(xrce_transport_t * transport, uint32_t timeout_ms, uint8_t attempts);
 
-/* No two tasks ask over lines that they would share memory for. */
+/* Single-task variant: no other task can be asking over a line with shared memory. */
 static inline void rmw_inquiry_await(void)
 {
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The entities of a client: what the application wants, and what the agent has of it. They stay in these
- * tables over a lost session, so that creating them again is the code that created them first.
+ * Entities of a client: what the application wants and what exists at the agent. The tables survive a lost
+ * session, so that re-creation uses the same code as creation.
  */
 #ifndef MICROROS_XRCE_OBJECTS_H
 #define MICROROS_XRCE_OBJECTS_H
@@ -15,8 +15,8 @@
 #include "microros_config.h"
 
 /*
- * Places: the nodes first, then their endpoints by kind. Who receives comes last, so that what belongs to receiving alone
- * has a table of its own that begins there.
+ * Places: nodes first, then their endpoints by kind. Receiving kinds come last, so that tables for
+ * receivers only can start there.
  */
 enum {
   XRCE_WRITERS_AT = MICROROS_NODES_MAX,
@@ -29,32 +29,32 @@ enum {
 enum {
   XRCE_ENDPOINTS = XRCE_PLACES - MICROROS_NODES_MAX,
   XRCE_RECEIVERS = XRCE_PLACES - XRCE_READERS_AT,
-  XRCE_SERVICES = XRCE_PLACES - XRCE_REPLIERS_AT /* and their clients */
+  XRCE_SERVICES = XRCE_PLACES - XRCE_REPLIERS_AT /* including their clients */
 };
 
 /* Levels of a participant, of a writer or reader with its topic, and of a replier or requester. */
 enum { XRCE_PARTICIPANT_COMPLETE = 1, XRCE_ENDPOINT_COMPLETE = 3, XRCE_SERVICE_COMPLETE = 1 };
 
-/* A node's participant. The strings live as long as the place is taken. */
+/* A node's participant. The strings are valid as long as the place is in use. */
 typedef struct xrce_participant_t {
   const char * name;
   const char * namespace_; /* "/" or "/a/b" */
   uint16_t domain_id;
 } xrce_participant_t;
 
-/* What a node writes or receives: a topic with publisher and data writer or with subscriber and data reader, a replier or
- * a requester. */
+/* An endpoint of a node: a topic with publisher and data writer, or with subscriber and data reader; a
+ * replier or a requester. */
 typedef struct xrce_endpoint_t {
   xrce_client_t * client;
   const microros_message_type_t * type;
   const char * name; /* fully qualified, "/chatter" */
   uint16_t depth;
-  uint16_t index;       /* among the endpoints, and so of its objects: its place without the nodes */
+  uint16_t index;       /* among the endpoints, and of its objects: its place minus the number of nodes */
   uint16_t participant; /* its node's place */
   uint8_t qos;          /* XRCE_QOS_ */
 } xrce_endpoint_t;
 
-/* Whether a place is a participant's, a data reader's, or one of a service. */
+/* Return whether a place belongs to a participant, a data reader, or a service. */
 static inline bool xrce_place_is_participant(uint16_t place)
 {
   return place < MICROROS_NODES_MAX;
@@ -71,7 +71,7 @@ static inline bool xrce_place_is_service(uint16_t place)
   return XRCE_SERVICES != 0 && place >= XRCE_REPLIERS_AT;
 }
 
-/* Returns how many objects a place has at the agent when it is complete. */
+/* Returns how many objects a complete place has at the agent. */
 static inline uint8_t xrce_place_complete(uint16_t place)
 {
   if (xrce_place_is_service(place)) {

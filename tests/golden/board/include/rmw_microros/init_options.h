@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Where the agent is, and who this client is. */
+/* Address of the agent and identity of this client. */
 #ifndef MICROROS_RMW_MICROROS_INIT_OPTIONS_H
 #define MICROROS_RMW_MICROROS_INIT_OPTIONS_H
 
@@ -14,14 +14,15 @@ extern "C" {
 #endif
 
 /*
- * The transport is serial: RMW_UXRCE_TRANSPORT_SERIAL is defined. Functions of the others are not there; who calls
- * one is told by its name what to set in microros.yaml.
+ * The transport is serial: RMW_UXRCE_TRANSPORT_SERIAL is
+ * defined. Functions of other transports are not declared: a call fails to compile with a name that says
+ * what to set in microros.yaml.
  */
 #define rmw_uros_options_set_udp_address rmw_uros_options_set_udp_address__needs__transport_type_udp
 #define rmw_uros_options_set_tcp_address rmw_uros_options_set_tcp_address__needs__transport_type_tcp
 #define rmw_uros_options_set_serial_device rmw_uros_options_set_serial_device__the_board_has_one
 
-/* Two clients with one key take each other's session. 0 is refused: agents do so too. */
+/* Two clients with the same key take over each other's session. 0 is refused, as agents do. */
 rmw_ret_t rmw_uros_options_set_client_key(uint32_t client_key, rmw_init_options_t * rmw_options);
 
 #ifdef __cplusplus

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* A string of up to three pieces: its length, the pieces, one NUL. Below 64 KiB, since a message is. */
+/* A string of up to three parts: total length, the parts, one NUL. Below 64 KiB, since a message is. */
 static uint8_t * binary_put_string(uint8_t * at, const char * first, const char * second, const char * third)
 {
   uint8_t * end = xrce_describe_text(xrce_describe_text(xrce_describe_text(&at[4], first), second), third);
@@ -17,7 +17,7 @@ static uint8_t * binary_put_string(uint8_t * at, const char * first, const char 
   return end;
 }
 
-/* The name is that of a QoS profile; there is no domain reference. */
+/* The name is that of a QoS profile; no domain reference. */
 static uint8_t * binary_put_participant(uint8_t * blob, const xrce_participant_t * participant)
 {
   const bool is_root = participant->namespace_[1] == '\0';
@@ -28,7 +28,7 @@ static uint8_t * binary_put_participant(uint8_t * blob, const xrce_participant_t
     &blob[4], is_root ? "" : participant->namespace_, is_root ? "" : "/", participant->name);
 }
 
-/* No type reference, but a type name, padded to four from the blob's begin. */
+/* No type reference, but a type name, padded to four from the start of the blob. */
 static uint8_t * binary_put_topic(uint8_t * blob, const xrce_endpoint_t * endpoint)
 {
   uint8_t * end = binary_put_string(blob, "rt", "", endpoint->name);
@@ -41,7 +41,7 @@ static uint8_t * binary_put_topic(uint8_t * blob, const xrce_endpoint_t * endpoi
   return binary_put_string(end, "", "", endpoint->type->dds_type_name);
 }
 
-/* QoS: flags, depth where there is one; neither deadline, lifespan, user data nor ownership strength. */
+/* QoS: flags, depth if set; neither deadline, lifespan, user data nor ownership strength. */
 static uint8_t * binary_put_data_writer(uint8_t * blob, const xrce_endpoint_t * endpoint)
 {
   (void)memset(blob, 0, 14);
@@ -56,7 +56,7 @@ static uint8_t * binary_put_data_writer(uint8_t * blob, const xrce_endpoint_t * 
   return &blob[14];
 }
 
-/* As a data writer's, but neither filter by time nor by content where that has ownership strength. */
+/* Like a data writer's, with neither time-based nor content filter in place of ownership strength. */
 static uint8_t * binary_put_data_reader(uint8_t * blob, const xrce_endpoint_t * endpoint)
 {
   uint8_t * end = binary_put_data_writer(blob, endpoint);

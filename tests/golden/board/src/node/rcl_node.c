@@ -86,7 +86,7 @@ bool rcl_node_is_valid_except_context(const rcl_node_t * node)
 
 bool rcl_node_is_valid(const rcl_node_t * node)
 {
-  return node != NULL && rmw_node_is_open(node->impl); /* which needs the session, and so the context */
+  return node != NULL && rmw_node_is_open(node->impl); /* which implies an open session and context */
 }
 
 const char * rcl_node_get_name(const rcl_node_t * node)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* errors: text. What helps when a stream is full follows from the plan; what stands behind % is said in error_text.c. */
+/* errors: text. The hint for a full stream depends on the plan; error_text.c explains the letters after %. */
 #include "microros/error.h"
 
 const char microros_error_stream_full[] =

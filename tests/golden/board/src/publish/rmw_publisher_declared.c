@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `nodes:` is in the application file: only the publishers that it declares can be opened; the names are
- * constants. */
+/* `nodes:` is in the application file: only declared publishers can be opened; the names are constants. */
 #include "microros/error.h"
 #include "microros/plan.h"
 #include "microros/rmw_publisher.h"

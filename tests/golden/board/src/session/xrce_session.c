@@ -9,13 +9,13 @@
 
 #include <string.h>
 
-/* Whether there are properties of the client (0: none), and what they are: names and values, strings of which each begins
- * at a multiple of four of the message. */
+/* Whether the client has properties (0: none), then their names and values: strings, each aligned to four
+ * bytes of the message. */
 static const uint8_t properties[] = {0};
 
 enum { PROPERTIES_AT = 21, CREATE_CLIENT_SIZE = PROPERTIES_AT + sizeof(properties) + 2 };
 
-/* One pump takes no more datagrams than this: who floods us must not stop us. */
+/* Limits the datagrams per pump, so that a flood cannot block the client. */
 enum { DATAGRAMS_PER_PUMP = 32 };
 
 static const uint8_t cookie_and_version[] = {'X', 'R', 'C', 'E', 1, 0, 1, 15};
@@ -71,7 +71,7 @@ static void session_send_create_client(xrce_session_t * session)
   message[20] = XRCE_SESSION_ID;
   (void)memcpy(&message[PROPERTIES_AT], properties, sizeof(properties));
   xrce_put_le16(&message[PROPERTIES_AT + sizeof(properties)], MICROROS_INPUT_SIZE);
-  (void)xrce_session_send(session, message, sizeof(message)); /* a loss is what the retry is for */
+  (void)xrce_session_send(session, message, sizeof(message)); /* a lost message is repeated */
 }
 
 uint32_t xrce_session_pause(uint32_t wanted_ms)
@@ -100,7 +100,7 @@ void xrce_session_lose(xrce_client_t * client, uint32_t now)
 {
   xrce_session_t * session = &client->session;
 
-  session_close_transport(session); /* a fresh socket follows a new address of ours */
+  session_close_transport(session); /* a new socket uses a new local address */
   session->state = XRCE_CONNECTING;
   session->since_ms = now;
   session->due_ms = now;
@@ -117,7 +117,7 @@ void xrce_session_on_status_agent(
     return;
   }
   if (session->state != XRCE_CONNECTING) {
-    return; /* the answer to a repetition */
+    return; /* answer to a repetition */
   }
   if (payload[0] > XRCE_STATUS_OK_MATCHED) {
     session->refusal = payload[0];
@@ -154,7 +154,7 @@ bool xrce_session_take_submessages(xrce_client_t * client, const uint8_t * messa
   return true;
 }
 
-/* Hands a message to its stream; false where it is not what it should be. */
+/* Passes a message to its stream; returns false for a malformed message. */
 static bool session_take_message(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
 {
   if (size < XRCE_MESSAGE_HEADER || (message[0] != XRCE_SESSION_ID && message[0] != XRCE_SESSION_NONE)) {
@@ -222,5 +222,5 @@ void xrce_session_close(xrce_client_t * client)
 {
   client->session.state = XRCE_CLOSED;
   session_close_transport(&client->session);
-  (void)memset(client->states, 0, sizeof(client->states)); /* whoever still has an entity has it no more */
+  (void)memset(client->states, 0, sizeof(client->states)); /* invalidates open handles */
 }

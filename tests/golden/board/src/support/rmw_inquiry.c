@@ -7,10 +7,10 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_wire.h"
 
-/* The agents' INFO has 36 bytes; what is longer than this is none. */
+/* The agent's INFO has 36 bytes; anything longer than this is not an INFO. */
 enum { INPUT_SIZE = 40 };
 
-/* Without a session nobody has anything to do but to open one, maybe over this line: that waits. */
+/* Without a session other tasks could only open one, maybe over this line: they have to wait. */
 static void inquiry_rest(void)
 {
   if (rmw_client_instance()->session.state == (uint8_t)XRCE_CLOSED) {
@@ -20,7 +20,7 @@ static void inquiry_rest(void)
   }
 }
 
-/* Whether `message` begins with an INFO. */
+/* Returns whether `message` starts with an INFO. */
 static bool inquiry_is_info(const uint8_t * message, int32_t size)
 {
   return size > XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER && message[XRCE_MESSAGE_HEADER] == XRCE_INFO;
@@ -31,13 +31,13 @@ static void inquiry_send(xrce_transport_t * transport)
   uint8_t message[XRCE_GET_INFO_SIZE];
 
   xrce_put_get_info(message, XRCE_SESSION_NONE);
-  (void)xrce_transport_send(transport, message, sizeof(message)); /* a loss is no answer */
+  (void)xrce_transport_send(transport, message, sizeof(message)); /* a lost message just remains unanswered */
 }
 
 static bool inquiry_once(xrce_transport_t * transport, uint32_t timeout_ms)
 {
   const uint32_t start = port_time_ms();
-  uint8_t * input = rmw_client_instance()->input; /* nobody has anything in it now */
+  uint8_t * input = rmw_client_instance()->input; /* unused without a session */
 
   inquiry_send(transport);
   for (;;) {

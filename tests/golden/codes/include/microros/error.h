@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * errors: code. An error is its number, and the text behind rcl_get_error_string "E" and that number; what a place
- * says beside it is dropped by the compiler. E01 is an error that the application set (rcutils_set_error_state).
+ * errors: code. The text returned by rcl_get_error_string is "E" and the error's number; the compiler
+ * drops all other arguments. E01 is an error set by the application (rcutils_set_error_state).
  */
 #ifndef MICROROS_ERROR_H
 #define MICROROS_ERROR_H
@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/* Words that would become `detail`: there are some, and nobody reads them. */
+/* Keeps words that would become `detail` out of the image: callers only test whether they are NULL. */
 #define MICROROS_ERROR_WORDS(words) ("?")
 
 typedef uint8_t microros_error_t;
@@ -52,7 +52,7 @@ enum {
   microros_error_blocks_taken = 65,
 };
 
-/* Makes this the last error, and returns `result`. */
+/* Sets the last error; returns `result`. */
 int32_t microros_error_code(int32_t result, microros_error_t error);
 
 static inline void microros_error_set(
@@ -77,10 +77,12 @@ static inline int32_t microros_error_named(int32_t result, microros_error_t erro
   return microros_error_code(result, error);
 }
 
-/* A session holds no more places of one kind. */
+/* Largest pool of one kind that a session can have. */
 #define MICROROS_POOL_MOST 250u
 
-/* Returns what a full pool of this many places says: `error` advises one more, where one more can be. */
+/*
+ * Returns the error for a full pool of `places`: `error` suggests a larger pool, unless the pool cannot
+ * grow. */
 static inline microros_error_t microros_error_of_pool(microros_error_t error, uint32_t places)
 {
   return places < MICROROS_POOL_MOST ? error : (microros_error_t)microros_error_pool_most;

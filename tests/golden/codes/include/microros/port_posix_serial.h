@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Between the serial line of this port and who waits for it; internal to it. */
+/* Shared by the serial line of this port and its wait function; internal. */
 #ifndef MICROROS_PORT_POSIX_SERIAL_H
 #define MICROROS_PORT_POSIX_SERIAL_H
 

@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the options of a session say about UDP. */
+/* Options of a session over UDP. */
 #ifndef MICROROS_RMW_TRANSPORT_PARAMS_H
 #define MICROROS_RMW_TRANSPORT_PARAMS_H
 
 #include <stdint.h>
 
-/* Room for an address in digits, of IPv6 in full where the plan's is one, and for "65535", each with its NUL. */
+/*
+ * Sizes of a numeric address, an unabbreviated IPv6 one if the plan's is IPv6, and of "65535", each
+ * including its NUL. */
 #define RMW_UXRCE_MAX_HOST_SIZE 32
 #define RMW_UXRCE_MAX_PORT_SIZE 6
 
-/* Where the agent is, and the key of the session. Empty or 0: as the plan says. */
+/* Address of the agent, and key of the session. Empty or 0: the plan's value. */
 typedef struct rmw_uxrce_transport_params_t {
   uint32_t client_key;
   char agent_address[RMW_UXRCE_MAX_HOST_SIZE];

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The transport of the session: UDP. Each transport component brings this header with the same functions. */
+/*
+ * The transport of the session: UDP. Every transport component provides this header with the same
+ * functions. */
 #ifndef MICROROS_XRCE_TRANSPORT_H
 #define MICROROS_XRCE_TRANSPORT_H
 
@@ -13,7 +15,7 @@
 extern "C" {
 #endif
 
-/* How texts name the other end: xrce_transport_name, and xrce_transport_port as %n or %m. */
+/* Names of the other end in error texts: xrce_transport_name, and xrce_transport_port as %n or %m. */
 #define XRCE_PLACE_N "%s:%n"
 #define XRCE_PLACE_M "%s:%m"
 
@@ -33,13 +35,13 @@ static inline uint16_t xrce_transport_port(const xrce_transport_t * transport)
   return transport->port;
 }
 
-/* Returns what port_wait waits for. */
+/* Returns the handle for port_wait. */
 static inline intptr_t xrce_transport_handle(const xrce_transport_t * transport)
 {
   return transport->udp.handle;
 }
 
-/* Whether two transports would share one line: sockets never do. */
+/* Returns whether two transports share one line: sockets never do. */
 static inline bool xrce_transport_is_same_line(const xrce_transport_t * a, const xrce_transport_t * b)
 {
   (void)a;
@@ -47,20 +49,20 @@ static inline bool xrce_transport_is_same_line(const xrce_transport_t * a, const
   return false;
 }
 
-/* A pump begins. */
+/* Called at the start of a pump. */
 static inline void xrce_transport_begin_turn(xrce_transport_t * transport)
 {
   (void)transport;
 }
 
-/* Whether a stream may send one more message in this turn: sending never waits. */
+/* Returns whether a stream may send another message in this pump: always, since sending never waits. */
 static inline bool xrce_transport_take_turn(xrce_transport_t * transport)
 {
   (void)transport;
   return true;
 }
 
-/* Whether who sends may leave received messages to others for now: reading never waits. */
+/* Returns whether a publish may skip reading for now: no, reading never waits. */
 static inline bool xrce_transport_may_skip_reading(const xrce_transport_t * transport, uint32_t pause_ms)
 {
   (void)transport;
@@ -68,7 +70,7 @@ static inline bool xrce_transport_may_skip_reading(const xrce_transport_t * tran
   return false;
 }
 
-/* Whether nothing waits to be sent. */
+/* Returns whether all data was sent. */
 static inline bool xrce_transport_is_idle(xrce_transport_t * transport)
 {
   (void)transport;
@@ -79,11 +81,10 @@ bool xrce_transport_open(xrce_transport_t * transport);
 
 void xrce_transport_close(xrce_transport_t * transport);
 
-/* Sends one message without blocking. False: it was not taken. */
+/* Sends one message without blocking. Returns false if it was not accepted. */
 bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, size_t size);
 
-/* Takes one message without blocking. Returns its size, 0 when there is none, -1 for one that had to be
- * thrown away. */
+/* Receives one message without blocking. Returns its size, 0 if none has arrived, -1 for a discarded one. */
 int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity);
 
 #ifdef __cplusplus

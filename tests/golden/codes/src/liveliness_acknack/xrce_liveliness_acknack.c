@@ -10,8 +10,8 @@ void xrce_liveliness_acknack_reset(xrce_liveliness_acknack_t * liveliness, uint3
   liveliness->first = 0;
 }
 
-/* Whether there is nothing to acknowledge, or something was. A message that is dropped for a newer one moves
- * the stream on as well, but nobody is heard then. */
+/* Returns whether nothing is unacknowledged, or an acknowledgement arrived. A message dropped for a newer
+ * one also advances the stream, but is no sign of life. */
 static bool liveliness_is_fine(const xrce_client_t * client)
 {
   const xrce_stream_reliable_t * stream = &client->reliable;

@@ -20,7 +20,7 @@
 #define EXAMPLE_PERIOD_MS 100
 #endif
 
-/* How often it does so before it ends: here, for years. */
+/* Number of samples before the program ends: by default enough for years. */
 #ifndef EXAMPLE_SAMPLES
 #define EXAMPLE_SAMPLES UINT32_MAX
 #endif
@@ -33,8 +33,8 @@ static rcl_publisher_t publisher_1;
 static std_msgs__msg__Header header_1;
 static std_msgs__msg__Header__Storage header_1_storage;
 
-/* Into the storage that the message is bound to. rosidl_runtime_c__String__assign does it too, and links storage of its
- * own for what is longer; a message that is bound needs none. */
+/* Copies into the storage that the message is bound to. rosidl_runtime_c__String__assign does that, too,
+ * but links further storage for longer texts, which a bound message does not need. */
 static bool put_text(rosidl_runtime_c__String * string, const char * text)
 {
   const size_t size = strlen(text);
@@ -107,7 +107,7 @@ static rcl_ret_t publish_header_1(uint32_t count)
   return rcl_publish(&publisher_1, &header_1, NULL);
 }
 
-/* Why a call failed: the library keeps the text of the last error. */
+/* Reports why a call failed: the library keeps the text of the last error. */
 static void report(const char * what)
 {
   (void)fprintf(stderr, "%s: %s\n", what, rcl_get_error_string().str);

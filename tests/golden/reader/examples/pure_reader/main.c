@@ -18,7 +18,7 @@
 #define EXAMPLE_PERIOD_MS 100
 #endif
 
-/* How often it does so before it ends: here, for years. */
+/* Number of samples before the program ends: by default enough for years. */
 #ifndef EXAMPLE_SAMPLES
 #define EXAMPLE_SAMPLES UINT32_MAX
 #endif
@@ -32,7 +32,7 @@ static std_msgs__msg__String string_received_1;
 static std_msgs__msg__String__Storage string_received_1_storage;
 static rclc_executor_t executor;
 static uint32_t failed;
-static uint32_t ticks; /* of timers; without one: of EXAMPLE_PERIOD_MS */
+static uint32_t ticks; /* of timers; without timers: of EXAMPLE_PERIOD_MS */
 
 static void on_int32_received_0(const void * message);
 static void on_string_received_1(const void * message);
@@ -92,14 +92,14 @@ static void application_fini(void)
   (void)rclc_support_fini(&support);
 }
 
-/* Why a call failed: the library keeps the text of the last error. */
+/* Reports why a call failed: the library keeps the text of the last error. */
 static void report(const char * what)
 {
   (void)fprintf(stderr, "%s: %s\n", what, rcl_get_error_string().str);
   rcl_reset_error();
 }
 
-/* The executor took `message`; it is valid until this returns. */
+/* `message` is valid until the callback returns. */
 static void on_int32_received_0(const void * message)
 {
   const std_msgs__msg__Int32 * const received = (const std_msgs__msg__Int32 *)message;
@@ -108,7 +108,7 @@ static void on_int32_received_0(const void * message)
   (void)fflush(stdout);
 }
 
-/* The executor took `message`; it is valid until this returns. */
+/* `message` is valid until the callback returns. */
 static void on_string_received_1(const void * message)
 {
   const std_msgs__msg__String * const received = (const std_msgs__msg__String *)message;
@@ -117,7 +117,7 @@ static void on_string_received_1(const void * message)
   (void)fflush(stdout);
 }
 
-/* Lets the executors work for EXAMPLE_PERIOD_MS. */
+/* Runs the executors for EXAMPLE_PERIOD_MS. */
 static void run(void)
 {
   const uint32_t begin = port_time_ms();

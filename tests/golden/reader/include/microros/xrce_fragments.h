@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Fragments of the agent's reliable stream: DATA above the MTU comes in pieces, one message each and one behind the other
- * (OMG DDS-XRCE 1.0, 8.3.5.14). There is no buffer here: each piece goes straight to the slot in which the sample will
- * wait, which a reader has free for every sample that it asked for. What is larger than a slot is refused with its first
- * piece.
- */
+ * Fragments of the agent's reliable stream: DATA above the MTU arrives as consecutive fragments, one
+ * message each  (OMG DDS-XRCE 1.0, 8.3.5.14). They need no separate buffer: each is copied to
+ * the slot in which the sample will wait; a reader has a free slot for every requested sample. A sample
+ * larger than a slot is refused with its first fragment.  */
 #ifndef MICROROS_XRCE_FRAGMENTS_H
 #define MICROROS_XRCE_FRAGMENTS_H
 
@@ -19,18 +18,18 @@
 extern "C" {
 #endif
 
-/* All zero: nothing has come. */
+/* Zero-initialized: nothing received. */
 typedef struct xrce_fragments_t {
-  xrce_arrival_t sample; /* whose bytes come; valid from its first piece on */
-  uint16_t arrived;      /* bytes of the sample that are in its slot */
-  uint16_t next;         /* number of the message in which the next piece has to come */
+  xrce_arrival_t sample; /* the sample being assembled; valid from its first fragment on */
+  uint16_t arrived;      /* bytes of the sample in its slot */
+  uint16_t next;         /* number of the message that must contain the next fragment */
   bool begun;
-  bool skipping; /* up to the last piece of what cannot be had */
+  bool skipping; /* skip up to the last fragment of an incomplete sample */
 } xrce_fragments_t;
 
 void xrce_fragments_reset(xrce_fragments_t * fragments);
 
-/* Takes the payload of a FRAGMENT, whose message has just had its turn; hands on what it completes. */
+/* Handles the payload of a FRAGMENT in sequence; dispatches the completed submessage. */
 void xrce_fragments_on_piece(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
 #ifdef __cplusplus

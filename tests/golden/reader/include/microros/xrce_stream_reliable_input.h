@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The reliable input stream: what the agent sends on stream 0x80, handed on in order and once each, and acknowledged one
- * by one (OMG DDS-XRCE 1.0, 8.4.13). Sequence numbers are modulo 2^16 and begin at 0 in each session.
+ * The reliable input stream: messages of the agent on stream 0x80, delivered in order and once each, and
+ * acknowledged individually (OMG DDS-XRCE 1.0, 8.4.13). Sequence numbers are modulo 2^16 and start at 0 in
+ * each session.
  *
- * A missing message is requested once, with the first acknowledgement after its gap, and again after the next HEARTBEAT:
- * the public agent sends all that an acknowledgement names, however often it is named.
+ * A missing message is requested once, with the first acknowledgement after its gap, and again after the
+ * next HEARTBEAT: the public agent sends everything that an acknowledgement names, however often it is
+ * named.
  *
- * A message that comes before its turn waits in a slot; without a free one it is not acknowledged, and comes again.
- */
+ *  An early message waits in a slot; without a free one it is not
+ * acknowledged, and the agent repeats it.  */
 #ifndef MICROROS_XRCE_STREAM_RELIABLE_INPUT_H
 #define MICROROS_XRCE_STREAM_RELIABLE_INPUT_H
 
@@ -22,49 +24,50 @@
 extern "C" {
 #endif
 
-/* The message in its turn is handled where it was received, so one slot less is needed here. */
+/* The next message in sequence is handled in the input buffer, so one slot less is needed here. */
 enum { XRCE_RELIABLE_INPUT_HELD = MICROROS_RELIABLE_INPUT_SLOTS - 1 };
 
-/* All zero is an empty stream. */
+/* Zero-initialized: an empty stream. */
 typedef struct xrce_stream_reliable_input_t {
-  uint16_t next;      /* sequence number of the message whose turn it is */
+  uint16_t next;      /* sequence number of the next message */
   uint16_t announced; /* bit i: message next + i is known to exist */
   uint16_t asked;     /* bit i: it was requested since the last HEARTBEAT */
-  uint16_t refused;   /* bit i: it was received before its turn, without a free slot: no use to request it yet */
+  uint16_t refused;   /* bit i: received early without a free slot: not yet worth requesting */
   uint16_t sequence[XRCE_RELIABLE_INPUT_HELD];
   uint16_t size[XRCE_RELIABLE_INPUT_HELD]; /* 0: the slot is free */
   uint8_t message[XRCE_RELIABLE_INPUT_HELD][MICROROS_RELIABLE_INPUT_SLOT_SIZE];
 } xrce_stream_reliable_input_t;
 
-/* A session is new: the agent counts from 0. */
+/* Called for a new session: the agent counts from 0. */
 void xrce_stream_reliable_input_reset(xrce_stream_reliable_input_t * stream);
 
-/* Takes a whole message that came on a stream from 0x80 on, hands on what can be and acknowledges. False: the message is
- * not what it should be. */
+/* Accepts a whole message of a stream from 0x80 on, delivers what is in sequence and acknowledges. Returns
+ * false for a malformed message. */
 bool xrce_stream_reliable_input_take(
   xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now);
 
-/* Takes a HEARTBEAT: what is before its first message cannot be had any more. What is kept behind that is not handed on
- * from within a message: xrce_stream_reliable_input_go_on does that. False: the payload is malformed. */
+/* Handles a HEARTBEAT: messages before its first number are no longer available. Stored messages after
+ * that are not delivered from within a message: xrce_stream_reliable_input_go_on does that. Returns false
+ * for a malformed payload. */
 bool xrce_stream_reliable_input_on_heartbeat(
   xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags);
 
-/* Hands on what is kept and whose turn a HEARTBEAT has made it, and acknowledges. For what has taken a message of another
- * stream; does nothing where there was no such HEARTBEAT in it. */
+/* Delivers stored messages that a HEARTBEAT has put in sequence, and acknowledges. Called after a message
+ * of another stream; does nothing if that contained no such HEARTBEAT. */
 void xrce_stream_reliable_input_go_on(xrce_client_t * client, uint32_t now);
 
-/* --- for this component alone: one of xrce_stream_reliable_input_*.c --- */
+/* --- for this component only: one of xrce_stream_reliable_input_*.c --- */
 
-/* Keeps a message that came before its turn; does nothing where there is no slot, or it is kept already. */
+/* Stores an early message; does nothing without a slot, or if it is already stored. */
 void xrce_stream_reliable_input_keep(
   xrce_stream_reliable_input_t * stream, uint16_t sequence, const uint8_t * message, size_t size);
 
-/* Returns the kept message with this number and its size, or NULL. It is not kept any more, and stays until the next
- * one is kept. */
+/* Returns the stored message with this number and its size, or NULL. It is removed, and valid until the
+ * next one is stored. */
 const uint8_t * xrce_stream_reliable_input_kept(
   xrce_stream_reliable_input_t * stream, uint16_t sequence, size_t * size);
 
-/* Returns which messages are kept: bit i stands for next + i. */
+/* Returns the stored messages as a map: bit i is message next + i. */
 uint16_t xrce_stream_reliable_input_map(const xrce_stream_reliable_input_t * stream);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Everything of rcl that is selected, and what ROS 2's header brings beside it: sources rely on that. */
+/* All selected headers of rcl, and those that ROS 2's rcl.h includes: sources rely on that. */
 #ifndef MICROROS_RCL_RCL_H
 #define MICROROS_RCL_RCL_H
 

@@ -113,7 +113,7 @@ rcl_ret_t rcl_wait_set_init(
     wait_set, number_of_subscriptions, number_of_guard_conditions, number_of_timers, number_of_clients,
     number_of_services, number_of_events);
   if (result != RCL_RET_OK) {
-    (void)rcl_wait_set_fini(wait_set); /* it is valid */
+    (void)rcl_wait_set_fini(wait_set); /* cannot fail: it is valid */
   }
   return result;
 }

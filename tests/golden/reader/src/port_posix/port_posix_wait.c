@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A pipe wakes who waits: any thread may write to it, and a signal handler once something has waited. */
+/* A pipe wakes the waiting thread: any thread may write to it, and a signal handler after the first wait. */
 #define _POSIX_C_SOURCE 200809L
 #include "microros/port.h"
 

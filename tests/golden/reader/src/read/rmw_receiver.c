@@ -47,7 +47,7 @@ void rmw_receiver_close(const xrce_endpoint_t * endpoint)
   microros_unlock();
 }
 
-/* A client that was ended has forgotten its endpoints. */
+/* After rcl_shutdown the client has no endpoints. */
 bool rmw_receiver_is_open(const xrce_endpoint_t * endpoint)
 {
   return endpoint->client != NULL && endpoint->client->states[receiver_place(endpoint)].wanted;

@@ -14,7 +14,7 @@
 
 static rmw_subscription_t * subscription_hand_out(xrce_endpoint_t * endpoint)
 {
-  static rmw_subscription_t subscriptions[MICROROS_SUBSCRIPTIONS_MAX]; /* handed out by place */
+  static rmw_subscription_t subscriptions[MICROROS_SUBSCRIPTIONS_MAX]; /* indexed by place */
   rmw_subscription_t * subscription = &subscriptions[endpoint->index - MICROROS_PUBLISHERS_MAX];
 
   subscription->implementation_identifier = rmw_implementation_identifier;

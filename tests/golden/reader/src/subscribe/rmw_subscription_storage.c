@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The storage of each declared subscription's message. */
+/* Message storage of the declared subscriptions. */
 #include "microros/rmw_subscription.h"
 #include "std_msgs/msg/detail/string__storage.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* QoS on its way to the agent. Internal. */
+/* Conversion of QoS for the agent. Internal. */
 #ifndef MICROROS_RMW_QOS_H
 #define MICROROS_RMW_QOS_H
 
@@ -13,8 +13,8 @@
 extern "C" {
 #endif
 
-/* Gives the flags and depth that XRCE carries for `qos`; returns NULL, or the name of a policy that it cannot
- * carry. */
+/* Sets the flags and depth that XRCE carries for `qos`; returns NULL, or the name of an unsupported
+ * policy. */
 const char * rmw_qos_to_xrce(const rmw_qos_profile_t * qos, uint8_t * flags, uint16_t * depth);
 
 /* The same for the times of an endpoint: this plan has none. */
@@ -24,10 +24,12 @@ static inline void rmw_qos_add_times(const rmw_qos_profile_t * qos, const xrce_e
   (void)endpoint;
 }
 
-/* Gives what the endpoint has, with every default put in; for those who ask. */
+/* Fills in the QoS of the endpoint with defaults resolved, for getters. */
 void rmw_qos_actual(const xrce_endpoint_t * endpoint, rmw_qos_profile_t * qos);
 
-/* Returns rmw_qos_profile_default, of which each file that includes rmw/qos_profiles.h would have its own. */
+/*
+ * Returns rmw_qos_profile_default, which otherwise every file that includes rmw/qos_profiles.h would
+ * duplicate. */
 const rmw_qos_profile_t * rmw_qos_default(void);
 
 #ifdef __cplusplus

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* How long the session can be left alone, by all components of this selection that have something to do in time. For
- * xrce_wait*.c alone. */
+/* Time until the session has work to do, over all selected components with deadlines. For xrce_wait*.c
+ * only. */
 #ifndef MICROROS_XRCE_WAIT_LEFT_H
 #define MICROROS_XRCE_WAIT_LEFT_H
 
@@ -12,7 +12,7 @@
 #include "microros/xrce_stream_reliable_hooks.h"
 #include "microros/xrce_wire.h"
 
-/* Returns how long the session can be left alone, `most` at most. */
+/* Returns the time until the session has work to do, at most `most`. */
 static inline uint32_t xrce_wait_left(const xrce_client_t * client, uint32_t most)
 {
   const xrce_session_t * session = &client->session;

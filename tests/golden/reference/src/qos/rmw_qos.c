@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Nothing is asked for, or an age: RMW_DURATION_INFINITE has more than 2^33 seconds. */
+/* Unset or practically infinite: RMW_DURATION_INFINITE has more than 2^33 seconds. */
 static bool qos_is_unlimited(const struct rmw_time_s * time)
 {
   return (time->sec | time->nsec) == 0u || time->sec >> 33 != 0u;

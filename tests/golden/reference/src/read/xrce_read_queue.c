@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The queues: rings of slots, each of one size. */
+/* The queues: rings of slots of one size each. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_read.h"
 
@@ -10,7 +10,7 @@ static xrce_receiver_t * queue_of(const xrce_endpoint_t * endpoint)
   return &endpoint->client->receivers[endpoint->index - MICROROS_PUBLISHERS_MAX];
 }
 
-/* Returns which slot of the ring the i-th sample has. */
+/* Returns the ring's slot of the i-th sample. */
 static uint8_t queue_slot(const xrce_receiver_t * receiver, const xrce_queue_t * queue, uint8_t i)
 {
   const uint32_t slot = (uint32_t)receiver->head + i;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A client: the state that the selected components declare, side by side, with the storage that the plan gives them. One
- * session with one agent; the only state of the library besides the nodes and publishers that were handed out.
+ * A client: the state declared by the selected components, in storage sized by the plan. One session with
+ * one agent. Except for handles of nodes and endpoints this is the library's only state.
  */
 #ifndef MICROROS_XRCE_CLIENT_H
 #define MICROROS_XRCE_CLIENT_H
@@ -29,7 +29,7 @@ struct xrce_client_t {
   xrce_object_state_t states[XRCE_PLACES];
   xrce_participant_t participants[MICROROS_NODES_MAX];
   xrce_endpoint_t endpoints[XRCE_ENDPOINTS];
-  uint8_t input[MICROROS_INPUT_BUFFER_SIZE]; /* last: nothing of it outlives a pump, but for a sample that lies at its end */
+  uint8_t input[MICROROS_INPUT_BUFFER_SIZE]; /* last: unused between pumps, except for a sample at its end */
 };
 
 #endif /* MICROROS_XRCE_CLIENT_H */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a serial line keeps: its own members, and those of the components that take part in it. */
+/* State of a serial line: its members and those contributed by other components. */
 #ifndef MICROROS_XRCE_TRANSPORT_STATE_H
 #define MICROROS_XRCE_TRANSPORT_STATE_H
 

@@ -35,7 +35,7 @@ static uint32_t sleep_check_number(uint32_t before, uint16_t number)
   return xrce_sleep_check(before, bytes, sizeof(bytes));
 }
 
-/* Returns what tells two entities in one place apart. */
+/* Returns a value that distinguishes two entities in one place. */
 static uint32_t sleep_identity(const xrce_client_t * client, uint16_t place)
 {
   uint32_t check;
@@ -84,7 +84,7 @@ bool xrce_sleep_is_over(xrce_client_t * client, uint32_t key)
   return over;
 }
 
-/* The time of the port begins anew with the device: what was due stays as far ahead as it was. */
+/* The port's time restarts with the device: deadlines keep their distance. */
 static void sleep_shift(xrce_client_t * client, uint32_t passed_ms)
 {
   client->session.now_ms += passed_ms;

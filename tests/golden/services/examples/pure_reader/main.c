@@ -20,7 +20,7 @@
 #define EXAMPLE_PERIOD_MS 100
 #endif
 
-/* How often it does so before it ends: here, for years. */
+/* Number of samples before the program ends: by default enough for years. */
 #ifndef EXAMPLE_SAMPLES
 #define EXAMPLE_SAMPLES UINT32_MAX
 #endif
@@ -37,13 +37,13 @@ static std_srvs__srv__SetBool_Response asked_set_bool_0_response;
 static std_srvs__srv__SetBool_Response__on__ask__Storage asked_set_bool_0_response_storage;
 static rclc_executor_t executor;
 static uint32_t failed;
-static uint32_t ticks; /* of timers; without one: of EXAMPLE_PERIOD_MS */
+static uint32_t ticks; /* of timers; without timers: of EXAMPLE_PERIOD_MS */
 
 static void serve_set_bool_0(const void * request, void * response);
 static void on_reply_of_set_bool_0(const void * response);
 
-/* Into the storage that the message is bound to. rosidl_runtime_c__String__assign does it too, and links storage of its
- * own for what is longer; a message that is bound needs none. */
+/* Copies into the storage that the message is bound to. rosidl_runtime_c__String__assign does that, too,
+ * but links further storage for longer texts, which a bound message does not need. */
 static bool put_text(rosidl_runtime_c__String * string, const char * text)
 {
   const size_t size = strlen(text);
@@ -117,14 +117,14 @@ static void application_fini(void)
   (void)rclc_support_fini(&support);
 }
 
-/* Why a call failed: the library keeps the text of the last error. */
+/* Reports why a call failed: the library keeps the text of the last error. */
 static void report(const char * what)
 {
   (void)fprintf(stderr, "%s: %s\n", what, rcl_get_error_string().str);
   rcl_reset_error();
 }
 
-/* Fills the response; the executor sends it. They are set_bool_0_request and set_bool_0_response. */
+/* Fills set_bool_0_response from set_bool_0_request; the executor sends it. */
 static void serve_set_bool_0(const void * request, void * response)
 {
   const uint32_t count = ticks;
@@ -152,7 +152,7 @@ static rcl_ret_t ask_set_bool_0(uint32_t count)
   return rcl_send_request(&client_0, &asked_set_bool_0_request, &sequence_number);
 }
 
-/* Lets the executors work for EXAMPLE_PERIOD_MS. */
+/* Runs the executors for EXAMPLE_PERIOD_MS. */
 static void run(void)
 {
   const uint32_t begin = port_time_ms();

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a wait set has; internal. */
+/* State of a wait set; internal. */
 #ifndef MICROROS_RCL_WAIT_SET_H
 #define MICROROS_RCL_WAIT_SET_H
 
@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/* The arrays, and how many entities were added to each. */
+/* The arrays, and the number of added entities of each kind. */
 struct rcl_wait_set_impl_s {
   const rcl_client_t * clients[MICROROS_CLIENTS_MAX];
   size_t client_count;

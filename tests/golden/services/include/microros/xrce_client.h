@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A client: the state that the selected components declare, side by side, with the storage that the plan gives them. One
- * session with one agent; the only state of the library besides the nodes and publishers that were handed out.
+ * A client: the state declared by the selected components, in storage sized by the plan. One session with
+ * one agent. Except for handles of nodes and endpoints this is the library's only state.
  */
 #ifndef MICROROS_XRCE_CLIENT_H
 #define MICROROS_XRCE_CLIENT_H
@@ -28,7 +28,7 @@ struct xrce_client_t {
   xrce_fragments_t fragments;
   xrce_entities_t entities;
   xrce_ping_t ping;
-  uint8_t owed; /* slots of the reliable stream that are kept back for replies */
+  uint8_t owed; /* slots of the reliable stream reserved for replies */
   uint32_t create_timeout_ms;
   uint32_t close_timeout_ms;
   xrce_object_state_t states[XRCE_PLACES];
@@ -41,7 +41,7 @@ struct xrce_client_t {
   xrce_service_t services[XRCE_SERVICES];
   xrce_requester_t requesters[MICROROS_CLIENTS_MAX];
   xrce_request_t requests[MICROROS_REQUESTS_MAX];
-  uint8_t input[MICROROS_INPUT_BUFFER_SIZE]; /* last: nothing of it outlives a pump, but for a sample that lies at its end */
+  uint8_t input[MICROROS_INPUT_BUFFER_SIZE]; /* last: unused between pumps, except for a sample at its end */
 };
 
 #endif /* MICROROS_XRCE_CLIENT_H */

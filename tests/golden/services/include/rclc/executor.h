@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The executor: one task that waits for entities and calls their callbacks in the order in which they were added. Its
- * handles are in a pool of the library, sized by the application file: MICROROS_EXECUTORS_MAX executors with
- * MICROROS_HANDLES_MAX handles each. Functions belong to the task that spins, but for rcl_trigger_guard_condition.
+ * The executor: one task that waits for entities and calls their callbacks in the order in which they were
+ * added. Its handles are in a pool of the library, sized by the application file: MICROROS_EXECUTORS_MAX
+ * executors with MICROROS_HANDLES_MAX handles each. All functions belong to the task that spins, except
+ * rcl_trigger_guard_condition.
  *
- * A round waits until something is ready, asks the trigger function, and if that says so, takes and calls. Between rounds
- * what is ready stays ready: messages in their queues, guard conditions until their callback was called. While the trigger
- * says no, the next round waits until something else becomes ready, or for its time-out.
+ * A round waits until an entity is ready, calls the trigger function, and if that returns true, takes
+ * messages and calls callbacks. Entities stay ready between rounds: messages remain in their queues, guard
+ * conditions remain set until their callback was called. While the trigger returns false, the next round
+ * waits until another entity becomes ready, or for its time-out.
  *
- * A callback may add and remove any handle, its own too, and end any entity whose handle it removes: the round goes on with
- * the other handles, one that was added has its first turn in the next round.
+ * A callback may add and remove any handle, including its own, and finalize any entity whose handle it
+ * removes: the round continues with the other handles; an added one has its first turn in the next round.
  */
 #ifndef MICROROS_RCLC_EXECUTOR_H
 #define MICROROS_RCLC_EXECUTOR_H
@@ -34,9 +36,9 @@ extern "C" {
 #endif
 
 /*
- * RCLCPP_EXECUTOR: each message is taken directly before its callback, so what a callback changes is seen by the next.
- * LOGICAL_EXECUTION_TIME: all messages are taken first, and then all callbacks called; requests, which only their own
- * callback sees, are taken before it in both.
+ * RCLCPP_EXECUTOR: each message is taken directly before its callback, so that a callback sees the changes
+ * of earlier ones. LOGICAL_EXECUTION_TIME: all messages are taken before the first callback; requests,
+ * which only their own callback sees, are taken directly before it in both.
  */
 typedef enum {
   RCLC_SEMANTICS_RCLCPP_EXECUTOR,
@@ -50,15 +52,17 @@ typedef enum {
   RCLC_EXECUTOR_NON_POSIX
 } rclc_executor_type_t;
 
-/* Whether the round takes and calls. `handles` has `size` of them, those in use first; `obj` is that of set_trigger. */
+/*
+ * Returns whether the round takes and calls. `handles` has `size` entries, those in use first; `obj` is
+ * the one passed to set_trigger. */
 typedef bool (*rclc_executor_trigger_t)(rclc_executor_handle_t * handles, unsigned int size, void * obj);
 
 typedef struct rclc_executor_t_s {
   rclc_executor_type_t type;
   rcl_context_t * context;
-  rclc_executor_handle_t * handles; /* the library's; NULL: not initialized */
+  rclc_executor_handle_t * handles; /* owned by the library; NULL: not initialized */
   size_t max_handles;
-  size_t index; /* how many are in use */
+  size_t index; /* number in use */
   const rcl_allocator_t * allocator;
   rclc_executor_handle_counters_t info;
   uint64_t timeout_ns;
@@ -71,21 +75,21 @@ typedef struct rclc_executor_t_s {
 rclc_executor_t rclc_executor_get_zero_initialized_executor(void);
 
 /*
- * Takes one of the pool's executors: RCL_RET_BAD_ALLOC when there is none (`pools: {executors: N}`). `number_of_handles` is
- * not needed: it must not be 0, and nothing else depends on it. `allocator` is kept and not called. The time-out is
- * 1 s, the trigger rclc_executor_trigger_any. RCL_RET_INVALID_ARGUMENT.
+ * Uses one of the pool's executors; RCL_RET_BAD_ALLOC if all are in use (`pools: {executors: N}`).
+ * `number_of_handles` must not be 0 and is otherwise ignored. `allocator` is stored and never called. The
+ * time-out is 1 s, the trigger rclc_executor_trigger_any. RCL_RET_INVALID_ARGUMENT.
  */
 rcl_ret_t rclc_executor_init(
   rclc_executor_t * executor, rcl_context_t * context, const size_t number_of_handles,
   const rcl_allocator_t * allocator);
 
-/* How long rclc_executor_spin and rclc_executor_spin_period wait in a round at most. RCL_RET_ERROR, here and below, for an
- * executor that is not initialized. */
+/* Longest wait of a round of rclc_executor_spin and rclc_executor_spin_period. RCL_RET_ERROR, here and
+ * below, for an executor that is not initialized. */
 rcl_ret_t rclc_executor_set_timeout(rclc_executor_t * executor, const uint64_t timeout_ns);
 
 rcl_ret_t rclc_executor_set_semantics(rclc_executor_t * executor, rclc_executor_semantics_t semantics);
 
-/* RCL_RET_OK for an executor that is not initialized, too. */
+/* Returns RCL_RET_OK for an executor that is not initialized, too. */
 rcl_ret_t rclc_executor_fini(rclc_executor_t * executor);
 
 rcl_ret_t rclc_executor_add_guard_condition(
@@ -94,40 +98,41 @@ rcl_ret_t rclc_executor_add_guard_condition(
 rcl_ret_t rclc_executor_remove_guard_condition(
   rclc_executor_t * executor, const rcl_guard_condition_t * guard_condition);
 
-/* There is nothing to prepare. */
+/* Does nothing: no preparation is needed. */
 rcl_ret_t rclc_executor_prepare(rclc_executor_t * executor);
 
 /*
- * One round that waits `timeout_ns` at most: 0 does not wait, above INT64_MAX waits for ever. Carries the session on.
- * RCL_RET_OK whether a callback was called or not. Errors: RCL_RET_ERROR for a context that is not valid; …_INVALID for an
- * entity that was ended and not removed; what taking a message gave, after the others had their turn.
+ * Runs one round that waits for at most `timeout_ns`: 0 does not wait, above INT64_MAX waits without a
+ * time-out. Runs the session. Returns RCL_RET_OK whether or not a callback was called. Errors:
+ * RCL_RET_ERROR for an invalid context; …_INVALID for an entity that was finalized and not removed; the
+ * error of taking a message, after all other handles had their turn.
  */
 rcl_ret_t rclc_executor_spin_some(rclc_executor_t * executor, const uint64_t timeout_ns);
 
-/* Rounds without end. Returns the error when the context ends, or an entity that was not removed; goes on after
- * messages that could not be taken, which the entity counts. */
+/* Runs rounds until the context ends, or an entity was finalized and not removed; returns that error.
+ * Continues after messages that could not be taken, which the entity counts. */
 rcl_ret_t rclc_executor_spin(rclc_executor_t * executor);
 
-/* A round every `period` nanoseconds; the session is carried on between them. Returns as rclc_executor_spin. */
+/* Runs a round every `period` nanoseconds and the session in between. Returns as rclc_executor_spin does. */
 rcl_ret_t rclc_executor_spin_period(rclc_executor_t * executor, const uint64_t period);
 
-/* One of these: a round, and the rest of the period. */
+/* Runs one round, then rests until the period is over. */
 rcl_ret_t rclc_executor_spin_one_period(rclc_executor_t * executor, const uint64_t period);
 
-/* `trigger_object` goes to the function. */
+/* `trigger_object` is passed to the function. */
 rcl_ret_t rclc_executor_set_trigger(
   rclc_executor_t * executor, rclc_executor_trigger_t trigger_function, void * trigger_object);
 
-/* All handles are ready. */
+/* True if all handles are ready. */
 bool rclc_executor_trigger_all(rclc_executor_handle_t * handles, unsigned int size, void * obj);
 
-/* One of them at least is. */
+/* True if at least one handle is ready. */
 bool rclc_executor_trigger_any(rclc_executor_handle_t * handles, unsigned int size, void * obj);
 
-/* In each round, also in one that has waited in vain. */
+/* Always true, also after a time-out. */
 bool rclc_executor_trigger_always(rclc_executor_handle_t * handles, unsigned int size, void * obj);
 
-/* The entity that is `obj` is ready. */
+/* True if the entity `obj` is ready. */
 bool rclc_executor_trigger_one(rclc_executor_handle_t * handles, unsigned int size, void * obj);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Everything of rmw_microros that is selected. */
+/* All selected headers of rmw_microros. */
 #ifndef MICROROS_RMW_MICROROS_RMW_MICROROS_H
 #define MICROROS_RMW_MICROROS_RMW_MICROROS_H
 

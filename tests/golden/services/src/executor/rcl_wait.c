@@ -5,7 +5,7 @@
 #include "microros/rcl_wait_set.h"
 #include "microros/rcl_waiting.h"
 
-/* What is waited for; `settle`: what is not ready shall be NULL. */
+/* State of one wait; `settle`: set entries that are not ready to NULL. */
 typedef struct wait_look_t {
   int64_t look_again_ns;
   bool settle;

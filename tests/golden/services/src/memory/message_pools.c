@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The blocks of every pool. Each is an object of its own, so that the linker drops what nobody names. */
+/* The blocks of every pool, each in a separate object, so that the linker drops unused ones. */
 #include "microros/message_pools.h"
 
 #include "std_srvs/srv/detail/set_bool__struct.h"

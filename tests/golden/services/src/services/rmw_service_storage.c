@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Storage of messages that the declarations of services and clients have. */
+/* Message storage of the declared services and clients. */
 #include "microros/rmw_service.h"
 #include "std_srvs/srv/detail/set_bool__storage.h"
 

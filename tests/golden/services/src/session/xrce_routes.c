@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What each component of this selection contributes to the session: component.yaml names it. */
+/* Contributions of the selected components to the session, from their component.yaml. */
 #include "microros/xrce_routes.h"
 
 #include "microros/xrce_client.h"

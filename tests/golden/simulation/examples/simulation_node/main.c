@@ -13,7 +13,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* How often it does so before it ends: here, for years. */
+/* Number of samples before the program ends: by default enough for years. */
 #ifndef EXAMPLE_SAMPLES
 #define EXAMPLE_SAMPLES UINT32_MAX
 #endif
@@ -28,7 +28,7 @@ static std_msgs__msg__String__Storage string_received_2_storage;
 static rcl_timer_t timer_0;
 static rclc_executor_t executor;
 static uint32_t failed;
-static uint32_t ticks; /* of timers; without one: of EXAMPLE_PERIOD_MS */
+static uint32_t ticks; /* of timers; without timers: of EXAMPLE_PERIOD_MS */
 
 static void on_timer_0(rcl_timer_t * timer, int64_t since_last_call);
 static void on_int32_received_1(const void * message);
@@ -96,14 +96,14 @@ static void application_fini(void)
   (void)rclc_support_fini(&support);
 }
 
-/* Why a call failed: the library keeps the text of the last error. */
+/* Reports why a call failed: the library keeps the text of the last error. */
 static void report(const char * what)
 {
   (void)fprintf(stderr, "%s: %s\n", what, rcl_get_error_string().str);
   rcl_reset_error();
 }
 
-/* The executor took `message`; it is valid until this returns. */
+/* `message` is valid until the callback returns. */
 static void on_int32_received_1(const void * message)
 {
   const std_msgs__msg__Int32 * const received = (const std_msgs__msg__Int32 *)message;
@@ -112,7 +112,7 @@ static void on_int32_received_1(const void * message)
   (void)fflush(stdout);
 }
 
-/* The executor took `message`; it is valid until this returns. */
+/* `message` is valid until the callback returns. */
 static void on_string_received_2(const void * message)
 {
   const std_msgs__msg__String * const received = (const std_msgs__msg__String *)message;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Times and clocks. Times are nanoseconds; a clock is the user's and must stay where it is while timers and callbacks use
- * it. The functions of clocks come with the component `clock`.
+ * Times and clocks. Times are in nanoseconds; a clock belongs to the user and must stay at its address
+ * while timers and callbacks use it. The component `clock` provides the functions of clocks.
  */
 #ifndef MICROROS_RCL_TIME_H
 #define MICROROS_RCL_TIME_H

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What an executor knows of each entity that it runs; trigger functions look at it. */
+/* The executor's record of an entity; trigger functions read it. */
 #ifndef MICROROS_RCLC_EXECUTOR_HANDLE_H
 #define MICROROS_RCLC_EXECUTOR_HANDLE_H
 
@@ -31,7 +31,7 @@ typedef enum {
   RCLC_NONE
 } rclc_executor_handle_type_t;
 
-/* When a callback is called in a round: when there is something for it, or always; it then gets NULL for no message. */
+/* When to call the callback in a round: on new data, or always; it gets NULL if there is no message. */
 typedef enum { ON_NEW_DATA, ALWAYS } rclc_executor_handle_invocation_t;
 
 typedef void (*rclc_subscription_callback_t)(const void * message);
@@ -47,7 +47,7 @@ typedef void (*rclc_gc_callback_t)(void);
 
 struct rclc_handle_kind_s; /* microros/executor_handles.h */
 
-/* One of the pointers is set, by `type`; those of components that are not selected are not there. */
+/* `type` says which pointer is set; members of components that are not selected do not exist. */
 typedef struct {
   rclc_executor_handle_type_t type;
   rclc_executor_handle_invocation_t invocation;
@@ -60,12 +60,12 @@ typedef struct {
     rclc_subscription_callback_t subscription;
     rclc_subscription_callback_with_context_t subscription_with_context;
   } callback;
-  void * data; /* the message that is decoded into */
+  void * data; /* the message to decode into */
   void * callback_context;
   size_t index;
   bool initialized;
-  bool data_available; /* there is something for the callback */
-  bool has_turn;       /* in the round that is under way */
+  bool data_available; /* the callback is due */
+  bool has_turn;       /* in the current round */
 } rclc_executor_handle_t;
 
 typedef struct {
@@ -81,15 +81,15 @@ typedef struct {
 
 rcl_ret_t rclc_executor_handle_counters_zero_init(rclc_executor_handle_counters_t * handle_counters);
 
-/* Makes it a handle of nothing, whose index is `max_handles`. */
+/* Initializes an unused handle with index `max_handles`. */
 rcl_ret_t rclc_executor_handle_init(rclc_executor_handle_t * handle, size_t max_handles);
 
 rcl_ret_t rclc_executor_handle_clear(rclc_executor_handle_t * handle, size_t max_handles);
 
-/* Prints nothing: there is no output below the library. */
+/* Prints nothing: the library has no output. */
 rcl_ret_t rclc_executor_handle_print(rclc_executor_handle_t * handle);
 
-/* Returns the entity: an rcl_subscription_t, rcl_timer_t, … *; NULL for a handle of nothing. */
+/* Returns the entity (rcl_subscription_t *, rcl_timer_t *, …); NULL for an unused handle. */
 void * rclc_executor_handle_get_ptr(rclc_executor_handle_t * handle);
 
 #ifdef __cplusplus

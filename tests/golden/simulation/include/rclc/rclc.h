@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Everything of rclc that is selected, except for the executor. */
+/* All selected headers of rclc, except for the executor. */
 #ifndef MICROROS_RCLC_RCLC_H
 #define MICROROS_RCLC_RCLC_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* ROS time: the system's, until somebody takes it over. */
+/* ROS time: the system's, until it is overridden. */
 #include "microros/error.h"
 #include "microros/rcl_clock.h"
 #include "microros/rcl_clock_follow.h"
@@ -16,7 +16,7 @@ static rcl_time_point_value_t ros_value(const rcl_ros_time_t * time)
   rcl_time_point_value_t now = time->now;
 
   if (!time->active) {
-    (void)rcl_clock_system_now(NULL, &now); /* the system always has a time */
+    (void)rcl_clock_system_now(NULL, &now); /* the system clock cannot fail */
   }
   return now;
 }
@@ -28,7 +28,7 @@ static rcl_ret_t ros_now(void * data, rcl_time_point_value_t * now)
   return RCL_RET_OK;
 }
 
-/* Returns the place of this clock; NULL: it has none. */
+/* Returns the place of this clock; NULL: it has no place. */
 static rcl_ros_time_t * ros_find(const rcl_clock_t * clock)
 {
   for (size_t i = 0; i < MICROROS_ROS_CLOCKS_MAX; ++i) {
@@ -73,7 +73,7 @@ rcl_ret_t rcl_ros_clock_init(rcl_clock_t * clock, rcl_allocator_t * allocator)
   return RCL_RET_OK;
 }
 
-/* Returns the state of a ROS clock; NULL, with *result and the text, for anything else. */
+/* Returns the state of a ROS clock; NULL, with *result and the text set, for any other clock. */
 static rcl_ros_time_t * ros_of(const rcl_clock_t * clock, rcl_ret_t * result)
 {
   *result = RCL_RET_OK;
@@ -167,7 +167,7 @@ void rcl_ros_clocks_set(rcl_time_point_value_t time_value)
 {
   for (size_t i = 0; i < MICROROS_ROS_CLOCKS_MAX; ++i) {
     if (ros_times[i].clock != NULL) {
-      (void)rcl_set_ros_time_override(ros_times[i].clock, time_value); /* it is a ROS clock */
+      (void)rcl_set_ros_time_override(ros_times[i].clock, time_value); /* cannot fail for a ROS clock */
     }
   }
 }

@@ -12,7 +12,7 @@
 static const int64_t source_ns_per_s = 1000000000;
 
 static rmw_subscription_t * source_subscription;
-static const rmw_node_t * source_node; /* whose it is */
+static const rmw_node_t * source_node; /* the owner */
 static rcl_time_point_value_t source_time;
 
 static bool source_is_open(void)
@@ -23,9 +23,9 @@ static bool source_is_open(void)
 rcl_ret_t rcl_clock_source_open(const rcl_node_t * node)
 {
   const rosidl_message_type_support_t * type = ROSIDL_GET_MSG_TYPE_SUPPORT(rosgraph_msgs, msg, Clock);
-  rmw_qos_profile_t qos = rmw_qos_profile_sensor_data; /* best effort; of rclcpp::ClockQoS */
+  rmw_qos_profile_t qos = rmw_qos_profile_sensor_data; /* best effort, like rclcpp::ClockQoS */
 
-  if (rmw_node_index(node->impl) != 0u || source_is_open()) { /* it is declared with the first node */
+  if (rmw_node_index(node->impl) != 0u || source_is_open()) { /* declared with the first node */
     return RCL_RET_OK;
   }
   qos.depth = 1;
@@ -49,7 +49,7 @@ void rcl_clock_source_follow(void)
   if (following || !source_is_open()) {
     return;
   }
-  /* What is refused is counted for the subscription, and the next sample says the time again. */
+  /* A refused sample is counted for the subscription; the next sample carries the time again. */
   if (rmw_subscription_take(source_subscription, &message, &taken) == RMW_RET_OK && taken) {
     source_time = message.clock.sec * source_ns_per_s + (int64_t)message.clock.nanosec;
     following = true;

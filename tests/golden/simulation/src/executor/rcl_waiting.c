@@ -5,13 +5,13 @@
 #include "microros/rcl_clock_source.h"
 #include "microros/rmw_client_wait.h"
 
-/* A millisecond is 15625 units of 64 ns: a divisor that leaves room for 16 more digits in 32 bits. */
+/* A millisecond is 15625 units of 64 ns: a divisor that leaves room for 16 more binary digits in 32 bits. */
 static const int64_t waiting_ns_per_ms = 1000000;
 static const uint32_t waiting_units_per_ms = 15625;
 
 /*
- * Rounded up; UINT32_MAX for what is longer, and for what is negative. Divides as on paper, 16 binary digits at a time: a
- * division of 64 bits would bring a function into the image that is larger than all waiting.
+ * Rounds up; UINT32_MAX for negative and too long durations. Long division with 16 binary digits at a
+ * time: a 64-bit division would link a library function larger than all of waiting.
  */
 static uint32_t waiting_ms(int64_t duration_ns)
 {

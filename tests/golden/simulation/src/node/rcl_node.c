@@ -52,7 +52,7 @@ rcl_ret_t rcl_node_open(
     node->context = context;
     result = rcl_clock_source_open(node);
     if (result != RCL_RET_OK) {
-      (void)rcl_node_fini(node); /* it was opened just now */
+      (void)rcl_node_fini(node); /* cannot fail: just opened */
       return result;
     }
   }
@@ -93,7 +93,7 @@ bool rcl_node_is_valid_except_context(const rcl_node_t * node)
 
 bool rcl_node_is_valid(const rcl_node_t * node)
 {
-  return node != NULL && rmw_node_is_open(node->impl); /* which needs the session, and so the context */
+  return node != NULL && rmw_node_is_open(node->impl); /* which implies an open session and context */
 }
 
 const char * rcl_node_get_name(const rcl_node_t * node)

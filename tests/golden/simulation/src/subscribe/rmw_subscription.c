@@ -14,7 +14,7 @@
 
 static rmw_subscription_t * subscription_hand_out(xrce_endpoint_t * endpoint)
 {
-  static rmw_subscription_t subscriptions[MICROROS_SUBSCRIPTIONS_MAX]; /* handed out by place */
+  static rmw_subscription_t subscriptions[MICROROS_SUBSCRIPTIONS_MAX]; /* indexed by place */
   rmw_subscription_t * subscription = &subscriptions[endpoint->index - MICROROS_PUBLISHERS_MAX];
 
   subscription->implementation_identifier = rmw_implementation_identifier;
@@ -62,7 +62,7 @@ rmw_ret_t rmw_subscription_open(
     MICROROS_PUBLISHERS_MAX + 1u, MICROROS_SUBSCRIPTIONS_MAX - 1u, node, type_support, topic, qos, subscription);
 }
 
-/* The first place is that of /clock. */
+/* The first place is reserved for /clock. */
 rmw_ret_t rmw_subscription_open_clock(
   const rmw_node_t * node, const rosidl_message_type_support_t * type_support, const char * topic,
   const rmw_qos_profile_t * qos, rmw_subscription_t ** subscription)

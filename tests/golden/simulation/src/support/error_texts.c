@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* errors: text. The words of the selected components, each an object of its own, so that what nobody names is not
- * linked; what % and a letter stand for is said in error_text.c. */
+/* errors: text. Texts of the selected components, one object per text, so that the linker drops unused
+ * ones; error_text.c explains the letters after %. */
 #include "microros/error.h"
 
 const char microros_error_argument[] = "%s: NULL or not initialized";
@@ -16,7 +16,7 @@ const char microros_error_entity_refused[] = "%d %s: the agent refuses it: %a (e
 const char microros_error_arena[] = "no memory for %n bytes: raise memory: {arena: %m}%y";
 const char microros_error_domain[] = "domain %n is above %m";
 const char microros_error_encapsulation[] = "%t: representation %n is not plain CDR (0 or %m)";
-const char microros_error_not_received[] = "%t has no decoder: no profile that receives it";
+const char microros_error_not_received[] = "%t has no decoder: no profile receives it";
 const char microros_error_body_end[] = "%t.%d: the message ends: %n bytes needed, %m left";
 const char microros_error_value[] = "%t.%d: %n is above %m";
 const char microros_error_memory_given[] = "the allocator gives no memory for %n bytes";
@@ -24,15 +24,15 @@ const char microros_error_subscription_undeclared[] = "subscription not declared
 const char microros_error_subscription_open[] = "subscription %s is open already";
 const char microros_error_subscriptions_full[] = "all %n subscriptions are open: set pools: {subscriptions: %m}%y";
 const char microros_error_subscription_qos[] = "subscription %s: XRCE carries no such QoS: %d";
-const char microros_error_sample_large[] = "%s: %n bytes have come and %m fit: raise limits%y";
+const char microros_error_sample_large[] = "%s: received %n bytes, %m fit: raise limits%y";
 const char microros_error_read_refused[] = "%s: the agent refuses READ_DATA: %a";
 const char microros_error_receiver_reliable[] = "%s is reliable here and best_effort in the application file: add qos: {reliability: reliable}%y";
-const char microros_error_pool_full[] = "%n %s are all there are: set pools: {%s: %m}%y";
+const char microros_error_pool_full[] = "all %n %s are in use: set pools: {%s: %m}%y";
 const char microros_error_clock[] = "clock: %s";
 const char microros_error_timer[] = "timer: %s";
 const char microros_error_executor[] = "executor: %s";
 const char microros_error_field_bound[] = "%t.%d: %n, and its interface file allows %m";
 const char microros_error_field_capacity[] = "%t.%d: %n, capacity for %m: raise limits%y, or that of your buffer";
-const char microros_error_pool_most[] = "%s: all %n places are taken, and a session has no more of a kind";
-const char microros_error_block_large[] = "%n bytes of a string or sequence: no message that is sent has more than %m: raise limits%y";
-const char microros_error_blocks_taken[] = "all blocks of %n bytes are taken: give one back, or set memory: {messages: %m}%y";
+const char microros_error_pool_most[] = "%s: all %n places are in use, the maximum of a session";
+const char microros_error_block_large[] = "%n bytes of a string or sequence: no sent message has more than %m: raise limits%y";
+const char microros_error_blocks_taken[] = "all blocks of %n bytes are in use: free one, or set memory: {messages: %m}%y";

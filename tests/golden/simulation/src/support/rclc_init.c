@@ -59,6 +59,6 @@ rcl_ret_t rclc_support_fini(rclc_support_t * support)
   }
   result = rcl_shutdown(&support->context);
   fini = rcl_context_fini(&support->context);
-  (void)rcl_ros_clock_fini(&support->clock); /* a support that was never initialized has none */
+  (void)rcl_ros_clock_fini(&support->clock); /* never initialized: nothing to finalize */
   return result == RCL_RET_OK && fini == RCL_RET_OK ? RCL_RET_OK : RCL_RET_ERROR;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * errors: text. The place that fails names an error and the facts; the words are in error_text.c, each an object of
- * its own, so that what nobody names is not linked.
+ * errors: text. The failing function passes an error and its facts. The words are in error_text.c, one
+ * object per text, so that the linker drops unused ones.
  */
 #ifndef MICROROS_ERROR_H
 #define MICROROS_ERROR_H
@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/* Words that become `detail`: for those who only see that there are any. */
+/* Words that become `detail`. */
 #define MICROROS_ERROR_WORDS(words) (words)
 
 typedef const char * microros_error_t;
@@ -52,20 +52,22 @@ extern const char microros_error_block_large[];
 extern const char microros_error_blocks_taken[];
 
 /*
- * Makes this the last error. What `name`, `detail`, `found` and `fits` mean is said beside the texts; the
- * strings are only read during the call.
+ * Sets the last error. The texts' file explains `name`, `detail`, `found` and `fits`. The strings are only
+ * read during the call.
  */
 void microros_error_set(
   microros_error_t error, const char * name, const char * detail, uint32_t found, uint32_t fits);
 
-/* The same for microros_error_argument, and for errors with a name and nothing else. Both return `result`. */
+/* Shorthands for microros_error_argument, and for errors with only a name. Both return `result`. */
 int32_t microros_error_refuse(int32_t result, const char * argument);
 int32_t microros_error_named(int32_t result, microros_error_t error, const char * name);
 
-/* A session holds no more places of one kind. */
+/* Largest pool of one kind that a session can have. */
 #define MICROROS_POOL_MOST 250u
 
-/* Returns what a full pool of this many places says: `error` advises one more, where one more can be. */
+/*
+ * Returns the error for a full pool of `places`: `error` suggests a larger pool, unless the pool cannot
+ * grow. */
 static inline microros_error_t microros_error_of_pool(microros_error_t error, uint32_t places)
 {
   return places < MICROROS_POOL_MOST ? error : (microros_error_t)microros_error_pool_most;

@@ -7,24 +7,24 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-static xrce_watch_listener_t told; /* outlives the client, which begins all zero with each rcl_init */
+static xrce_watch_listener_t told; /* outlives the client, which is zeroed by each rcl_init */
 
 void xrce_watch_set_listener(xrce_watch_listener_t listener)
 {
   told = listener;
 }
 
-/* Returns why a session that was ready is so no more. */
+/* Returns why a session that was ready was lost. */
 static xrce_watch_reason_t watch_reason(const xrce_client_t * client)
 {
   if (xrce_transport_is_gone(&client->session.transport)) {
     return XRCE_WATCH_BROKEN;
   }
-  /* It was given up just after the agent said so, or because it said nothing. */
+  /* Lost right after a message: the agent said so; otherwise it was silent. */
   return client->session.heard_ms == client->session.now_ms ? XRCE_WATCH_FORGOTTEN : XRCE_WATCH_SILENT;
 }
 
-/* Returns what there is to be told, given what was told last. */
+/* Returns the state to report, given the last reported one. */
 static xrce_watch_state_t watch_look(const xrce_client_t * client)
 {
   const xrce_session_t * session = &client->session;
@@ -57,7 +57,7 @@ void xrce_watch_step(xrce_client_t * client)
     } else if (client->session.refusal != 0u) {
       reason = XRCE_WATCH_REFUSED;
     } else {
-      /* nobody has answered yet */
+      /* no answer yet */
     }
   }
   if (state == watch->state && (uint8_t)reason == watch->reason) {

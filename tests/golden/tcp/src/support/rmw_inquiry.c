@@ -7,13 +7,13 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_wire.h"
 
-/* The agents' INFO has 36 bytes; what is longer than this is none. */
+/* The agent's INFO has 36 bytes; anything longer than this is not an INFO. */
 enum { INPUT_SIZE = 40 };
 
-/* A session that is open keeps part of a message in its own input. */
+/* An open session may keep part of a message in its input buffer. */
 static uint8_t inquiry_input[INPUT_SIZE];
 
-/* Without a session nobody has anything to do but to open one, maybe over this line: that waits. */
+/* Without a session other tasks could only open one, maybe over this line: they have to wait. */
 static void inquiry_rest(void)
 {
   if (rmw_client_instance()->session.state == (uint8_t)XRCE_CLOSED) {
@@ -23,7 +23,7 @@ static void inquiry_rest(void)
   }
 }
 
-/* Whether `message` begins with an INFO. */
+/* Returns whether `message` starts with an INFO. */
 static bool inquiry_is_info(const uint8_t * message, int32_t size)
 {
   return size > XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER && message[XRCE_MESSAGE_HEADER] == XRCE_INFO;
@@ -34,7 +34,7 @@ static void inquiry_send(xrce_transport_t * transport)
   uint8_t message[XRCE_GET_INFO_SIZE];
 
   xrce_put_get_info(message, XRCE_SESSION_NONE);
-  (void)xrce_transport_send(transport, message, sizeof(message)); /* a loss is no answer */
+  (void)xrce_transport_send(transport, message, sizeof(message)); /* a lost message just remains unanswered */
 }
 
 static bool inquiry_once(xrce_transport_t * transport, uint32_t timeout_ms)
@@ -64,7 +64,7 @@ static bool inquiry_try(xrce_transport_t * transport, uint32_t timeout_ms, uint8
   bool answered = false;
 
   for (uint8_t i = 0; i < attempts && !answered; ++i) {
-    if (xrce_transport_is_gone(transport)) { /* nobody listened there; maybe somebody does by now */
+    if (xrce_transport_is_gone(transport)) { /* connection refused: an agent may listen by now */
       xrce_transport_close(transport);
       if (!xrce_transport_open(transport)) {
         return false;

@@ -17,7 +17,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* How often it does so before it ends: here, for years. */
+/* Number of samples before the program ends: by default enough for years. */
 #ifndef EXAMPLE_SAMPLES
 #define EXAMPLE_SAMPLES UINT32_MAX
 #endif
@@ -32,12 +32,12 @@ static std_msgs__msg__Header__Storage header_1_storage;
 static rcl_timer_t timer_0;
 static rclc_executor_t executor;
 static uint32_t failed;
-static uint32_t ticks; /* of timers; without one: of EXAMPLE_PERIOD_MS */
+static uint32_t ticks; /* of timers; without timers: of EXAMPLE_PERIOD_MS */
 
 static void on_timer_0(rcl_timer_t * timer, int64_t since_last_call);
 
-/* Into the storage that the message is bound to. rosidl_runtime_c__String__assign does it too, and links storage of its
- * own for what is longer; a message that is bound needs none. */
+/* Copies into the storage that the message is bound to. rosidl_runtime_c__String__assign does that, too,
+ * but links further storage for longer texts, which a bound message does not need. */
 static bool put_text(rosidl_runtime_c__String * string, const char * text)
 {
   const size_t size = strlen(text);
@@ -128,7 +128,7 @@ static rcl_ret_t publish_header_1(uint32_t count)
   return rcl_publish(&publisher_1, &header_1, NULL);
 }
 
-/* Why a call failed: the library keeps the text of the last error. */
+/* Reports why a call failed: the library keeps the text of the last error. */
 static void report(const char * what)
 {
   (void)fprintf(stderr, "%s: %s\n", what, rcl_get_error_string().str);

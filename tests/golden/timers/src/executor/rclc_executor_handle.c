@@ -48,7 +48,7 @@ rcl_ret_t rclc_handle_take_nothing(rclc_executor_handle_t * handle)
   return RCL_RET_OK;
 }
 
-/* One of the pointers is set; of a handle of nothing none is. */
+/* At most one pointer is set; an unused handle has none. */
 void * rclc_executor_handle_get_ptr(rclc_executor_handle_t * handle)
 {
   if (handle == NULL) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* errors: text. The words of the selected components, each an object of its own, so that what nobody names is not
- * linked; what % and a letter stand for is said in error_text.c. */
+/* errors: text. Texts of the selected components, one object per text, so that the linker drops unused
+ * ones; error_text.c explains the letters after %. */
 #include "microros/error.h"
 
 const char microros_error_argument[] = "%s: NULL or not initialized";
@@ -25,12 +25,12 @@ const char microros_error_arena[] = "no memory for %n bytes: raise memory: {aren
 const char microros_error_serialized[] = "serialized message: not little endian CDR, or %n bytes above %m";
 const char microros_error_domain[] = "domain %n is above %m";
 const char microros_error_memory_given[] = "the allocator gives no memory for %n bytes";
-const char microros_error_pool_full[] = "%n %s are all there are: set pools: {%s: %m}%y";
+const char microros_error_pool_full[] = "all %n %s are in use: set pools: {%s: %m}%y";
 const char microros_error_clock[] = "clock: %s";
 const char microros_error_timer[] = "timer: %s";
 const char microros_error_executor[] = "executor: %s";
 const char microros_error_field_bound[] = "%t.%d: %n, and its interface file allows %m";
 const char microros_error_field_data[] = "%t.%d has a size, %n, and no data: NULL";
-const char microros_error_pool_most[] = "%s: all %n places are taken, and a session has no more of a kind";
-const char microros_error_block_large[] = "%n bytes of a string or sequence: no message that is sent has more than %m: raise limits%y";
-const char microros_error_blocks_taken[] = "all blocks of %n bytes are taken: give one back, or set memory: {messages: %m}%y";
+const char microros_error_pool_most[] = "%s: all %n places are in use, the maximum of a session";
+const char microros_error_block_large[] = "%n bytes of a string or sequence: no sent message has more than %m: raise limits%y";
+const char microros_error_blocks_taken[] = "all blocks of %n bytes are in use: free one, or set memory: {messages: %m}%y";

@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-/* A place has so long to open the session; answers come within so long after a question, and are looked for so often; one
- * look takes so many. */
+/* Times of discovery: to open a session at a locator, to collect answers to a request, between two looks
+ * for answers; and the number of answers processed in one look. */
 enum {
   TRY_MS = 3 * MICROROS_RETRY_FIRST_MS,
   ANSWERS_MS = 2 * MICROROS_RETRY_FIRST_MS,
@@ -15,7 +15,7 @@ enum {
   ANSWERS_PER_LOOK = 8
 };
 
-/* What of an answer is read: the first three places. */
+/* Part of an answer that is read: the first three locators. */
 enum { ANSWER_SIZE = 60 };
 
 static char * discovery_put_number(char * at, uint8_t number)
@@ -79,7 +79,7 @@ static void discovery_ask(xrce_discovery_t * discovery, uint32_t now)
 
 bool xrce_discovery_search(xrce_client_t * client, xrce_discovery_t * discovery, uint32_t now)
 {
-  uint8_t * answer = client->input; /* nobody has anything in it now */
+  uint8_t * answer = client->input; /* the input buffer is unused without a session */
   uint8_t sender[PORT_MULTICAST_ADDRESS];
 
   if (discovery->next == discovery->count) {
@@ -98,13 +98,13 @@ bool xrce_discovery_search(xrce_client_t * client, xrce_discovery_t * discovery,
   return discovery->next != discovery->count;
 }
 
-/* Lets the session connect to the next place. */
+/* Lets the session connect to the next locator. */
 static void discovery_try(xrce_client_t * client, uint32_t now)
 {
   xrce_discovery_t * discovery = &client->discovery;
   xrce_transport_t * transport = &client->session.transport;
 
-  xrce_session_lose(client, now); /* begins to connect anew */
+  xrce_session_lose(client, now); /* connects again */
   transport->port = xrce_discovery_take(discovery);
   transport->host = discovery->host;
   discovery->trying = true;
@@ -124,7 +124,7 @@ bool xrce_discovery_step(xrce_client_t * client, uint32_t now)
   }
   if (session->state != XRCE_CONNECTING) {
     xrce_discovery_end(discovery);
-    discovery->due_ms = now + TRY_MS; /* after a loss the known place has this long */
+    discovery->due_ms = now + TRY_MS; /* grace period of the known address after a loss */
     return true;
   }
   if (discovery->trying && !xrce_is_due(now, discovery->due_ms)) {

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What applications take from this header of the public XRCE client. Sessions are those of rmw_microros/session.h. */
+/*
+ * The part of this header of the public XRCE client that applications use. Sessions: see
+ * rmw_microros/session.h. */
 #ifndef MICROROS_UXR_CLIENT_CLIENT_H
 #define MICROROS_UXR_CLIENT_CLIENT_H
 
