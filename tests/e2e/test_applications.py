@@ -198,8 +198,8 @@ def test_a_header_that_is_not_selected_names_its_key(pool_image: Image, tmp_path
         source.write_text(f"#include <rcl/rcl.h>\n#include <{name}>\nint main(void) {{ return 0; }}\n")
         with pytest.raises(AssertionError, match=f"#error .*{key}.*microros.yaml"):
             pool_image.application(source, tmp_path / "program")
-    source.write_text("#include <rclc_parameter/rclc_parameter.h>\nint main(void) { return 0; }\n")
-    with pytest.raises(AssertionError, match=r"#error .*'parameters' is not in this version yet"):
+    source.write_text("#include <rclc_lifecycle/rclc_lifecycle.h>\nint main(void) { return 0; }\n")
+    with pytest.raises(AssertionError, match=r"#error .*'lifecycle' is not in this version yet"):
         pool_image.application(source, tmp_path / "program")
 
 

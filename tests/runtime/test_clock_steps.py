@@ -370,6 +370,7 @@ TIMELESS = {
     "entities_binary": "the deadline of a QoS is a number for the agent",
     "entities_preconfigured": "hands a time-out on to the session",
     "multithread": "sleeps a millisecond",
+    "parameters": "stamps events with the time of day, which has 64 bits",
     "port_cortex_m": "waits for one byte of a UART",
     "port_posix": "the system's clocks have 64 bits",
     "port_riscv": "waits for one byte of a UART; its counter has 64 bits",

@@ -39,7 +39,11 @@ def test_the_wheel_holds_every_file_of_data(installed: Installed) -> None:
         there = set(wheel.namelist())
     for folder in DATA:
         origin = ROOT / "profiles" if folder == "profiles" else ROOT / "microros_gen" / folder
-        files = [p.relative_to(origin).as_posix() for p in origin.rglob("*") if p.is_file()]
+        files = [
+            p.relative_to(origin).as_posix()
+            for p in origin.rglob("*")
+            if p.is_file() and "__pycache__" not in p.parts
+        ]
         assert files, folder
         assert {f"microros_gen/{folder}/{name}" for name in files} <= there
     shared = {name.partition(".data/data/share/")[2] for name in there}
