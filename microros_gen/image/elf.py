@@ -84,11 +84,15 @@ class Elf:
         return self.machine == "EM_ARM"
 
     @cached_property
+    def headers(self) -> tuple[Any, ...]:
+        """The sections as pyelftools has them, at their indexes; it reads a section again for each question."""
+        return tuple(self.file.iter_sections())
+
+    @cached_property
     def sections(self) -> tuple[Section, ...]:
         """All sections in the order of the file, those of size 0 left out."""
-        return tuple(
-            s for s in map(self._section, *zip(*enumerate(self.file.iter_sections()), strict=True)) if s.size
-        )
+        found = (self._section(index, header) for index, header in enumerate(self.headers))
+        return tuple(s for s in found if s.size)
 
     @cached_property
     def loaded(self) -> tuple[Section, ...]:
@@ -108,7 +112,7 @@ class Elf:
 
     def content(self, section: Section) -> bytes:
         """Return the bytes of a section; zeros for one that has none in the file."""
-        data = self.file.get_section(section.index).data()
+        data = self.headers[section.index].data()
         return bytes(data) if data else bytes(section.size)
 
     def _section(self, index: int, section: Any) -> Section:
@@ -125,7 +129,7 @@ class Elf:
         return Section(index, section.name, int(section["sh_addr"]), int(section["sh_size"]), kind, strings)
 
     def _symbols(self) -> Iterator[Symbol]:
-        for section in self.file.iter_sections():
+        for section in self.headers:
             if not isinstance(section, SymbolTableSection) or section.name == ".dynsym":
                 continue
             for symbol in section.iter_symbols():

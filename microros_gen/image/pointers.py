@@ -104,17 +104,17 @@ def _referred(item: Elf) -> Iterator[str]:
     by_section: dict[int, list[str]] = {}
     for symbol in item.symbols:
         by_section.setdefault(symbol.section, []).append(symbol.name)
-    for section in item.file.iter_sections():
+    for section in item.headers:
         if not isinstance(section, RelocationSection):
             continue
-        holder = item.file.get_section(section["sh_info"])
+        holder = item.headers[section["sh_info"]]
         if not holder["sh_flags"] & SH_FLAGS.SHF_ALLOC or holder.name.startswith(_UNWINDING):
             continue
         yield from _names(item, section, by_section)
 
 
 def _names(item: Elf, section: Any, by_section: Mapping[int, list[str]]) -> Iterator[str]:
-    table, branches = item.file.get_section(section["sh_link"]), _BRANCHES.get(item.machine, frozenset())
+    table, branches = item.headers[section["sh_link"]], _BRANCHES.get(item.machine, frozenset())
     for relocation in section.iter_relocations():
         if relocation["r_info_type"] in branches:
             continue

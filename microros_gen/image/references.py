@@ -66,11 +66,11 @@ def _edges(item: Elf) -> Iterable[Key]:
     by_section: dict[int, list[str]] = {}
     for symbol in item.symbols:
         by_section.setdefault(symbol.section, []).append(symbol.name)
-    for section in item.file.iter_sections():
+    for section in item.headers:
         if not isinstance(section, RelocationSection):
             continue
         owners = by_section.get(int(section["sh_info"]), [])
-        table = item.file.get_section(section["sh_link"])
+        table = item.headers[section["sh_link"]]
         for relocation in section.iter_relocations():
             symbol = table.get_symbol(relocation["r_info_sym"])
             names = [symbol.name]
