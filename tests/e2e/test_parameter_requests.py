@@ -39,6 +39,8 @@ SERVICES = {
 BOOL, INTEGER, DOUBLE, STRING = 1, 2, 3, 4
 VALUES = {BOOL: "bool_value", INTEGER: "integer_value", DOUBLE: "double_value", STRING: "string_value"}
 REFUSED = None
+CUT_SIZE = 4
+"""What the middleware leaves of a request that is too large."""
 
 
 @pytest.fixture(scope="module")
@@ -140,6 +142,36 @@ def test_too_large_a_request_changes_nothing(program: Path, codec: Codec) -> Non
         assert server.values("a") == [False]
 
 
+def test_cut_requests_are_answered(program: Path, codec: Codec) -> None:
+    """Of a request larger than its queue holds, the length of its list arrives: each entry is refused with a reason."""
+    reason = "the request is too large, none of it was set"
+    with serving(program, codec) as server:
+        for count in (9, 30, 2**32 - 1):
+            cut = struct.pack("<I", count)
+            for service in (
+                "get_parameters",
+                "get_parameter_types",
+                "describe_parameters",
+                "list_parameters",
+            ):
+                body = server.raw(service, cut)
+                assert body is not REFUSED
+                assert set(body) == {0}, "an empty reply"
+            whole = server.raw("set_parameters_atomically", cut)
+            assert whole is not REFUSED
+            told = server.reply("set_parameters_atomically", whole)["result"]
+            assert told == {"successful": False, "reason": reason}
+            each = server.raw("set_parameters", cut)
+            assert each is not REFUSED
+            results = server.reply("set_parameters", each)["results"]
+            assert len(results) == (count if count < 50 else 0)
+            assert not any(result["successful"] for result in results)
+            assert {result["reason"] for result in results} <= {reason, ""}
+            assert count > 50 or results[0]["reason"] == reason
+        assert server.set(("a", BOOL, True)) == ["ok"]
+        assert len(server.call("list_parameters", prefixes=[], depth=0)["result"]["names"]) == 3
+
+
 def test_long_names_are_unknown_ones(program: Path, codec: Codec) -> None:
     with serving(program, codec) as server:
         (reason,) = server.set(("é" * 100, BOOL, True))
@@ -226,7 +258,8 @@ def test_cut_and_changed_requests(program: Path, codec: Codec) -> None:
             "set_parameters_atomically": server.request("set_parameters_atomically", parameters=three),
         }
         for service, body in bodies.items():
-            assert {server.raw(service, body[:end]) for end in range(len(body))} == {REFUSED}
+            cut = {server.raw(service, body[:end]) for end in range(len(body)) if end != CUT_SIZE}
+            assert cut == {REFUSED}
             for _ in range(300):
                 changed = bytearray(body)
                 for _ in range(chance.randint(1, 4)):

@@ -129,6 +129,28 @@ def sets_atomically(peer: ParameterPeer) -> None:
     assert same(peer, "get_parameters", NAMES[:2])["values"] == [[1, False], [2, 20]]
 
 
+LARGE = "the request is too large, none of it was set"
+
+
+def large_requests(peer: ParameterPeer) -> None:
+    """Above the limits of the device: each is answered, each is told there, and nothing of it is lost or set."""
+    many = [("enabled", False)] * 12
+    found = peer.call(DEVICE, "set_parameters", [*many, ("motor.steps", 30)])["results"]
+    assert [(r["successful"], r["reason"] in ("", LARGE)) for r in found] == [(False, True)] * 13
+    assert found[0]["reason"] == LARGE
+    for value in (["x" * 50] * 60, "x" * 1000):
+        found = peer.call(DEVICE, "set_parameters", [("motor.steps", value), ("enabled", True)])["results"]
+        assert [(r["successful"], r["reason"]) for r in found] == [(False, LARGE)] * 2
+        whole = peer.call(DEVICE, "set_parameters_atomically", [("motor.steps", value)])["result"]
+        assert (whole["successful"], whole["reason"]) == (False, LARGE)
+    assert peer.call(DEVICE, "set_parameters", [("enabled", True)] * 200)["results"] == []
+    assert peer.call(DEVICE, "get_parameters", NAMES * 10)["values"] == []
+    assert peer.call(DEVICE, "get_parameter_types", NAMES * 10)["types"] == []
+    assert peer.call(DEVICE, "describe_parameters", ["x" * 900])["descriptors"] == []
+    assert names_of(peer.call(DEVICE, "list_parameters", ["motor"] * 60, 0)) == ([], [])
+    assert peer.call(DEVICE, "get_parameters", NAMES[:2])["values"] == [[1, True], [2, 20]]
+
+
 def events_of(peer: ParameterPeer, node: str, count: int) -> list[dict[str, Any]]:
     """Wait for events of a node; return them without their stamps, which must be those of today."""
     end = deadline(15)
@@ -173,6 +195,7 @@ def test_as_an_rclpy_node(
         sets(peer)
         sets_atomically(peer)
         events(peer)
+        large_requests(peer)
         peer.call(DEVICE, "set_parameters", [("motor.steps", 120)])
         ends_well(process)
 

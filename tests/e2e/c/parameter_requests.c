@@ -103,12 +103,32 @@ static void check(rcl_ret_t result)
   }
 }
 
+/* The compiler's division is the model. */
+static void check_division(void)
+{
+  static const uint64_t numbers[] = {
+    1, 2, 3, 999999999, 1000000000, 1763877000123456789u, INT64_MAX, (uint64_t)INT64_MAX + 1u, UINT64_MAX, 0};
+
+  for (size_t i = 0; i < sizeof(numbers) / sizeof(numbers[0]); ++i) {
+    for (size_t k = 0; numbers[k] != 0u; ++k) {
+      uint64_t rest;
+
+      if (
+        parameter_divide(numbers[i], numbers[k], &rest) != numbers[i] / numbers[k] ||
+        rest != numbers[i] % numbers[k]) {
+        abort();
+      }
+    }
+  }
+}
+
 /* Arguments: "undeclared" lets set requests create parameters. */
 int main(int argc, char ** argv)
 {
   static char line[LINE_MAX];
   static uint8_t request[BODY_MAX];
 
+  check_division();
   server.max_params = MICROROS_PARAMETERS_MAX;
   server.on_modification = accepts;
   server.allow_undeclared_parameters = argc > 1 && strcmp(argv[1], "undeclared") == 0;

@@ -9,11 +9,12 @@
 
 static void event_out_stamp(parameter_out_t * out)
 {
-  const int64_t ns_per_s = 1000000000;
-  const int64_t now = port_time_epoch_ns();
+  const uint64_t ns_per_s = 1000000000;
+  uint64_t nanoseconds;
+  const uint64_t seconds = parameter_divide((uint64_t)port_time_epoch_ns(), ns_per_s, &nanoseconds);
 
-  parameter_out_4(out, (uint32_t)(now / ns_per_s));
-  parameter_out_4(out, (uint32_t)(now % ns_per_s));
+  parameter_out_4(out, (uint32_t)seconds);
+  parameter_out_4(out, (uint32_t)nanoseconds);
 }
 
 /* The fully qualified name: the namespace ends with the only slash where it is "/". */

@@ -35,6 +35,8 @@ static const char * reason_words(uint8_t outcome)
       return "parameter name '%n' is too long";
     case PARAMETER_FULL:
       return "no place for parameter '%n'";
+    case PARAMETER_CUT:
+      return "the request is too large, none of it was set";
     case PARAMETER_UNSUPPORTED:
     default:
       return "parameter '%n' cannot have a value of type {%t}";

@@ -126,6 +126,22 @@ static void reply_out_result(
   out->room = room;
 }
 
+/* Each entry of a request that did not arrive has the same result; more than there is room for have none. */
+static uint32_t reply_cut(parameter_out_t * out, const rclc_parameter_server_t * server)
+{
+  static const parameter_asked_t nothing = {{"", 0}, (uint8_t)RCLC_PARAMETER_NOT_SET, {false}};
+  const uint32_t count = server->request_cut;
+
+  if (count > out->room / (uint32_t)SHORTEST_RESULT) {
+    return reply_end(out, false);
+  }
+  parameter_out_4(out, count);
+  for (uint32_t i = 0; i < count; ++i) {
+    reply_out_result(out, server, &nothing, (uint8_t)PARAMETER_CUT, count - i - 1u);
+  }
+  return reply_end(out, true);
+}
+
 uint32_t parameter_reply_results(const void * message, uint8_t * body, cdr_fault_t * fault)
 {
   const rclc_parameter_server_t * server = message;
@@ -133,6 +149,9 @@ uint32_t parameter_reply_results(const void * message, uint8_t * body, cdr_fault
   const uint32_t count = parameter_request_length(&in);
   parameter_out_t out = reply_begin(body, rcl_interfaces__srv__SetParameters_Response__MAX_ENCODED_SIZE);
 
+  if (server->request_cut != 0u) {
+    return reply_cut(&out, server);
+  }
   parameter_out_4(&out, count);
   for (uint32_t i = 0; i < count; ++i) {
     const parameter_asked_t asked = parameter_request_parameter(&in);
@@ -152,6 +171,9 @@ uint32_t parameter_reply_result(const void * message, uint8_t * body, cdr_fault_
   parameter_asked_t asked = {{"", 0}, (uint8_t)RCLC_PARAMETER_NOT_SET, {false}};
   uint8_t outcome = (uint8_t)(count == 0u ? PARAMETER_NONE : PARAMETER_SET);
 
+  if (server->request_cut != 0u) {
+    outcome = (uint8_t)PARAMETER_CUT;
+  }
   for (uint32_t i = 0; i < count && outcome == (uint8_t)PARAMETER_SET; ++i) {
     asked = parameter_request_parameter(&in);
     outcome = server->outcomes[i];
@@ -203,7 +225,7 @@ static bool reply_lists(const rclc_parameter_server_t * server, const rclc_param
     }
   }
   cdr_get_8(&in, &depth, 1u, "depth");
-  if (place->event == (uint8_t)PARAMETER_EVENT_DELETED) {
+  if (place->event == (uint8_t)PARAMETER_EVENT_DELETED || server->request_cut != 0u) {
     return false;
   }
   if (count == 0u) {

@@ -2,6 +2,8 @@
 /*
  * Requests stay as they are on the wire: they are checked when they arrive, copied once, and read again when they are
  * answered. So a name may be as long as it likes, and no message of their types takes memory.
+ *
+ * A request that is larger than the largest arrives as the length of its list alone.
  */
 #include "microros/rclc_parameters.h"
 
@@ -96,6 +98,20 @@ cdr_in_t parameter_request_begin(const rclc_parameter_server_t * server, cdr_fau
   return in;
 }
 
+/* Whether a request arrived without the entries of its list; then notes how many these are. */
+static bool request_cut(const cdr_in_t * in, rclc_parameter_server_t * server)
+{
+  cdr_in_t list = *in;
+  uint32_t count = 0;
+
+  if (in->size == sizeof(count)) {
+    cdr_get_4(&list, &count, 1u, "request");
+  }
+  server->request_cut = count;
+  server->request_size = 0; /* until it is kept */
+  return count != 0u;
+}
+
 /* Keeps a request that was read to its end. */
 static void request_keep(cdr_in_t * in, rclc_parameter_server_t * server)
 {
@@ -113,23 +129,31 @@ static void request_keep(cdr_in_t * in, rclc_parameter_server_t * server)
 
 void parameter_decode_names(cdr_in_t * in, void * server)
 {
-  request_skip_texts(in);
-  request_keep(in, server);
+  if (!request_cut(in, server)) {
+    request_skip_texts(in);
+    request_keep(in, server);
+  }
 }
 
 void parameter_decode_list(cdr_in_t * in, void * server)
 {
   uint64_t depth;
 
-  request_skip_texts(in);
-  cdr_get_8(in, &depth, 1u, "request");
-  request_keep(in, server);
+  if (!request_cut(in, server)) {
+    request_skip_texts(in);
+    cdr_get_8(in, &depth, 1u, "request");
+    request_keep(in, server);
+  }
 }
 
 void parameter_decode_parameters(cdr_in_t * in, void * server)
 {
-  const uint32_t count = parameter_request_length(in);
+  uint32_t count;
 
+  if (request_cut(in, server)) {
+    return;
+  }
+  count = parameter_request_length(in);
   for (uint32_t i = 0; i < count && !in->failed; ++i) {
     (void)parameter_request_parameter(in);
   }

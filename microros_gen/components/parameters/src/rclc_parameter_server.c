@@ -2,6 +2,8 @@
 #include "microros/error.h"
 #include "microros/executor_handles.h"
 #include "microros/rclc_parameters.h"
+#include "microros/rmw_parameters.h"
+#include "microros/rmw_service.h"
 #include "rclc/publisher.h"
 #include "rclc/service.h"
 
@@ -30,8 +32,15 @@ static rcl_ret_t server_open_service(
   rcl_ret_t before, rcl_service_t * service, const rcl_node_t * node,
   const rosidl_service_type_support_t * type, const char * name)
 {
-  return before == RCL_RET_OK ? rclc_service_init(service, node, type, name, &rmw_qos_profile_parameters)
-                              : before;
+  rcl_ret_t result = before;
+
+  if (result == RCL_RET_OK) {
+    result = rclc_service_init(service, node, type, name, &rmw_qos_profile_parameters);
+  }
+  if (before == RCL_RET_OK && result == RCL_RET_OK) {
+    rmw_parameters_answer_large(rcl_service_get_rmw_handle(service), true);
+  }
+  return result;
 }
 
 static rcl_ret_t server_open(rclc_parameter_server_t * server, const rcl_node_t * node)
@@ -57,17 +66,25 @@ static rcl_ret_t server_open(rclc_parameter_server_t * server, const rcl_node_t 
   return result;
 }
 
+static void server_close_service(rcl_ret_t * first, rcl_service_t * service, rcl_node_t * node)
+{
+  if (rcl_service_is_valid(service)) {
+    rmw_parameters_answer_large(rcl_service_get_rmw_handle(service), false);
+  }
+  server_note(first, rcl_service_fini(service, node));
+}
+
 /* Closes what is open; a service or publisher that is not stays as it is. */
 static rcl_ret_t server_close(rclc_parameter_server_t * server, rcl_node_t * node)
 {
   rcl_ret_t result = RCL_RET_OK;
 
-  server_note(&result, rcl_service_fini(&server->describe_service, node));
-  server_note(&result, rcl_service_fini(&server->get_types_service, node));
-  server_note(&result, rcl_service_fini(&server->get_service, node));
-  server_note(&result, rcl_service_fini(&server->list_service, node));
-  server_note(&result, rcl_service_fini(&server->set_service, node));
-  server_note(&result, rcl_service_fini(&server->set_atomically_service, node));
+  server_close_service(&result, &server->describe_service, node);
+  server_close_service(&result, &server->get_types_service, node);
+  server_close_service(&result, &server->get_service, node);
+  server_close_service(&result, &server->list_service, node);
+  server_close_service(&result, &server->set_service, node);
+  server_close_service(&result, &server->set_atomically_service, node);
   if (rcl_publisher_is_valid(&server->event_publisher)) {
     server_note(&result, rcl_publisher_fini(&server->event_publisher, node));
   }
@@ -135,13 +152,17 @@ static void server_set_all(const void * request, void * response, void * context
 }
 
 static rclc_handle_kind_t server_kind; /* that of a service, which also sends what events are due */
-static rcl_ret_t (*server_service_look)(
-  const rclc_executor_handle_t * handle, bool * is_ready, int64_t * look_again_ns);
 
+/* As that of a service, which is not called here: a call by its pointer would be one that might come back. */
 static rcl_ret_t server_look(const rclc_executor_handle_t * handle, bool * is_ready, int64_t * look_again_ns)
 {
+  (void)look_again_ns;
+  if (!rcl_service_is_valid(handle->service)) {
+    return microros_error_refuse(RCL_RET_SERVICE_INVALID, "service");
+  }
   parameter_publish(handle->callback_context);
-  return server_service_look(handle, is_ready, look_again_ns);
+  *is_ready = rmw_replier_is_ready(handle->service->impl);
+  return RCL_RET_OK;
 }
 
 /* Has the executor try again with events that found no room, whenever it looks at the handle that was added last. */
@@ -150,7 +171,6 @@ static void server_watch(rclc_executor_t * executor)
   rclc_executor_handle_t * handle = &executor->handles[executor->index - 1u];
 
   server_kind = *handle->kind;
-  server_service_look = handle->kind->look;
   server_kind.look = server_look;
   handle->kind = &server_kind;
 }

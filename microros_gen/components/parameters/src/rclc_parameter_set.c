@@ -4,13 +4,18 @@
 
 static bool integer_holds(const rclc_parameter_range_t * range, int64_t value)
 {
-  const uint64_t above = (uint64_t)value - (uint64_t)range->integer.from_value;
+  uint64_t rest = 0;
 
   if (value == range->integer.to_value) {
     return true;
   }
-  return value >= range->integer.from_value && value <= range->integer.to_value &&
-         (range->integer.step == 0u || above % range->integer.step == 0u);
+  if (value < range->integer.from_value || value > range->integer.to_value) {
+    return false;
+  }
+  if (range->integer.step != 0u) {
+    (void)parameter_divide((uint64_t)value - (uint64_t)range->integer.from_value, range->integer.step, &rest);
+  }
+  return rest == 0u;
 }
 
 static parameter_outcome_t set_check_range(

@@ -2,6 +2,7 @@
 #include "microros/rmw_parameters.h"
 
 #include "microros/lock.h"
+#include "microros/xrce_parameters.h"
 #include "microros/xrce_write.h"
 
 #include <stddef.h>
@@ -17,4 +18,11 @@ bool rmw_parameters_have_room(const rmw_publisher_t * publisher)
   result = xrce_write_reserve(publisher->data) != NULL;
   microros_unlock();
   return result;
+}
+
+void rmw_parameters_answer_large(const rmw_service_t * service, bool answers)
+{
+  microros_lock();
+  xrce_parameters_answer_large(service->data, answers);
+  microros_unlock();
 }

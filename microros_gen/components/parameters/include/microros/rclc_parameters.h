@@ -33,7 +33,8 @@ typedef enum parameter_outcome_t {
   PARAMETER_REJECTED,
   PARAMETER_NAME_LONG,
   PARAMETER_FULL,
-  PARAMETER_UNSUPPORTED /* a value of a type that a server cannot hold */
+  PARAMETER_UNSUPPORTED, /* a value of a type that a server cannot hold */
+  PARAMETER_CUT          /* its request was too large to arrive */
 } parameter_outcome_t;
 
 /* A string inside a request; no NUL ends it. */
@@ -66,10 +67,17 @@ uint32_t parameter_request_length(cdr_in_t * in);
 parameter_text_t parameter_request_text(cdr_in_t * in);
 parameter_asked_t parameter_request_parameter(cdr_in_t * in);
 
-/* Decoders of message types whose message is the server: they check the request and keep it there. */
+/* Decoders of message types whose message is the server: they check the request and keep it there. Of one that was too
+ * large to arrive they only note the number of its entries, in `request_cut`: it is read as an empty one. */
 void parameter_decode_names(cdr_in_t * in, void * server);
 void parameter_decode_parameters(cdr_in_t * in, void * server);
 void parameter_decode_list(cdr_in_t * in, void * server);
+
+/* --- numbers: rclc_parameter_divide.c --- */
+
+/* Returns value / by, and value % by in *rest; `by` is not 0. The division of 64 bits that a compiler brings along takes
+ * more code than it is worth here. */
+uint64_t parameter_divide(uint64_t value, uint64_t by, uint64_t * rest);
 
 /* --- the store: rclc_parameter_store.c --- */
 

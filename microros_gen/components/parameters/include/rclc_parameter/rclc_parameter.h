@@ -153,6 +153,7 @@ typedef struct rclc_parameter_server_t {
   bool low_mem_mode;
   bool request_swaps;    /* its numbers are in the other byte order */
   uint32_t request_size; /* of the request that is being answered */
+  uint32_t request_cut;  /* entries of one that was too large to arrive; 0: it arrived */
   size_t max_params;
   size_t count;
   rclc_parameter_place_t places[MICROROS_PARAMETERS_MAX];

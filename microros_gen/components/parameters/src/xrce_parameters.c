@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/xrce_parameters.h"
+
+#include "microros/xrce_client.h"
+#include "microros/xrce_read.h"
+
+/* Start of DATA: the submessage's header, request id and object id. */
+enum { LENGTH_AT = 2, REQUEST_AT = 4, OBJECT_AT = 6, SAMPLE_AT = 8 };
+
+void xrce_parameters_answer_large(const xrce_endpoint_t * endpoint, bool answers)
+{
+  endpoint->client->large_answered[endpoint->index - MICROROS_PUBLISHERS_MAX] = answers;
+}
+
+/* Keeps the beginning of a DATA that is too large: there are `here` bytes of the `whole` after its header. */
+static void parameters_keep(
+  xrce_client_t * client, const uint8_t * data, size_t here, size_t whole, uint32_t now)
+{
+  xrce_receiver_t * receiver;
+  xrce_sample_t sample;
+
+  if (here < XRCE_OBJECT_PREFIX + (size_t)XRCE_PARAMETERS_BEGINNING || (data[1] & XRCE_READ_FORMATS) != 0u) {
+    return;
+  }
+  receiver = xrce_read_asked(client, xrce_get_be16(&data[REQUEST_AT]), xrce_get_be16(&data[OBJECT_AT]));
+  if (
+    receiver == NULL || !client->large_answered[receiver - client->receivers] ||
+    whole <= (size_t)xrce_read_largest(client, receiver) + XRCE_OBJECT_PREFIX) {
+    return;
+  }
+  sample.data = &data[SAMPLE_AT];
+  sample.arrived_ms = now;
+  sample.size = (uint16_t)XRCE_PARAMETERS_BEGINNING;
+  sample.big_endian = (data[1] & XRCE_FLAG_LITTLE_ENDIAN) == 0u;
+  xrce_read_keep(client, receiver, &sample, true);
+}
+
+void xrce_parameters_on_data(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
+{
+  parameters_keep(client, submessage, size, size, now);
+}
+
+void xrce_parameters_on_piece(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
+{
+  const uint8_t * data = xrce_payload_of(submessage);
+
+  if (!client->large_begun && size > XRCE_SUBMESSAGE_HEADER && data[0] == XRCE_DATA) {
+    parameters_keep(client, data, size - XRCE_SUBMESSAGE_HEADER, xrce_get_le16(&data[LENGTH_AT]), now);
+  }
+  client->large_begun = (xrce_flags_of(submessage) & XRCE_FLAG_LAST_FRAGMENT) == 0u;
+}
+
+void xrce_parameters_renew(xrce_client_t * client)
+{
+  client->large_begun = false;
+}

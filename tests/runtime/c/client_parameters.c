@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A parameter server and a publisher in the hands of the test: one call for each line of standard input. */
+#include "port_fake.h"
+
+#include "microros/port.h"
+
+#include <rcl/error_handling.h>
+#include <rcl/rcl.h>
+#include <rclc/executor.h>
+#include <rclc/rclc.h>
+#include <rclc_parameter/rclc_parameter.h>
+#include <rmw_microros/rmw_microros.h>
+#include <std_msgs/msg/int32.h>
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static rclc_support_t support;
+static rcl_node_t node;
+static rcl_publisher_t publisher;
+static rclc_executor_t executor;
+static rclc_parameter_server_t server;
+static rcl_allocator_t allocator;
+
+/* Nothing arrives before the test says so: no test lets the executor wait. */
+void port_wait(intptr_t handle, uint32_t timeout_ms)
+{
+  (void)handle;
+  (void)timeout_ms;
+  abort();
+}
+
+void port_wake(void)
+{
+}
+
+static rcl_ret_t start(void)
+{
+  rcl_ret_t result = rclc_support_init(&support, 0, NULL, &allocator);
+
+  if (result == RCL_RET_OK) {
+    result = rclc_node_init_default(&node, "device", "arm", &support);
+  }
+  if (result == RCL_RET_OK) {
+    result = rclc_publisher_init_default(
+      &publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32), "count");
+  }
+  return result;
+}
+
+static rcl_ret_t open_server(void)
+{
+  rcl_ret_t result = rclc_parameter_server_init_default(&server, &node);
+
+  if (result == RCL_RET_OK) {
+    result =
+      rclc_executor_init(&executor, &support.context, RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES, &allocator);
+  }
+  if (result == RCL_RET_OK) {
+    result = rclc_executor_add_parameter_server(&executor, &server, NULL);
+  }
+  return result;
+}
+
+static rcl_ret_t close_server(void)
+{
+  const rcl_ret_t result = rclc_executor_fini(&executor);
+
+  return result == RCL_RET_OK ? rclc_parameter_server_fini(&server, &node) : result;
+}
+
+static rcl_ret_t publish(void)
+{
+  static std_msgs__msg__Int32 message;
+  const rcl_ret_t result = rcl_publish(&publisher, &message, NULL);
+
+  if (result == RCL_RET_OK) {
+    ++message.data;
+  }
+  return result;
+}
+
+static rcl_ret_t get(const char * name)
+{
+  int64_t value = 0;
+  const rcl_ret_t result = rclc_parameter_get_int(&server, name, &value);
+
+  printf("value %" PRId64 "\n", value);
+  return result;
+}
+
+static rcl_ret_t print_statistics(void)
+{
+  rmw_uros_statistics_t s;
+  const rcl_ret_t result = rmw_uros_get_statistics(rcl_context_get_rmw_context(&support.context), &s);
+
+  printf(
+    "statistics malformed=%" PRIu32 " dropped=%" PRIu32 " reconnects=%" PRIu32 "\n", s.malformed, s.dropped,
+    s.reconnects);
+  return result;
+}
+
+static rcl_ret_t call(const char * line)
+{
+  const char * space = strchr(line, ' ');
+  const char * name = space != NULL ? &space[1] : "";
+
+  switch (line[0]) {
+    case 'i': /* init */
+      return start();
+    case 'o': /* open */
+      return open_server();
+    case 'a': /* add NAME */
+      return rclc_add_parameter(&server, name, RCLC_PARAMETER_INT);
+    case 'd': /* delete NAME */
+      return rclc_delete_parameter(&server, name);
+    case 'g': /* get NAME */
+      return get(name);
+    case 'p': /* publish */
+      return publish();
+    case 'c': /* close */
+      return close_server();
+    case 's':
+      return strcmp(line, "statistics") == 0 ? print_statistics() : rclc_executor_spin_some(&executor, 0);
+    default:
+      return -1;
+  }
+}
+
+int main(void)
+{
+  allocator = rcl_get_default_allocator();
+  for (;;) {
+    const char * line = fake_read_line();
+
+    if (strcmp(line, "quit") == 0) {
+      return 0;
+    }
+    if (!fake_take_line(line)) {
+      const rcl_ret_t result = call(line);
+
+      printf("ret %d %s\n", (int)result, rcl_get_error_string().str);
+      rcl_reset_error();
+      (void)fflush(stdout);
+    }
+  }
+}

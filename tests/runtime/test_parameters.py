@@ -1,0 +1,309 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A parameter server whose agent and time are in the hands of the test: full streams, lost sessions, large requests.
+
+tests/e2e/test_parameters.py has rclpy.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.documents.named import Named
+from microros_gen.interfaces.closure import resolve_interfaces
+from microros_gen.interfaces.find import InterfaceFinder, shipped_folder
+from microros_gen.ros.codec import ENCAPSULATION_BYTES, Codec
+from tests.support.runtime.driver import Client, Result
+from tests.support.runtime.harness import Tree, build
+from tests.support.runtime.serving_agent import ServingAgent, identity
+from tests.support.runtime.surface import write_application
+
+MANY = """\
+version: 1
+profiles: [pure_sender]
+components: [+parameters]
+nodes:
+  - name: device
+    namespace: /arm
+    publishers: [{topic: count, type: std_msgs/msg/Int32}]
+pools: {history: 2}
+"""
+FEW = MANY.replace("publishers:", "parameters: [{name: a, type: integer}]\n    publishers:")
+SERVICES = {
+    "describe_parameters": "DescribeParameters",
+    "get_parameter_types": "GetParameterTypes",
+    "get_parameters": "GetParameters",
+    "list_parameters": "ListParameters",
+    "set_parameters": "SetParameters",
+    "set_parameters_atomically": "SetParametersAtomically",
+}
+EVENT = "rcl_interfaces/msg/ParameterEvent"
+INTEGER = 2
+LARGE = "the request is too large, none of it was set"
+IDENTITY_SIZE = 24
+COUNT_WRITER, EVENT_WRITER = 1, 0
+WRAP_MS = 256
+"""port_fake.c begins so long before the milliseconds wrap."""
+STEP_MS = 20
+MOST = 65535
+
+
+@pytest.fixture(scope="module")
+def codec() -> Codec:
+    names = tuple(Named(f"rcl_interfaces/srv/{name}", None) for name in SERVICES.values())
+    finder = InterfaceFinder.from_environment((shipped_folder(),))
+    return Codec(resolve_interfaces((*names, Named(EVENT, None)), finder, Diagnostics()))
+
+
+@dataclass(frozen=True)
+class Program:
+    """The program of an application, and the largest message that it takes."""
+
+    path: Path
+    input_size: int
+
+
+def program_of(folder: Path, text: str) -> Program:
+    tree = write_application(folder, text)
+    sources = tuple(s for s in tree.sources if not s.parent.name.startswith("port_posix"))
+    path = build(Tree(tree.folder, sources), ["port_fake.c", "client_parameters.c"], "parameters")
+    config = (tree.include / "microros_config.h").read_text()
+    (size,) = re.findall(r"MICROROS_INPUT_SIZE (\d+)u", config)
+    return Program(path, int(size))
+
+
+class Device:
+    """The program, its agent, and the codec for what goes between them."""
+
+    def __init__(self, client: Client, agent: ServingAgent, codec: Codec) -> None:
+        self.client, self.agent, self._codec = client, agent, codec
+        self._requests = 0
+
+    def open(self, *names: str) -> None:
+        self.client.ok("open")
+        for name in names:
+            self.client.ok(f"add {name}")
+
+    def ask(self, service: str, **members: Any) -> int:
+        """Let DDS have a request; return its number."""
+        name = f"rcl_interfaces/srv/{SERVICES[service]}_Request"
+        self._requests += 1
+        body = identity(self._requests) + self._codec.encode(name, members)[ENCAPSULATION_BYTES:]
+        # The event's publisher and that of the application are before the services.
+        target = ((2 + list(SERVICES).index(service)) << 4 | 8).to_bytes(2, "big")
+        self.client.queued += self.agent.give(target, body)
+        return self._requests
+
+    def reply(self, service: str, number: int) -> dict[str, Any]:
+        """Return the only reply to the request of this number."""
+        (body,) = [b[IDENTITY_SIZE:] for b in self.agent.answered if b[:IDENTITY_SIZE] == identity(number)]
+        return self._codec.decode(f"rcl_interfaces/srv/{SERVICES[service]}_Response", b"\0\1\0\0" + body)
+
+    def call(self, service: str, **members: Any) -> dict[str, Any]:
+        number = self.ask(service, **members)
+        self.spin(12)
+        return self.reply(service, number)
+
+    def set(self, *pairs: tuple[str, int]) -> int:
+        values = [{"name": n, "value": {"type": INTEGER, "integer_value": v}} for n, v in pairs]
+        return self.ask("set_parameters", parameters=values)
+
+    def spin(self, times: int) -> list[Result]:
+        """Let the executor run; return what failed."""
+        failed = []
+        for _ in range(times):
+            self.client.wait(STEP_MS)
+            result = self.client.call("spin")
+            failed += [result] if result.code else []
+        return failed
+
+    def events(self) -> list[dict[str, list[str]]]:
+        """Return the names in each event so far."""
+        writer = (EVENT_WRITER << 4 | 5).to_bytes(2, "big")
+        bodies = [body for target, body in self.agent.written if target == writer]
+        found = [self._codec.decode(EVENT, b"\0\1\0\0" + body) for body in bodies]
+        kinds = ("new_parameters", "changed_parameters", "deleted_parameters")
+        return [{k[:3]: [p["name"] for p in e[k]] for k in kinds if e[k]} for e in found]
+
+
+@pytest.fixture(scope="module")
+def programs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Program]:
+    return {text: program_of(tmp_path_factory.mktemp("parameters") / "a", text) for text in (MANY, FEW)}
+
+
+@pytest.fixture
+def stack() -> Iterator[ExitStack]:
+    with ExitStack() as stack:
+        yield stack
+
+
+def started(programs: dict[str, Program], stack: ExitStack, codec: Codec, text: str = MANY) -> Device:
+    agent = ServingAgent(mtu=200)
+    client = stack.enter_context(Client(programs[text].path, agent))
+    client.ok("init")
+    return Device(client, agent, codec)
+
+
+@pytest.fixture
+def device(programs: dict[str, Program], stack: ExitStack, codec: Codec) -> Device:
+    return started(programs, stack, codec)
+
+
+def is_acknowledgement(datagram: bytes) -> bool:
+    return datagram[4] == 0x0A and datagram[-1] == 0x80
+
+
+def test_two_sets_of_a_request_where_the_stream_has_two_slots(device: Device) -> None:
+    """One slot is the reply's: the second event waits, and comes when the first is acknowledged."""
+    device.open("a", "b")
+    device.spin(12)
+    assert device.events() == [{"new": ["a"]}, {"new": ["b"]}]
+    device.agent.written.clear()
+    device.agent.drop_answer = is_acknowledgement
+    number = device.set(("a", 1), ("b", 2))
+    assert device.spin(12) == []
+    assert device.reply("set_parameters", number)["results"] == [{"successful": True, "reason": ""}] * 2
+    assert device.events() == [{"cha": ["a"]}]
+    device.agent.drop_answer = lambda datagram: False
+    device.spin(40)
+    assert device.events() == [{"cha": ["a"]}, {"cha": ["b"]}]
+    assert device.client.statistics()["dropped"] == 0
+
+
+def test_changes_while_an_event_waits_are_one_event(device: Device) -> None:
+    """Deleted and added meanwhile: a place is free only when its event was sent."""
+    device.open("a", "b")
+    device.spin(12)
+    device.agent.written.clear()
+    device.agent.drop_answer = is_acknowledgement
+    for _ in range(2):
+        device.client.ok("publish")
+    for call in ("delete a", "add c", "add d"):
+        device.client.ok(call)
+    assert device.client.call("add e").code != 0, "four places, one of them waits for its event"
+    device.spin(12)
+    assert device.events() == []
+    device.agent.drop_answer = lambda datagram: False
+    device.spin(40)
+    assert device.events() == [{"new": ["c", "d"], "del": ["a"]}]
+    device.client.ok("add e")
+
+
+def test_a_server_opened_while_the_stream_is_full(device: Device) -> None:
+    device.agent.drop_answer = is_acknowledgement
+    while device.client.call("publish").code == 0:
+        pass
+    device.open("a", "b")
+    number = device.set(("a", 5))
+    device.spin(12)
+    assert (device.agent.answered, device.events()) == ([], [])
+    device.agent.drop_answer = lambda datagram: False
+    device.spin(60)
+    assert device.reply("set_parameters", number)["results"] == [{"successful": True, "reason": ""}]
+    assert device.client.ok("get a").lines == ("value 5",)
+    assert device.events()[0] in ({"new": ["a", "b"]}, {"new": ["b"], "cha": ["a"]})
+
+
+def test_a_lost_session_and_the_wrap_of_the_clock(device: Device) -> None:
+    """A request that waits when the agent is replaced is answered by way of the new one, which gets every entity."""
+    device.open("a")
+    device.spin(12)
+    objects = set(device.agent.objects)
+    device.agent.drop_answer = is_acknowledgement
+    while device.client.call("publish").code == 0:
+        pass
+    number = device.set(("a", 7))
+    device.spin(3)
+    device.agent.restart()
+    device.agent.drop_answer = lambda datagram: False
+    for _ in range(100):
+        device.spin(40)
+        if device.agent.answered:
+            break
+    assert device.client.now_ms > WRAP_MS
+    assert device.client.statistics()["reconnects"] == 1
+    assert set(device.agent.objects) == objects
+    assert device.reply("set_parameters", number)["results"] == [{"successful": True, "reason": ""}]
+    device.spin(12)
+    assert device.events()[-1] == {"cha": ["a"]}
+    values = device.call("get_parameters", names=["a"])["values"]
+    assert [value["integer_value"] for value in values] == [7]
+
+
+def test_closed_and_opened_again(device: Device) -> None:
+    """The parameters of before are gone; services and events are there."""
+    device.open("a", "b")
+    device.spin(12)
+    device.client.ok("close")
+    repliers = [o for o in device.agent.objects if o[1] & 15 == 8]
+    assert repliers == []
+    device.agent.written.clear()
+    device.open("c")
+    device.spin(12)
+    assert device.call("list_parameters", prefixes=[], depth=0)["result"]["names"] == ["c"]
+    assert device.events() == [{"new": ["c"]}]
+    number = device.set(("c", 3))
+    device.spin(12)
+    assert device.reply("set_parameters", number)["results"][0]["successful"]
+    assert device.call("describe_parameters", names=["c"] * 90)["descriptors"] == []
+
+
+@pytest.mark.parametrize(
+    ("text", "mtu", "count"),
+    [(MANY, 64, 60), (MANY, MOST, 60), (FEW, MOST, 60), (FEW, MOST, 7)],
+    ids=["small fragments", "fragments", "only large ones in fragments", "whole"],
+)
+def test_large_requests(
+    programs: dict[str, Program], stack: ExitStack, codec: Codec, text: str, mtu: int, count: int
+) -> None:
+    """Each is answered in its turn, counted and reported once; the next one is as any other."""
+    device = started(programs, stack, codec, text)
+    device.open("a")
+    device.spin(12)
+    device.agent.mtu = min(mtu, programs[text].input_size)
+    before = device.client.statistics()
+    names = ["a"] * count
+    numbers = [
+        device.ask("get_parameters", names=names),
+        device.ask("get_parameters", names=["a"]),
+        device.ask("get_parameters", names=names),
+    ]
+    failed = device.spin(60)
+    numbers += [device.set(*[("a", 5)] * 15), device.set(("a", 6))]
+    failed += device.spin(60)
+    assert [device.reply("get_parameters", n)["values"] != [] for n in numbers[:3]] == [False, True, False]
+    results = device.reply("set_parameters", numbers[3])["results"]
+    assert not any(result["successful"] for result in results)
+    assert [result["reason"] for result in results[:1]] == ([LARGE] if results else [])
+    assert text == FEW or len(results) == 15
+    assert device.reply("set_parameters", numbers[4])["results"] == [{"successful": True, "reason": ""}]
+    assert device.client.ok("get a").lines == ("value 6",)
+    assert len(failed) == 3
+    assert all("fit: raise limits" in result.error for result in failed)
+    after = device.client.statistics()
+    assert (after["dropped"] - before["dropped"], after["malformed"]) == (3, before["malformed"])
+
+
+def test_a_large_request_after_one_that_ended_early(device: Device) -> None:
+    """A new session begins in the middle of fragments: those of the new one are not taken for the rest."""
+    device.open("a")
+    device.spin(12)
+    device.agent.mtu = 64
+    device.ask("get_parameters", names=["a"] * 60)
+    del device.client.queued[3:]
+    device.agent.drop_answer = lambda datagram: datagram[4] != 0x04
+    device.spin(2)
+    device.agent.restart()
+    device.agent.drop_answer = lambda datagram: False
+    device.agent.history.clear()
+    device.spin(1500)
+    device.agent.answered.clear()
+    assert device.client.statistics()["reconnects"] == 1
+    assert device.call("get_parameters", names=["a"] * 60)["values"] == []
