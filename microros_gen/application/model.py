@@ -258,6 +258,18 @@ class SessionTimes:
     close_timeout: int | None = None
 
 
+LOG_LEVELS = ("debug", "info", "warn", "error", "fatal")
+
+
+@dataclass(frozen=True)
+class LogWriter:
+    """Where log messages of `level` and above go: `to` is console or callback."""
+
+    to: str
+    level: str = "info"
+    span: Span | None = None
+
+
 @dataclass(frozen=True)
 class Application:
     """The whole file. `interfaces` are `pkg` or `pkg/msg/Type`.
@@ -291,6 +303,7 @@ class Application:
     on_full_block_ms: int = 0
     error_text: bool = True
     clock: Named | None = None
+    logging: tuple[LogWriter, ...] = ()
     implied: tuple[EndpointDecl, ...] = ()
     endpoints: tuple[EndpointChange, ...] = ()
     spans: Mapping[str, Span] = field(default_factory=dict)

@@ -14,6 +14,7 @@ from microros_gen.application.model import (
     LARGEST_UDP_PAYLOAD,
     Application,
     EndpointChange,
+    LogWriter,
     Memory,
     TargetRef,
     Transport,
@@ -111,8 +112,24 @@ def _application(tree: MappingNode, diagnostics: Diagnostics) -> Application:
         on_full_block_ms=block_ms,
         error_text=text_of(child(tree, "errors")) != "code",
         clock=named_of(child(tree, "clock")),
+        logging=_log_writers(child(tree, "logging"), diagnostics),
         spans=MappingProxyType(_spans(tree)),
     )
+
+
+def _log_writers(node: YamlNode | None, diagnostics: Diagnostics) -> tuple[LogWriter, ...]:
+    found: dict[str, LogWriter] = {}
+    for item in items(node) or ((node,) if node is not None else ()):
+        writer = LogWriter(
+            to=text_of(item) or text_of(child(item, "to")) or "",
+            level=text_of(child(item, "level")) or LogWriter("").level,
+            span=item.span,
+        )
+        if writer.to in found:
+            message = f"'logging' has the writer '{writer.to}' twice"
+            diagnostics.error(message, item.span, "Write it once, with its lowest level", id="MG-3052")
+        found.setdefault(writer.to, writer)
+    return tuple(found.values())
 
 
 def _endpoint_change(entry: Entry) -> EndpointChange:

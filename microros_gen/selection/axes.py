@@ -59,6 +59,7 @@ def _application_axes(application: Application) -> dict[str, Named]:
         "entities": application.entities,
         "liveliness": application.liveliness,
         "clock": application.clock,
+        "logging": next((Named(w.to, w.span) for w in application.logging), None),
     }
     if transport.type_span is not None or transport.type != Transport().type:
         said["transport"] = Named(transport.type, transport.type_span or transport.span)

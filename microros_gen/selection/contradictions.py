@@ -76,6 +76,8 @@ def _check_declarations(picker: Picker, application: Application) -> None:
 
 def _check_axis_components(picker: Picker, axes: Mapping[str, AxisChoice], middleware: Middleware) -> None:
     for axis, choice in axes.items():
+        if axis == "logging":
+            continue  # there can be several writers
         chosen = middleware.axes[axis][choice.value].component
         for other in middleware.axes[axis].values():
             if other.component is None or other.component in (chosen, CLOCK_ROS):

@@ -56,6 +56,9 @@ def resolve_selection(
         _report_nothing(application, diagnostics)
     for choice in axes.values():
         _pick_axis(picker, choice, middleware)
+    for writer in application.logging:
+        component = middleware.axes["logging"][writer.to].component or "logging"
+        picker.pick(component, f"logging: {writer.to}{at(writer.span)}", writer.span)
     picker.close()
     for demand in stream_demands(application, picker.open_to(application), axes["entities"].value):
         picker.pick(demand.component, demand.text, demand.span)

@@ -115,6 +115,10 @@ def test_both_schemas_have_the_axes_of_the_parser() -> None:
         for axis, values in AXES.items():
             part = schema["properties"][axis]
             part = part["properties"]["type"] if axis == "transport" and "properties" in part else part
+            if "items" in part:
+                # A profile can name a writer that this version does not have.
+                assert set(part["items"]["properties"]["to"]["enum"]) == set(values) - {"rosout"}
+                continue
             assert "x-reserved" in part or tuple(part["enum"]) == values
 
 

@@ -448,9 +448,10 @@ def test_a_loop_without_a_known_limit_is_marked() -> None:
     assert len(endpoints(program(LOOP.format(limit="1000000", topic='"a"', type=INT32)))) == 1
 
 
-def test_log_macros_are_marked() -> None:
-    found = reasons(program('RCUTILS_LOG_INFO_NAMED("n", "text");'))
-    assert any("RCUTILS_LOG_INFO_NAMED needs the component 'logging'" in reason for reason in found)
+def test_log_macros_select_the_console() -> None:
+    text = program('RCUTILS_LOG_INFO_NAMED("n", "text");')
+    assert "+logging_console" in adopted(text).draft.components
+    assert not any("RCUTILS_LOG_INFO_NAMED" in reason for reason in reasons(text))
 
 
 def test_a_program_without_a_node_is_taken() -> None:

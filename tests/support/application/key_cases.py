@@ -55,6 +55,10 @@ def _rules(rules: tuple[LimitRule, ...]) -> list[tuple[Any, ...]]:
     return [(r.path, r.string, r.sequence, r.single) for r in rules]
 
 
+def _writers(app: Application) -> list[tuple[str, str]]:
+    return [(writer.to, writer.level) for writer in app.logging]
+
+
 def _in_node(text: str) -> str:
     return f"nodes:\n  - name: n\n    {text}\n"
 
@@ -225,6 +229,30 @@ _TOP = {
         "liveliness: null",
         "1:13",
         "'liveliness' must be ping, acknack or none; it is empty",
+    ),
+    "logging": KeyCase(
+        "logging: [callback, {to: console, level: debug}]",
+        _writers,
+        [("callback", "info"), ("console", "debug")],
+        "logging: rosout",
+        "1:10",
+        "'logging' must be console or callback, or a list of such writers; it is the text 'rosout'",
+    ),
+    "logging[].to": KeyCase(
+        "logging: [{to: callback}]",
+        _writers,
+        [("callback", "info")],
+        "logging: [{to: file}]",
+        "1:16",
+        "'logging[0].to' must be console or callback",
+    ),
+    "logging[].level": KeyCase(
+        "logging: [{to: callback, level: fatal}]",
+        _writers,
+        [("callback", "fatal")],
+        "logging: [{to: callback, level: loud}]",
+        "1:33",
+        "'logging[0].level' must be debug, info, warn, error or fatal",
     ),
     "clock": KeyCase(
         "clock: ros", lambda a: _named(a.clock), "ros", "clock: sim", "1:8", "'clock' must be steady or ros"
@@ -745,7 +773,6 @@ RESERVED = {
         "1:1",
         "the key 'tasks' is reserved for tasks of an operating system, which this version does not have",
     ),
-    "logging": ("logging: console", "1:1", "the key 'logging' is reserved for log messages"),
     "links": ("links: {}", "1:1", "the key 'links' is reserved for delivery from board to board"),
     "agents": ("agents: [a]", "1:1", "the key 'agents' is reserved for more than one agent"),
     "target.network": (

@@ -14,6 +14,7 @@ EVERYTHING = """\
 version: 1
 profiles: [pure_sender, pure_reader]
 components: [+timers, +executor, +clock, +time_sync, +micro_ros_utilities, +cdr_decode, +discovery{more}]
+logging: console
 interfaces: [std_msgs/msg/Int32, std_msgs/msg/String{types}]
 limits: {{'*': {{string: 16, sequence: 4}}}}
 transport: {{type: {transport}}}

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Without the log writer `console` (component logging_console): does nothing. */
+#ifndef MICROROS_RCUTILS_CONSOLE_H
+#define MICROROS_RCUTILS_CONSOLE_H
+
+#include "rcutils/logging.h"
+
+static inline void microros_console_log(
+  int severity, const char * name, rcutils_time_point_value_t timestamp, const char * format, va_list * args)
+{
+  (void)severity;
+  (void)name;
+  (void)timestamp;
+  (void)format;
+  (void)args;
+}
+
+#endif /* MICROROS_RCUTILS_CONSOLE_H */

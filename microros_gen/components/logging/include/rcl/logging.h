@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What rcl's users call around logging. Writers and levels are those of `logging:`; arguments do not change them. */
+#ifndef MICROROS_RCL_LOGGING_H
+#define MICROROS_RCL_LOGGING_H
+
+#include "rcl/allocator.h"
+#include "rcl/arguments.h"
+#include "rcl/types.h"
+#include "rcutils/logging.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef rcutils_logging_output_handler_t rcl_logging_output_handler_t;
+
+/* Needs not be called. RCL_RET_INVALID_ARGUMENT for NULL. */
+rcl_ret_t rcl_logging_configure(const rcl_arguments_t * global_args, const rcl_allocator_t * allocator);
+
+/* As above, and sets the output handler (rcutils_logging_set_output_handler). */
+rcl_ret_t rcl_logging_configure_with_output_handler(
+  const rcl_arguments_t * global_args, const rcl_allocator_t * allocator,
+  rcl_logging_output_handler_t output_handler);
+
+/* Restores the levels of the build and removes the output handler. */
+rcl_ret_t rcl_logging_fini(void);
+
+/* Returns whether `rosout` is among the writers. */
+bool rcl_logging_rosout_enabled(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RCL_LOGGING_H */

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The writers of log messages and their levels, and the lowest of these, below which the image has no messages."""
+
+from __future__ import annotations
+
+from microros_gen.application.model import LOG_LEVELS, LogWriter
+from microros_gen.client.plan.features import Given
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.records import dataclass
+
+TEXT_SIZE = 192
+"""Bytes of a line of the console with its level, time and name; on the stack."""
+LOGGERS = 4
+"""Loggers that can have a level of their own."""
+NAME_SIZE = 32
+"""Bytes of the name of such a logger with its NUL."""
+_NO_WRITER = 60
+"""Above all levels."""
+_STEP = 10
+"""Between the numbers of two levels in ROS 2, which begin with it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LoggingPlan:
+    """Levels as numbers of ROS 2; `min_severity` is the lowest one counted from 0, as rcutils has it for macros."""
+
+    level: int
+    console_level: int
+    callback_level: int
+    text: str
+    text_size: int = TEXT_SIZE
+    loggers: int = LOGGERS
+    name_size: int = NAME_SIZE
+
+    @property
+    def min_severity(self) -> int:
+        """RCUTILS_LOG_MIN_SEVERITY of the build."""
+        return self.level // _STEP - 1
+
+    @property
+    def console(self) -> bool:
+        """Whether lines go to the console."""
+        return self.console_level != _NO_WRITER
+
+    @property
+    def callback(self) -> bool:
+        """Whether the application's output handler is one of the writers."""
+        return self.callback_level != _NO_WRITER
+
+
+def plan(given: Given, diagnostics: Diagnostics) -> LoggingPlan:
+    """Return what the application file says; without that the console where it is selected, else the callback."""
+    writers = given.application.logging
+    if given.selection.has("logging_console") and not any(writer.to == "console" for writer in writers):
+        writers = (LogWriter("console"), *writers)
+    writers = writers or (LogWriter("callback"),)
+    levels = {writer.to: _STEP * (1 + LOG_LEVELS.index(writer.level)) for writer in writers}
+    if "console" in levels and given.target.stdio is not None and given.target.stdio.to == "none":
+        diagnostics.warning(
+            f"the log writer 'console' writes nowhere: the target {given.target.name} has no standard output",
+            next((writer.span for writer in writers if writer.to == "console"), None),
+            "Give the target file `stdio: {to: uart, …}` or `{to: semihosting}`, or write `logging: callback`",
+            id="MG-7040",
+        )
+    return LoggingPlan(
+        level=min(levels.values()),
+        console_level=levels.get("console", _NO_WRITER),
+        callback_level=levels.get("callback", _NO_WRITER),
+        text=", ".join(f"{writer.to} from {writer.level}" for writer in writers),
+    )
+
+
+def record(part: LoggingPlan) -> object:
+    """Return what the plan id is made of."""
+    return {"levels": [part.level, part.console_level, part.callback_level]}

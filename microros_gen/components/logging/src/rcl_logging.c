@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "rcl/logging.h"
+
+#include "microros/error.h"
+
+rcl_ret_t rcl_logging_configure(const rcl_arguments_t * global_args, const rcl_allocator_t * allocator)
+{
+  if (global_args == NULL || allocator == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "global_args or allocator");
+  }
+  return rcutils_logging_initialize();
+}
+
+rcl_ret_t rcl_logging_configure_with_output_handler(
+  const rcl_arguments_t * global_args, const rcl_allocator_t * allocator,
+  rcl_logging_output_handler_t output_handler)
+{
+  const rcl_ret_t result = rcl_logging_configure(global_args, allocator);
+
+  if (result == RCL_RET_OK) {
+    rcutils_logging_set_output_handler(output_handler);
+  }
+  return result;
+}
+
+rcl_ret_t rcl_logging_fini(void)
+{
+  return rcutils_logging_shutdown();
+}
+
+bool rcl_logging_rosout_enabled(void)
+{
+  return false; /* no writer of this version publishes */
+}

@@ -1,0 +1,284 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/rcutils_format.h"
+
+#include <string.h>
+
+enum { WIDTH_MOST = 4095, FALLBACK_TEXT = 6 };
+
+void microros_format_put(microros_format_t * out, char character)
+{
+  if (out->used < out->size) {
+    out->text[out->used] = character;
+    ++out->used;
+  } else {
+    out->truncated = true;
+  }
+}
+
+void microros_format_repeat(microros_format_t * out, char character, int32_t count)
+{
+  for (int32_t i = 0; i < count; ++i) {
+    microros_format_put(out, character);
+  }
+}
+
+void microros_format_string(microros_format_t * out, const char * string)
+{
+  for (const char * next = string; *next != '\0'; ++next) {
+    microros_format_put(out, *next);
+  }
+}
+
+/* Puts `size` characters in a field of the conversion's width. */
+static void format_field(
+  microros_format_t * out, const microros_conversion_t * how, const char * text, size_t size)
+{
+  const int32_t fill = size < (size_t)how->width ? how->width - (int32_t)size : 0;
+
+  microros_format_repeat(out, ' ', how->minus ? 0 : fill);
+  for (size_t i = 0; i < size; ++i) {
+    microros_format_put(out, text[i]);
+  }
+  microros_format_repeat(out, ' ', how->minus ? fill : 0);
+}
+
+/* A text need not end with a NUL within its precision. */
+static void format_text(microros_format_t * out, const microros_conversion_t * how, const char * text)
+{
+  const bool bounded = how->precision >= 0;
+  const char * shown = text;
+  size_t size = 0;
+
+  if (shown == NULL) {
+    shown = bounded && how->precision < FALLBACK_TEXT ? "" : "(null)";
+  }
+  while ((!bounded || size < (size_t)how->precision) && shown[size] != '\0') {
+    ++size;
+  }
+  format_field(out, how, shown, size);
+}
+
+static void format_pointer(microros_format_t * out, const microros_conversion_t * how, const void * pointer)
+{
+  microros_conversion_t as_number = *how;
+
+  if (pointer == NULL) {
+    format_field(out, how, "(nil)", sizeof("(nil)") - 1u);
+    return;
+  }
+  as_number.kind = 'x';
+  as_number.alternative = true;
+  microros_format_integer(out, &as_number, (uint64_t)(uintptr_t)pointer, false);
+}
+
+static int64_t format_signed(char length, va_list * args)
+{
+  switch (length) {
+    case 'H':
+      return (int64_t)(signed char)va_arg(*args, int);
+    case 'h':
+      return (int64_t)(short)va_arg(*args, int);
+    case 'l':
+      return (int64_t)va_arg(*args, long);
+    case 'q':
+      return (int64_t)va_arg(*args, long long);
+    case 'j':
+      return (int64_t)va_arg(*args, intmax_t);
+    case 'z':
+    case 't':
+      return (int64_t)va_arg(*args, ptrdiff_t);
+    default:
+      return (int64_t)va_arg(*args, int);
+  }
+}
+
+static uint64_t format_unsigned(char length, va_list * args)
+{
+  switch (length) {
+    case 'H':
+      return (uint64_t)(unsigned char)va_arg(*args, unsigned int);
+    case 'h':
+      return (uint64_t)(unsigned short)va_arg(*args, unsigned int);
+    case 'l':
+      return (uint64_t)va_arg(*args, unsigned long);
+    case 'q':
+      return (uint64_t)va_arg(*args, unsigned long long);
+    case 'j':
+      return (uint64_t)va_arg(*args, uintmax_t);
+    case 'z':
+    case 't':
+      return (uint64_t)va_arg(*args, size_t);
+    default:
+      return (uint64_t)va_arg(*args, unsigned int);
+  }
+}
+
+static bool format_flag(microros_conversion_t * how, char character)
+{
+  switch (character) {
+    case '-':
+      how->minus = true;
+      return true;
+    case '0':
+      how->zero = true;
+      return true;
+    case '+':
+      how->plus = true;
+      return true;
+    case ' ':
+      how->space = true;
+      return true;
+    case '#':
+      how->alternative = true;
+      return true;
+    default:
+      return false;
+  }
+}
+
+/* Reads digits or `*`, a number of at most WIDTH_MOST. */
+static int32_t format_number(const char ** next, va_list * args)
+{
+  int32_t number = 0;
+
+  if (**next == '*') {
+    const int given = va_arg(*args, int);
+
+    ++*next;
+    if (given < -WIDTH_MOST) {
+      return -WIDTH_MOST;
+    }
+    return given > WIDTH_MOST ? WIDTH_MOST : (int32_t)given;
+  }
+  for (; **next >= '0' && **next <= '9'; ++*next) {
+    number = number * 10 + (int32_t)(**next - '0');
+    number = number > WIDTH_MOST ? WIDTH_MOST : number;
+  }
+  return number;
+}
+
+static char format_length(const char ** next)
+{
+  const char first = **next;
+
+  if (first == '\0' || strchr("hlzjtL", first) == NULL) {
+    return '\0';
+  }
+  ++*next;
+  if ((first == 'h' || first == 'l') && **next == first) {
+    ++*next;
+    return first == 'h' ? 'H' : 'q';
+  }
+  return first;
+}
+
+/* Reads a conversion after its `%`. */
+static microros_conversion_t format_read(const char ** next, va_list * args)
+{
+  microros_conversion_t how = {false, false, false, false, false, 0, -1, '\0', '\0'};
+
+  while (format_flag(&how, **next)) {
+    ++*next;
+  }
+  how.width = format_number(next, args);
+  if (how.width < 0) {
+    how.minus = true;
+    how.width = -how.width;
+  }
+  if (**next == '.') {
+    ++*next;
+    how.precision = format_number(next, args);
+  }
+  how.length = format_length(next);
+  how.kind = **next;
+  if (how.kind != '\0') {
+    ++*next;
+  }
+  return how;
+}
+
+/* Takes a floating-point number and puts its conversion as it stands. */
+static void format_skip(
+  microros_format_t * out, const microros_conversion_t * how, const char * first, const char * end,
+  va_list * args)
+{
+  if (how->length == 'L') {
+    (void)va_arg(*args, long double);
+  } else {
+    (void)va_arg(*args, double);
+  }
+  for (const char * shown = first; shown != end; ++shown) {
+    microros_format_put(out, *shown);
+  }
+}
+
+static void format_signed_integer(microros_format_t * out, const microros_conversion_t * how, va_list * args)
+{
+  const int64_t value = format_signed(how->length, args);
+
+  microros_format_integer(out, how, value < 0 ? 0u - (uint64_t)value : (uint64_t)value, value < 0);
+}
+
+static void format_character(microros_format_t * out, const microros_conversion_t * how, va_list * args)
+{
+  const char character = (char)va_arg(*args, int);
+
+  format_field(out, how, &character, 1);
+}
+
+/* Returns false for a conversion that is not known: what its argument is, and those after it, is not known either. */
+static bool format_convert(
+  microros_format_t * out, const microros_conversion_t * how, const char * first, const char * end,
+  va_list * args)
+{
+  switch (how->kind) {
+    case 'd':
+    case 'i':
+      format_signed_integer(out, how, args);
+      return true;
+    case 'u':
+    case 'x':
+    case 'X':
+    case 'o':
+      microros_format_integer(out, how, format_unsigned(how->length, args), false);
+      return true;
+    case 's':
+      format_text(out, how, va_arg(*args, const char *));
+      return true;
+    case 'p':
+      format_pointer(out, how, va_arg(*args, const void *));
+      return true;
+    case 'c':
+      format_character(out, how, args);
+      return true;
+    case '%':
+      microros_format_put(out, '%');
+      return true;
+    default:
+      if (how->kind == '\0' || strchr("fFeEgGaA", how->kind) == NULL) {
+        return false;
+      }
+      format_skip(out, how, first, end, args);
+      return true;
+  }
+}
+
+void microros_format_arguments(microros_format_t * out, const char * format, va_list * args)
+{
+  const char * next = format;
+
+  while (*next != '\0') {
+    const char * const first = next;
+
+    ++next;
+    if (*first != '%') {
+      microros_format_put(out, *first);
+      continue;
+    }
+    const microros_conversion_t how = format_read(&next, args);
+    if (!format_convert(out, &how, first, next, args)) {
+      microros_format_string(out, first);
+      return;
+    }
+  }
+}

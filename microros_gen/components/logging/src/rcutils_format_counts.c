@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Texts that are complete, and what was lost of others. */
+#include "microros/rcutils_format.h"
+#include "rcutils/logging.h"
+
+enum { MARK_SIZE = 3 };
+
+static rcutils_logging_counts_t format_counts;
+
+rcutils_logging_counts_t rcutils_logging_get_counts(void)
+{
+  return format_counts;
+}
+
+void microros_format_dropped(void)
+{
+  ++format_counts.dropped;
+}
+
+void microros_format_end(microros_format_t * out)
+{
+  const size_t marks = out->used < MARK_SIZE ? out->used : MARK_SIZE;
+
+  if (!out->truncated) {
+    return;
+  }
+  ++format_counts.truncated;
+  for (size_t i = 1; i <= marks; ++i) {
+    out->text[out->used - i] = '.';
+  }
+}
+
+size_t rcutils_logging_format(char * text, size_t size, const char * format, va_list * args)
+{
+  microros_format_t out = {text, size - 1u, 0, false};
+
+  if (text == NULL || size == 0u || format == NULL || args == NULL) {
+    return 0;
+  }
+  microros_format_arguments(&out, format, args);
+  microros_format_end(&out);
+  text[out.used] = '\0';
+  return out.used;
+}

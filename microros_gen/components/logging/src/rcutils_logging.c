@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "rcutils/logging.h"
+
+#include "microros/port.h"
+#include "microros/rcutils_console.h"
+#include "microros_config.h"
+
+bool g_rcutils_logging_initialized = true;
+
+static rcutils_logging_output_handler_t logging_handler;
+
+rcutils_ret_t rcutils_logging_initialize(void)
+{
+  if (!g_rcutils_logging_initialized) {
+    (void)rcutils_logging_shutdown();
+    g_rcutils_logging_initialized = true;
+  }
+  return RCUTILS_RET_OK;
+}
+
+rcutils_ret_t rcutils_logging_initialize_with_allocator(rcutils_allocator_t allocator)
+{
+  (void)allocator; /* nothing is allocated */
+  return rcutils_logging_initialize();
+}
+
+void rcutils_logging_set_output_handler(rcutils_logging_output_handler_t function)
+{
+  logging_handler = function;
+}
+
+rcutils_logging_output_handler_t rcutils_logging_get_output_handler(void)
+{
+  return logging_handler;
+}
+
+/* Takes from a copy: the next writer reads the same arguments. */
+static void logging_call(
+  const rcutils_log_location_t * location, int severity, const char * name,
+  rcutils_time_point_value_t timestamp, const char * format, va_list * args)
+{
+  va_list copy;
+
+  va_copy(copy, *args);
+  logging_handler(location, severity, name, timestamp, format, &copy);
+  va_end(copy);
+}
+
+/* Without the writer `callback` its level is above all others, and a handler replaces the writers. */
+static void logging_write(
+  const rcutils_log_location_t * location, int severity, const char * name, const char * format,
+  va_list * args)
+{
+  const rcutils_time_point_value_t timestamp = port_time_epoch_ns();
+  const char * const logger = name == NULL ? "" : name;
+  const bool replaces = (int)MICROROS_LOG_CALLBACK_LEVEL > RCUTILS_LOG_SEVERITY_FATAL;
+
+  if (logging_handler != NULL && (replaces || severity >= (int)MICROROS_LOG_CALLBACK_LEVEL)) {
+    logging_call(location, severity, logger, timestamp, format, args);
+  }
+  if (logging_handler == NULL || !replaces) {
+    microros_console_log(severity, logger, timestamp, format, args);
+  }
+}
+
+void rcutils_log_internal(
+  const rcutils_log_location_t * location, int severity, const char * name, const char * format, ...)
+{
+  va_list args;
+
+  va_start(args, format);
+  logging_write(location, severity, name, format, &args);
+  va_end(args);
+}
+
+void rcutils_log(
+  const rcutils_log_location_t * location, int severity, const char * name, const char * format, ...)
+{
+  va_list args;
+
+  if (!rcutils_logging_logger_is_enabled_for(name, severity)) {
+    return;
+  }
+  va_start(args, format);
+  logging_write(location, severity, name, format, &args);
+  va_end(args);
+}

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The log writer `console`. */
+#ifndef MICROROS_RCUTILS_CONSOLE_H
+#define MICROROS_RCUTILS_CONSOLE_H
+
+#include "rcutils/logging.h"
+
+/* Writes a message of at least the console's level. Takes from `args`. */
+void microros_console_log(
+  int severity, const char * name, rcutils_time_point_value_t timestamp, const char * format, va_list * args);
+
+#endif /* MICROROS_RCUTILS_CONSOLE_H */

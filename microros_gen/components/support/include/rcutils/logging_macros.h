@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The macros of log messages where the component `logging` is not selected: they compile to nothing. The compiler checks
+ * their format and arguments, which are not evaluated; conditions are ignored.
+ */
+#ifndef MICROROS_RCUTILS_LOGGING_MACROS_H
+#define MICROROS_RCUTILS_LOGGING_MACROS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "rcutils/macros.h"
+#include "rcutils/time.h"
+#include "rcutils/types/rcutils_ret.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Never called. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+static inline void
+microros_log_nothing(const char * name, const char * format, ...)
+{
+  (void)name;
+  (void)format;
+}
+
+#define MICROROS_LOG_NOTHING(name, ...) \
+  do { \
+    if (false) { \
+      microros_log_nothing(name, __VA_ARGS__); \
+    } \
+  } while (0)
+
+#define RCUTILS_LOG_DEBUG(...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_NAMED(name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_ONCE(...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_ONCE_NAMED(name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_EXPRESSION(expression, ...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_EXPRESSION_NAMED(expression, name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_FUNCTION(function, ...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_FUNCTION_NAMED(function, name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_SKIPFIRST(...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_SKIPFIRST_NAMED(name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_THROTTLE(get_time_point_value, duration, ...) \
+  MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_SKIPFIRST_THROTTLE(get_time_point_value, duration, ...) \
+  MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_THROTTLE_NAMED(get_time_point_value, duration, name, ...) \
+  MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_DEBUG_SKIPFIRST_THROTTLE_NAMED(get_time_point_value, duration, name, ...) \
+  MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+
+#define RCUTILS_LOG_INFO(...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_NAMED(name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_ONCE(...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_ONCE_NAMED(name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_EXPRESSION(expression, ...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_EXPRESSION_NAMED(expression, name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_FUNCTION(function, ...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_FUNCTION_NAMED(function, name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_SKIPFIRST(...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_SKIPFIRST_NAMED(name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_THROTTLE(get_time_point_value, duration, ...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_SKIPFIRST_THROTTLE(get_time_point_value, duration, ...) \
+  MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_THROTTLE_NAMED(get_time_point_value, duration, name, ...) \
+  MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_INFO_SKIPFIRST_THROTTLE_NAMED(get_time_point_value, duration, name, ...) \
+  MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+
+#define RCUTILS_LOG_WARN(...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_NAMED(name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_ONCE(...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_ONCE_NAMED(name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_EXPRESSION(expression, ...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_EXPRESSION_NAMED(expression, name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_FUNCTION(function, ...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_FUNCTION_NAMED(function, name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_SKIPFIRST(...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_SKIPFIRST_NAMED(name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_THROTTLE(get_time_point_value, duration, ...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_SKIPFIRST_THROTTLE(get_time_point_value, duration, ...) \
+  MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_THROTTLE_NAMED(get_time_point_value, duration, name, ...) \
+  MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_WARN_SKIPFIRST_THROTTLE_NAMED(get_time_point_value, duration, name, ...) \
+  MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+
+#define RCUTILS_LOG_ERROR(...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_NAMED(name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_ONCE(...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_ONCE_NAMED(name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_EXPRESSION(expression, ...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_EXPRESSION_NAMED(expression, name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_FUNCTION(function, ...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_FUNCTION_NAMED(function, name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_SKIPFIRST(...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_SKIPFIRST_NAMED(name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_THROTTLE(get_time_point_value, duration, ...) \
+  MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_SKIPFIRST_THROTTLE(get_time_point_value, duration, ...) \
+  MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_THROTTLE_NAMED(get_time_point_value, duration, name, ...) \
+  MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_ERROR_SKIPFIRST_THROTTLE_NAMED(get_time_point_value, duration, name, ...) \
+  MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+
+#define RCUTILS_LOG_FATAL(...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_NAMED(name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_ONCE(...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_ONCE_NAMED(name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_EXPRESSION(expression, ...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_EXPRESSION_NAMED(expression, name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_FUNCTION(function, ...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_FUNCTION_NAMED(function, name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_SKIPFIRST(...) MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_SKIPFIRST_NAMED(name, ...) MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_THROTTLE(get_time_point_value, duration, ...) \
+  MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_SKIPFIRST_THROTTLE(get_time_point_value, duration, ...) \
+  MICROROS_LOG_NOTHING(NULL, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_THROTTLE_NAMED(get_time_point_value, duration, name, ...) \
+  MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#define RCUTILS_LOG_FATAL_SKIPFIRST_THROTTLE_NAMED(get_time_point_value, duration, name, ...) \
+  MICROROS_LOG_NOTHING(name, __VA_ARGS__)
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RCUTILS_LOGGING_MACROS_H */

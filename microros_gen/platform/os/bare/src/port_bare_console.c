@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Lines of log messages go where standard output goes (`stdio` of the target file). */
+#include "microros/port_console.h"
+
+#include "microros/port_stdio.h"
+
+/* Waits as long as the line of a UART takes for `size` bytes; a byte is lost on one that stands still (port_stdio_put). */
+bool port_console_write(const char * line, size_t size)
+{
+  for (size_t i = 0; i < size; ++i) {
+    port_stdio_put((uint8_t)line[i]);
+  }
+  return true;
+}

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Log messages: what the image has of them, formats, macros, levels and writers."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from microros_gen import compiler
+from microros_gen.components.logging.plan import LoggingPlan
+from microros_gen.diagnostics import UserError
+from microros_gen.interfaces.find import shipped_folder
+from microros_gen.toolchain.toolchain import WARNINGS
+from tests.support.ids import without_id
+from tests.support.paths import ROOT, TESTS
+from tests.support.patience import seconds
+
+BARE = "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\n"
+UNITS = TESTS / "runtime" / "c"
+SANITIZE = ("-std=gnu99", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all", f"-I{UNITS}")
+
+
+def planned(folder: Path, text: str) -> compiler.Planned:
+    config = folder / "microros.yaml"
+    config.write_text(text)
+    options = compiler.Options(config=config, interface_paths=(shipped_folder(),))
+    return compiler.plan(compiler.resolve(compiler.read(options)))
+
+
+def slice_of(found: compiler.Planned) -> LoggingPlan:
+    part = found.project.runtime.features.of("logging")
+    assert isinstance(part, LoggingPlan)
+    return part
+
+
+def generate(folder: Path, text: str) -> Path:
+    """Write the output folder and return it."""
+    out = folder / "out"
+    for name, content in compiler.render(planned(folder, text)).items():
+        (out / name).parent.mkdir(parents=True, exist_ok=True)
+        (out / name).write_bytes(content)
+    return out
+
+
+def run(*command: str | Path) -> str:
+    done = subprocess.run(command, capture_output=True, text=True, timeout=seconds(120), check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def verbose(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the output folder of an application whose console gets everything."""
+    return generate(tmp_path_factory.mktemp("verbose"), BARE + "logging: [{to: console, level: debug}]\n")
+
+
+def unit(out: Path, name: str, folder: Path, *flags: str) -> str:
+    program = folder / "unit"
+    sources = sorted((out / "src").rglob("*.c"))
+    run("gcc", *SANITIZE, *flags, f"-I{out / 'include'}", UNITS / name, *sources, "-o", program)
+    return run(program)
+
+
+def test_formats_are_those_of_the_c_library(verbose: Path, tmp_path: Path) -> None:
+    assert int(unit(verbose, "unit_log_format.c", tmp_path).split()[0]) > 100_000
+
+
+def test_macros_levels_and_the_console(verbose: Path, tmp_path: Path) -> None:
+    unit(verbose, "unit_logging.c", tmp_path)
+
+
+MACROS = """\
+#include <rcutils/logging_macros.h>
+
+static rcutils_ret_t now(rcutils_time_point_value_t * time)
+{
+  *time = 0;
+  return RCUTILS_RET_OK;
+}
+
+void application(int number, const char * name);
+void application(int number, const char * name)
+{
+  (void)now;
+  RCUTILS_LOG_DEBUG("text of debug %d", number);
+  RCUTILS_LOG_DEBUG_THROTTLE_NAMED(now, 100, name, "text of debug, named %d", number);
+  RCUTILS_LOG_INFO_NAMED(name, "text of info %d", number);
+  RCUTILS_LOG_WARN_EXPRESSION(number > 2, "text of warn %d", number);
+  RCUTILS_LOG_ERROR_ONCE("text of error %s", name);
+  RCUTILS_LOG_FATAL_SKIPFIRST("text of fatal");
+}
+"""
+
+
+def texts(out: Path, *flags: str) -> set[str]:
+    """Return which levels have their text in the object of a program that logs with each."""
+    source, target = out / "macros.c", out / "macros.o"
+    source.write_text(MACROS)
+    run("gcc", "-std=c99", *WARNINGS, *flags, f"-I{out / 'include'}", "-c", source, "-o", target)
+    found = run("strings", target)
+    return {level for level in ("debug", "info", "warn", "error", "fatal") if f"text of {level}" in found}
+
+
+@pytest.mark.parametrize("optimized", ["-O0", "-Os"])
+def test_levels_below_those_of_the_build_are_not_in_the_image(tmp_path: Path, optimized: str) -> None:
+    out = generate(tmp_path, BARE + "logging: [{to: callback, level: error}, {to: console, level: warn}]\n")
+    assert texts(out, optimized) == {"warn", "error", "fatal"}
+    raised = "-DRCUTILS_LOG_MIN_SEVERITY=RCUTILS_LOG_MIN_SEVERITY_FATAL"
+    assert texts(out, optimized, raised) == {"fatal"}
+    assert texts(out, optimized, "-DRCUTILS_LOG_MIN_SEVERITY=RCUTILS_LOG_MIN_SEVERITY_NONE") == set()
+
+
+@pytest.mark.parametrize("optimized", ["-O0", "-Os"])
+def test_without_logging_the_macros_are_nothing(tmp_path: Path, optimized: str) -> None:
+    """The compiler still checks format and arguments."""
+    out = generate(tmp_path, BARE)
+    assert texts(out, optimized) == set()
+    assert "macros.c" not in run("nm", "--undefined-only", out / "macros.o")
+    assert not [line for line in run("nm", out / "macros.o").splitlines() if " U " in line or " b " in line]
+    wrong = out / "wrong.c"
+    wrong.write_text(
+        '#include <rcutils/logging_macros.h>\nvoid f(void);\nvoid f(void) { RCUTILS_LOG_INFO("%s", 3); }\n'
+    )
+    command = ["gcc", "-std=c99", *WARNINGS, "-Werror", f"-I{out / 'include'}", "-fsyntax-only", str(wrong)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert "format" in done.stderr
+
+
+def test_both_headers_have_the_same_macros() -> None:
+    folder = ROOT / "microros_gen" / "components"
+    heads = [
+        {line for line in text.splitlines() if line.startswith("#define RCUTILS_LOG_") and "(" in line}
+        for part in ("support", "logging")
+        if (text := (folder / part / "include" / "rcutils" / "logging_macros.h").read_text())
+    ]
+    without, selected = ({line.partition("(")[0].split()[1] for line in found} for found in heads)
+    levels = ("DEBUG", "INFO", "WARN", "ERROR", "FATAL")
+    assert {name for name in selected if name.split("_")[2] in levels} == without
+    assert len(without) == 5 * 14
+
+
+@pytest.mark.ros
+def test_ros_has_the_same_macros() -> None:
+    (path,) = Path(sys.prefix, "include").rglob("rcutils/logging_macros.h")
+    heads = set(re.findall(r"define (RCUTILS_LOG_(?:DEBUG|INFO|WARN|ERROR|FATAL)\w*)\(", path.read_text()))
+    folder = ROOT / "microros_gen" / "components" / "support" / "include" / "rcutils"
+    own = set(re.findall(r"#define (RCUTILS_LOG_\w+)\(", (folder / "logging_macros.h").read_text()))
+    assert own == heads
+
+
+def test_the_console_of_a_board_is_its_standard_output(tmp_path: Path) -> None:
+    found = planned(tmp_path, BARE + "logging: console\ntarget: qemu-mps2-an386\n")
+    files = compiler.render(found)
+    assert "src/port_bare/port_bare_console.c" in files
+    assert not any("port_posix_console" in name for name in files)
+
+
+@pytest.mark.parametrize(
+    ("text", "levels"),
+    [
+        ("components: [+logging]\n", (20, 60, 20)),
+        ("components: [+logging_console]\n", (20, 20, 60)),
+        ("logging: console\n", (20, 20, 60)),
+        ("logging: [{to: console, level: debug}, {to: callback, level: error}]\n", (10, 10, 40)),
+        ("logging: {console}\n".replace("{console}", "[{to: callback, level: fatal}]"), (50, 60, 50)),
+    ],
+)
+def test_the_lowest_level_is_that_of_the_build(
+    tmp_path: Path, text: str, levels: tuple[int, int, int]
+) -> None:
+    part = slice_of(planned(tmp_path, BARE + text))
+    assert (part.level, part.console_level, part.callback_level) == levels
+    assert part.min_severity == levels[0] // 10 - 1
+
+
+def test_another_level_makes_another_plan_id(tmp_path: Path) -> None:
+    texts = ("logging: console\n", "logging: callback\n", "logging: [{to: console, level: warn}]\n")
+    assert len({planned(tmp_path, BARE + text).project.runtime.plan_id for text in texts}) == 3
+
+
+def test_a_writer_is_named_once(tmp_path: Path) -> None:
+    with pytest.raises(UserError) as caught:
+        planned(tmp_path, BARE + "logging: [console, {to: console, level: debug}]\n")
+    (told,) = caught.value.diagnostics
+    assert "4:20: error: 'logging' has the writer 'console' twice" in without_id(told.headline())
+
+
+def test_a_console_that_goes_nowhere_is_told(tmp_path: Path) -> None:
+    board = tmp_path / "silent.yaml"
+    board.write_text("target: silent\nextends: qemu-mps2-an386\nstdio: {to: none}\n")
+    found = planned(tmp_path, BARE + f"logging: console\ntarget: ./{board.name}\n")
+    told = [without_id(d.headline()) for d in found.warnings]
+    assert any("the log writer 'console' writes nowhere: the target silent" in text for text in told)
