@@ -24,10 +24,11 @@ _SUGGESTIONS = (
 
 def first_draft(selection: Selection, profiles: tuple[str, ...], name: str, target: str) -> Draft:
     """Return the proposal for `profiles`, as they were named, on `target`; its node is called `name`."""
+    implying = [chosen.component.name for chosen in selection.components if chosen.component.implies]
     endpoints = [
         endpoint
         for component, endpoint in _ENDPOINTS.items()
-        if selection.has(component) and not selection.serves_only(component, "clock_ros")
+        if selection.has(component) and not any(selection.serves_only(component, other) for other in implying)
     ]
     settings = {"target": DraftValue(target, "`microros-gen targets` lists them")}
     if any(endpoint.kind != "subscription" for endpoint in endpoints):

@@ -12,17 +12,22 @@ from microros_gen.diagnostics import Diagnostics, nearest
 from microros_gen.selection.component import Implied
 from microros_gen.selection.model import Selection
 
+_NODE = NodeDecl(name="device", endpoints=(EndpointDecl("publisher", "count", "std_msgs/msg/Int32"),))
+
 
 def with_implied(application: Application, selection: Selection, diagnostics: Diagnostics) -> Application:
     """Return the application with the endpoints that its components imply, before its own ones.
 
     With `nodes:` an endpoint belongs to the first node, or one to every node. Without them the library opens
-    subscriptions alone by itself, once: for anything else the nodes have to be declared.
+    subscriptions alone by itself, once: for anything else the nodes have to be declared. A profile alone, without an
+    application file, has one node then.
     """
     changes = {change.name: change for change in application.endpoints}
     once = _endpoints(selection, changes, every_node=False)
     each = _endpoints(selection, changes, every_node=True)
     _check_changes(application, (*once, *each), diagnostics)
+    if each and not application.spans and not application.nodes:
+        application = replace(application, nodes=(_NODE,))
     if application.nodes:
         first, *others = application.nodes
         nodes = (_with(first, (*once, *each)), *(_with(node, each) for node in others))

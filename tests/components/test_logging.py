@@ -177,6 +177,18 @@ def test_the_lowest_level_is_that_of_the_build(
     assert part.min_severity == levels[0] // 10 - 1
 
 
+def test_the_profile_with_log_messages_has_a_node_without_an_application_file() -> None:
+    options = compiler.Options(
+        profiles=("configurable_sender_with_diagnostics",), interface_paths=(shipped_folder(),)
+    )
+    found = compiler.plan(compiler.resolve(compiler.read_source(None, Path(), options)))
+    assert [n.name for n in found.project.runtime.entities.nodes.declared] == ["device"]
+    assert {p.topic for p in found.project.runtime.entities.publishers.declared} == {
+        "/count",
+        "/parameter_events",
+    }
+
+
 def test_another_level_makes_another_plan_id(tmp_path: Path) -> None:
     texts = ("logging: console\n", "logging: callback\n", "logging: [{to: console, level: warn}]\n")
     assert len({planned(tmp_path, BARE + text).project.runtime.plan_id for text in texts}) == 3

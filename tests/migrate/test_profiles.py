@@ -19,7 +19,7 @@ from tests.support.migrate.proposals import Init, application_in, entities_of
 
 pytestmark = pytest.mark.builds
 
-PLANNED = ("configurable_sender_with_diagnostics", "managed_service")
+PLANNED = ("managed_service",)
 FILES = {
     "microros.yaml",
     "main.c",

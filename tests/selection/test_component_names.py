@@ -58,7 +58,7 @@ MENTIONS = {
     "cdr": 1,
     "cdr_decode": 1,
     "clock": 1,
-    "clock_ros": 3,
+    "clock_ros": 2,
     "discovery": 4,
     "executor": 2,
     "framing": 1,

@@ -6,6 +6,7 @@ from __future__ import annotations
 READY = (
     "pure_sender",
     "pure_reader",
+    "configurable_sender_with_diagnostics",
     "ad_hoc_discoverable_sender",
     "static_configured_sender",
     "simulation_node",
