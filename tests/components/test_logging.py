@@ -197,13 +197,13 @@ def test_another_level_makes_another_plan_id(tmp_path: Path) -> None:
 def test_a_writer_is_named_once(tmp_path: Path) -> None:
     with pytest.raises(UserError) as caught:
         planned(tmp_path, BARE + "logging: [console, {to: console, level: debug}]\n")
-    (told,) = caught.value.diagnostics
-    assert "4:20: error: 'logging' has the writer 'console' twice" in without_id(told.headline())
+    (reported,) = caught.value.diagnostics
+    assert "4:20: error: 'logging' has the writer 'console' twice" in without_id(reported.headline())
 
 
-def test_a_console_that_goes_nowhere_is_told(tmp_path: Path) -> None:
+def test_a_console_that_goes_nowhere_is_reported(tmp_path: Path) -> None:
     board = tmp_path / "silent.yaml"
     board.write_text("target: silent\nextends: qemu-mps2-an386\nstdio: {to: none}\n")
     found = planned(tmp_path, BARE + f"logging: console\ntarget: ./{board.name}\n")
-    told = [without_id(d.headline()) for d in found.warnings]
-    assert any("the log writer 'console' writes nowhere: the target silent" in text for text in told)
+    reported = [without_id(d.headline()) for d in found.warnings]
+    assert any("the log writer 'console' writes nowhere: the target silent" in text for text in reported)

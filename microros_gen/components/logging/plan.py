@@ -11,7 +11,7 @@ from microros_gen.records import dataclass
 TEXT_SIZE = 192
 """Bytes of a line of the console with its level, time and name; on the stack."""
 LOGGERS = 4
-"""Loggers that can have a level of their own."""
+"""Loggers that can have a separate level."""
 NAME_SIZE = 32
 """Bytes of the name of such a logger with its NUL."""
 _NO_WRITER = 60

@@ -179,7 +179,7 @@ static void names(void)
   CHECK(g_rcutils_log_severity_names[15] == NULL);
 }
 
-/* Puts what is written to the error output into `text`. */
+/* Reads the error output into `text`. */
 static void written(int end, char * text, size_t size)
 {
   struct pollfd ready = {end, POLLIN, 0};

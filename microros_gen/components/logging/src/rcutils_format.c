@@ -150,9 +150,10 @@ static int32_t format_number(const char ** next, va_list * args)
     }
     return given > WIDTH_MOST ? WIDTH_MOST : (int32_t)given;
   }
-  for (; **next >= '0' && **next <= '9'; ++*next) {
+  while (**next >= '0' && **next <= '9') {
     number = number * 10 + (int32_t)(**next - '0');
     number = number > WIDTH_MOST ? WIDTH_MOST : number;
+    ++*next;
   }
   return number;
 }

@@ -3,10 +3,9 @@
 
 enum { DIGITS_MOST = 22 }; /* of 64 bits in octal */
 
-static const uint32_t half_bits = 16;
-
 uint32_t microros_format_divide(uint64_t * value, uint32_t divisor)
 {
+  const uint32_t half_bits = 16;
   uint64_t quotient = 0;
   uint32_t remainder = 0;
 
@@ -30,7 +29,8 @@ static int32_t integer_digits(char * digits, uint64_t value, char kind)
 
   if (kind == 'o') {
     base = 8;
-  } else if (kind == 'x' || kind == 'X') {
+  }
+  if (kind == 'x' || kind == 'X') {
     base = 16;
   }
   while (left != 0u) {
