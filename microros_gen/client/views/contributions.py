@@ -59,6 +59,8 @@ _CALLERS: Mapping[str, tuple[str, ...]] = {
 }
 """File that calls → its hook points; `on` means submessages and output streams."""
 _RELIABLE_ALONE = ("drop_oldest", "unacknowledged")
+_AFTER_RESERVE = ("commit",)
+"""Called only for a stream whose `reserve` found room: no question where one stream alone is selected."""
 
 
 @dataclass(frozen=True)
@@ -263,6 +265,8 @@ def _output(function: str, streams: Mapping[str, Mapping[str, str]]) -> Output:
         choice = f"reliable ? {reliable}\n                  : {best_effort}"
     same = function in _RELIABLE_ALONE or reliable == best_effort
     value = reliable if same else choice
+    if function in _AFTER_RESERVE and none in (reliable, best_effort):
+        value = best_effort if reliable == none else reliable
     return Output(value, _unused(_OUTPUT_PARAMETERS[function], value))
 
 

@@ -33,12 +33,11 @@ rclc_parameter_place_t * parameter_place(
 
 void parameter_remove(rclc_parameter_server_t * server, const rclc_parameter_place_t * place)
 {
-  size_t i = (size_t)(place - server->places);
+  const size_t i = (size_t)(place - server->places);
 
   --server->count;
-  for (; i < server->count; ++i) {
-    server->places[i] = server->places[i + 1u];
-  }
+  (void)memmove(
+    &server->places[i], &server->places[i + 1u], (server->count - i) * sizeof(server->places[0]));
 }
 
 /* Makes the message that the callback sees; it points to the name of the place. */

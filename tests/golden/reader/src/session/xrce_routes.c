@@ -90,7 +90,8 @@ uint8_t * xrce_route_reserve(xrce_client_t * client, bool reliable)
 
 bool xrce_route_commit(xrce_client_t * client, bool reliable, size_t size)
 {
-  return reliable ? false : xrce_stream_best_effort_commit(&client->best_effort, &client->session, size);
+  (void)reliable;
+  return xrce_stream_best_effort_commit(&client->best_effort, &client->session, size);
 }
 
 size_t xrce_route_capacity(bool reliable)
