@@ -114,12 +114,12 @@ int rcutils_logging_get_logger_effective_level(const char * name);
 bool rcutils_logging_logger_is_enabled_for(const char * name, int severity);
 
 /* Logs a message whose logger is enabled for it (rcutils_log_internal does not ask). `location` and `name` can be NULL. */
-RCUTILS_ATTRIBUTE_PRINTF_FORMAT(4, 5)
 void rcutils_log(
-  const rcutils_log_location_t * location, int severity, const char * name, const char * format, ...);
-RCUTILS_ATTRIBUTE_PRINTF_FORMAT(4, 5)
+  const rcutils_log_location_t * location, int severity, const char * name, const char * format, ...)
+  RCUTILS_ATTRIBUTE_PRINTF_FORMAT(4, 5);
 void rcutils_log_internal(
-  const rcutils_log_location_t * location, int severity, const char * name, const char * format, ...);
+  const rcutils_log_location_t * location, int severity, const char * name, const char * format, ...)
+  RCUTILS_ATTRIBUTE_PRINTF_FORMAT(4, 5);
 
 /*
  * Writes the text of a message and a NUL, at most `size` characters; returns its length. For output handlers, instead of
