@@ -35,9 +35,9 @@ static const microros_service_type_t * service_of(const char * name)
     const char * name;
     const rosidl_service_type_support_t * type;
   } services[] = {
-    {"get_parameters", &parameter_get_type},   {"get_parameter_types", &parameter_get_types_type},
-    {"set_parameters", &parameter_set_type},   {"set_parameters_atomically", &parameter_set_atomically_type},
-    {"list_parameters", &parameter_list_type}, {"describe_parameters", &parameter_describe_type},
+    {"get_parameters", &rclc_parameter_get_type},   {"get_parameter_types", &rclc_parameter_get_types_type},
+    {"set_parameters", &rclc_parameter_set_type},   {"set_parameters_atomically", &rclc_parameter_set_atomically_type},
+    {"list_parameters", &rclc_parameter_list_type}, {"describe_parameters", &rclc_parameter_describe_type},
   };
 
   for (size_t i = 0; i < sizeof(services) / sizeof(services[0]); ++i) {
@@ -83,11 +83,11 @@ static void answer(const microros_service_type_t * service, const uint8_t * requ
   if (!cdr_decode(service->request, copy, size, swap, &server, &fault)) {
     (void)printf("refused\n");
   } else {
-    if (service->request->decode == parameter_decode_parameters) {
+    if (service->request->decode == rclc_parameter_decode_parameters) {
       if (service == service_of("set_parameters")) {
-        parameter_set_each(&server);
+        rclc_parameter_set_each(&server);
       } else {
-        parameter_set_all(&server);
+        rclc_parameter_set_all(&server);
       }
     }
     show(body, service->response->encode(&server, body, &fault));
@@ -114,7 +114,7 @@ static void check_division(void)
       uint64_t rest;
 
       if (
-        parameter_divide(numbers[i], numbers[k], &rest) != numbers[i] / numbers[k] ||
+        rclc_parameter_divide(numbers[i], numbers[k], &rest) != numbers[i] / numbers[k] ||
         rest != numbers[i] % numbers[k]) {
         abort();
       }

@@ -36,7 +36,7 @@ static rclc_parameter_place_t * parameter_look(
     return NULL;
   }
   text = parameter_text(name);
-  found = parameter_find(server, &text);
+  found = rclc_parameter_find(server, &text);
   if (found == NULL) {
     *result = parameter_refuse(RCL_RET_ERROR, name, MICROROS_ERROR_WORDS("unknown"));
     return NULL;
@@ -78,7 +78,7 @@ rcl_ret_t rclc_add_parameter(
   if (type != RCLC_PARAMETER_BOOL && type != RCLC_PARAMETER_INT && type != RCLC_PARAMETER_DOUBLE) {
     return parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("no type of a value"));
   }
-  if (parameter_find(parameter_server, &name) != NULL) {
+  if (rclc_parameter_find(parameter_server, &name) != NULL) {
     return parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("added already"));
   }
   if (parameter_server->count == parameter_server->max_params) {
@@ -87,10 +87,10 @@ rcl_ret_t rclc_add_parameter(
     microros_error_set(microros_error_parameters_full, parameter_name, NULL, count, count + 1u);
     return RCL_RET_ERROR;
   }
-  place = parameter_place(parameter_server, &name, (uint8_t)type);
+  place = rclc_parameter_place(parameter_server, &name, (uint8_t)type);
   place->event = (uint8_t)PARAMETER_EVENT_NEW;
   ++parameter_server->count;
-  parameter_publish(parameter_server);
+  rclc_parameter_publish(parameter_server);
   return RCL_RET_OK;
 }
 
@@ -101,7 +101,7 @@ rcl_ret_t rclc_delete_parameter(rclc_parameter_server_t * parameter_server, cons
 
   if (place != NULL) {
     place->event = (uint8_t)PARAMETER_EVENT_DELETED;
-    parameter_publish(parameter_server);
+    rclc_parameter_publish(parameter_server);
   }
   return result;
 }
@@ -126,13 +126,13 @@ static rcl_ret_t parameter_set(
   old_state.value = place->value;
   new_state = old_state;
   new_state.value = *value;
-  if (!parameter_accepts(server, &old_state, &new_state)) {
+  if (!rclc_parameter_accepts(server, &old_state, &new_state)) {
     return parameter_refuse(
       RCLC_PARAMETER_MODIFICATION_REJECTED, name, MICROROS_ERROR_WORDS("the callback refused the value"));
   }
   place->value = *value;
   place->event = (uint8_t)PARAMETER_EVENT_CHANGED;
-  parameter_publish(server);
+  rclc_parameter_publish(server);
   return RCL_RET_OK;
 }
 

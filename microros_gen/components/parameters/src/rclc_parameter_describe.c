@@ -30,7 +30,7 @@ static rclc_parameter_place_t * describe_look(
     return NULL;
   }
   text.size = (uint32_t)microros_text_size(name);
-  found = parameter_find(server, &text);
+  found = rclc_parameter_find(server, &text);
   if (found == NULL) {
     *result = describe_refuse(name, MICROROS_ERROR_WORDS("unknown"));
     return NULL;

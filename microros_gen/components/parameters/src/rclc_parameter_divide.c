@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rclc_parameters.h"
 
-uint64_t parameter_divide(uint64_t value, uint64_t by, uint64_t * rest)
+uint64_t rclc_parameter_divide(uint64_t value, uint64_t by, uint64_t * rest)
 {
   uint64_t quotient = 0;
   uint64_t left = value;

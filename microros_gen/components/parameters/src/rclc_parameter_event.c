@@ -11,10 +11,10 @@ static void event_out_stamp(parameter_out_t * out)
 {
   const uint64_t ns_per_s = 1000000000;
   uint64_t nanoseconds;
-  const uint64_t seconds = parameter_divide((uint64_t)port_time_epoch_ns(), ns_per_s, &nanoseconds);
+  const uint64_t seconds = rclc_parameter_divide((uint64_t)port_time_epoch_ns(), ns_per_s, &nanoseconds);
 
-  parameter_out_4(out, (uint32_t)seconds);
-  parameter_out_4(out, (uint32_t)nanoseconds);
+  rclc_parameter_out_4(out, (uint32_t)seconds);
+  rclc_parameter_out_4(out, (uint32_t)nanoseconds);
 }
 
 /* The fully qualified name: the namespace ends with the only slash where it is "/". */
@@ -26,7 +26,7 @@ static void event_out_node(parameter_out_t * out, const rcl_node_t * node)
   const parameter_text_t pieces[3] = {
     {namespace_, size}, {"/", size > 1u ? 1u : 0u}, {name, (uint32_t)microros_text_size(name)}};
 
-  parameter_out_pieces(out, pieces, 3u);
+  rclc_parameter_out_pieces(out, pieces, 3u);
 }
 
 /* Writes the parameters of which the event says `what`. */
@@ -37,11 +37,11 @@ static void event_out_list(parameter_out_t * out, const rclc_parameter_server_t 
   for (size_t i = 0; i < server->count; ++i) {
     count += server->places[i].event == what ? 1u : 0u;
   }
-  parameter_out_4(out, count);
+  rclc_parameter_out_4(out, count);
   for (size_t i = 0; i < server->count; ++i) {
     if (server->places[i].event == what) {
-      parameter_out_text(out, server->places[i].name);
-      parameter_out_value(out, &server->places[i]);
+      rclc_parameter_out_text(out, server->places[i].name);
+      rclc_parameter_out_value(out, &server->places[i]);
     }
   }
 }
@@ -67,7 +67,7 @@ static const microros_message_type_t event_message = {
   .max_encoded_size = rcl_interfaces__msg__ParameterEvent__MAX_ENCODED_SIZE,
   .encode = event_encode};
 
-const rosidl_message_type_support_t parameter_event_type = {
+const rosidl_message_type_support_t rclc_parameter_event_type = {
   .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &event_message};
 
 static bool event_is_due(const rclc_parameter_server_t * server)
@@ -80,7 +80,7 @@ static bool event_is_due(const rclc_parameter_server_t * server)
   return false;
 }
 
-void parameter_publish(rclc_parameter_server_t * server)
+void rclc_parameter_publish(rclc_parameter_server_t * server)
 {
   size_t i = 0;
 
@@ -98,7 +98,7 @@ void parameter_publish(rclc_parameter_server_t * server)
 
     server->places[i].event = (uint8_t)PARAMETER_EVENT_NONE;
     if (deleted) {
-      parameter_remove(server, &server->places[i]);
+      rclc_parameter_remove(server, &server->places[i]);
     } else {
       ++i;
     }

@@ -23,7 +23,7 @@ static uint8_t * out_take(parameter_out_t * out, uint32_t width, uint32_t bytes)
   return &out->body[start];
 }
 
-void parameter_out_1(parameter_out_t * out, uint8_t value)
+void rclc_parameter_out_1(parameter_out_t * out, uint8_t value)
 {
   uint8_t * to = out_take(out, 1u, 1u);
 
@@ -32,7 +32,7 @@ void parameter_out_1(parameter_out_t * out, uint8_t value)
   }
 }
 
-void parameter_out_4(parameter_out_t * out, uint32_t value)
+void rclc_parameter_out_4(parameter_out_t * out, uint32_t value)
 {
   uint8_t * to = out_take(out, 4u, 4u);
 
@@ -41,7 +41,7 @@ void parameter_out_4(parameter_out_t * out, uint32_t value)
   }
 }
 
-void parameter_out_8(parameter_out_t * out, const void * value)
+void rclc_parameter_out_8(parameter_out_t * out, const void * value)
 {
   uint8_t * to = out_take(out, 8u, 8u);
 
@@ -50,7 +50,7 @@ void parameter_out_8(parameter_out_t * out, const void * value)
   }
 }
 
-void parameter_out_pieces(parameter_out_t * out, const parameter_text_t * pieces, uint32_t count)
+void rclc_parameter_out_pieces(parameter_out_t * out, const parameter_text_t * pieces, uint32_t count)
 {
   uint32_t size = 1; /* the NUL */
   uint8_t * to;
@@ -71,26 +71,26 @@ void parameter_out_pieces(parameter_out_t * out, const parameter_text_t * pieces
   *to = 0;
 }
 
-void parameter_out_text(parameter_out_t * out, const char * text)
+void rclc_parameter_out_text(parameter_out_t * out, const char * text)
 {
   const parameter_text_t piece = {text, (uint32_t)microros_text_size(text)};
 
-  parameter_out_pieces(out, &piece, 1u);
+  rclc_parameter_out_pieces(out, &piece, 1u);
 }
 
-void parameter_out_value(parameter_out_t * out, const rclc_parameter_place_t * place)
+void rclc_parameter_out_value(parameter_out_t * out, const rclc_parameter_place_t * place)
 {
   const uint8_t type = place != NULL ? place->type : (uint8_t)RCLC_PARAMETER_NOT_SET;
   const int64_t integer = type == (uint8_t)RCLC_PARAMETER_INT ? place->value.integer_value : 0;
   const double number = type == (uint8_t)RCLC_PARAMETER_DOUBLE ? place->value.double_value : 0.0;
   const bool truth = type == (uint8_t)RCLC_PARAMETER_BOOL && place->value.bool_value;
 
-  parameter_out_1(out, type);
-  parameter_out_1(out, truth ? 1u : 0u);
-  parameter_out_8(out, &integer);
-  parameter_out_8(out, &number);
-  parameter_out_text(out, "");
+  rclc_parameter_out_1(out, type);
+  rclc_parameter_out_1(out, truth ? 1u : 0u);
+  rclc_parameter_out_8(out, &integer);
+  rclc_parameter_out_8(out, &number);
+  rclc_parameter_out_text(out, "");
   for (uint32_t i = 0; i < (uint32_t)ARRAYS; ++i) {
-    parameter_out_4(out, 0u);
+    rclc_parameter_out_4(out, 0u);
   }
 }

@@ -85,11 +85,11 @@ static parameter_text_t reason_insertion(
   return reason_text(reason_type(place != NULL ? place->type : (uint8_t)RCLC_PARAMETER_NOT_SET));
 }
 
-void parameter_out_reason(
+void rclc_parameter_out_reason(
   parameter_out_t * out, const rclc_parameter_server_t * server, const parameter_asked_t * asked,
   uint8_t outcome)
 {
-  const rclc_parameter_place_t * place = parameter_find(server, &asked->name);
+  const rclc_parameter_place_t * place = rclc_parameter_find(server, &asked->name);
   const char * words = reason_words(outcome);
   parameter_text_t pieces[PIECES_MAX];
   uint32_t count = 0;
@@ -110,5 +110,5 @@ void parameter_out_reason(
     }
     ++count;
   }
-  parameter_out_pieces(out, pieces, count);
+  rclc_parameter_out_pieces(out, pieces, count);
 }

@@ -23,7 +23,7 @@ static uint32_t reply_end(parameter_out_t * out, bool known)
 {
   if (out->full || !known) {
     *out = reply_begin(out->body, out->room);
-    parameter_out_4(out, 0u);
+    rclc_parameter_out_4(out, 0u);
   }
   return out->position;
 }
@@ -33,29 +33,29 @@ static void reply_out_ranges(parameter_out_t * out, const rclc_parameter_place_t
   const bool integers = place != NULL && place->has_range && place->type == (uint8_t)RCLC_PARAMETER_INT;
   const bool numbers = place != NULL && place->has_range && place->type == (uint8_t)RCLC_PARAMETER_DOUBLE;
 
-  parameter_out_4(out, numbers ? 1u : 0u);
+  rclc_parameter_out_4(out, numbers ? 1u : 0u);
   if (numbers) {
-    parameter_out_8(out, &place->range.floating_point.from_value);
-    parameter_out_8(out, &place->range.floating_point.to_value);
-    parameter_out_8(out, &place->range.floating_point.step);
+    rclc_parameter_out_8(out, &place->range.floating_point.from_value);
+    rclc_parameter_out_8(out, &place->range.floating_point.to_value);
+    rclc_parameter_out_8(out, &place->range.floating_point.step);
   }
-  parameter_out_4(out, integers ? 1u : 0u);
+  rclc_parameter_out_4(out, integers ? 1u : 0u);
   if (integers) {
-    parameter_out_8(out, &place->range.integer.from_value);
-    parameter_out_8(out, &place->range.integer.to_value);
-    parameter_out_8(out, &place->range.integer.step);
+    rclc_parameter_out_8(out, &place->range.integer.from_value);
+    rclc_parameter_out_8(out, &place->range.integer.to_value);
+    rclc_parameter_out_8(out, &place->range.integer.step);
   }
 }
 
 static void reply_out_descriptor(
   parameter_out_t * out, const parameter_text_t * name, const rclc_parameter_place_t * place)
 {
-  parameter_out_pieces(out, name, 1u);
-  parameter_out_1(out, place != NULL ? place->type : (uint8_t)RCLC_PARAMETER_NOT_SET);
-  parameter_out_text(out, place != NULL ? place->description : "");
-  parameter_out_text(out, place != NULL ? place->additional_constraints : "");
-  parameter_out_1(out, place != NULL && place->read_only ? 1u : 0u);
-  parameter_out_1(out, place != NULL && place->dynamic_typing ? 1u : 0u);
+  rclc_parameter_out_pieces(out, name, 1u);
+  rclc_parameter_out_1(out, place != NULL ? place->type : (uint8_t)RCLC_PARAMETER_NOT_SET);
+  rclc_parameter_out_text(out, place != NULL ? place->description : "");
+  rclc_parameter_out_text(out, place != NULL ? place->additional_constraints : "");
+  rclc_parameter_out_1(out, place != NULL && place->read_only ? 1u : 0u);
+  rclc_parameter_out_1(out, place != NULL && place->dynamic_typing ? 1u : 0u);
   reply_out_ranges(out, place);
 }
 
@@ -66,21 +66,21 @@ static uint32_t reply_of_names(const void * message, uint8_t * body, uint32_t ro
 {
   const rclc_parameter_server_t * server = message;
   cdr_fault_t fault = {.field = ""};
-  cdr_in_t in = parameter_request_begin(server, &fault);
-  const uint32_t count = parameter_request_length(&in);
+  cdr_in_t in = rclc_parameter_request_begin(server, &fault);
+  const uint32_t count = rclc_parameter_request_length(&in);
   parameter_out_t out = reply_begin(body, room);
   bool known = true;
 
-  parameter_out_4(&out, count);
+  rclc_parameter_out_4(&out, count);
   for (uint32_t i = 0; i < count; ++i) {
-    const parameter_text_t name = parameter_request_text(&in);
-    const rclc_parameter_place_t * place = parameter_find(server, &name);
+    const parameter_text_t name = rclc_parameter_request_text(&in);
+    const rclc_parameter_place_t * place = rclc_parameter_find(server, &name);
 
     known = known && (place != NULL || server->allow_undeclared_parameters);
     if (part == REPLY_VALUE) {
-      parameter_out_value(&out, place);
+      rclc_parameter_out_value(&out, place);
     } else if (part == REPLY_TYPE) {
-      parameter_out_1(&out, place != NULL ? place->type : (uint8_t)RCLC_PARAMETER_NOT_SET);
+      rclc_parameter_out_1(&out, place != NULL ? place->type : (uint8_t)RCLC_PARAMETER_NOT_SET);
     } else {
       reply_out_descriptor(&out, &name, place);
     }
@@ -88,21 +88,21 @@ static uint32_t reply_of_names(const void * message, uint8_t * body, uint32_t ro
   return reply_end(&out, known);
 }
 
-uint32_t parameter_reply_values(const void * message, uint8_t * body, cdr_fault_t * fault)
+uint32_t rclc_parameter_reply_values(const void * message, uint8_t * body, cdr_fault_t * fault)
 {
   (void)fault;
   return reply_of_names(
     message, body, rcl_interfaces__srv__GetParameters_Response__MAX_ENCODED_SIZE, REPLY_VALUE);
 }
 
-uint32_t parameter_reply_types(const void * message, uint8_t * body, cdr_fault_t * fault)
+uint32_t rclc_parameter_reply_types(const void * message, uint8_t * body, cdr_fault_t * fault)
 {
   (void)fault;
   return reply_of_names(
     message, body, rcl_interfaces__srv__GetParameterTypes_Response__MAX_ENCODED_SIZE, REPLY_TYPE);
 }
 
-uint32_t parameter_reply_descriptors(const void * message, uint8_t * body, cdr_fault_t * fault)
+uint32_t rclc_parameter_reply_descriptors(const void * message, uint8_t * body, cdr_fault_t * fault)
 {
   (void)fault;
   return reply_of_names(
@@ -116,12 +116,12 @@ static void reply_out_result(
 {
   const uint32_t room = out->room;
 
-  parameter_out_1(out, outcome == (uint8_t)PARAMETER_SET ? 1u : 0u);
+  rclc_parameter_out_1(out, outcome == (uint8_t)PARAMETER_SET ? 1u : 0u);
   out->room -= following * (uint32_t)SHORTEST_RESULT;
-  parameter_out_reason(out, server, asked, outcome);
+  rclc_parameter_out_reason(out, server, asked, outcome);
   if (out->full) {
     out->full = false;
-    parameter_out_text(out, "");
+    rclc_parameter_out_text(out, "");
   }
   out->room = room;
 }
@@ -135,37 +135,37 @@ static uint32_t reply_cut(parameter_out_t * out, const rclc_parameter_server_t *
   if (count > out->room / (uint32_t)SHORTEST_RESULT) {
     return reply_end(out, false);
   }
-  parameter_out_4(out, count);
+  rclc_parameter_out_4(out, count);
   for (uint32_t i = 0; i < count; ++i) {
     reply_out_result(out, server, &nothing, (uint8_t)PARAMETER_CUT, count - i - 1u);
   }
   return reply_end(out, true);
 }
 
-uint32_t parameter_reply_results(const void * message, uint8_t * body, cdr_fault_t * fault)
+uint32_t rclc_parameter_reply_results(const void * message, uint8_t * body, cdr_fault_t * fault)
 {
   const rclc_parameter_server_t * server = message;
-  cdr_in_t in = parameter_request_begin(server, fault);
-  const uint32_t count = parameter_request_length(&in);
+  cdr_in_t in = rclc_parameter_request_begin(server, fault);
+  const uint32_t count = rclc_parameter_request_length(&in);
   parameter_out_t out = reply_begin(body, rcl_interfaces__srv__SetParameters_Response__MAX_ENCODED_SIZE);
 
   if (server->request_cut != 0u) {
     return reply_cut(&out, server);
   }
-  parameter_out_4(&out, count);
+  rclc_parameter_out_4(&out, count);
   for (uint32_t i = 0; i < count; ++i) {
-    const parameter_asked_t asked = parameter_request_parameter(&in);
+    const parameter_asked_t asked = rclc_parameter_request_parameter(&in);
 
     reply_out_result(&out, server, &asked, server->outcomes[i], count - i - 1u);
   }
   return reply_end(&out, true);
 }
 
-uint32_t parameter_reply_result(const void * message, uint8_t * body, cdr_fault_t * fault)
+uint32_t rclc_parameter_reply_result(const void * message, uint8_t * body, cdr_fault_t * fault)
 {
   const rclc_parameter_server_t * server = message;
-  cdr_in_t in = parameter_request_begin(server, fault);
-  const uint32_t count = parameter_request_length(&in);
+  cdr_in_t in = rclc_parameter_request_begin(server, fault);
+  const uint32_t count = rclc_parameter_request_length(&in);
   parameter_out_t out =
     reply_begin(body, rcl_interfaces__srv__SetParametersAtomically_Response__MAX_ENCODED_SIZE);
   parameter_asked_t asked = {{"", 0}, (uint8_t)RCLC_PARAMETER_NOT_SET, {false}};
@@ -175,7 +175,7 @@ uint32_t parameter_reply_result(const void * message, uint8_t * body, cdr_fault_
     outcome = (uint8_t)PARAMETER_CUT;
   }
   for (uint32_t i = 0; i < count && outcome == (uint8_t)PARAMETER_SET; ++i) {
-    asked = parameter_request_parameter(&in);
+    asked = rclc_parameter_request_parameter(&in);
     outcome = server->outcomes[i];
   }
   reply_out_result(&out, server, &asked, outcome, 0u);
@@ -208,14 +208,14 @@ static bool reply_lists(const rclc_parameter_server_t * server, const rclc_param
 {
   const char * name = place->name;
   cdr_fault_t fault = {.field = ""};
-  cdr_in_t in = parameter_request_begin(server, &fault);
-  const uint32_t count = parameter_request_length(&in);
+  cdr_in_t in = rclc_parameter_request_begin(server, &fault);
+  const uint32_t count = rclc_parameter_request_length(&in);
   bool below = false;
   uint64_t least = UINT64_MAX; /* levels below one of the prefixes */
   uint64_t depth = 0;
 
   for (uint32_t i = 0; i < count; ++i) {
-    const parameter_text_t prefix = parameter_request_text(&in);
+    const parameter_text_t prefix = rclc_parameter_request_text(&in);
 
     if (reply_is_below(name, &prefix)) {
       const uint64_t levels = name[prefix.size] == '\0' ? 0u : 1u + reply_dots(&name[prefix.size + 1u]);
@@ -278,9 +278,9 @@ static uint32_t reply_out_list(parameter_out_t * out, const rclc_parameter_serve
     }
     ++count;
     if (out != NULL && prefixes) {
-      parameter_out_pieces(out, &prefix, 1u);
+      rclc_parameter_out_pieces(out, &prefix, 1u);
     } else if (out != NULL) {
-      parameter_out_text(out, name);
+      rclc_parameter_out_text(out, name);
     } else {
       /* only counted */
     }
@@ -288,15 +288,15 @@ static uint32_t reply_out_list(parameter_out_t * out, const rclc_parameter_serve
   return count;
 }
 
-uint32_t parameter_reply_list(const void * message, uint8_t * body, cdr_fault_t * fault)
+uint32_t rclc_parameter_reply_list(const void * message, uint8_t * body, cdr_fault_t * fault)
 {
   const rclc_parameter_server_t * server = message;
   parameter_out_t out = reply_begin(body, rcl_interfaces__srv__ListParameters_Response__MAX_ENCODED_SIZE);
 
   (void)fault;
-  parameter_out_4(&out, reply_out_list(NULL, server, false));
+  rclc_parameter_out_4(&out, reply_out_list(NULL, server, false));
   (void)reply_out_list(&out, server, false);
-  parameter_out_4(&out, reply_out_list(NULL, server, true));
+  rclc_parameter_out_4(&out, reply_out_list(NULL, server, true));
   (void)reply_out_list(&out, server, true);
   return out.position;
 }

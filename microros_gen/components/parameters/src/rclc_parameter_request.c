@@ -23,15 +23,15 @@ static const uint8_t * request_take(cdr_in_t * in, uint32_t count, uint32_t widt
   return &in->body[start];
 }
 
-uint32_t parameter_request_length(cdr_in_t * in)
+uint32_t rclc_parameter_request_length(cdr_in_t * in)
 {
   return cdr_in_length(in, 1u, "request");
 }
 
 /* As for ROS, a string ends at its first NUL, or where its length says. */
-parameter_text_t parameter_request_text(cdr_in_t * in)
+parameter_text_t rclc_parameter_request_text(cdr_in_t * in)
 {
-  const uint32_t length = parameter_request_length(in);
+  const uint32_t length = rclc_parameter_request_length(in);
   const uint8_t * bytes = request_take(in, length, 1u);
   parameter_text_t text = {"", 0};
 
@@ -56,26 +56,26 @@ static void request_skip(cdr_in_t * in, uint32_t width)
 
 static void request_skip_texts(cdr_in_t * in)
 {
-  const uint32_t count = parameter_request_length(in);
+  const uint32_t count = rclc_parameter_request_length(in);
 
   for (uint32_t i = 0; i < count && !in->failed; ++i) {
-    (void)parameter_request_text(in);
+    (void)rclc_parameter_request_text(in);
   }
 }
 
-parameter_asked_t parameter_request_parameter(cdr_in_t * in)
+parameter_asked_t rclc_parameter_request_parameter(cdr_in_t * in)
 {
   parameter_asked_t asked = {{"", 0}, (uint8_t)RCLC_PARAMETER_NOT_SET, {false}};
   bool truth = false;
   int64_t integer = 0;
   double number = 0.0;
 
-  asked.name = parameter_request_text(in);
+  asked.name = rclc_parameter_request_text(in);
   cdr_get_1(in, &asked.type, 1u, "request");
   cdr_get_bool(in, &truth, 1u, "request");
   cdr_get_8(in, &integer, 1u, "request");
   cdr_get_8(in, &number, 1u, "request");
-  (void)parameter_request_text(in);
+  (void)rclc_parameter_request_text(in);
   request_skip(in, 1u);
   request_skip(in, 1u);
   request_skip(in, 8u);
@@ -91,7 +91,7 @@ parameter_asked_t parameter_request_parameter(cdr_in_t * in)
   return asked;
 }
 
-cdr_in_t parameter_request_begin(const rclc_parameter_server_t * server, cdr_fault_t * fault)
+cdr_in_t rclc_parameter_request_begin(const rclc_parameter_server_t * server, cdr_fault_t * fault)
 {
   const cdr_in_t in = {server->request, server->request_size, 0, server->request_swaps, false, fault};
 
@@ -127,7 +127,7 @@ static void request_keep(cdr_in_t * in, rclc_parameter_server_t * server)
   server->request_swaps = in->swap;
 }
 
-void parameter_decode_names(cdr_in_t * in, void * server)
+void rclc_parameter_decode_names(cdr_in_t * in, void * server)
 {
   if (!request_cut(in, server)) {
     request_skip_texts(in);
@@ -135,7 +135,7 @@ void parameter_decode_names(cdr_in_t * in, void * server)
   }
 }
 
-void parameter_decode_list(cdr_in_t * in, void * server)
+void rclc_parameter_decode_list(cdr_in_t * in, void * server)
 {
   uint64_t depth;
 
@@ -146,16 +146,16 @@ void parameter_decode_list(cdr_in_t * in, void * server)
   }
 }
 
-void parameter_decode_parameters(cdr_in_t * in, void * server)
+void rclc_parameter_decode_parameters(cdr_in_t * in, void * server)
 {
   uint32_t count;
 
   if (request_cut(in, server)) {
     return;
   }
-  count = parameter_request_length(in);
+  count = rclc_parameter_request_length(in);
   for (uint32_t i = 0; i < count && !in->failed; ++i) {
-    (void)parameter_request_parameter(in);
+    (void)rclc_parameter_request_parameter(in);
   }
   request_keep(in, server);
 }

@@ -48,19 +48,21 @@ static rcl_ret_t server_open(rclc_parameter_server_t * server, const rcl_node_t 
   rcl_ret_t result = RCL_RET_OK;
 
   result = server_open_service(
-    result, &server->describe_service, node, &parameter_describe_type, "~/describe_parameters");
+    result, &server->describe_service, node, &rclc_parameter_describe_type, "~/describe_parameters");
   result = server_open_service(
-    result, &server->get_types_service, node, &parameter_get_types_type, "~/get_parameter_types");
-  result = server_open_service(result, &server->get_service, node, &parameter_get_type, "~/get_parameters");
+    result, &server->get_types_service, node, &rclc_parameter_get_types_type, "~/get_parameter_types");
   result =
-    server_open_service(result, &server->list_service, node, &parameter_list_type, "~/list_parameters");
-  result = server_open_service(result, &server->set_service, node, &parameter_set_type, "~/set_parameters");
+    server_open_service(result, &server->get_service, node, &rclc_parameter_get_type, "~/get_parameters");
+  result =
+    server_open_service(result, &server->list_service, node, &rclc_parameter_list_type, "~/list_parameters");
+  result =
+    server_open_service(result, &server->set_service, node, &rclc_parameter_set_type, "~/set_parameters");
   result = server_open_service(
-    result, &server->set_atomically_service, node, &parameter_set_atomically_type,
+    result, &server->set_atomically_service, node, &rclc_parameter_set_atomically_type,
     "~/set_parameters_atomically");
   if (result == RCL_RET_OK && server->notify_changed_over_dds) {
     result = rclc_publisher_init(
-      &server->event_publisher, node, &parameter_event_type, "/parameter_events",
+      &server->event_publisher, node, &rclc_parameter_event_type, "/parameter_events",
       &rmw_qos_profile_parameter_events);
   }
   return result;
@@ -141,14 +143,14 @@ static void server_set_each(const void * request, void * response, void * contex
 {
   (void)request;
   (void)response;
-  parameter_set_each(context);
+  rclc_parameter_set_each(context);
 }
 
 static void server_set_all(const void * request, void * response, void * context)
 {
   (void)request;
   (void)response;
-  parameter_set_all(context);
+  rclc_parameter_set_all(context);
 }
 
 static rclc_handle_kind_t server_kind; /* that of a service, which also sends what events are due */
@@ -160,7 +162,7 @@ static rcl_ret_t server_look(const rclc_executor_handle_t * handle, bool * is_re
   if (!rcl_service_is_valid(handle->service)) {
     return microros_error_refuse(RCL_RET_SERVICE_INVALID, "service");
   }
-  parameter_publish(handle->callback_context);
+  rclc_parameter_publish(handle->callback_context);
   *is_ready = rmw_replier_is_ready(handle->service->impl);
   return RCL_RET_OK;
 }

@@ -13,7 +13,8 @@ static bool integer_holds(const rclc_parameter_range_t * range, int64_t value)
     return false;
   }
   if (range->integer.step != 0u) {
-    (void)parameter_divide((uint64_t)value - (uint64_t)range->integer.from_value, range->integer.step, &rest);
+    (void)rclc_parameter_divide(
+      (uint64_t)value - (uint64_t)range->integer.from_value, range->integer.step, &rest);
   }
   return rest == 0u;
 }
@@ -53,7 +54,7 @@ static parameter_outcome_t set_check_new(
 static parameter_outcome_t set_check(
   const rclc_parameter_server_t * server, const parameter_asked_t * asked, size_t fresh)
 {
-  const rclc_parameter_place_t * place = parameter_find(server, &asked->name);
+  const rclc_parameter_place_t * place = rclc_parameter_find(server, &asked->name);
 
   if (asked->name.size == 0u) {
     return PARAMETER_UNNAMED;
@@ -79,7 +80,7 @@ static parameter_outcome_t set_check(
 /* Whether the callback accepts what was checked. A name that does not exist yet is shown from a free place. */
 static bool set_accepts(rclc_parameter_server_t * server, const parameter_asked_t * asked)
 {
-  const rclc_parameter_place_t * found = parameter_find(server, &asked->name);
+  const rclc_parameter_place_t * found = rclc_parameter_find(server, &asked->name);
   rclc_parameter_place_t * place;
   parameter_state_t old_state;
   parameter_state_t new_state;
@@ -87,25 +88,25 @@ static bool set_accepts(rclc_parameter_server_t * server, const parameter_asked_
   new_state.type = asked->type;
   new_state.value = asked->value;
   if (found == NULL) {
-    new_state.name = parameter_place(server, &asked->name, asked->type)->name;
-    return parameter_accepts(server, NULL, &new_state);
+    new_state.name = rclc_parameter_place(server, &asked->name, asked->type)->name;
+    return rclc_parameter_accepts(server, NULL, &new_state);
   }
   place = &server->places[found - server->places];
   old_state.name = place->name;
   old_state.type = place->type;
   old_state.value = place->value;
   new_state.name = place->name;
-  return parameter_accepts(
+  return rclc_parameter_accepts(
     server, &old_state, asked->type != (uint8_t)RCLC_PARAMETER_NOT_SET ? &new_state : NULL);
 }
 
 static void set_make(rclc_parameter_server_t * server, const parameter_asked_t * asked)
 {
-  const rclc_parameter_place_t * found = parameter_find(server, &asked->name);
+  const rclc_parameter_place_t * found = rclc_parameter_find(server, &asked->name);
   rclc_parameter_place_t * place;
 
   if (found == NULL) {
-    place = parameter_place(server, &asked->name, asked->type);
+    place = rclc_parameter_place(server, &asked->name, asked->type);
     place->dynamic_typing = true;
     place->event = (uint8_t)PARAMETER_EVENT_NEW;
     ++server->count;
@@ -123,14 +124,14 @@ static void set_make(rclc_parameter_server_t * server, const parameter_asked_t *
   }
 }
 
-void parameter_set_each(rclc_parameter_server_t * server)
+void rclc_parameter_set_each(rclc_parameter_server_t * server)
 {
   cdr_fault_t fault = {.field = ""};
-  cdr_in_t in = parameter_request_begin(server, &fault);
-  const uint32_t count = parameter_request_length(&in);
+  cdr_in_t in = rclc_parameter_request_begin(server, &fault);
+  const uint32_t count = rclc_parameter_request_length(&in);
 
   for (uint32_t i = 0; i < count; ++i) {
-    const parameter_asked_t asked = parameter_request_parameter(&in);
+    const parameter_asked_t asked = rclc_parameter_request_parameter(&in);
     parameter_outcome_t outcome = set_check(server, &asked, 0);
 
     if (outcome == PARAMETER_SET && !set_accepts(server, &asked)) {
@@ -138,7 +139,7 @@ void parameter_set_each(rclc_parameter_server_t * server)
     }
     if (outcome == PARAMETER_SET) {
       set_make(server, &asked);
-      parameter_publish(server);
+      rclc_parameter_publish(server);
     }
     server->outcomes[i] = (uint8_t)outcome;
   }
@@ -151,17 +152,17 @@ typedef enum set_pass_t { SET_PASS_CHECK, SET_PASS_ACCEPT, SET_PASS_MAKE } set_p
 static bool set_pass(rclc_parameter_server_t * server, set_pass_t pass)
 {
   cdr_fault_t fault = {.field = ""};
-  cdr_in_t in = parameter_request_begin(server, &fault);
-  const uint32_t count = parameter_request_length(&in);
+  cdr_in_t in = rclc_parameter_request_begin(server, &fault);
+  const uint32_t count = rclc_parameter_request_length(&in);
   size_t fresh = 0;
   parameter_outcome_t outcome = PARAMETER_SET;
 
   for (uint32_t i = 0; i < count && outcome == PARAMETER_SET; ++i) {
-    const parameter_asked_t asked = parameter_request_parameter(&in);
+    const parameter_asked_t asked = rclc_parameter_request_parameter(&in);
 
     if (pass == SET_PASS_CHECK) {
       outcome = set_check(server, &asked, fresh);
-      fresh += parameter_find(server, &asked.name) == NULL ? 1u : 0u;
+      fresh += rclc_parameter_find(server, &asked.name) == NULL ? 1u : 0u;
     } else if (pass == SET_PASS_ACCEPT) {
       outcome = set_accepts(server, &asked) ? PARAMETER_SET : PARAMETER_REJECTED;
     } else {
@@ -172,10 +173,10 @@ static bool set_pass(rclc_parameter_server_t * server, set_pass_t pass)
   return outcome == PARAMETER_SET;
 }
 
-void parameter_set_all(rclc_parameter_server_t * server)
+void rclc_parameter_set_all(rclc_parameter_server_t * server)
 {
   if (set_pass(server, SET_PASS_CHECK) && set_pass(server, SET_PASS_ACCEPT)) {
     (void)set_pass(server, SET_PASS_MAKE);
-    parameter_publish(server);
+    rclc_parameter_publish(server);
   }
 }

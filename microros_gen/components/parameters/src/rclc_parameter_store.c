@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-const rclc_parameter_place_t * parameter_find(
+const rclc_parameter_place_t * rclc_parameter_find(
   const rclc_parameter_server_t * server, const parameter_text_t * name)
 {
   for (size_t i = 0; i < server->count; ++i) {
@@ -20,7 +20,7 @@ const rclc_parameter_place_t * parameter_find(
   return NULL;
 }
 
-rclc_parameter_place_t * parameter_place(
+rclc_parameter_place_t * rclc_parameter_place(
   rclc_parameter_server_t * server, const parameter_text_t * name, uint8_t type)
 {
   rclc_parameter_place_t * place = &server->places[server->count];
@@ -31,13 +31,12 @@ rclc_parameter_place_t * parameter_place(
   return place;
 }
 
-void parameter_remove(rclc_parameter_server_t * server, const rclc_parameter_place_t * place)
+void rclc_parameter_remove(rclc_parameter_server_t * server, const rclc_parameter_place_t * place)
 {
   const size_t i = (size_t)(place - server->places);
 
   --server->count;
-  (void)memmove(
-    &server->places[i], &server->places[i + 1u], (server->count - i) * sizeof(server->places[0]));
+  (void)memmove(&server->places[i], &server->places[i + 1u], (server->count - i) * sizeof(server->places[0]));
 }
 
 /* Makes the message that the callback sees; it points to the name of the place. */
@@ -61,7 +60,7 @@ static void parameter_present(const parameter_state_t * state, Parameter * messa
   }
 }
 
-bool parameter_accepts(
+bool rclc_parameter_accepts(
   rclc_parameter_server_t * server, const parameter_state_t * old_state, const parameter_state_t * new_state)
 {
   Parameter old_param;

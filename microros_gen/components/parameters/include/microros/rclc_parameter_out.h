@@ -20,18 +20,18 @@ typedef struct parameter_out_t {
   bool full;
 } parameter_out_t;
 
-void parameter_out_1(parameter_out_t * out, uint8_t value);
-void parameter_out_4(parameter_out_t * out, uint32_t value);
+void rclc_parameter_out_1(parameter_out_t * out, uint8_t value);
+void rclc_parameter_out_4(parameter_out_t * out, uint32_t value);
 
 /* Writes 8 bytes of any type. */
-void parameter_out_8(parameter_out_t * out, const void * value);
+void rclc_parameter_out_8(parameter_out_t * out, const void * value);
 
 /* Writes a string of several pieces, one after the other. */
-void parameter_out_pieces(parameter_out_t * out, const parameter_text_t * pieces, uint32_t count);
-void parameter_out_text(parameter_out_t * out, const char * text);
+void rclc_parameter_out_pieces(parameter_out_t * out, const parameter_text_t * pieces, uint32_t count);
+void rclc_parameter_out_text(parameter_out_t * out, const char * text);
 
 /* Writes an rcl_interfaces/msg/ParameterValue; without a value for a NULL place. */
-void parameter_out_value(parameter_out_t * out, const rclc_parameter_place_t * place);
+void rclc_parameter_out_value(parameter_out_t * out, const rclc_parameter_place_t * place);
 
 #ifdef __cplusplus
 }

@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 /* Writes the reason for an `outcome` (parameter_outcome_t) of what was `asked`; an empty one for success. */
-void parameter_out_reason(
+void rclc_parameter_out_reason(
   parameter_out_t * out, const rclc_parameter_server_t * server, const parameter_asked_t * asked,
   uint8_t outcome);
 

@@ -11,12 +11,12 @@
 extern "C" {
 #endif
 
-uint32_t parameter_reply_values(const void * message, uint8_t * body, cdr_fault_t * fault);
-uint32_t parameter_reply_types(const void * message, uint8_t * body, cdr_fault_t * fault);
-uint32_t parameter_reply_results(const void * message, uint8_t * body, cdr_fault_t * fault);
-uint32_t parameter_reply_result(const void * message, uint8_t * body, cdr_fault_t * fault);
-uint32_t parameter_reply_list(const void * message, uint8_t * body, cdr_fault_t * fault);
-uint32_t parameter_reply_descriptors(const void * message, uint8_t * body, cdr_fault_t * fault);
+uint32_t rclc_parameter_reply_values(const void * message, uint8_t * body, cdr_fault_t * fault);
+uint32_t rclc_parameter_reply_types(const void * message, uint8_t * body, cdr_fault_t * fault);
+uint32_t rclc_parameter_reply_results(const void * message, uint8_t * body, cdr_fault_t * fault);
+uint32_t rclc_parameter_reply_result(const void * message, uint8_t * body, cdr_fault_t * fault);
+uint32_t rclc_parameter_reply_list(const void * message, uint8_t * body, cdr_fault_t * fault);
+uint32_t rclc_parameter_reply_descriptors(const void * message, uint8_t * body, cdr_fault_t * fault);
 
 #ifdef __cplusplus
 }

@@ -60,66 +60,66 @@ typedef struct parameter_state_t {
 /* --- requests: rclc_parameter_request.c --- */
 
 /* Begins to read the request that the server has. It was checked when it arrived, so nothing in it fails. */
-cdr_in_t parameter_request_begin(const rclc_parameter_server_t * server, cdr_fault_t * fault);
+cdr_in_t rclc_parameter_request_begin(const rclc_parameter_server_t * server, cdr_fault_t * fault);
 
 /* Read one member and move on. */
-uint32_t parameter_request_length(cdr_in_t * in);
-parameter_text_t parameter_request_text(cdr_in_t * in);
-parameter_asked_t parameter_request_parameter(cdr_in_t * in);
+uint32_t rclc_parameter_request_length(cdr_in_t * in);
+parameter_text_t rclc_parameter_request_text(cdr_in_t * in);
+parameter_asked_t rclc_parameter_request_parameter(cdr_in_t * in);
 
 /* Decoders of message types whose message is the server: they check the request and keep it there. Of one that was too
  * large to arrive they only note the number of its entries, in `request_cut`: it is read as an empty one. */
-void parameter_decode_names(cdr_in_t * in, void * server);
-void parameter_decode_parameters(cdr_in_t * in, void * server);
-void parameter_decode_list(cdr_in_t * in, void * server);
+void rclc_parameter_decode_names(cdr_in_t * in, void * server);
+void rclc_parameter_decode_parameters(cdr_in_t * in, void * server);
+void rclc_parameter_decode_list(cdr_in_t * in, void * server);
 
 /* --- numbers: rclc_parameter_divide.c --- */
 
 /* Returns value / by, and value % by in *rest; `by` is not 0. The division of 64 bits that a compiler brings along takes
  * more code than it is worth here. */
-uint64_t parameter_divide(uint64_t value, uint64_t by, uint64_t * rest);
+uint64_t rclc_parameter_divide(uint64_t value, uint64_t by, uint64_t * rest);
 
 /* --- the store: rclc_parameter_store.c --- */
 
 /* Returns the place of that name, or NULL; what is deleted only waits for its event. */
-const rclc_parameter_place_t * parameter_find(
+const rclc_parameter_place_t * rclc_parameter_find(
   const rclc_parameter_server_t * server, const parameter_text_t * name);
 
 /* Fills a free place, whose name and value fit; there is one. It counts when `count` is raised. */
-rclc_parameter_place_t * parameter_place(
+rclc_parameter_place_t * rclc_parameter_place(
   rclc_parameter_server_t * server, const parameter_text_t * name, uint8_t type);
 
 /* Removes the place, and moves those after it. */
-void parameter_remove(rclc_parameter_server_t * server, const rclc_parameter_place_t * place);
+void rclc_parameter_remove(rclc_parameter_server_t * server, const rclc_parameter_place_t * place);
 
 /* Whether the callback accepts a change; either state may be NULL. */
-bool parameter_accepts(
+bool rclc_parameter_accepts(
   rclc_parameter_server_t * server, const parameter_state_t * old_state, const parameter_state_t * new_state);
 
 /* --- set requests: rclc_parameter_set.c --- */
 
 /* Applies each parameter of the request by itself; fills the outcomes. */
-void parameter_set_each(rclc_parameter_server_t * server);
+void rclc_parameter_set_each(rclc_parameter_server_t * server);
 
 /* Applies all parameters of the request, or none. */
-void parameter_set_all(rclc_parameter_server_t * server);
+void rclc_parameter_set_all(rclc_parameter_server_t * server);
 
 /* --- replies and events: rclc_parameter_reply.c, rclc_parameter_event.c --- */
 
 /* Publishes the places that have an `event`, clears it, and removes those that are deleted. Without room for the event all
  * stays as it is, and is published together with what changes meanwhile. */
-void parameter_publish(rclc_parameter_server_t * server);
+void rclc_parameter_publish(rclc_parameter_server_t * server);
 
 /* The type of /parameter_events whose message is the server. */
-extern const rosidl_message_type_support_t parameter_event_type;
+extern const rosidl_message_type_support_t rclc_parameter_event_type;
 
 /* The types of the services whose messages are the server. */
-extern const rosidl_service_type_support_t parameter_get_type;
-extern const rosidl_service_type_support_t parameter_get_types_type;
-extern const rosidl_service_type_support_t parameter_set_type;
-extern const rosidl_service_type_support_t parameter_set_atomically_type;
-extern const rosidl_service_type_support_t parameter_list_type;
-extern const rosidl_service_type_support_t parameter_describe_type;
+extern const rosidl_service_type_support_t rclc_parameter_get_type;
+extern const rosidl_service_type_support_t rclc_parameter_get_types_type;
+extern const rosidl_service_type_support_t rclc_parameter_set_type;
+extern const rosidl_service_type_support_t rclc_parameter_set_atomically_type;
+extern const rosidl_service_type_support_t rclc_parameter_list_type;
+extern const rosidl_service_type_support_t rclc_parameter_describe_type;
 
 #ifdef __cplusplus
 }
