@@ -38,7 +38,17 @@ HEAP_AND_STDIO = re.compile(
     r"|std(in|out|err)|abort|exit|atexit|__cxa_\w+|_Znw\w*|_ZdlPv)$"
 )
 # A freestanding C compiler may call these four whatever the source says (GCC manual, "Standards"); strlen besides.
-LIBRARY_MAY_CALL = {"memcpy", "memmove", "memset", "memcmp", "strlen", "strcmp", "strncmp", "strcspn"}
+LIBRARY_MAY_CALL = {
+    "memcpy",
+    "memmove",
+    "memset",
+    "memcmp",
+    "strlen",
+    "strcmp",
+    "strncmp",
+    "strchr",
+    "strcspn",
+}
 COMPILER_BRINGS = {"_GLOBAL_OFFSET_TABLE_"}
 PREFIXES = (
     "rcl_",
