@@ -54,6 +54,7 @@ PREFIXES = (
     "rcl_",
     "rclc_",
     "rcutils_",
+    "g_rcutils_",  # variables of ROS 2's logging
     "rmw_",
     "rosidl_",
     "xrce_",

@@ -369,6 +369,7 @@ TIMELESS = {
     "base": "constants, and a lock that sleeps a millisecond; no state",
     "entities_binary": "the deadline of a QoS is a number for the agent",
     "entities_preconfigured": "hands a time-out on to the session",
+    "logging": "stamps messages with the time of day, which has 64 bits",
     "multithread": "sleeps a millisecond",
     "parameters": "stamps events with the time of day, which has 64 bits",
     "port_cortex_m": "waits for one byte of a UART",

@@ -136,7 +136,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "riscv": _BOTH + "target: {name: qemu-riscv32-virt}\n",
         "prints_uart": _BOTH + "target: {name: own.yaml}\n",
         "prints_uart_riscv": _BOTH + "target: {name: own.yaml}\n",
-        "prints_semihosting": _BOTH + "target: {name: own.yaml}\n",
+        "prints_semihosting": _BOTH + "target: {name: own.yaml}\nlogging: console\n",
         "prints_nowhere": _BOTH + "target: {name: own.yaml}\n",
         "kept_output": _NODES
         + "      - {topic: large, type: std_msgs/msg/String}\nlimits: {'*': {string: 300}}\n"

@@ -33,10 +33,12 @@ rclc_parameter_place_t * rclc_parameter_place(
 
 void rclc_parameter_remove(rclc_parameter_server_t * server, const rclc_parameter_place_t * place)
 {
-  const size_t i = (size_t)(place - server->places);
+  const size_t last = sizeof(server->places) / sizeof(server->places[0]) - 1u;
 
   --server->count;
-  (void)memmove(&server->places[i], &server->places[i + 1u], (server->count - i) * sizeof(server->places[0]));
+  for (size_t i = (size_t)(place - server->places); i < server->count && i < last; ++i) {
+    server->places[i] = server->places[i + 1u];
+  }
 }
 
 /* Makes the message that the callback sees; it points to the name of the place. */
