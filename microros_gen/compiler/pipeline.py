@@ -202,6 +202,8 @@ def render_request(planned: Planned) -> dict[str, bytes]:
     inputs |= {
         f"target {Path(s.name).name}": s.text.encode() for s in planned.resolved.request.found_target.own
     }
+    boards = planned.resolved.request.found_target.boards
+    inputs |= {f"board {Path(s.name).parent.name}/{Path(s.name).name}": s.text.encode() for s in boards}
     inputs |= {name: path.read_bytes() for name, path in _outside_files(planned.resolved)}
     inputs |= {str(entry.name): entry.source.text.encode() for entry in planned.interfaces}
     files[MANIFEST] = manifest(planned.project, inputs, files)
@@ -218,7 +220,7 @@ def read_paths(planned: Planned) -> Iterator[Path]:
     yield from (Path(f"{path}{suffix}") for path in asked for suffix in ("", ".yaml", ".yml"))
     yield from (candidate for path in own for candidate in (path, path.with_suffix(".yaml")))
     yield near / request.application.target.name
-    yield from (Path(source.name) for source in request.found_target.own)
+    yield from (Path(s.name) for s in (*request.found_target.own, *request.found_target.boards))
     yield from (path for _, path in _outside_files(planned.resolved))
     yield from (path for folder in _outside_folders(planned.resolved) for path in folders_below(folder))
     yield from index_folders(os.environ)

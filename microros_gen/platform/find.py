@@ -22,11 +22,13 @@ TARGETS = Path(__file__).resolve().parent.parent / "targets"
 class FoundTarget:
     """A target, and the files of the user's that it came from, the one that was asked for first.
 
-    `origin` says who brings it where that is a folder or a package: `pip package robot`.
+    `boards` are those of them that are a board.yaml without a component. `origin` says who brings the target where
+    that is a folder or a package: `pip package robot`.
     """
 
     target: Target
     own: tuple[Source, ...] = ()
+    boards: tuple[Source, ...] = ()
     origin: str = ""
 
 
@@ -58,7 +60,11 @@ def read_target(
     node = reader.read(name, near, span)
     target = target_of(node, found, extensions) if node is not None else None
     diagnostics.extend(found)
-    return FoundTarget(target, tuple(reader.own), reader.origin) if target is not None else None
+    return (
+        FoundTarget(target, tuple(reader.own), tuple(reader.boards), reader.origin)
+        if target is not None
+        else None
+    )
 
 
 class _Reader:
@@ -66,6 +72,7 @@ class _Reader:
 
     def __init__(self, diagnostics: Diagnostics, extensions: Extensions) -> None:
         self.own: list[Source] = []
+        self.boards: list[Source] = []
         self.origin = ""
         self._diagnostics = diagnostics
         self._extensions = extensions
@@ -115,7 +122,10 @@ class _Reader:
             return node
         near = Path(board.span.source.name).parent
         facts = board_facts(text_of(board) or "", near, board.span, self._diagnostics, self._extensions)
-        return merge_target(node, facts) if facts is not None else node
+        if facts is None:
+            return node
+        self.boards += facts.own
+        return merge_target(node, facts.node)
 
     def _extended(self, node: MappingNode, near: Path) -> MappingNode | None:
         below = node.get("extends")

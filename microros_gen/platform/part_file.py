@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
-from microros_gen.documents.files import read_text
+from microros_gen.documents.files import is_file, read_text
 from microros_gen.documents.tree_read import check_keys, expect_mapping
 from microros_gen.documents.tree_read import read_text as text_at
 from microros_gen.documents.tree_values import bool_of, child, entries, int_of, items, text_of
@@ -15,10 +15,11 @@ from microros_gen.documents.yaml_tree import MappingNode, YamlNode, parse_yaml
 from microros_gen.platform.capabilities import capabilities
 from microros_gen.platform.part import Cpu, Divisor, Driver, Fraction, Image, Os, Part, VectorTable
 from microros_gen.platform.target import Target
+from microros_gen.records import dataclass
 from microros_gen.selection.component import Component
 from microros_gen.selection.component_file import parse_component
 from microros_gen.selection.extension import INSTALLED, Extensions, digest_of, own_name
-from microros_gen.selection.find_components import COMPONENT_FILE, parts_folder
+from microros_gen.selection.find_components import BOARD_FILE, COMPONENT_FILE, part_files, parts_folder
 
 _CPU_KEYS = (
     "image",
@@ -38,9 +39,45 @@ _BAUD_KEYS = {"divisor": ("by", "least", "most"), "fraction": ("of_hz", "bits", 
 _OS_KEYS = ("hosted", "linker_script", "tick")
 
 
+@dataclass(frozen=True)
+class PartFolder:
+    """The folder of a part, and where it is from; `own`: it does not ship with the tool."""
+
+    path: Path
+    origin: str
+    own: bool
+
+    @property
+    def is_component(self) -> bool:
+        """Whether the part has C files; a board can be a `board.yaml` alone."""
+        return is_file(self.path / COMPONENT_FILE)
+
+
 def builtin_parts(kind: str) -> tuple[str, ...]:
     """Return the names of the parts of a kind that ship with the tool, sorted."""
-    return tuple(sorted(path.parent.name for path in (parts_folder() / kind).glob(f"*/{COMPONENT_FILE}")))
+    files = (path for name in part_files(kind) for path in (parts_folder() / kind).glob(f"*/{name}"))
+    return tuple(sorted({path.parent.name for path in files}))
+
+
+def find_part(
+    kind: str, name: str, near: Path, span: Span | None, diagnostics: Diagnostics, extensions: Extensions
+) -> PartFolder | None:
+    """Find a part by its name, or a folder of the user's by its path relative to `near` (with a / in it).
+
+    A name that is not built in is looked for in `extensions`. None and an error in `diagnostics` if nothing has it.
+    """
+    if "/" in name or "\\" in name:
+        return PartFolder(near / name, f"folder {own_name(near / name)}", own=True)
+    if name in builtin_parts(kind):
+        return PartFolder(parts_folder() / kind / name, "", own=False)
+    extension = extensions.part(kind, name, span, diagnostics)
+    folder = extension.part(kind, name) if extension is not None else None
+    if extension is None or folder is None:
+        known = builtin_parts(kind)
+        hint = nearest(name, known) or f"Known are: {', '.join(known)}; or give a folder, ./{name}"
+        diagnostics.error(f"unknown {kind} '{name}'", span, hint, id="MG-6004")
+        return None
+    return PartFolder(folder, extension.origin, own=True)
 
 
 def read_part(
@@ -51,31 +88,22 @@ def read_part(
     diagnostics: Diagnostics,
     extensions: Extensions = INSTALLED,
 ) -> Part | None:
-    """Read a part by its name, or a folder of the user's by its path relative to `near` (with a / in it).
+    """Read a part that `find_part` finds.
 
-    A name that is not built in is looked for in `extensions`. None and errors in `diagnostics` if it does not exist, or
-    one of its files does not hold.
+    None without an error for a board that is a `board.yaml` alone. None and errors in `diagnostics` if the part does
+    not exist, or one of its files is invalid.
     """
-    is_path = "/" in name or "\\" in name
-    own = is_path or name not in builtin_parts(kind)
-    folder = near / name if is_path else parts_folder() / kind / name
-    origin = f"folder {own_name(folder)}"
-    bringer = extensions.part(kind, name, span, diagnostics) if own and not is_path else None
-    if bringer is not None:
-        folder, origin = bringer.part(kind, name) or folder, bringer.origin
-    elif own and not is_path:
-        known = builtin_parts(kind)
-        hint = nearest(name, known) or f"Known are: {', '.join(known) or 'none'}; or give a folder, ./{name}"
-        diagnostics.error(f"unknown {kind} '{name}'", span, hint, id="MG-6004")
+    place = find_part(kind, name, near, span, diagnostics, extensions)
+    if place is None or (not place.is_component and is_file(place.path / BOARD_FILE) and kind == "board"):
         return None
     found = Diagnostics()
-    component = _component(folder, span, found)
-    if own and component is not None and not found.has_errors():
-        component = replace(component, origin=origin, digest=_digest(folder, span, found))
-    part = Part(kind, component, own=own) if component is not None else None
+    component = _component(place.path, span, found)
+    if place.own and component is not None and not found.has_errors():
+        component = replace(component, origin=place.origin, digest=_digest(place.path, span, found))
+    part = Part(kind, component, own=place.own) if component is not None else None
     if part is not None and kind in ("cpu", "os"):
-        part = _with_facts(part, folder / f"{kind}.yaml", found)
-    if own and component is not None:
+        part = _with_facts(part, place.path / f"{kind}.yaml", found)
+    if place.own and component is not None:
         _check(component, kind, span, found)
     diagnostics.extend(found)
     return None if found.has_errors() else part

@@ -19,12 +19,12 @@ from microros_gen.application.model import Application, ComponentChange
 from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.documents.files import is_file, is_folder, read_bytes
 from microros_gen.records import dataclass
-from microros_gen.selection.find_components import COMPONENT_FILE
+from microros_gen.selection.find_components import BOARD_FILE, COMPONENT_FILE, part_files
 from microros_gen.selection.installed import installed_packages
 from microros_gen.selection.presence import EXAMPLE_FILE
 
 _FOLDERS = ("components", "profiles", "platform", "targets")
-_OWN_FILES = (COMPONENT_FILE, EXAMPLE_FILE, "cpu.yaml", "os.yaml", "board.yaml")
+_OWN_FILES = (COMPONENT_FILE, EXAMPLE_FILE, "cpu.yaml", "os.yaml", BOARD_FILE)
 _OWN_FOLDERS = ("include", "src", "variants")
 
 
@@ -69,7 +69,7 @@ class Extension:
     def part(self, kind: str, name: str) -> Path | None:
         """Return the folder of a part of platforms where it brings that."""
         folder = self.folder / "platform" / kind / name
-        return folder if is_file(folder / COMPONENT_FILE) else None
+        return folder if any(is_file(folder / file) for file in part_files(kind)) else None
 
     def component_names(self) -> tuple[str, ...]:
         """Return the names of its components, sorted."""

@@ -18,6 +18,7 @@ from microros_gen.selection.component import Catalogue, Component
 from microros_gen.selection.component_file import parse_component
 
 COMPONENT_FILE = "component.yaml"
+BOARD_FILE = "board.yaml"
 _FUNCTION = re.compile(
     r"(?:\b|#define )((?:rclc?|rmw|rcutils|rosidl|micro_ros|uxr)_\w+)(?=\(| \w+$)", re.MULTILINE
 )
@@ -37,6 +38,11 @@ def components_folder() -> Path:
 def parts_folder() -> Path:
     """Return the folder of the parts of platforms that ship with the tool: `<kind>/<name>/` each."""
     return Path(__file__).resolve().parent.parent / "platform"
+
+
+def part_files(kind: str) -> tuple[str, ...]:
+    """Return the files of which a part of a platform has at least one: a board has functions, facts, or both."""
+    return (COMPONENT_FILE, BOARD_FILE) if kind == "board" else (COMPONENT_FILE,)
 
 
 def load_catalogue(folder: Path | None = None) -> Catalogue:

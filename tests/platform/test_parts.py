@@ -10,13 +10,18 @@ import subprocess
 from pathlib import Path
 
 import pytest
+import yaml
+from jsonschema import Draft202012Validator
 
 import microros_gen
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.platform.find import read_target
-from microros_gen.platform.part import Fraction
+from microros_gen.platform.board_file import BOARD_KEYS, board_schema
+from microros_gen.platform.find import TARGETS, read_target
+from microros_gen.platform.part import KINDS, Fraction
+from microros_gen.platform.part_file import builtin_parts
 from microros_gen.platform.provide import APPLICATION, Clash, provide
 from microros_gen.platform.target import Target
+from microros_gen.platform.target_file import SCHEMA
 from microros_gen.selection.component import Ask, Component, Provision, SourceFile
 from tests.support.command_line import Runner
 from tests.support.ids import without_id
@@ -216,6 +221,65 @@ def test_two_boards_share_everything_but_their_facts(folder: Path, run: Runner) 
     assert "part port_hawk/board.yaml" in manifest["inputs"]
 
 
+def test_a_board_without_functions_is_one_file_and_extends_another(folder: Path, run: Runner) -> None:
+    """Its files are inputs in the manifest, and changing the extended one changes the output."""
+    for name, text in {"base": "extends: mps2\nclock_hz: 8000000\n", "kite": "extends: ../base\n"}.items():
+        (folder / name).mkdir()
+        (folder / name / "board.yaml").write_text(text)
+    (folder / "kite.yaml").write_text("target: kite\nsummary: Made up\nextends: cortex-m3\nboard: ./kite\n")
+    generate = ("generate", "--profile", "pure_sender", "--target", "kite.yaml", "-o", "out")
+    assert run(*generate).status == 0
+    header = folder / "out" / "include" / "microros" / "port_board.h"
+    assert "8000000" in header.read_text()
+    assert "0x40004000" in header.read_text()
+    inputs = json.loads((folder / "out" / "manifest.json").read_text())["inputs"]
+    assert {"board kite/board.yaml", "board base/board.yaml"} <= set(inputs)
+    (folder / "base" / "board.yaml").write_text("extends: mps2\nclock_hz: 9000000\n")
+    assert run(*generate).status == 0
+    assert "9000000" in header.read_text()
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("extends: ./\n", "hawk/board.yaml:1:10: error: the board './' extends itself"),
+        ("extends: mps3\n", "hawk/board.yaml:1:10: error: unknown board 'mps3'. Did you mean 'mps2'?"),
+        ("extends: ../none\n", "hawk/board.yaml:1:10: error: cannot read"),
+        ("extends: 1\n", "hawk/board.yaml:1:10: error: 'extends' must be the name of a board"),
+    ],
+)
+def test_a_board_that_extends_the_wrong_one_is_refused(
+    text: str, expected: str, folder: Path, run: Runner
+) -> None:
+    (folder / "hawk").mkdir()
+    (folder / "hawk" / "board.yaml").write_text(text)
+    (folder / "hawk.yaml").write_text("target: hawk\nsummary: Made up\nextends: cortex-m3\nboard: ./hawk\n")
+    done = run("targets", "hawk.yaml")
+    assert done.status == 2
+    assert expected in without_id(done.err)
+
+
+@pytest.mark.parametrize("path", sorted(TARGETS.glob("*.yaml")), ids=lambda path: path.stem)
+def test_a_built_in_target_file_has_no_fact_about_a_board(path: Path) -> None:
+    assert not set(yaml.safe_load(path.read_text())) & set(BOARD_KEYS)
+
+
+def test_built_in_boards_hold_to_the_schema_and_repeat_nothing() -> None:
+    schema = board_schema(json.loads(SCHEMA.read_text()))
+    boards = {
+        p.parent.name: yaml.safe_load(p.read_text()) for p in (PACKAGE / "platform").glob("board/*/*.yaml")
+    }
+    assert set(boards) == set(builtin_parts("board")) != set()
+    for name, facts in boards.items():
+        assert not list(Draft202012Validator(schema).iter_errors(facts)), name
+    facts = [
+        json.dumps({**data, "emulator": 0}, sort_keys=True) for data in boards.values() if "uart" in data
+    ]
+    assert len(set(facts)) == len(facts)
+    used = {yaml.safe_load(path.read_text()).get("board") for path in TARGETS.glob("*.yaml")}
+    assert used | {data.get("extends") for data in boards.values()} >= set(boards)
+
+
 def test_a_target_file_wins_over_its_board_and_that_over_what_it_extends(folder: Path, run: Runner) -> None:
     write_board(folder, "hawk")
     path = folder / "hawk.yaml"
@@ -360,8 +424,8 @@ def test_the_first_part_provides_and_brings_what_it_asks_for() -> None:
 
 def test_no_python_module_names_a_part() -> None:
     """A port is its own folder: nothing about one stands in code that they share."""
-    parts = {path.parent.name for path in (PACKAGE / "platform").glob("*/*/component.yaml")}
-    assert {"bare", "cortex_m", "posix", "posix_sockets", "riscv"} <= parts
+    parts = {name for kind in KINDS for name in builtin_parts(kind)}
+    assert {"bare", "cortex_m", "mps2", "posix", "posix_sockets", "riscv"} <= parts
     quoted = re.compile(rf"""["'/](port_)?({"|".join(sorted(parts))})["'/.]""")
     named = {path.name for path in PACKAGE.rglob("*.py") if quoted.search(path.read_text(encoding="utf-8"))}
     assert named == set()
