@@ -7,7 +7,7 @@ import json
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from microros_gen.selection.model import Chosen, ChosenComponent, Selection
+from microros_gen.selection.model import Chosen, ChosenAxis, ChosenComponent, Selection
 
 FORMATS = ("table", "json", "dot")
 
@@ -33,7 +33,7 @@ def selection_data(selection: Selection) -> dict[str, Any]:
     """Return `selection` as data for JSON: lists keep their fixed order, reasons are texts."""
     return {
         "profiles": list(selection.profiles),
-        "axes": {a.axis: {"value": a.value, "reason": a.reason} for a in selection.axes},
+        "axes": _axes_data(selection.axes),
         "components": [
             {
                 "name": chosen.component.name,
@@ -47,6 +47,18 @@ def selection_data(selection: Selection) -> dict[str, Any]:
         ],
         **{key: _chosen_data(getattr(selection, key)) for key, _, _ in _SECTIONS},
     }
+
+
+def _axes_data(axes: Iterable[ChosenAxis]) -> dict[str, Any]:
+    """Return the value of each axis; the second and later ones of an axis that can have several as `further`."""
+    found: dict[str, Any] = {}
+    for axis in axes:
+        chosen = {"value": axis.value, "reason": axis.reason}
+        if axis.axis in found:
+            found[axis.axis].setdefault("further", []).append(chosen)
+        else:
+            found[axis.axis] = chosen
+    return found
 
 
 def selection_json(selection: Selection) -> str:

@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from dataclasses import replace
+
 from microros_gen.application.model import Application, Transport
 from microros_gen.diagnostics import Diagnostics, Span, nearest
 from microros_gen.documents.named import Named
@@ -13,12 +16,16 @@ from microros_gen.selection.profiles import at
 
 @dataclass(frozen=True)
 class AxisChoice:
-    """The value of an axis. `reason` says who chose it, `text` is both: `entities: binary (default)`."""
+    """The value of an axis. `reason` says who chose it, `text` is both: `entities: binary (default)`.
+
+    `further`: the other values of an axis that can have several.
+    """
 
     axis: str
     value: str
     reason: str
     span: Span | None = None
+    further: tuple[AxisChoice, ...] = ()
 
     @property
     def text(self) -> str:
@@ -38,39 +45,46 @@ def choose_axes(
     `target_transport` is what the target has where neither application nor profile choose (`Target.transport`).
     Profiles that disagree are an error that names both places, unless the application decides.
     """
-    said = _application_axes(application)
+    chosen = _application_axes(application)
     choices: dict[str, AxisChoice] = {}
-    for axis, values in middleware.axes.items():
-        own = said.get(axis)
-        if own is not None and own.name not in values:
-            hint = nearest(own.name, values) or f"There are {', '.join(values)}"
-            diagnostics.error(f"unknown {axis} '{own.name}'", own.span, hint, id="MG-4001")
-            own = None
-        default = AxisChoice(axis, middleware.defaults[axis], "default")
+    for axis, about in middleware.axes.items():
+        own = tuple(
+            _choice(axis, value)
+            for value in chosen.get(axis, ())
+            if _known(axis, value, about.values, diagnostics)
+        )
+        default = AxisChoice(axis, about.default, "default")
         if axis == "transport" and target_transport is not None:
             default = AxisChoice(axis, target_transport, f"target {application.target.name}")
-        choices[axis] = _own(axis, own) or _of_profiles(axis, profiles, diagnostics) or default
+        first = own[0] if own else _of_profiles(axis, profiles, diagnostics) or default
+        choices[axis] = replace(first, further=own[1:])
     return choices
 
 
-def _application_axes(application: Application) -> dict[str, Named]:
+def _application_axes(application: Application) -> dict[str, tuple[Named, ...]]:
     transport = application.transport
-    said = {
+    single = {
         "entities": application.entities,
         "liveliness": application.liveliness,
         "clock": application.clock,
-        "logging": next((Named(w.to, w.span) for w in application.logging), None),
     }
     if transport.type_span is not None or transport.type != Transport().type:
-        said["transport"] = Named(transport.type, transport.type_span or transport.span)
-    return {axis: value for axis, value in said.items() if value is not None}
+        single["transport"] = Named(transport.type, transport.type_span or transport.span)
+    chosen = {axis: (value,) for axis, value in single.items() if value is not None}
+    return {**chosen, "logging": tuple(Named(writer.to, writer.span) for writer in application.logging)}
 
 
-def _own(axis: str, own: Named | None) -> AxisChoice | None:
-    if own is None:
-        return None
-    reason = at(own.span).strip(" ()") or "application"
-    return AxisChoice(axis, own.name, reason, own.span)
+def _known(axis: str, value: Named, values: Iterable[str], diagnostics: Diagnostics) -> bool:
+    if value.name in values:
+        return True
+    hint = nearest(value.name, values) or f"There are {', '.join(values)}"
+    diagnostics.error(f"unknown {axis} '{value.name}'", value.span, hint, id="MG-4001")
+    return False
+
+
+def _choice(axis: str, value: Named) -> AxisChoice:
+    reason = at(value.span).strip(" ()") or "application"
+    return AxisChoice(axis, value.name, reason, value.span)
 
 
 def _of_profiles(

@@ -199,17 +199,28 @@ class AxisValue:
 
 
 @dataclass(frozen=True)
+class Axis:
+    """The values of an axis. `default` holds where nobody chose.
+
+    `several`: an application can have several values at once, none of which excludes another; the default selects
+    nothing by itself then.
+    """
+
+    values: Mapping[str, AxisValue]
+    default: str
+    several: bool = False
+
+
+@dataclass(frozen=True)
 class Middleware:
     """The middleware table (profiles/middleware.yaml): D1.4, 4.10.3.2 and OMG DDS-XRCE 1.0, clause 2.
 
-    `components` maps a micro-ROS component to the XRCE profiles that it needs; `axes` maps an axis to its
-    values, `defaults` to the value that holds where nobody chose.
+    `components` maps a micro-ROS component to the XRCE profiles that it needs.
     """
 
     components: Mapping[str, tuple[str, ...]]
     xrce_profiles: Mapping[str, XrceProfile]
-    axes: Mapping[str, Mapping[str, AxisValue]]
-    defaults: Mapping[str, str]
+    axes: Mapping[str, Axis]
 
 
 Catalogue = Mapping[str, Component]

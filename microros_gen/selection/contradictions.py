@@ -76,10 +76,11 @@ def _check_declarations(picker: Picker, application: Application) -> None:
 
 def _check_axis_components(picker: Picker, axes: Mapping[str, AxisChoice], middleware: Middleware) -> None:
     for axis, choice in axes.items():
-        if axis == "logging":
-            continue  # there can be several writers
-        chosen = middleware.axes[axis][choice.value].component
-        for other in middleware.axes[axis].values():
+        about = middleware.axes[axis]
+        if about.several:
+            continue
+        chosen = about.values[choice.value].component
+        for other in about.values.values():
             if other.component is None or other.component in (chosen, CLOCK_ROS):
                 continue
             if other.component in picker.causes:

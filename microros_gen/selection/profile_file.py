@@ -9,8 +9,9 @@ from types import MappingProxyType
 from microros_gen.application.model import component_change
 from microros_gen.diagnostics import Diagnostics, Source, Span, reads
 from microros_gen.documents.tree_read import check_keys, expect_mapping, read_choice, read_names, read_text
+from microros_gen.documents.tree_values import bool_of
 from microros_gen.documents.yaml_tree import MappingNode, parse_yaml
-from microros_gen.selection.component import AxisValue, Middleware, Profile, XrceProfile
+from microros_gen.selection.component import Axis, AxisValue, Middleware, Profile, XrceProfile
 from microros_gen.selection.xrce import MICRO_ROS_COMPONENTS, SUBMESSAGES, XRCE_PROFILES
 
 SCHEMA = Path(__file__).with_name("profile.schema.json")
@@ -81,12 +82,10 @@ def parse_middleware(source: Source, diagnostics: Diagnostics) -> Middleware | N
     check_keys(profiles, XRCE_PROFILES, XRCE_PROFILES, diagnostics)
     check_keys(axes, tuple(AXES), tuple(AXES), diagnostics)
     needs = {e.key: _names(components, e.key, diagnostics, XRCE_PROFILES) for e in components}
-    values = {axis: _axis(axes, axis, diagnostics) for axis in AXES}
     return Middleware(
         MappingProxyType(needs),
         MappingProxyType({e.key: _xrce_profile(profiles, e.key, diagnostics) for e in profiles}),
-        MappingProxyType({axis: MappingProxyType(found) for axis, (found, _) in values.items()}),
-        MappingProxyType({axis: default for axis, (_, default) in values.items()}),
+        MappingProxyType({axis: _axis(axes, axis, diagnostics) for axis in AXES}),
     )
 
 
@@ -102,11 +101,11 @@ def _xrce_profile(profiles: MappingNode, name: str, diagnostics: Diagnostics) ->
     return XrceProfile(name, read_text(node, "summary", diagnostics), frozenset(allowed))
 
 
-def _axis(axes: MappingNode, axis: str, diagnostics: Diagnostics) -> tuple[dict[str, AxisValue], str]:
+def _axis(axes: MappingNode, axis: str, diagnostics: Diagnostics) -> Axis:
     node = expect_mapping(axes.get(axis), f"'{axis}'", diagnostics)
     if node is None:
-        return {}, ""
-    check_keys(node, ("default", "values"), ("default", "values"), diagnostics)
+        return Axis({}, "")
+    check_keys(node, ("several", "default", "values"), ("default", "values"), diagnostics)
     values = expect_mapping(node.get("values"), "'values'", diagnostics)
     default = read_choice(node, "default", AXES[axis], diagnostics)
     found: dict[str, AxisValue] = {}
@@ -123,7 +122,8 @@ def _axis(axes: MappingNode, axis: str, diagnostics: Diagnostics) -> tuple[dict[
             _names(value, "agent", diagnostics, XRCE_PROFILES),
             _names(value, "allows", diagnostics, tuple(SUBMESSAGES)),
         )
-    return found, default.name if default else ""
+    several = bool_of(node.get("several")) is True
+    return Axis(MappingProxyType(found), default.name if default else "", several)
 
 
 def _names(node: MappingNode, key: str, diagnostics: Diagnostics, known: tuple[str, ...]) -> tuple[str, ...]:

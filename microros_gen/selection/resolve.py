@@ -56,9 +56,6 @@ def resolve_selection(
         _report_nothing(application, diagnostics)
     for choice in axes.values():
         _pick_axis(picker, choice, middleware)
-    for writer in application.logging:
-        component = middleware.axes["logging"][writer.to].component or "logging"
-        picker.pick(component, f"logging: {writer.to}{at(writer.span)}", writer.span)
     picker.close()
     for demand in stream_demands(application, picker.open_to(application), axes["entities"].value):
         picker.pick(demand.component, demand.text, demand.span)
@@ -147,9 +144,13 @@ def _check_profile_drops(
 
 
 def _pick_axis(picker: Picker, choice: AxisChoice, middleware: Middleware) -> None:
-    brought = middleware.axes[choice.axis][choice.value].component
-    if brought is not None:
-        picker.pick(brought, choice.text, choice.span)
+    about = middleware.axes[choice.axis]
+    if about.several and choice.value == about.default and choice.reason == "default":
+        return
+    for each in (choice, *choice.further):
+        brought = about.values[each.value].component
+        if brought is not None:
+            picker.pick(brought, each.text, each.span)
 
 
 def _pick_parts(picker: Picker, application: Application, parts: tuple[str, ...]) -> None:
@@ -184,11 +185,11 @@ def _selection(
     middleware: Middleware,
 ) -> Selection:
     components = tuple(_chosen(picker, name) for name in sorted(picker.causes, key=_component_order(picker)))
-    values = [middleware.axes[choice.axis][choice.value] for choice in axes.values()]
+    values = _axis_values(axes, middleware)
     creates = axes["entities"].value != "preconfigured"
     parts = [c.component for c in components]
     xrce = [(n, p.name) for p in parts for n in (*p.xrce, *middleware.components.get(p.name, ()))]
-    xrce += [(n, axes[v.axis].text) for v in values for n in v.xrce]
+    xrce += [(n, choice.text) for choice, value in values for n in value.xrce]
     objects = [(o, p.name) for p in parts for o in p.objects if creates or o not in _CREATED]
     return Selection(
         profiles=tuple(p.name for p in profiles),
@@ -197,11 +198,13 @@ def _selection(
         transport=axes["transport"].value,
         liveliness=axes["liveliness"].value,
         xrce_profiles=_gather(xrce, XRCE_PROFILES),
-        agent_profiles=_gather(_agent_side(values, axes), XRCE_PROFILES),
+        agent_profiles=_gather(
+            [(n, choice.text) for choice, value in values for n in value.agent], XRCE_PROFILES
+        ),
         sends=_gather(((s, p.name) for p in parts for s in p.sends), tuple(SUBMESSAGES)),
         receives=_gather(((s, p.name) for p in parts for s in p.receives), tuple(SUBMESSAGES)),
         objects=_gather(objects, tuple(OBJECT_KINDS)),
-        axes=tuple(ChosenAxis(c.axis, c.value, c.reason) for c in axes.values() if _matters(picker, c)),
+        axes=tuple(ChosenAxis(c.axis, c.value, c.reason) for c, _ in values if _matters(picker, c)),
     )
 
 
@@ -211,8 +214,12 @@ def _matters(picker: Picker, choice: AxisChoice) -> bool:
     return not about_component or choice.span is not None or choice.axis in picker.causes
 
 
-def _agent_side(values: Iterable[AxisValue], axes: Mapping[str, AxisChoice]) -> list[tuple[str, str]]:
-    return [(name, axes[value.axis].text) for value in values for name in value.agent]
+def _axis_values(
+    axes: Mapping[str, AxisChoice], middleware: Middleware
+) -> list[tuple[AxisChoice, AxisValue]]:
+    """Return each choice, further ones of an axis included, with what it brings."""
+    choices = [choice for first in axes.values() for choice in (first, *first.further)]
+    return [(choice, middleware.axes[choice.axis].values[choice.value]) for choice in choices]
 
 
 def _component_order(picker: Picker) -> Callable[[str], tuple[int, int, str]]:

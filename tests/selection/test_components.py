@@ -140,8 +140,8 @@ def test_a_faulty_component_is_refused(case: str, tmp_path: Path) -> None:
 
 
 def test_every_axis_value_has_its_component(real_catalogue: Catalogue, middleware: Middleware) -> None:
-    for values in middleware.axes.values():
-        for value in values.values():
+    for axis in middleware.axes.values():
+        for value in axis.values.values():
             assert value.component is None or value.component in real_catalogue
 
 

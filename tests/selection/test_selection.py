@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from microros_gen.cli.tables import selection_data
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.selection.resolve import check_ready
 from microros_gen.selection.xrce import BUILTIN_PROFILES
@@ -300,3 +301,21 @@ def test_a_users_profile_far_away_is_no_problem(resolve: Resolve, tmp_path: Path
     assert outcome.said == ()
     assert outcome.selection.profiles == ("mine",)
     assert outcome.reasons("publish") == ("profile mine",)
+
+
+def test_an_axis_with_several_values_brings_what_each_brings(resolve: Resolve) -> None:
+    text = "profiles: [pure_sender]\nlogging: [console, {to: callback, level: warn}]\n"
+    outcome = resolve(text=text)
+    axes = [(a.value, a.reason) for a in outcome.selection.axes if a.axis == "logging"]
+    assert axes == [(v, "microros.yaml:2") for v in ("console", "callback")]
+    names = {c.component.name for c in outcome.selection.components}
+    assert {"logging", "logging_console"} <= names
+    logging = next(c for c in outcome.selection.components if c.component.name == "logging")
+    assert "logging: callback (microros.yaml:2)" in logging.reasons
+    data = selection_data(outcome.selection)["axes"]["logging"]
+    assert (data["value"], [f["value"] for f in data["further"]]) == ("console", ["callback"])
+
+
+def test_the_default_of_such_an_axis_selects_nothing(resolve: Resolve) -> None:
+    names = {c.component.name for c in resolve("pure_sender").selection.components}
+    assert not [name for name in names if name.startswith("logging")]

@@ -105,7 +105,7 @@ def allowed_submessages(selection: Selection, middleware: Middleware) -> set[str
     allowed = {s for x in selection.xrce_profiles for s in middleware.xrce_profiles[x.name].allows}
     chosen = {"entities": selection.entities, "transport": selection.transport}
     chosen["liveliness"] = selection.liveliness
-    return allowed | {s for axis, value in chosen.items() for s in middleware.axes[axis][value].allows}
+    return allowed | {s for axis, value in chosen.items() for s in middleware.axes[axis].values[value].allows}
 
 
 ENTITIES = ("reference", "xml", "binary")
