@@ -25,7 +25,6 @@ from microros_gen.client.plan.project import Project, plan_project
 from microros_gen.client.plan.service_limits import service_roots
 from microros_gen.client.plan.stream_budget import check_stream_budget
 from microros_gen.client.plan.streams import DEFAULT_MTU, WRITE_DATA_OVERHEAD
-from microros_gen.client.plan.values import Values
 from microros_gen.compiler.request import Request
 from microros_gen.diagnostics import Diagnostic, Diagnostics
 from microros_gen.documents.named import Named
@@ -353,6 +352,6 @@ def _root(name: TypeName, application: Application, room: int) -> Root:
 
 
 def _component_files(project: Project) -> tuple[ComponentFile, ...]:
-    values = Values(project.runtime, project.selection, project.board, project.target)
+    values = project.values
     components = (c.component for c in project.selection.components)
     return component_files(components, values.holds, project.provisions.files)

@@ -29,6 +29,7 @@ from microros_gen.client.plan.session_times import plan_times
 from microros_gen.client.plan.slices import CreationPlan, ErrorsPlan, InputPlan, MemoryPlan, OutputPlan
 from microros_gen.client.plan.streams import StreamSizes, plan_streams
 from microros_gen.client.plan.transport import plan_transport
+from microros_gen.client.plan.values import Values
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import Message, TypeName
 from microros_gen.platform.provide import Provisions
@@ -65,6 +66,11 @@ class Project:
     def messages(self) -> Mapping[TypeName, Message]:
         """The messages of all types, by name."""
         return {plan.name: plan.message for plan in self.types}
+
+    @cached_property
+    def values(self) -> Values:
+        """The plan's attributes by their path, as component.yaml names them."""
+        return Values(self.runtime, self.selection, self.board, self.target)
 
     def own_limits(self, publisher: PublisherPlan) -> LimitSet | None:
         """Return the publisher's own limits; None: those of its type."""

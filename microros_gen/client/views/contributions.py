@@ -260,13 +260,14 @@ def _output(function: str, streams: Mapping[str, Mapping[str, str]]) -> Output:
     """Return the choice between the streams; one expression where both are the same."""
     none = OUTPUT_FUNCTIONS[function]
     reliable, best_effort = (streams.get(name, {}).get(function, none) for name in OUTPUT_STREAMS)
-    choice = f"reliable ? {reliable} : {best_effort}"
-    if len(choice) > _LONGEST_RETURNED:
-        choice = f"reliable ? {reliable}\n                  : {best_effort}"
-    same = function in _RELIABLE_ALONE or reliable == best_effort
-    value = reliable if same else choice
-    if function in _AFTER_RESERVE and none in (reliable, best_effort):
+    if function in _RELIABLE_ALONE or best_effort == reliable:
+        value = reliable
+    elif function in _AFTER_RESERVE and none in (reliable, best_effort):
         value = best_effort if reliable == none else reliable
+    else:
+        value = f"reliable ? {reliable} : {best_effort}"
+        if len(value) > _LONGEST_RETURNED:
+            value = f"reliable ? {reliable}\n                  : {best_effort}"
     return Output(value, _unused(_OUTPUT_PARAMETERS[function], value))
 
 

@@ -34,7 +34,7 @@ def render_example(project: Project, environment: Environment, heading: str = ""
 
     Raises UserError with the line of a component's template that is wrong.
     """
-    values = Values(project.runtime, project.selection, project.board, project.target)
+    values = project.values
     found = [
         (chosen.component, part)
         for chosen in project.selection.components

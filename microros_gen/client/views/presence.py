@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import asdict, is_dataclass
+from dataclasses import fields, is_dataclass
 from typing import Any
 
 from microros_gen.client.plan.project import Project
@@ -13,7 +13,7 @@ from microros_gen.client.plan.values import Values
 
 def manifest_entries(project: Project) -> dict[str, Any]:
     """Return `values` and `size` of each component that has any, by its name: plain data for JSON."""
-    values = _values(project)
+    values = project.values
     found: dict[str, Any] = {}
     for chosen in project.selection.components:
         presence = chosen.component.presence
@@ -27,15 +27,11 @@ def manifest_entries(project: Project) -> dict[str, Any]:
 
 def report_rows(project: Project) -> Iterator[tuple[str, str, str]]:
     """Yield name, value and reason of each line that `build` and `resolve` print for a component."""
-    values = _values(project)
+    values = project.values
     for chosen in project.selection.components:
         for row in chosen.component.presence.reports:
             if values.holds(row.when):
                 yield row.name, values.text(row.value), values.text(row.why)
-
-
-def _values(project: Project) -> Values:
-    return Values(project.runtime, project.selection, project.board, project.target)
 
 
 def _entry(value: int | str, values: Values) -> object:
@@ -45,7 +41,7 @@ def _entry(value: int | str, values: Values) -> object:
 def _plain(value: object) -> object:
     """Return a value of the plan as JSON has it: data classes as mappings, anything else but numbers as text."""
     if is_dataclass(value) and not isinstance(value, type):
-        return {name: _plain(part) for name, part in asdict(value).items()}
+        return {field.name: _plain(getattr(value, field.name)) for field in fields(value)}
     if isinstance(value, dict):
         return {str(name): _plain(part) for name, part in value.items()}
     if isinstance(value, (tuple, list)):

@@ -13,7 +13,6 @@ from microros_gen.application.model import Memory
 from microros_gen.client.plan.project import Project
 from microros_gen.client.plan.runtime_entities import PublisherPlan, SubscriptionPlan
 from microros_gen.client.plan.services import ServicePlan
-from microros_gen.client.plan.values import Values
 from microros_gen.client.views.agent_files import render_agent_files
 from microros_gen.client.views.board import BoardView, board_view, render_toolchain
 from microros_gen.client.views.components import render_components
@@ -77,7 +76,7 @@ def render_project(
     `files` are those of the selected components; `unselected` are the others, whose public headers become one
     `#error` each.
     """
-    values = Values(project.runtime, project.selection, project.board, project.target)
+    values = project.values
     rendered = render_components(
         files, values, environment, (*project.provisions.functions(), *project.board.hooks)
     )
