@@ -24,6 +24,7 @@ class Sources:
         """Note the names; texts are read when they are needed."""
         self._folder = folder
         self._words: dict[str, frozenset[str]] = {}
+        self._files: dict[str, tuple[frozenset[str], tuple[str, ...]]] = {}
         self._by_stem: dict[str, list[str]] = {}
         for source in sources:
             for stem in {PurePosixPath(source).stem, PurePosixPath(object_name(source)).stem}:
@@ -51,13 +52,20 @@ class Sources:
             found: set[str] = set()
             waiting, seen = [source], {source}
             while waiting:
-                try:
-                    text = read_text(self._folder / waiting.pop(), errors="replace")
-                except OSError:
-                    continue
-                found.update(_WORD.findall(text))
-                headers = {f"include/{header}" for header in _INCLUDE.findall(text)} - seen
-                seen |= headers
-                waiting += sorted(headers)
+                words, headers = self._file(waiting.pop())
+                found |= words
+                waiting += [header for header in headers if header not in seen]
+                seen.update(headers)
             self._words[source] = frozenset(found)
         return self._words[source]
+
+    def _file(self, name: str) -> tuple[frozenset[str], tuple[str, ...]]:
+        """Return the words of a file and the headers of the folder that it includes, read once."""
+        if name not in self._files:
+            try:
+                text = read_text(self._folder / name, errors="replace")
+            except OSError:
+                text = ""
+            headers = tuple(f"include/{header}" for header in dict.fromkeys(_INCLUDE.findall(text)))
+            self._files[name] = frozenset(_WORD.findall(text)), headers
+        return self._files[name]
