@@ -113,8 +113,7 @@ class EndpointDecl:
     received (`storage: none`: the program has). `given`: the fully qualified name that the source has, where `remap:`
     makes it `topic`; empty: the same.
     `of_the_library`: nobody declared it, and the library itself opens it; `executed`: an executor runs it all the
-    same. `usual_limits` are then those of its
-    component, which hold where the application says nothing but `*`.
+    same. `usual_limits` are then those of its component, which hold where the application says nothing but `*`.
     """
 
     kind: str

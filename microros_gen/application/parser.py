@@ -122,7 +122,7 @@ def _log_writers(node: YamlNode | None, diagnostics: Diagnostics) -> tuple[LogWr
     for item in items(node) or ((node,) if node is not None else ()):
         writer = LogWriter(
             to=text_of(item) or text_of(child(item, "to")) or "",
-            level=text_of(child(item, "level")) or LogWriter("").level,
+            level=text_of(child(item, "level")) or LogWriter.level,
             span=item.span,
         )
         if writer.to in found:

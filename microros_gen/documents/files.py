@@ -66,6 +66,11 @@ def read_json(path: Path, largest: int = LARGEST_RECORD, follow: bool = True) ->
         raise ValueError(f"{path} is nested too deeply") from error
 
 
+def reason_of(error: OSError | ValueError) -> str:
+    """Return why a file could not be read, without its path."""
+    return error.strerror or str(error) if isinstance(error, OSError) else str(error)
+
+
 def is_file(path: Path) -> bool:
     """Return whether a regular file has this name; a name that no file can have is none."""
     return _is(path, stat.S_ISREG)

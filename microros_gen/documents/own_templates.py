@@ -12,7 +12,7 @@ from jinja2 import Environment, Template, TemplateError, TemplateSyntaxError
 from jinja2.runtime import Macro
 
 from microros_gen.diagnostics import Diagnostic, Source, Span, UserError, nearest
-from microros_gen.documents.files import read_text
+from microros_gen.documents.files import read_text, reason_of
 
 _NAME = "<template>"
 """How Jinja names a template that is a text, in tracebacks."""
@@ -51,8 +51,7 @@ def _made_of_own(path: Path, environment: Environment, make: Callable[[Template]
     try:
         source = Source(str(path), read_text(path))
     except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else error
-        raise UserError([Diagnostic(f"cannot read '{path}': {reason}", id="MG-1060")]) from error
+        raise UserError([Diagnostic(f"cannot read '{path}': {reason_of(error)}", id="MG-1060")]) from error
     try:
         return make(environment.from_string(source.text))
     except (TemplateError, TypeError, ValueError, AttributeError, ArithmeticError) as error:

@@ -45,6 +45,11 @@ def text_of(node: YamlNode | None) -> str | None:
     return value if isinstance(value, str) else None
 
 
+def child_text(node: YamlNode | None, key: str) -> str:
+    """Return the text of `key` where `node` is a mapping that has one, else an empty one."""
+    return text_of(child(node, key)) or ""
+
+
 def bool_of(node: YamlNode | None) -> bool | None:
     """Return the value of a scalar that is true or false."""
     value = node.value if isinstance(node, ScalarNode) else None

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from microros_gen.diagnostics import Diagnostics, Source, Span
-from microros_gen.documents.files import is_file, read_text
+from microros_gen.documents.files import is_file, read_text, reason_of
 from microros_gen.documents.tree_values import text_of
 from microros_gen.documents.yaml_tree import MappingNode, parse_yaml
 from microros_gen.platform.part_file import PartFolder, find_part
@@ -79,8 +79,7 @@ def _read(
     try:
         source = Source(str(path), read_text(path))
     except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else error
-        diagnostics.error(f"cannot read '{path}': {reason}", span, id="MG-6031")
+        diagnostics.error(f"cannot read '{path}': {reason_of(error)}", span, id="MG-6031")
         return None
     node = _parse(source, place.own, diagnostics)
     if node is None:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
-from microros_gen.documents.files import read_text
+from microros_gen.documents.files import read_text, reason_of
 from microros_gen.documents.tree_values import text_of
 from microros_gen.documents.yaml_tree import MappingNode
 from microros_gen.platform.board_file import board_facts
@@ -138,9 +138,8 @@ class _Reader:
         try:
             return Source(str(path), read_text(path))
         except (OSError, UnicodeDecodeError) as error:
-            reason = error.strerror if isinstance(error, OSError) else error
             hint = f"There are: {', '.join(builtin_targets())}; a path is relative to the file that names it"
             self._diagnostics.error(
-                f"cannot read the target file '{shown}': {reason}", span, hint, id="MG-6003"
+                f"cannot read the target file '{shown}': {reason_of(error)}", span, hint, id="MG-6003"
             )
             return None

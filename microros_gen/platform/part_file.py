@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
-from microros_gen.documents.files import is_file, read_text
+from microros_gen.documents.files import is_file, read_text, reason_of
 from microros_gen.documents.tree_read import check_keys, expect_mapping
 from microros_gen.documents.tree_read import read_text as text_at
 from microros_gen.documents.tree_values import bool_of, child, entries, int_of, items, text_of
@@ -138,8 +138,9 @@ def _source(path: Path, span: Span | None, diagnostics: Diagnostics) -> Source |
     try:
         return Source(str(path), read_text(path))
     except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else error
-        diagnostics.error(f"cannot read '{path}': {reason}", span, "Give the folder of a part", id="MG-6005")
+        diagnostics.error(
+            f"cannot read '{path}': {reason_of(error)}", span, "Give the folder of a part", id="MG-6005"
+        )
         return None
 
 

@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator
 
 from microros_gen.diagnostics import Diagnostics, nearest
-from microros_gen.documents.tree_values import child, entries, int_of, items, text_of
+from microros_gen.documents.tree_values import child, child_text, entries, int_of, items, text_of
 from microros_gen.documents.yaml_tree import Entry, MappingNode, ScalarNode, YamlNode
 from microros_gen.selection.contribution import (
     HOOK_POINTS,
@@ -52,46 +52,49 @@ def read_contributions(node: MappingNode, diagnostics: Diagnostics) -> Contribut
     """Return what `node`, a component file, contributes; faulty calls and phases are errors in `diagnostics`."""
     return Contributions(
         hook_headers=tuple(
-            HookHeader(header=text_of(i) or _text(i, "header"), when=_when(i))
+            HookHeader(header=text_of(i) or child_text(i, "header"), when=conditions_of(i))
             for i in items(node.get("hook_headers"))
         ),
         state=tuple(
             State(
-                declaration=_text(i, "declare"),
-                section=_text(i, "section"),
-                header=_text(i, "header"),
-                comment=_text(i, "comment"),
+                declaration=child_text(i, "declare"),
+                section=child_text(i, "section"),
+                header=child_text(i, "header"),
+                comment=child_text(i, "comment"),
                 clocks=tuple(text_of(c) or "" for c in items(child(i, "clocks"))),
-                when=_when(i),
+                when=conditions_of(i),
             )
             for i in items(node.get("state"))
         ),
         kept=tuple(
-            Kept(field=e.key, type=_value(e, "type"), when=_when(e.value)) for e in entries(node.get("kept"))
+            Kept(field=e.key, type=_value(e, "type"), when=conditions_of(e.value))
+            for e in entries(node.get("kept"))
         ),
         hooks=tuple(_hooks(node, diagnostics)),
         handlers=tuple(
-            Handler(submessage=e.key, function=_value(e, "function"), when=_when(v))
+            Handler(submessage=e.key, function=_value(e, "function"), when=conditions_of(v))
             for e, v in _each(node, "on")
         ),
         outputs=tuple(_output(e) for e in entries(node.get("output"))),
         errors=tuple(_error(e) for e in entries(node.get("errors"))),
         config=tuple(_setting(section.key, e) for section, e in _sections(node.get("config"))),
         properties=tuple(
-            Property(name=e.key, value=_text(e.value, "value"), digits=int_of(child(e.value, "digits")) or 0)
+            Property(
+                name=e.key, value=child_text(e.value, "value"), digits=int_of(child(e.value, "digits")) or 0
+            )
             for e in entries(node.get("properties"))
         ),
         includes=tuple(
-            Include(into=e.key, header=text_of(i) or _text(i, "header"), when=_when(i))
+            Include(into=e.key, header=text_of(i) or child_text(i, "header"), when=conditions_of(i))
             for e in entries(node.get("includes"))
             for i in items(e.value)
         ),
         variants=tuple(
-            Variant(header=_text(i, "header"), file=_text(i, "file"), when=_when(i))
+            Variant(header=child_text(i, "header"), file=child_text(i, "file"), when=conditions_of(i))
             for i in items(node.get("variants"))
         ),
         replaces=tuple(
-            Replacement(header=text_of(i) or _text(i, "header"), when=_when(i))
+            Replacement(header=text_of(i) or child_text(i, "header"), when=conditions_of(i))
             for i in items(node.get("replaces"))
         ),
     )
@@ -108,17 +111,14 @@ def read_conditions(when: YamlNode | None) -> Conditions | None:
     return found if len(found) == len(when.entries) else None
 
 
-def _when(node: YamlNode | None) -> Conditions:
+def conditions_of(node: YamlNode | None) -> Conditions:
+    """Return the conditions of `when` in `node`; none where it is missing or was reported."""
     return read_conditions(child(node, "when")) or ()
-
-
-def _text(node: YamlNode | None, key: str) -> str:
-    return text_of(child(node, key)) or ""
 
 
 def _value(entry: Entry, key: str) -> str:
     """Return the value of an entry that is a text, or a mapping that has it as `key`."""
-    return text_of(entry.value) or _text(entry.value, key)
+    return text_of(entry.value) or child_text(entry.value, key)
 
 
 def _each(node: MappingNode, key: str) -> Iterator[tuple[Entry, YamlNode]]:
@@ -147,10 +147,10 @@ def _hooks(node: MappingNode, diagnostics: Diagnostics) -> Iterator[Hook]:
             diagnostics.error(
                 f"unknown phase '{phase}' of '{name}'", entry.key_span, f"Write {phases}", id="MG-4045"
             )
-        call, test = _value(entry, "call"), _text(value, "test")
+        call, test = _value(entry, "call"), child_text(value, "test")
         for text in (call, test) if test else (call,):
             _check_call(text, point.variables, value, diagnostics)
-        yield Hook(point=name, phase=phase, call=call, test=test, when=_when(value))
+        yield Hook(point=name, phase=phase, call=call, test=test, when=conditions_of(value))
 
 
 def _check_call(call: str, variables: tuple[str, ...], node: YamlNode, diagnostics: Diagnostics) -> None:
@@ -165,13 +165,13 @@ def _check_call(call: str, variables: tuple[str, ...], node: YamlNode, diagnosti
 
 def _output(entry: Entry) -> Output:
     calls = tuple((e.key, text_of(e.value) or "") for e in entries(entry.value) if text_of(e.value))
-    return Output(stream=entry.key, calls=calls, when=_when(entry.value))
+    return Output(stream=entry.key, calls=calls, when=conditions_of(entry.value))
 
 
 def _error(entry: Entry) -> ErrorCode:
     code = int_of(child(entry.value, "code"))
     own = int_of(entry.value)
-    return ErrorCode(name=entry.key, code=own or code or 0, text=_text(entry.value, "text"))
+    return ErrorCode(name=entry.key, code=own or code or 0, text=child_text(entry.value, "text"))
 
 
 def _setting(section: str, entry: Entry) -> Setting:
@@ -179,6 +179,6 @@ def _setting(section: str, entry: Entry) -> Setting:
         name=entry.key,
         section=section,
         value=_value(entry, "value"),
-        comment=_text(entry.value, "comment"),
-        when=_when(entry.value),
+        comment=child_text(entry.value, "comment"),
+        when=conditions_of(entry.value),
     )

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from microros_gen.application.kinds import KIND, NAMES
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
-from microros_gen.documents.files import is_file, read_text
+from microros_gen.documents.files import is_file, read_text, reason_of
 from microros_gen.documents.schema import load_schema, validate
 from microros_gen.documents.tree_values import child, items, span_of, text_of
 from microros_gen.documents.yaml_tree import MappingNode, YamlNode, parse_yaml
@@ -36,8 +36,7 @@ def read_outside(
         source = Source(str(path), read_text(path))
         digest = digest_of(folder)
     except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else error
-        diagnostics.error(f"cannot read '{path}': {reason}", extension.span, id="MG-4062")
+        diagnostics.error(f"cannot read '{path}': {reason_of(error)}", extension.span, id="MG-4062")
         return None
     tree = parse_yaml(source, found)
     if not found.has_errors():

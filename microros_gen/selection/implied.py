@@ -32,18 +32,21 @@ def with_implied(application: Application, selection: Selection, diagnostics: Di
         first, *others = application.nodes
         nodes = (_with(first, (*once, *each)), *(_with(node, each) for node in others))
         return replace(application, nodes=nodes)
-    ready = all(
-        chosen.component.ready for chosen in selection.components
-    )  # else the build is refused for that
-    refused = [e for e in once if e.kind != "subscription"]
-    for endpoint in (*refused, *each) if ready else ():
+    # A component that is not ready is refused already: its endpoints would only be a second error.
+    if all(chosen.component.ready for chosen in selection.components):
+        _refuse([*(e for e in once if e.kind != "subscription"), *each], application, diagnostics)
+    return replace(application, implied=once)
+
+
+def _refuse(endpoints: Iterable[EndpointDecl], application: Application, diagnostics: Diagnostics) -> None:
+    """Report endpoints that need a declared node."""
+    for endpoint in endpoints:
         diagnostics.error(
             f"the {endpoint.kind} '{endpoint.topic}', which a component opens by itself, needs a declared node",
             application.spans.get("components"),
             "Declare the nodes: `nodes: [{name: …}]`",
             id="MG-4021",
         )
-    return replace(application, implied=once)
 
 
 def _endpoints(

@@ -3,10 +3,9 @@
 
 from __future__ import annotations
 
-from microros_gen.documents.tree_values import child, entries, int_of, items, text_of
+from microros_gen.documents.tree_values import child, child_text, entries, int_of, items, text_of
 from microros_gen.documents.yaml_tree import MappingNode, YamlNode
-from microros_gen.selection.contribution import Conditions
-from microros_gen.selection.contribution_file import read_conditions
+from microros_gen.selection.contribution_file import conditions_of
 from microros_gen.selection.presence import (
     ExamplePart,
     ManifestEntry,
@@ -25,15 +24,24 @@ def read_presence(node: MappingNode) -> Presence:
     return Presence(
         example=() if example is None else (_example(example),),
         manifest=tuple(
-            ManifestEntry(name=e.key, value=_value(e.value), when=_when(e.value))
+            ManifestEntry(name=e.key, value=_value(e.value), when=conditions_of(e.value))
             for e in entries(node.get("manifest"))
         ),
         reports=tuple(
-            ReportRow(name=_text(i, "name"), value=_text(i, "value"), why=_text(i, "why"), when=_when(i))
+            ReportRow(
+                name=child_text(i, "name"),
+                value=child_text(i, "value"),
+                why=child_text(i, "why"),
+                when=conditions_of(i),
+            )
             for i in items(node.get("reports"))
         ),
         memory=tuple(
-            MemoryUse(variable=e.key, use=text_of(e.value) or _text(e.value, "use"), when=_when(e.value))
+            MemoryUse(
+                variable=e.key,
+                use=text_of(e.value) or child_text(e.value, "use"),
+                when=conditions_of(e.value),
+            )
             for e in entries(node.get("size"))
         ),
         calls=tuple(SelectingCall(text_of(i) or "") for i in items(node.get("calls"))),
@@ -43,7 +51,9 @@ def read_presence(node: MappingNode) -> Presence:
 def _example(node: YamlNode) -> ExamplePart:
     includes = tuple(text_of(i) or "" for i in items(child(node, "includes")))
     handles = child(node, "handles")
-    return ExamplePart(includes=includes, handles=int_of(handles) or text_of(handles) or 0, when=_when(node))
+    return ExamplePart(
+        includes=includes, handles=int_of(handles) or text_of(handles) or 0, when=conditions_of(node)
+    )
 
 
 def _value(node: YamlNode | None) -> int | str:
@@ -51,11 +61,3 @@ def _value(node: YamlNode | None) -> int | str:
     value = child(node, "value") or node
     number = int_of(value)
     return (text_of(value) or "") if number is None else number
-
-
-def _when(node: YamlNode | None) -> Conditions:
-    return read_conditions(child(node, "when")) or ()
-
-
-def _text(node: YamlNode | None, key: str) -> str:
-    return text_of(child(node, key)) or ""
