@@ -87,12 +87,22 @@ def _table(rows: list[Documented]) -> str:
 
 
 def _of_module(path: Path) -> Iterator[Documented]:
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    functions = [n for n in ast.walk(tree) if isinstance(n, (ast.FunctionDef, ast.AsyncFunctionDef))]
-    for function in functions:
-        for node in ast.walk(function):
-            if isinstance(node, ast.Call) and _owner(functions, node) is function:
-                yield from _of_call(node, _texts(function, node), path.relative_to(PACKAGE).parts[0])
+    text = path.read_text(encoding="utf-8")
+    nodes = list(ast.walk(ast.parse(text))) if '"MG-' in text else []
+    functions = [n for n in nodes if isinstance(n, (ast.FunctionDef, ast.AsyncFunctionDef))]
+    for node in nodes:
+        function = _owner(functions, node) if isinstance(node, ast.Call) and _identity(node) else None
+        if isinstance(node, ast.Call) and function is not None:
+            yield _of_call(node, _texts(function, node), path.relative_to(PACKAGE).parts[0])
+
+
+def _identity(node: ast.Call) -> str:
+    """Return the id of the diagnostic that a call makes, "" for every other call."""
+    for keyword in node.keywords:
+        if keyword.arg == "id" and isinstance(keyword.value, ast.Constant):
+            identity = str(keyword.value.value)
+            return identity if identity.startswith("MG-") else ""
+    return ""
 
 
 def _texts(function: ast.AST, before: ast.Call) -> dict[str, ast.expr]:
@@ -125,7 +135,9 @@ def _holds(statement: ast.stmt, node: ast.Call) -> bool:
     return statement.lineno <= node.lineno and (statement.end_lineno or 0) >= (node.end_lineno or 0)
 
 
-def _owner(functions: list[ast.FunctionDef | ast.AsyncFunctionDef], node: ast.Call) -> object:
+def _owner(
+    functions: list[ast.FunctionDef | ast.AsyncFunctionDef], node: ast.Call
+) -> ast.FunctionDef | ast.AsyncFunctionDef | None:
     """Return the innermost function that holds `node`."""
     holding = [
         f for f in functions if f.lineno <= node.lineno and (f.end_lineno or 0) >= (node.end_lineno or 0)
@@ -133,11 +145,8 @@ def _owner(functions: list[ast.FunctionDef | ast.AsyncFunctionDef], node: ast.Ca
     return max(holding, key=lambda f: f.lineno, default=None)
 
 
-def _of_call(node: ast.Call, texts: dict[str, ast.expr], subject: str) -> Iterator[Documented]:
+def _of_call(node: ast.Call, texts: dict[str, ast.expr], subject: str) -> Documented:
     named = {keyword.arg: keyword.value for keyword in node.keywords}
-    identity = named.get("id")
-    if not isinstance(identity, ast.Constant) or not str(identity.value).startswith("MG-"):
-        return
     arguments = list(node.args)
     if ast.unparse(node.func) in _PLACE_FIRST:
         arguments[:2] = [arguments[1], arguments[0]]
@@ -149,7 +158,7 @@ def _of_call(node: ast.Call, texts: dict[str, ast.expr], subject: str) -> Iterat
     hint = arguments[2] if len(arguments) > 2 else named.get("hint")
     warns = isinstance(node.func, ast.Attribute) and node.func.attr == "warning"
     warns |= "severity" in named or ast.unparse(node.func) == "Caveat"
-    yield Documented(str(identity.value), _pattern(message, texts), _pattern(hint, texts), not warns, subject)
+    return Documented(_identity(node), _pattern(message, texts), _pattern(hint, texts), not warns, subject)
 
 
 def _pattern(node: ast.expr | None, texts: dict[str, ast.expr]) -> str:

@@ -8,17 +8,21 @@ import re
 
 import pytest
 
+from docs.generators.diagnostics import Documented, page
 from docs.generators.diagnostics import diagnostics as documented
-from docs.generators.diagnostics import page
 from microros_gen.diagnostics.explanations import explanations
 from tests.support.command_line import Runner
 
 TEXTS = explanations()
-DOCUMENTED = documented()
 
 
-def test_every_diagnostic_is_explained() -> None:
-    assert set(TEXTS) == {reported.id for reported in DOCUMENTED}
+@pytest.fixture(scope="module")
+def reported_ones() -> list[Documented]:
+    return documented()
+
+
+def test_every_diagnostic_is_explained(reported_ones: list[Documented]) -> None:
+    assert set(TEXTS) == {reported.id for reported in reported_ones}
 
 
 def test_the_texts_are_short_sentences() -> None:
@@ -40,11 +44,11 @@ def _words(text: str) -> set[str]:
     return set(re.findall(r"[a-z]{3,}", re.sub(r"\{[^}]*\}", "", text).lower()))
 
 
-def test_none_repeats_its_message() -> None:
+def test_none_repeats_its_message(reported_ones: list[Documented]) -> None:
     """At most seven of ten words of an explanation are in the message and hint."""
     repeated = [
         reported.id
-        for reported in DOCUMENTED
+        for reported in reported_ones
         if len(_words(TEXTS[reported.id]) & _words(f"{reported.message} {reported.hint}"))
         > 0.7 * len(_words(TEXTS[reported.id]))
         or (len(reported.message) > 20 and reported.message in TEXTS[reported.id])
