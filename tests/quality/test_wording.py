@@ -9,9 +9,19 @@ import sys
 from pathlib import Path
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from tests.support.paths import ROOT
-from tests.support.quality.wording import TYPE_SUPPORT, files, prose, refused, refused_in
+from tests.support.quality.wording import (
+    TYPE_SUPPORT,
+    files,
+    phrases,
+    prose,
+    quick_patterns,
+    refused,
+    refused_in,
+)
 
 FOLDERS = sorted({name.rsplit("/", 1)[0] if "/" in name else "" for name in files()})
 
@@ -58,6 +68,20 @@ def test_spelling_is_american() -> None:
 )
 def test_the_list_finds_a_phrase_across_lines(text: str) -> None:
     assert refused(text)
+
+
+@settings(max_examples=300)
+@given(st.data())
+def test_the_quick_patterns_find_every_match(data: st.DataObject) -> None:
+    number = data.draw(st.integers(0, len(phrases()) - 1))
+    pattern, (word, quick) = phrases()[number][0], quick_patterns()[number]
+    match = data.draw(st.from_regex(re.compile(pattern.pattern, re.ASCII), fullmatch=True))
+    assert word in match
+    assert quick.search(match)
+
+
+def test_most_phrases_have_a_word_that_all_matches_share() -> None:
+    assert sum(not word for word, _ in quick_patterns()) < len(phrases()) / 4
 
 
 def test_code_of_a_page_is_not_prose(tmp_path: Path) -> None:
