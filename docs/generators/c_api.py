@@ -17,6 +17,7 @@ from microros_gen.client.plan.values import Values
 from microros_gen.client.views.components import umbrellas
 from microros_gen.client.views.contributions import Contributed, contributed
 from microros_gen.documents.templates import make_environment
+from microros_gen.selection.component import Catalogue
 from microros_gen.selection.find_components import components_folder, load_catalogue
 
 PORT_HEADERS = {
@@ -57,19 +58,25 @@ class Header:
         return _FOLDERS.get(folder, folder)
 
 
-def headers() -> list[Header]:
+@cache
+def _catalogue() -> Catalogue:
+    return load_catalogue()
+
+
+@cache
+def headers() -> tuple[Header, ...]:
     """Return every public header of the components that can be built, sorted by name."""
     found = dict(PORT_HEADERS)
-    for component in load_catalogue().values():
+    for component in _catalogue().values():
         if component.ready:
             found |= dict.fromkeys(component.headers, component.name)
     found.pop(CONFIG)
     everything = frozenset(found)
-    return [Header(n, found[n], tuple(_sections(found[n], n, everything))) for n in sorted(found)]
+    return tuple(Header(n, found[n], tuple(_sections(found[n], n, everything))) for n in sorted(found))
 
 
 def _sections(component: str, name: str, everything: frozenset[str]) -> list[Section]:
-    folder = load_catalogue()[component].folder / "include"
+    folder = _catalogue()[component].folder / "include"
     path = folder / name
     if path.is_file():
         return read_header(path.read_text(encoding="utf-8"))
@@ -95,7 +102,7 @@ def _sections(component: str, name: str, everything: frozenset[str]) -> list[Sec
 def _contributed() -> Contributed:
     """Return what all components contribute, as if every condition held."""
     values = SimpleNamespace(holds=lambda _when: True, value=lambda _path: 0)
-    ready = [component for component in load_catalogue().values() if component.ready]
+    ready = [component for component in _catalogue().values() if component.ready]
     return contributed(ready, cast(Values, values))
 
 
@@ -117,6 +124,7 @@ def _joined(variants: list[list[Section]]) -> list[Section]:
     return [Section(first[0].title, "\n\n".join(common), tuple(items))]
 
 
+@cache
 def pages() -> Mapping[str, str]:
     """Return Markdown by page: `rcl` → text."""
     known = headers()

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import microros_gen
@@ -61,15 +61,15 @@ def page() -> str:
     """Return the page."""
     parts = ["# Diagnostics", _INTRODUCTION]
     everything = diagnostics()
+    known = explanations()
     for subject, title in _SUBJECTS.items():
         rows = [reported for reported in everything if reported.subject == subject]
         if rows:
-            parts += [f"## {title}", _table(rows)]
+            parts += [f"## {title}", _table(rows, known)]
     return "\n\n".join(parts) + "\n"
 
 
-def _table(rows: list[Documented]) -> str:
-    known = explanations()
+def _table(rows: list[Documented], known: Mapping[str, str]) -> str:
     return markdown.table(
         ("id", "kind", "message and hint", "explanation"),
         (

@@ -12,5 +12,6 @@ def explanations() -> dict[str, str]:
     """Return one or two sentences for each id: when the diagnostic occurs, and what to do about it."""
     import yaml  # only `explain` and the documentation need this file
 
-    found = yaml.safe_load(_FILE.read_text(encoding="utf-8"))
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    found = yaml.load(_FILE.read_text(encoding="utf-8"), Loader=loader)
     return {str(identity): str(text) for identity, text in found.items()}

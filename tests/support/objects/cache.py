@@ -34,6 +34,14 @@ def put_into_path(cache: Path = CACHE) -> None:
     os.environ["PATH"] = f"{folder}{os.pathsep}{path}"
 
 
+def real(compiler: str) -> str:
+    """Return the path of a compiler without the cache: for callers that keep what they made themselves."""
+    others = [
+        place for place in os.environ.get("PATH", os.defpath).split(os.pathsep) if place != str(CACHE / "bin")
+    ]
+    return shutil.which(compiler, path=os.pathsep.join(others)) or compiler
+
+
 def make(folder: Path) -> None:
     """Write the compilers of `folder`: links to one program, for each compiler that this machine has."""
     folder.mkdir(parents=True, exist_ok=True)
