@@ -77,9 +77,10 @@ def built_summary(out: Path, report: BuildReport, usage: Usage | None, lacks_ima
         if usage
         else ""
     )
+    copied = f"{report.copied} were copied from earlier builds, " if report.copied else ""
     return _table(
         [
-            ("compiled", f"{report.compiled} objects, {report.kept} were up to date"),
+            ("compiled", f"{report.compiled} objects, {copied}{report.kept} were up to date"),
             ("library", f"{out / report.library}{sizes}"),
             ("image", f"{out / report.image}" if report.image else f"none: {lacks_image}"),
         ]

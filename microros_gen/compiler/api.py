@@ -141,15 +141,17 @@ def toolchain(planned: Planned, environ: Mapping[str, str] | None = None) -> Too
 def compile(planned: Planned, out: Path, tools: Toolchain | None = None) -> Built:
     """Compile the sources in `out` to lib/libmicroros.a, and to the example's image if the target supports one.
 
-    `out` must contain the rendered files of `planned`. `tools` defaults to `toolchain(planned)`.
+    `out` must contain the rendered files of `planned`. `tools` defaults to `toolchain(planned)`. Objects that were
+    compiled before are copied from the user's cache folder (`MICROROS_GEN_OBJECTS=off` prevents that).
     Raises UserError with status 1 if a source does not compile or the image exceeds the target's memory.
     """
     from microros_gen.toolchain.compile import compile_project
     from microros_gen.toolchain.measure import measure_library
+    from microros_gen.toolchain.object_store import ObjectStore
 
     tools = tools or toolchain(planned)
     check_build_folders(out)
-    report = compile_project(out, planned.project, tools)
+    report = compile_project(out, planned.project, tools, ObjectStore.of_user(os.environ))
     return Built(report, measure_library(out, tools))
 
 

@@ -19,7 +19,7 @@ from microros_gen.image.elf import THUMB, Elf
 from microros_gen.image.folder import Folder
 from microros_gen.image.pointers import Pointers, read_pointers
 from microros_gen.records import dataclass
-from microros_gen.toolchain.compile import CALL_GRAPH
+from microros_gen.toolchain.identity import CALL_GRAPH
 from microros_gen.toolchain.toolchain import run, sibling
 
 INDIRECT = "__indirect_call"

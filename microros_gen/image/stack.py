@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from microros_gen.image.callgraph import CallGraph, Node
 from microros_gen.image.elf import THUMB, Elf
 from microros_gen.records import dataclass
-from microros_gen.toolchain.compile import CALL_GRAPH
+from microros_gen.toolchain.identity import CALL_GRAPH
 
 _API = re.compile(r"^(rclc?|rmw|rcutils|micro_ros_utilities)_")
 _PLAN = re.compile(r"__plan_[0-9a-f]{16}$")

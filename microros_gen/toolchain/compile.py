@@ -8,12 +8,15 @@ import json
 import os
 import re
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path, PurePosixPath
 
 from microros_gen.client.plan.project import Project
 from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.records import dataclass
+from microros_gen.toolchain.contents import Contents
+from microros_gen.toolchain.identity import CALL_GRAPH, Identity, identify
+from microros_gen.toolchain.object_store import ObjectStore
+from microros_gen.toolchain.objects import Objects, Unit
 from microros_gen.toolchain.stamps import Stamps
 from microros_gen.toolchain.toolchain import WARNINGS, Toolchain, run
 
@@ -25,32 +28,32 @@ SCRIPT_STAMP = f"{OBJECTS}/linker_script.sha256"
 # What programs that write flash take, next to the ELF file: endings and objcopy's names.
 _FLASH_FORMATS = {".hex": "ihex", ".bin": "binary"}
 _OVERFLOW = re.compile(r"region `?(\w+)'? overflowed by (\d+) bytes")
-# What gcc (10 and newer) says of each function: its frame, and whom it calls. Written next to the object, as .ci.
-CALL_GRAPH = "-fcallgraph-info=su"
 
 
 @dataclass(frozen=True)
 class BuildReport:
-    """What was built (paths relative to the output folder), and how many objects were compiled or kept."""
+    """What was built (paths relative to the output folder), and where the objects are from.
+
+    They were compiled, copied from the store of objects, or kept from the last build.
+    """
 
     library: str
     image: str | None
     compiled: int
     kept: int
+    copied: int = 0
 
 
-@dataclass(frozen=True)
-class _Unit:
-    source: str
-    object: str
-    command: tuple[str, ...]
+def compile_project(
+    out: Path, project: Project, tools: Toolchain, store: ObjectStore | None = None
+) -> BuildReport:
+    """Compile the sources that `project` was written to `out` with, and link its example where it can be.
 
-
-def compile_project(out: Path, project: Project, tools: Toolchain) -> BuildReport:
-    """Compile the sources that `project` was written to `out` with, and link its example where it can be."""
+    What `store` has is not compiled.
+    """
     sources = (out / "sources.txt").read_text(encoding="utf-8").split("\n")[:-1]
     image = None if project.lacks_image else project.image
-    return compile_tree(out, sources, project.example, image, tools, project.linker_script)
+    return compile_tree(out, sources, project.example, image, tools, project.linker_script, store)
 
 
 def compile_tree(
@@ -60,6 +63,7 @@ def compile_tree(
     image: str | None,
     tools: Toolchain,
     script: str | None = None,
+    store: ObjectStore | None = None,
 ) -> BuildReport:
     """Compile `sources` (relative paths) to lib/libmicroros.a, and `example` with it to bin/`image`.
 
@@ -68,22 +72,28 @@ def compile_tree(
 
     Raises UserError with status 1 and the compiler's own words when a step fails.
     """
-    facts = _call_graph_flags(tools, out)
-    library_units = [_unit(source, tools, facts) for source in sources]
-    example_unit = _unit(example, tools, facts)
-    stamps = Stamps(out, out / OBJECTS / "stamps.json")
+    identity = identify(tools.compiler, os.environ)
+    library_units = [_unit(source, tools, identity) for source in sources]
+    example_unit = _unit(example, tools, identity)
     units = [*library_units, example_unit]
-    stale = [unit for unit in units if not stamps.is_fresh(unit.object, unit.command)]
+    contents = Contents(out)
+    stamps = Stamps(out, out / OBJECTS / "stamps.json", contents)
+    stale = [unit for unit in units if not stamps.is_fresh(unit.object, unit.identity)]
+    objects = Objects(out, contents, stamps, store)
     try:
-        _compile(out, stale, stamps)
+        missing = objects.copy(stale)
+        objects.compile(missing)
     finally:
+        objects.close()
         stamps.save(unit.object for unit in units)
     if stale or not (out / LIBRARY).is_file():
         _archive(out, [u.object for u in library_units], tools)
     linked = _images(out, f"bin/{image}", example_unit.object, tools, script, bool(stale)) if image else ()
-    _record(out, tools, call_graph=bool(facts))
+    _record(out, tools, identity)
     _remove_others(out, {u.object for u in units}, {LIBRARY, *linked})
-    return BuildReport(LIBRARY, linked[0] if linked else None, len(stale), len(units) - len(stale))
+    image_path = linked[0] if linked else None
+    kept, copied = len(units) - len(stale), len(stale) - len(missing)
+    return BuildReport(LIBRARY, image_path, len(missing), kept, copied)
 
 
 def object_name(source: str) -> str:
@@ -96,45 +106,19 @@ def object_name(source: str) -> str:
     return f"{OBJECTS}/{path.parent}/{name}.o"
 
 
-def _call_graph_flags(tools: Toolchain, out: Path) -> tuple[str, ...]:
-    probe = [tools.compiler, CALL_GRAPH, "-E", "-x", "c", os.devnull, "-o", os.devnull]
-    return (CALL_GRAPH,) if run(probe, out).returncode == 0 else ()
-
-
-def _unit(source: str, tools: Toolchain, facts: Sequence[str]) -> _Unit:
+def _unit(source: str, tools: Toolchain, identity: Identity) -> Unit:
     target = object_name(source)
     depends = target.removesuffix(".o") + ".d"
-    flags = (*WARNINGS, *tools.c_flags, *facts, "-Iinclude", "-MMD", "-MF", depends)
-    return _Unit(source, target, (tools.compiler, *flags, "-c", source, "-o", target))
+    facts = (CALL_GRAPH,) if identity.call_graph else ()
+    # -MD, not -MMD: headers of the system count, too.
+    flags = (*WARNINGS, *tools.c_flags, *facts, "-Iinclude", "-MD", "-MF", depends)
+    return Unit(source, target, (tools.compiler, *flags, "-c", source, "-o", target), identity.digest)
 
 
-def _record(out: Path, tools: Toolchain, call_graph: bool) -> None:
+def _record(out: Path, tools: Toolchain, identity: Identity) -> None:
     """Say what built this folder, for `size` and `explain`."""
-    data = {"compiler": tools.compiler, "archiver": tools.archiver, "call_graph": call_graph}
+    data = {"compiler": tools.compiler, "archiver": tools.archiver, "call_graph": identity.call_graph}
     (out / TOOLS).write_text(json.dumps(data, sort_keys=True), encoding="utf-8")
-
-
-def _compile(out: Path, units: Sequence[_Unit], stamps: Stamps) -> None:
-    for unit in units:
-        (out / unit.object).parent.mkdir(parents=True, exist_ok=True)
-    with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
-        results = list(pool.map(lambda unit: run(unit.command, out), units))
-    failed = []
-    for unit, result in zip(units, results, strict=True):
-        if result.returncode == 0:
-            stamps.record(unit.object, unit.command, _dependencies(out / unit.object))
-        else:
-            failed.append(
-                Diagnostic(f"{unit.source} does not compile:\n{result.stdout.rstrip()}", id="MG-8201")
-            )
-    if failed:
-        raise UserError(failed, status=1)
-
-
-def _dependencies(object_path: Path) -> list[str]:
-    text = object_path.with_suffix(".d").read_text(encoding="utf-8").replace("\\\n", " ")
-    names = text.split(":", 1)[1].replace("\\ ", "\0").split()
-    return [name.replace("\0", " ") for name in names]
 
 
 def _archive(out: Path, objects: Sequence[str], tools: Toolchain) -> None:

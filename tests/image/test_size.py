@@ -29,7 +29,8 @@ from microros_gen.image.records import ImageRecord
 from microros_gen.image.report import SizeReport, measure
 from microros_gen.image.stack import bound_of, shown_name
 from microros_gen.platform.find import read_target
-from microros_gen.toolchain.compile import CALL_GRAPH, MAP, compile_tree
+from microros_gen.toolchain.compile import MAP, compile_tree
+from microros_gen.toolchain.identity import CALL_GRAPH
 from microros_gen.toolchain.toolchain import find_toolchain
 from tests.support.image.size_images import APPLICATION, BOARDS, PROBE, build, tool
 from tests.support.matrix import has

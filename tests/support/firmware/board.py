@@ -23,8 +23,8 @@ from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.platform.find import builtin_targets, read_target
 from microros_gen.platform.target import Target
-from microros_gen.toolchain.compile import CALL_GRAPH
 from microros_gen.toolchain.emulator import Emulator, Machine
+from microros_gen.toolchain.identity import CALL_GRAPH
 from tests.support.paths import TESTS
 from tests.support.patience import deadline, seconds
 

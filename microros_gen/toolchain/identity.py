@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a compiler is: what it says of itself, the state of its programs, and what it takes from the environment."""
+
+from __future__ import annotations
+
+import os
+import re
+import stat
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from microros_gen.records import dataclass
+from microros_gen.toolchain.contents import joined
+from microros_gen.toolchain.toolchain import run
+
+# What gcc (10 and newer) says of each function: its frame, and whom it calls. Written next to the object, as .ci.
+CALL_GRAPH = "-fcallgraph-info=su"
+# Compilers read these besides their arguments.
+_ENVIRONMENT = (
+    "CPATH",
+    "C_INCLUDE_PATH",
+    "COMPILER_PATH",
+    "GCC_COMPARE_DEBUG",
+    "GCC_EXEC_PREFIX",
+    "CCC_OVERRIDE_OPTIONS",
+    "SOURCE_DATE_EPOCH",
+)
+_PROGRAM = re.compile(r'^ "?(/[^" ]+)', re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Identity:
+    """A compiler: a digest of everything that decides what it makes, and whether it knows CALL_GRAPH."""
+
+    digest: str
+    call_graph: bool
+
+
+def identify(compiler: str, environ: Mapping[str, str]) -> Identity:
+    """Ask a compiler what it is."""
+    probe = ["-v", "-E", "-x", "c", os.devnull, "-o", os.devnull]
+    folder = Path(Path.cwd().anchor)  # clang says in which folder it runs
+    said = run([compiler, CALL_GRAPH, *probe], folder)
+    call_graph = said.returncode == 0
+    if not call_graph:
+        said = run([compiler, *probe], folder)
+    variables = (f"{name}={environ.get(name, '')}" for name in _ENVIRONMENT)
+    return Identity(joined([said.stdout, *_states(compiler, said.stdout), *variables]), call_graph)
+
+
+def _states(compiler: str, said: str) -> Iterator[str]:
+    """Yield the states of the driver and of the programs that it says to run."""
+    for name in (compiler, *_PROGRAM.findall(said)):
+        try:
+            found = Path(name).stat()
+        except OSError:
+            continue  # a line that names no program
+        if stat.S_ISREG(found.st_mode):  # and no folder of headers
+            yield f"{name} {found.st_size} {found.st_mtime_ns}"
