@@ -27,7 +27,6 @@ from __future__ import annotations
 
 import importlib
 import json
-import os
 import queue
 import subprocess
 import sys
@@ -37,23 +36,16 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from tests.support.agent.process import environment
+from tests.support.agent.line_process import LineProcess, serving
 from tests.support.patience import deadline
 
 
-class Observer:
+class Observer(LineProcess):
     """The test's side: sends commands to the process and waits for what should be seen."""
 
     def __init__(self, process: subprocess.Popen[str]) -> None:
-        self._process = process
+        super().__init__(process)
         self.samples: list[tuple[str, Any]] = []
-
-    def ask(self, **command: Any) -> Any:
-        assert self._process.stdin is not None
-        assert self._process.stdout is not None
-        self._process.stdin.write(json.dumps(command) + "\n")
-        self._process.stdin.flush()
-        return json.loads(self._process.stdout.readline())
 
     def subscribe(self, topic: str, type_name: str, **qos: bool) -> None:
         self.ask(do="subscribe", topic=topic, type=type_name, **qos)
@@ -85,23 +77,10 @@ class Observer:
 @contextmanager
 def observing(domain: int) -> Iterator[Observer]:
     """Run an observer in a separate process, in a ROS domain."""
-    process = subprocess.Popen(
-        [sys.executable, "-m", "tests.support.agent.observer"],
-        env={**environment(domain), "PYTHONPATH": os.pathsep.join(p for p in sys.path if p)},
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-    try:
+    with serving("tests.support.agent.observer", domain) as process:
         observer = Observer(process)
         assert observer.ask(do="graph")
         yield observer
-    finally:
-        process.kill()
-        process.wait()
-        for stream in (process.stdin, process.stdout):
-            if stream:
-                stream.close()
 
 
 def main() -> None:

@@ -10,32 +10,20 @@ ones of JSON.
 from __future__ import annotations
 
 import json
-import os
-import subprocess
 import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from tests.support.agent.process import environment
+from tests.support.agent.line_process import LineProcess, serving
 from tests.support.patience import seconds
 
 MODEL = "/model/device"
 
 
-class ParameterPeer:
+class ParameterPeer(LineProcess):
     """The test's side."""
-
-    def __init__(self, process: subprocess.Popen[str]) -> None:
-        self._process = process
-
-    def ask(self, **command: Any) -> Any:
-        assert self._process.stdin is not None
-        assert self._process.stdout is not None
-        self._process.stdin.write(json.dumps(command) + "\n")
-        self._process.stdin.flush()
-        return json.loads(self._process.stdout.readline())
 
     def wait(self, node: str) -> None:
         assert self.ask(node=node, wait=True, timeout=seconds(30)), f"no parameter services of {node}"
@@ -52,21 +40,8 @@ class ParameterPeer:
 @contextmanager
 def parameter_peer(domain: int) -> Iterator[ParameterPeer]:
     """Run the process in a ROS domain."""
-    process = subprocess.Popen(
-        [sys.executable, "-m", "tests.support.e2e.parameter_peer"],
-        env={**environment(domain), "PYTHONPATH": os.pathsep.join(p for p in sys.path if p)},
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-    try:
+    with serving("tests.support.e2e.parameter_peer", domain) as process:
         yield ParameterPeer(process)
-    finally:
-        process.kill()
-        process.wait()
-        for stream in (process.stdin, process.stdout):
-            if stream:
-                stream.close()
 
 
 def _declare(node: Any) -> None:
