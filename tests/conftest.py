@@ -24,10 +24,12 @@ def pytest_configure() -> None:
     The suite starts the tool some thousand times: without bytecode, that takes longer than most tests.
     """
     from tests.support.objects.cache import put_into_path
+    from tests.support.sharing import share_components
 
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     sys.dont_write_bytecode = False
     put_into_path()
+    share_components()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

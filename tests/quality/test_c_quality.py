@@ -77,6 +77,7 @@ CLANG = (
 )
 
 
+@pytest.mark.lint
 def test_corpus_holds_every_source(trees: list[Tree]) -> None:
     """Every C file and every C template of a component that is ready is in some tree."""
     wanted = set()
@@ -86,12 +87,14 @@ def test_corpus_holds_every_source(trees: list[Tree]) -> None:
     assert sorted(wanted - covered(trees)) == []
 
 
+@pytest.mark.lint
 def test_corpus_holds_every_template_of_types(trees: list[Tree]) -> None:
     sources = covered(trees)
     for ending in ("functions", "type_support", "storage", "members"):
         assert f"quality_msgs/tree__{ending}.c" in sources
 
 
+@pytest.mark.lint
 def test_corpus_holds_one_unit_a_difference(all_units: list[Unit]) -> None:
     assert len({unit.key for unit in all_units}) < len(all_units)
 
@@ -146,6 +149,7 @@ def compile_quietly(compiler: str, flags: Sequence[str], each: list[Unit]) -> st
     return complaints(analyze(f"{version} {flags}, ports 32 bit", each, check))
 
 
+@pytest.mark.lint
 @pytest.mark.skipif(not shutil.which("gcc"), reason="no gcc")
 def test_gcc_warnings(all_units: list[Unit]) -> None:
     assert compile_quietly("gcc", (*COMMON, *GCC), all_units) == ""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Formatters, linters and types are part of the default run."""
+"""Formatters and linters are part of the default run, types of `make lint`."""
 
 from __future__ import annotations
 
@@ -34,6 +34,7 @@ def test_ruff_format() -> None:
     run(sys.executable, "-m", "ruff", "format", "--check", *PYTHON_FOLDERS)
 
 
+@pytest.mark.lint
 def test_mypy_strict() -> None:
     run(sys.executable, "-m", "mypy")
 

@@ -18,6 +18,7 @@ from tests.support.patience import seconds
 from tests.support.plans import POOL, changed
 from tests.support.runtime.discovery import info, locator
 from tests.support.runtime.harness import build, components, render
+from tests.support.runtime.ports import bind, stop
 from tests.support.runtime.tcp import TcpAgent, serving
 from tests.support.runtime.udp import UdpAgent
 
@@ -41,11 +42,10 @@ class Group(threading.Thread):
         self.asked: list[bytes] = []
         self._answers = answers
         self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self.socket.bind((DISCOVERY_GROUP, 0))
+        self.port = bind(self.socket, DISCOVERY_GROUP)
         member = socket.inet_aton(DISCOVERY_GROUP) + socket.inet_aton("127.0.0.1")
         self.socket.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, member)
         self.socket.settimeout(seconds(20.0))
-        self.port: int = self.socket.getsockname()[1]
 
     def run(self) -> None:
         while True:
@@ -67,7 +67,7 @@ def answering(answers: Answers) -> Iterator[Group]:
     try:
         yield group
     finally:
-        group.socket.close()
+        stop(group.socket)
 
 
 def run(group: Group, folder: Path, **changes: object) -> subprocess.CompletedProcess[str]:
@@ -93,7 +93,7 @@ def test_an_agent_is_found_and_served(tmp_path: Path) -> None:
     agent = udp_agent()
     with answering(lambda: [info(locator("127.0.0.1", agent.port))]) as group:
         done = run(group, tmp_path)
-    agent.socket.close()
+    agent.stop()
     assert (done.returncode, done.stderr) == (0, ""), done.stdout
     assert agent.agent.values() == list(range(100))
     assert set(group.asked) == {QUESTION}
@@ -112,7 +112,7 @@ def test_a_locator_without_an_answer_is_abandoned(tmp_path: Path) -> None:
     places = [locator("127.0.0.1", silent_port()), locator("127.0.0.1", agent.port)]
     with answering(lambda: [info(*places)]) as group:
         done = run(group, tmp_path)
-    agent.socket.close()
+    agent.stop()
     assert (done.returncode, done.stderr) == (0, ""), done.stdout
     assert agent.agent.values() == list(range(100))
 
@@ -130,7 +130,7 @@ def test_another_agent_is_found_after_a_loss(tmp_path: Path) -> None:
     with answering(lambda: [info(locator("127.0.0.1", living[0].port))]) as group:
         done = run(group, tmp_path, streams__on_full="block", streams__on_full_block_ms=500)
     for agent in agents:
-        agent.socket.close()
+        agent.stop()
     assert (done.returncode, done.stderr) == (0, ""), done.stdout
     assert agents[1].agent.values()[-1] == 99
     assert sorted({*agents[0].agent.values(), *agents[1].agent.values()}) == list(range(100))
@@ -158,7 +158,7 @@ def test_answers_that_are_none(kind: str, tmp_path: Path) -> None:
 
     with answering(answers) as group:
         done = run(group, tmp_path, times__connect_timeout_ms=30_000)
-    agent.socket.close()
+    agent.stop()
     assert (done.returncode, done.stderr) == (0, ""), done.stdout
     assert agent.agent.values() == list(range(100))
 

@@ -232,7 +232,7 @@ def test_custom_over_udp(way: str, tmp_path: Path) -> None:
     agent = UdpAgent()
     agent.start()
     done = _run(_program(tmp_path, CUSTOM[way], "custom.c"), ["udp", str(agent.port)])
-    agent.socket.close()
+    agent.stop()
     if way == "on":
         assert (done.returncode, done.stdout) == (
             7,
@@ -278,7 +278,7 @@ def test_a_call_uses_a_transport_of_packets_once(way: str, tmp_path: Path) -> No
     agent = UdpAgent()
     agent.start()
     done = _run(_program(tmp_path, plan, "custom_turns.c"), [str(agent.port)])
-    agent.socket.close()
+    agent.stop()
     assert (done.returncode, done.stdout) == (0, "1 0\n"), done.stderr
     sent = {m[2:4]: m for m in agent.agent.log if m[:2] == b"\x81\x80" and m[4] == 0x0D}
     assert len(sent) == 9, "an empty one and 912 bytes in fragments of 120"

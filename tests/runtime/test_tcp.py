@@ -119,7 +119,7 @@ def test_ipv6(transport: str, tmp_path: Path) -> None:
             changed(PLAN, transport__kind="udp", transport__agent_host="::1", transport__agent_port=udp.port),
             tmp_path,
         )
-        udp.socket.close()
+        udp.stop()
     assert (done.returncode, done.stderr) == (0, ""), done.stdout
     assert (agent if transport == "tcp" else udp).agent.values() == list(range(100))
 

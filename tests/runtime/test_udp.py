@@ -32,7 +32,7 @@ def test_publishes_over_a_real_socket(restarts: bool, tmp_path: Path) -> None:
     done = subprocess.run(
         [_program(tmp_path, agent.port)], capture_output=True, text=True, timeout=seconds(60), check=False
     )
-    agent.socket.close()
+    agent.stop()
     assert done.returncode == 0, done.stdout + done.stderr
     values = agent.agent.values()
     assert values[-1] == 99
@@ -67,7 +67,7 @@ def test_two_programs_on_one_machine_have_two_keys(tmp_path: Path) -> None:
         done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
         assert done.returncode == 0, done.stdout + done.stderr
         keys.append({datagram[16:20] for datagram in agent.agent.log if datagram[4] == 0})
-    agent.socket.close()
+    agent.stop()
     assert [len(found) for found in keys] == [1, 1, 1]
     assert len(set.union(*keys)) == 3
     assert bytes(4) not in set.union(*keys)

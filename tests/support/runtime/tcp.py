@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from tests.support.runtime.fake_agent import FakeAgent
+from tests.support.runtime.ports import bind, stop
 
 Sender = Callable[[socket.socket, list[bytes]], None]
 
@@ -38,9 +39,9 @@ class TcpAgent(threading.Thread):
         family = socket.AF_INET6 if ":" in host else socket.AF_INET
         self._listener = socket.socket(family, socket.SOCK_STREAM)
         self._listener.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 2048)
-        self._listener.bind((host, 0))
+        self._listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        self.port = bind(self._listener, host)
         self._listener.listen()
-        self.port: int = self._listener.getsockname()[1]
         self._count = 0
 
     def run(self) -> None:
@@ -78,8 +79,7 @@ class TcpAgent(threading.Thread):
                     return
 
     def stop(self) -> None:
-        self._listener.shutdown(socket.SHUT_RDWR)
-        self._listener.close()
+        stop(self._listener)
 
 
 @contextmanager

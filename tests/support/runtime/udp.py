@@ -8,6 +8,7 @@ import threading
 from collections.abc import Callable
 
 from tests.support.runtime.fake_agent import FakeAgent
+from tests.support.runtime.ports import bind, stop
 
 AGENT_TIME = 20.0
 
@@ -19,9 +20,8 @@ class UdpAgent(threading.Thread):
         super().__init__(daemon=True)
         self.agent = FakeAgent()
         self.socket = socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET, socket.SOCK_DGRAM)
-        self.socket.bind((host, 0))
+        self.port = bind(self.socket, host)
         self.socket.settimeout(AGENT_TIME)
-        self.port: int = self.socket.getsockname()[1]
         self.before: Callable[[int], None] = lambda count: None
 
     def run(self) -> None:
@@ -31,7 +31,12 @@ class UdpAgent(threading.Thread):
                 datagram, peer = self.socket.recvfrom(2048)
             except OSError:
                 return
+            if not datagram:
+                return
             count += 1
             self.before(count)
             for answer in self.agent.receive(datagram):
                 self.socket.sendto(answer, peer)
+
+    def stop(self) -> None:
+        stop(self.socket)
