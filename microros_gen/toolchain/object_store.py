@@ -23,7 +23,7 @@ from microros_gen.output.runs import cache_folder
 from microros_gen.records import dataclass
 
 VARIABLE = "MICROROS_GEN_OBJECTS"
-"""`off` in this variable of the environment: nothing is kept, and nothing that was kept is used."""
+"""`off` in this variable of the environment: nothing is kept, and nothing that was kept is used. A path: the folder."""
 
 LARGEST_STORE = 256 << 20
 """Bytes that a store may take; beyond that, what was not used for longest is removed."""
@@ -53,10 +53,11 @@ class ObjectStore:
 
     @staticmethod
     def of_user(environ: Mapping[str, str]) -> ObjectStore | None:
-        """Return the store in the user's cache folder; None where `environ` switches it off."""
-        if environ.get(VARIABLE) == "off":
+        """Return the store in the user's cache folder, or where `environ` says; None: it is off."""
+        chosen = environ.get(VARIABLE, "")
+        if chosen == "off":
             return None
-        return ObjectStore(cache_folder(environ) / "objects")
+        return ObjectStore(Path(chosen) if chosen else cache_folder(environ) / "objects")
 
     def find(self, key: str, digest: _Digest) -> Found | None:
         """Return what was made by a compilation with this key that read files of the same content.

@@ -38,7 +38,8 @@ def test_the_console_example_prints_what_it_shows(tmp_path: Path) -> None:
     assert command.startswith("$ microros-gen ")
     arguments = shlex.split(command.removeprefix("$ microros-gen "))
     (tmp_path / "examples").symlink_to(ROOT / "examples")
-    environment = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(tmp_path / "cache")}
+    own = {"XDG_CACHE_HOME": str(tmp_path / "cache"), "MICROROS_GEN_OBJECTS": ""}
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), **own}
     result = subprocess.run(
         [sys.executable, "-m", "microros_gen", *arguments],
         cwd=tmp_path,

@@ -35,6 +35,7 @@ class Workshop:
         monkeypatch.setenv("PATH", f"{folder / 'real'}:/usr/bin:/bin")
         make(folder / "cache" / "bin")
         monkeypatch.setenv("PATH", f"{folder / 'cache' / 'bin'}:{folder / 'real'}:/usr/bin:/bin")
+        monkeypatch.setenv("MICROROS_GEN_OBJECTS", "")
         self.forget()
 
     def forget(self) -> None:
@@ -129,3 +130,12 @@ def test_a_cached_object_has_the_stack_frames_of_its_functions(workshop: Worksho
     compiled, _, home = workshop.compile("one", *flags)
     assert not compiled
     assert (home / "x.su").read_text() == first
+
+
+def test_what_build_keeps_itself_passes_through(workshop: Workshop, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MICROROS_GEN_OBJECTS", "store")
+    for _ in range(2):
+        compiled, _, _ = workshop.compile("one", "-Os", "-fcallgraph-info=su")
+        assert compiled
+    for expected in (True, False):
+        assert workshop.compile("one", "-Os")[0] is expected

@@ -109,6 +109,7 @@ class Terminal:
             "PYTHONUNBUFFERED": "1",
             "CFLAGS": "-O0",  # of the host's compiler: it takes half of the time
             "XDG_CACHE_HOME": str(folder / ".cache"),
+            "MICROROS_GEN_OBJECTS": "",  # pages show how many objects are compiled the first time
             "microros_gen_DIR": str(ROOT / "cmake"),
             "ROS_DOMAIN_ID": domain,
             "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",

@@ -244,3 +244,13 @@ def test_it_can_be_switched_off(tmp_path: Path) -> None:
     assert store is not None
     store.keep("00", "".join, Found(["x"], {".o": b"o"}))
     assert list((tmp_path / "microros-gen" / "objects").glob("*/*.bin"))
+
+
+def test_the_environment_names_another_folder(tmp_path: Path) -> None:
+    store = ObjectStore.of_user(
+        {"XDG_CACHE_HOME": str(tmp_path), "MICROROS_GEN_OBJECTS": str(tmp_path / "ci")}
+    )
+    assert store is not None
+    store.keep("00", "".join, Found(["x"], {".o": b"o"}))
+    assert list((tmp_path / "ci").glob("*/*.bin"))
+    assert not (tmp_path / "microros-gen").exists()

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """One cache of objects for all tests and workers: compilers in the PATH that do not compile the same text twice.
 
-An object is kept by the content of what it was made from (cached.c says exactly what), in build/objects. Tests and the
-tool that they run call compilers as always. `MICROROS_TEST_OBJECTS=off` leaves the PATH as it is.
+An object is kept by the content of what it was made from (cached.c says exactly what), in build/objects. Tests call
+compilers as always. `build` of the tool keeps its objects itself, here in one store for all tests, and without the
+preprocessor: what it compiles passes through. `MICROROS_TEST_OBJECTS=off` leaves the PATH as it is, and each test its
+store.
 """
 
 from __future__ import annotations
@@ -20,6 +22,8 @@ CACHE = ROOT / "build" / "objects"
 SOURCE = Path(__file__).with_name("cached.c")
 COMPILERS = ("gcc", "cc", "g++", "c++", "clang", "clang++", "arm-none-eabi-gcc", "riscv64-unknown-elf-gcc")
 KEPT_DAYS = 3
+STORE = "MICROROS_GEN_OBJECTS"
+"""What tells `build` where its objects are; empty: in the cache folder of the user that a test makes up."""
 
 
 def put_into_path(cache: Path = CACHE) -> None:
@@ -32,6 +36,7 @@ def put_into_path(cache: Path = CACHE) -> None:
     make(folder)
     remove_old(cache)
     os.environ["PATH"] = f"{folder}{os.pathsep}{path}"
+    os.environ.setdefault(STORE, str(cache / "store"))
 
 
 def real(compiler: str) -> str:

@@ -317,6 +317,13 @@ static bool find_folders(char * own, char * cache)
   return slash != NULL;
 }
 
+/* Whether this is a call of `microros-gen build` (it asks for the call graph), which keeps its objects itself. */
+static bool is_of_build(const call_t * call)
+{
+  const char * store = getenv("MICROROS_GEN_OBJECTS");
+  return call->has_call_graph && store != NULL && store[0] != '\0' && strcmp(store, "off") != 0;
+}
+
 int main(int count, char ** arguments)
 {
   static call_t call;
@@ -329,7 +336,7 @@ int main(int count, char ** arguments)
   }
   arguments[0] = real;
   read_call(count, arguments, &call);
-  if (call.is_one_object && key_of(real, &call, key)) {
+  if (call.is_one_object && !is_of_build(&call) && key_of(real, &call, key)) {
     snprintf(entry, sizeof entry, "%s/%.2s/%s", folder, key, key);
     *strrchr(entry, '/') = '\0';
     mkdir(entry, 0777);
