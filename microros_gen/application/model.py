@@ -179,8 +179,8 @@ class ParameterDecl:
     minimum: int | float | None = None
     maximum: int | float | None = None
     step: int | float | None = None
-    size: int | None = None
     span: Span | None = None
+    size: int | None = None
 
 
 @dataclass(frozen=True)
@@ -258,14 +258,20 @@ class SessionTimes:
 
 
 LOG_LEVELS = ("debug", "info", "warn", "error", "fatal")
+BUFFERED_LOG_WRITERS = ("rosout",)
+"""Writers that keep lines until they are sent."""
 
 
 @dataclass(frozen=True)
 class LogWriter:
-    """Where log messages of `level` and above go: `to` is console or callback."""
+    """Where log messages of `level` and above go: `to` is console, callback or rosout.
+
+    `size`: bytes that lines take which wait for the agent; None: the usual ones.
+    """
 
     to: str
     level: str = "info"
+    size: int | None = None
     span: Span | None = None
 
 

@@ -10,6 +10,7 @@ from types import MappingProxyType
 
 from microros_gen.application.limits import application_limits, endpoint_limits
 from microros_gen.application.model import (
+    BUFFERED_LOG_WRITERS,
     DISCOVERY_PORT,
     LARGEST_UDP_PAYLOAD,
     Application,
@@ -124,7 +125,11 @@ def _log_writers(node: YamlNode | None, diagnostics: Diagnostics) -> tuple[LogWr
             to=text_of(item) or text_of(child(item, "to")) or "",
             level=text_of(child(item, "level")) or LogWriter.level,
             span=item.span,
+            size=size_of(child(item, "size")),
         )
+        if writer.size is not None and writer.to not in BUFFERED_LOG_WRITERS:
+            message = f"the log writer '{writer.to}' keeps no lines, so it has no size"
+            diagnostics.error(message, item.span, "Remove `size`", id="MG-3053")
         if writer.to in found:
             message = f"'logging' has the writer '{writer.to}' twice"
             diagnostics.error(message, item.span, "Write it once, with its lowest level", id="MG-3052")

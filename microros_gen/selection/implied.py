@@ -43,7 +43,7 @@ def _refuse(endpoints: Iterable[EndpointDecl], application: Application, diagnos
     for endpoint in endpoints:
         diagnostics.error(
             f"the {endpoint.kind} '{endpoint.topic}', which a component opens by itself, needs a declared node",
-            application.spans.get("components"),
+            application.spans.get("components") or application.spans.get("logging"),
             "Declare the nodes: `nodes: [{name: …}]`",
             id="MG-4021",
         )

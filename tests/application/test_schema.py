@@ -116,8 +116,7 @@ def test_both_schemas_have_the_axes_of_the_parser() -> None:
             part = schema["properties"][axis]
             part = part["properties"]["type"] if axis == "transport" and "properties" in part else part
             if "items" in part:
-                # A profile can name a writer that this version does not have.
-                assert set(part["items"]["properties"]["to"]["enum"]) == set(values) - {"rosout"}
+                assert set(part["items"]["properties"]["to"]["enum"]) == set(values)
                 continue
             assert "x-reserved" in part or tuple(part["enum"]) == values
 

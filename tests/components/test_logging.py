@@ -207,3 +207,55 @@ def test_a_console_that_goes_nowhere_is_reported(tmp_path: Path) -> None:
     found = planned(tmp_path, BARE + f"logging: console\ntarget: ./{board.name}\n")
     reported = [without_id(d.headline()) for d in found.warnings]
     assert any("the log writer 'console' writes nowhere: the target silent" in text for text in reported)
+
+
+NODE = "version: 1\nprofiles: [pure_sender]\nnodes: [{name: device}]\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "message"),
+    [
+        (
+            "logging: [{to: console, size: 512}]\n",
+            "4:11",
+            "the log writer 'console' keeps no lines, so it has no size",
+        ),
+        (
+            "logging: [{to: rosout, size: 100}]\n",
+            "4:11",
+            "the log writer 'rosout' has room for 100 bytes, and a line takes up to 290",
+        ),
+        (
+            "logging: rosout\nendpoints: {/rosout: {limits: {msg: 9}}}\n",
+            "5:13",
+            "the limits of '/rosout' cannot differ from those of its type",
+        ),
+    ],
+)
+def test_sizes_that_do_not_fit_are_reported(tmp_path: Path, text: str, place: str, message: str) -> None:
+    with pytest.raises(UserError) as caught:
+        planned(tmp_path, NODE + text)
+    (reported,) = caught.value.diagnostics
+    assert reported.span is not None
+    assert (f"{reported.span.line}:{reported.span.column}", reported.message) == (place, message)
+
+
+def test_rosout_needs_a_node(tmp_path: Path) -> None:
+    with pytest.raises(UserError) as caught:
+        planned(tmp_path, BARE + "logging: rosout\n")
+    (reported,) = caught.value.diagnostics
+    assert reported.span is not None
+    assert reported.span.line == 4
+    assert "'/rosout', which a component opens by itself, needs a declared node" in reported.message
+
+
+def test_limits_of_the_type_are_those_of_lines(tmp_path: Path) -> None:
+    found = generate(tmp_path, NODE + "logging: rosout\nlimits: {rcl_interfaces/msg/Log: {msg: 300}}\n")
+    config = (found / "include" / "microros_config.h").read_text()
+    assert "MICROROS_LOG_ROSOUT_TEXT 300u" in config
+    assert "MICROROS_LOG_ROSOUT_FILE 48u" in config
+
+
+def test_without_rosout_nothing_of_it_is_in_the_output(tmp_path: Path) -> None:
+    files = compiler.render(planned(tmp_path, NODE + "logging: console\n"))
+    assert not [name for name in files if "rcl_interfaces" in name or name.startswith("src/logging_rosout")]

@@ -136,6 +136,7 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "    parameters: [{name: gain, type: double, default: 0.5, range: {min: 0, max: 1}}]\n"
         + "profiles: [pure_sender]\ncomponents: [+parameters]\n",
         "logging": _POOL + "logging: [{to: console, level: debug}, callback]\n",
+        "rosout": _BUSY + "profiles: [pure_sender]\nlogging: [rosout, console]\n",
         "logging-callback-codes": _POOL + "logging: callback\nerrors: code\n",
         "custom-packets-threads": _BUSY
         + _ASKS

@@ -82,3 +82,17 @@ def feature_of(component: Component) -> Feature | None:
     if component.origin or component.layer == "port" or not is_file(component.folder / PLAN_FILE):
         return None
     return cast(Feature, import_module(f"microros_gen.components.{component.name}.plan"))
+
+
+def refuse_own_limits(given: Given, name: str, diagnostics: Diagnostics) -> None:
+    """Report limits of an endpoint that this component opens, where it is compiled for those of the type."""
+    own = {
+        i.name for c in given.selection.components if c.component.name == name for i in c.component.implies
+    }
+    for endpoint in (e for e in given.application.endpoints if e.limits and e.name in own):
+        diagnostics.error(
+            f"the limits of '{endpoint.name}' cannot differ from those of its type",
+            endpoint.span,
+            "Set them below `limits:`, by the type",
+            id="MG-7033",
+        )

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from microros_gen.application.model import LOG_LEVELS, LogWriter
+from microros_gen.application.model import LOG_LEVELS, Application, LogWriter
 from microros_gen.client.plan.features import Given
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.records import dataclass
@@ -27,6 +27,7 @@ class LoggingPlan:
     level: int
     console_level: int
     callback_level: int
+    rosout: bool
     text: str
     text_size: int = TEXT_SIZE
     loggers: int = LOGGERS
@@ -36,6 +37,11 @@ class LoggingPlan:
     def min_severity(self) -> int:
         """RCUTILS_LOG_MIN_SEVERITY of the build."""
         return self.level // _STEP - 1
+
+    @property
+    def has_rosout(self) -> int:
+        """Return 1 where messages go to /rosout, for C."""
+        return int(self.rosout)
 
     @property
     def console(self) -> bool:
@@ -48,13 +54,24 @@ class LoggingPlan:
         return self.callback_level != _NO_WRITER
 
 
+def writer_of(application: Application, to: str) -> LogWriter | None:
+    """Return the application's writer of that name."""
+    return next((writer for writer in application.logging if writer.to == to), None)
+
+
+def level_number(writer: LogWriter) -> int:
+    """Return the lowest level of a writer as a number of ROS 2."""
+    return _STEP * (1 + LOG_LEVELS.index(writer.level))
+
+
 def plan(given: Given, diagnostics: Diagnostics) -> LoggingPlan:
     """Return what the application file says; without that the console where it is selected, else the callback."""
     writers = given.application.logging
-    if given.selection.has("logging_console") and not any(writer.to == "console" for writer in writers):
-        writers = (LogWriter("console"), *writers)
+    for to in ("rosout", "console"):
+        if given.selection.has(f"logging_{to}") and writer_of(given.application, to) is None:
+            writers = (LogWriter(to), *writers)
     writers = writers or (LogWriter("callback"),)
-    levels = {writer.to: _STEP * (1 + LOG_LEVELS.index(writer.level)) for writer in writers}
+    levels = {writer.to: level_number(writer) for writer in writers}
     if "console" in levels and given.target.stdio is not None and given.target.stdio.to == "none":
         diagnostics.warning(
             f"the log writer 'console' writes nowhere: the target {given.target.name} has no standard output",
@@ -66,6 +83,7 @@ def plan(given: Given, diagnostics: Diagnostics) -> LoggingPlan:
         level=min(levels.values()),
         console_level=levels.get("console", _NO_WRITER),
         callback_level=levels.get("callback", _NO_WRITER),
+        rosout="rosout" in levels,
         text=", ".join(f"{writer.to} from {writer.level}" for writer in writers),
     )
 

@@ -8,11 +8,10 @@ from collections.abc import Iterator
 
 from microros_gen.application.model import Application, LimitRule, ParameterDecl
 from microros_gen.client.plan.declared import pool
-from microros_gen.client.plan.features import Given
+from microros_gen.client.plan.features import Given, refuse_own_limits
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
-from microros_gen.selection.component import Component, Implied
 
 DEFAULT_PARAMETERS = 4
 """What rclc_parameter_server_init_default of rclc has."""
@@ -69,14 +68,7 @@ def plan(given: Given, diagnostics: Diagnostics) -> ParametersPlan:
             "Change it to bool, integer or double",
             id="MG-7032",
         )
-    own = {implied.name for c in given.selection.components for implied in _own(c.component)}
-    for endpoint in (e for e in application.endpoints if e.limits and e.name in own):
-        diagnostics.error(
-            f"the limits of '{endpoint.name}' cannot differ from those of its type",
-            endpoint.span,
-            "Set them below `limits:`, by the type",
-            id="MG-7033",
-        )
+    refuse_own_limits(given, "parameters", diagnostics)
     requests = [TypeName(_PACKAGE, "srv", f"{name}_Request") for name in (*_NAMES, *_SETS, "ListParameters")]
     largest = max(given.types[name].max_encoded_size for name in requests)
     return ParametersPlan(
@@ -124,10 +116,6 @@ def limits(application: Application) -> tuple[LimitRule, ...]:
     ]
     given = {rule.path for rule in application.limits}
     return tuple(rule for rule in rules if rule.path not in given)
-
-
-def _own(component: Component) -> tuple[Implied, ...]:
-    return component.implies if component.name == "parameters" else ()
 
 
 def _declared(application: Application) -> int:

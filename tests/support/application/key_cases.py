@@ -234,9 +234,9 @@ _TOP = {
         "logging: [callback, {to: console, level: debug}]",
         _writers,
         [("callback", "info"), ("console", "debug")],
-        "logging: rosout",
+        "logging: printer",
         "1:10",
-        "'logging' must be console or callback, or a list of such writers; it is the text 'rosout'",
+        "'logging' must be console, callback or rosout, or a list of such writers; it is the text 'printer'",
     ),
     "logging[].to": KeyCase(
         "logging: [{to: callback}]",
@@ -244,7 +244,15 @@ _TOP = {
         [("callback", "info")],
         "logging: [{to: file}]",
         "1:16",
-        "'logging[0].to' must be console or callback",
+        "'logging[0].to' must be console, callback or rosout",
+    ),
+    "logging[].size": KeyCase(
+        "logging: [{to: rosout, size: 2 KiB}]",
+        lambda a: [writer.size for writer in a.logging],
+        [2048],
+        "logging: [{to: rosout, size: much}]",
+        "1:30",
+        "'logging[0].size' must be a size in bytes such as 8192",
     ),
     "logging[].level": KeyCase(
         "logging: [{to: callback, level: fatal}]",

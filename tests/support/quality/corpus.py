@@ -146,6 +146,9 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "lent_custom_framed": _READER + _ALONE + "transport: {type: custom, framing: true}\n",
         "lent_custom_packets": _READER + _ALONE + "transport: {type: custom, framing: false}\n",
         "logging": _INT32 + "components: [+multithread]\nlogging: [{to: console, level: debug}, callback]\n",
+        "rosout": _BOTH + "components: [+multithread]\nlogging: rosout\n",
+        "rosout_board": _BOTH
+        + "target: {name: qemu-mps2-an386}\nlogging: [rosout, {to: callback, level: warn}]\n",
         "parameters": _NODES.replace("    publishers:\n", "") + "components: [+parameters]\n",
         "services_less": _SERVED.replace("20", "9") + _ASKED.replace("9", "20"),
         "lent_tcp": _READER + _ALONE + "transport: {type: tcp, agent: '127.0.0.1:8888'}\n",

@@ -2,6 +2,7 @@
 #include "rcl/logging.h"
 
 #include "microros/error.h"
+#include "microros_config.h"
 
 rcl_ret_t rcl_logging_configure(const rcl_arguments_t * global_args, const rcl_allocator_t * allocator)
 {
@@ -30,5 +31,5 @@ rcl_ret_t rcl_logging_fini(void)
 
 bool rcl_logging_rosout_enabled(void)
 {
-  return false; /* no writer of this version publishes */
+  return MICROROS_LOG_HAS_ROSOUT != 0u;
 }

@@ -25,6 +25,10 @@ void microros_format_end(microros_format_t * out)
     return;
   }
   ++format_counts.truncated;
+  /* Not in the middle of a character of UTF-8, which ROS would refuse to read. */
+  while (out->used > marks && ((uint8_t)out->text[out->used - marks] & 0xc0u) == 0x80u) {
+    --out->used;
+  }
   for (size_t i = 1; i <= marks; ++i) {
     out->text[out->used - i] = '.';
   }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rcutils_format.h"
 
-enum { DIGITS_MOST = 22 }; /* of 64 bits in octal */
+enum { DIGITS_MOST = 22, NANOSECOND_DIGITS = 9 }; /* of 64 bits in octal; of a fraction of a second */
 
 uint32_t microros_format_divide(uint64_t * value, uint32_t divisor)
 {
@@ -102,4 +102,17 @@ void microros_format_integer(
     microros_format_put(out, digits[i]);
   }
   microros_format_repeat(out, ' ', how->minus ? fill : 0);
+}
+
+uint64_t microros_format_seconds(int64_t time, uint32_t * nanoseconds)
+{
+  uint64_t left = time < 0 ? 0u : (uint64_t)time;
+  uint32_t step = 1;
+
+  *nanoseconds = 0;
+  for (int digit = 0; digit < NANOSECOND_DIGITS; ++digit) {
+    *nanoseconds += microros_format_divide(&left, 10u) * step;
+    step *= 10u;
+  }
+  return left;
 }

@@ -3,6 +3,7 @@
 
 #include "microros/port.h"
 #include "microros/rcutils_console.h"
+#include "microros/rcutils_rosout.h"
 #include "microros_config.h"
 
 bool g_rcutils_logging_initialized = true;
@@ -34,7 +35,18 @@ rcutils_logging_output_handler_t rcutils_logging_get_output_handler(void)
   return logging_handler;
 }
 
-/* Takes from a copy: the next writer reads the same arguments. */
+/* Both take from a copy: the next writer reads the same arguments. */
+static void logging_publish(
+  const rcutils_log_location_t * location, int severity, const char * name,
+  rcutils_time_point_value_t timestamp, const char * format, va_list * args)
+{
+  va_list copy;
+
+  va_copy(copy, *args);
+  microros_rosout_log(location, severity, name, timestamp, format, &copy);
+  va_end(copy);
+}
+
 static void logging_call(
   const rcutils_log_location_t * location, int severity, const char * name,
   rcutils_time_point_value_t timestamp, const char * format, va_list * args)
@@ -59,6 +71,7 @@ static void logging_write(
     logging_call(location, severity, logger, timestamp, format, args);
   }
   if (logging_handler == NULL || !replaces) {
+    logging_publish(location, severity, logger, timestamp, format, args);
     microros_console_log(severity, logger, timestamp, format, args);
   }
 }

@@ -29,15 +29,9 @@ static void console_time(microros_format_t * out, rcutils_time_point_value_t tim
 {
   const microros_conversion_t seconds = {false, false, false, false, false, 0, -1, '\0', 'u'};
   const microros_conversion_t fraction = {false, true, false, false, false, NANOSECOND_DIGITS, -1, '\0', 'u'};
-  uint64_t left = timestamp < 0 ? 0u : (uint64_t)timestamp;
-  uint32_t nanoseconds = 0;
-  uint32_t step = 1;
+  uint32_t nanoseconds;
 
-  for (int digit = 0; digit < NANOSECOND_DIGITS; ++digit) {
-    nanoseconds += microros_format_divide(&left, 10u) * step;
-    step *= 10u;
-  }
-  microros_format_integer(out, &seconds, left, false);
+  microros_format_integer(out, &seconds, microros_format_seconds(timestamp, &nanoseconds), false);
   microros_format_put(out, '.');
   microros_format_integer(out, &fraction, nanoseconds, false);
 }

@@ -49,6 +49,9 @@ void microros_format_dropped(void);
 void microros_format_integer(
   microros_format_t * out, const microros_conversion_t * how, uint64_t value, bool negative);
 
+/* Returns the seconds of a time of day, 0 for one before 1970, and the nanoseconds after them. */
+uint64_t microros_format_seconds(int64_t time, uint32_t * nanoseconds);
+
 /* Divides in steps that a processor without division of 64 bits has; returns the remainder. `divisor` is at most 2^16. */
 uint32_t microros_format_divide(uint64_t * value, uint32_t divisor);
 

@@ -131,7 +131,7 @@ void rcutils_logging_console_output_handler(
   const rcutils_log_location_t * location, int severity, const char * name,
   rcutils_time_point_value_t timestamp, const char * format, va_list * args);
 
-/* Texts since the start that were cut off, and messages that the console did not take. */
+/* Texts since the start that were cut off, and messages that a writer did not take. */
 typedef struct rcutils_logging_counts_t {
   uint32_t truncated;
   uint32_t dropped;

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What rcl's users call around /rosout. The publisher is opened and closed with the first node; a device has one for all
+ * of its nodes, and each line has the name of its logger.
+ */
+#ifndef MICROROS_RCL_LOGGING_ROSOUT_H
+#define MICROROS_RCL_LOGGING_ROSOUT_H
+
+#include "rcl/allocator.h"
+#include "rcl/node.h"
+#include "rcl/types.h"
+#include "rcutils/logging.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Need not be called. RCL_RET_INVALID_ARGUMENT for NULL. */
+rcl_ret_t rcl_logging_rosout_init(const rcl_allocator_t * allocator);
+rcl_ret_t rcl_logging_rosout_fini(void);
+
+/* Opens the publisher where it was closed, and closes it: lines wait then. RCL_RET_NODE_INVALID for a node that is not
+ * open. Opening waits for the agent. */
+rcl_ret_t rcl_logging_rosout_init_publisher_for_node(rcl_node_t * node);
+rcl_ret_t rcl_logging_rosout_fini_publisher_for_node(rcl_node_t * node);
+
+/* Keeps a message for /rosout, whatever the level of that writer; for output handlers. */
+void rcl_logging_rosout_output_handler(
+  const rcutils_log_location_t * location, int severity, const char * name,
+  rcutils_time_point_value_t timestamp, const char * format, va_list * args);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RCL_LOGGING_ROSOUT_H */

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The level of /rosout, the bytes of lines that wait to be sent, and what a line of it has room for."""
+
+from __future__ import annotations
+
+from microros_gen.application.model import Application, LimitRule, LogWriter
+from microros_gen.client.plan.features import Given, refuse_own_limits
+from microros_gen.components.logging.plan import level_number, writer_of
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.interfaces.types import TypeName
+from microros_gen.records import dataclass
+
+TYPE = TypeName("rcl_interfaces", "msg", "Log")
+SIZE = 1024
+"""Bytes of the lines that wait where the application file gives no `size`."""
+_HEADER = 2
+"""Bytes in front of a line that waits: its size."""
+_TEXTS = {"name": 32, "msg": 128, "file": 48, "function": 32}
+"""Bytes of the texts of a line where the application has no limits for them."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RosoutPlan:
+    """Sizes are bytes; those of texts without the NUL."""
+
+    level: int
+    size: int
+    name: int
+    text: int
+    file: int
+    function: int
+
+
+def plan(given: Given, diagnostics: Diagnostics) -> RosoutPlan:
+    """Return the sizes; at least one line has room."""
+    writer = writer_of(given.application, "rosout") or LogWriter("rosout")
+    refuse_own_limits(given, "logging_rosout", diagnostics)
+    planned = given.types[TYPE]
+    fields = planned.limits.fields if planned.limits is not None else ()
+    bounds = {
+        member.name: bound.string or 0
+        for member, bound in zip(planned.message.fields, fields, strict=True)
+        if bound is not None
+    }
+    size = writer.size or SIZE
+    least = _HEADER + planned.max_encoded_size
+    if size < least:
+        diagnostics.error(
+            f"the log writer 'rosout' has room for {size} bytes, and a line takes up to {least}",
+            writer.span,
+            f"Write `size: {least}` or more, or lower the limits of rcl_interfaces/msg/Log",
+            id="MG-7041",
+        )
+    return RosoutPlan(
+        level=level_number(writer),
+        size=max(size, least),
+        name=bounds["name"],
+        text=bounds["msg"],
+        file=bounds["file"],
+        function=bounds["function"],
+    )
+
+
+def record(part: RosoutPlan) -> object:
+    """Return what the plan id is made of."""
+    return [part.level, part.size, part.name, part.text, part.file, part.function]
+
+
+def limits(application: Application) -> tuple[LimitRule, ...]:
+    """Return the bounds of the texts of a line."""
+    given = {rule.path for rule in application.limits}
+    if (str(TYPE),) in given:
+        return ()
+    rules = (LimitRule((str(TYPE), member), bound, None) for member, bound in _TEXTS.items())
+    return tuple(rule for rule in rules if rule.path not in given)

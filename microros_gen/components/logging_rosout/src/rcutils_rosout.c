@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Lines for /rosout: encoded when they are logged, so that nothing of a message is needed any longer, and kept until they
+ * are sent. Never waits: a line without room is dropped and counted, and the next line says how many were.
+ */
+#include "microros/cdr.h"
+#include "microros/lock.h"
+#include "microros/port.h"
+#include "microros/rcutils_format.h"
+#include "microros/rcutils_rosout.h"
+#include "microros/rcutils_rosout_hooks.h"
+#include "microros/text.h"
+#include "microros/xrce_rosout.h"
+#include "microros_config.h"
+#include "rcl/logging_rosout.h"
+#include "rcl_interfaces/msg/log.h"
+
+#include <stddef.h>
+#include <string.h>
+
+/* Has room for the largest line: all texts are bounded. */
+typedef struct rosout_line_t {
+  uint8_t body[rcl_interfaces__msg__Log__MAX_ENCODED_SIZE];
+  uint32_t position;
+} rosout_line_t;
+
+static uint32_t rosout_untold; /* dropped since the last line that had room */
+
+static void rosout_align(rosout_line_t * line)
+{
+  while (line->position % 4u != 0u) {
+    line->body[line->position] = 0;
+    ++line->position;
+  }
+}
+
+static void rosout_number(rosout_line_t * line, uint32_t number)
+{
+  rosout_align(line);
+  cdr_put_4(&line->body[line->position], &number);
+  line->position += 4u;
+}
+
+/* Begins a text of up to `size` characters, which rosout_text_end puts into the line. */
+static microros_format_t rosout_text_begin(rosout_line_t * line, size_t size)
+{
+  microros_format_t out = {NULL, size, 0, false};
+
+  rosout_align(line);
+  out.text = (char *)&line->body[line->position + 4u];
+  return out;
+}
+
+static void rosout_text_end(rosout_line_t * line, microros_format_t * out)
+{
+  microros_format_end(out);
+  out->text[out->used] = '\0';
+  rosout_number(line, (uint32_t)out->used + 1u);
+  line->position += (uint32_t)out->used + 1u;
+}
+
+static void rosout_text(rosout_line_t * line, const char * text, size_t size)
+{
+  microros_format_t out = rosout_text_begin(line, size);
+
+  microros_format_string(&out, text);
+  rosout_text_end(line, &out);
+}
+
+/* Of a path that is too long, the end says more than the beginning. */
+static void rosout_path(rosout_line_t * line, const char * path)
+{
+  const size_t size = microros_text_size(path);
+  size_t from = size > MICROROS_LOG_ROSOUT_FILE ? size - MICROROS_LOG_ROSOUT_FILE : 0u;
+
+  while (((uint8_t)path[from] & 0xc0u) == 0x80u) {
+    ++from; /* not in the middle of a character of UTF-8 */
+  }
+  rosout_text(line, &path[from], MICROROS_LOG_ROSOUT_FILE);
+}
+
+static void rosout_begin(
+  rosout_line_t * line, int severity, const char * name, rcutils_time_point_value_t timestamp)
+{
+  uint32_t nanoseconds;
+  const uint64_t seconds = microros_format_seconds(timestamp, &nanoseconds);
+
+  line->position = 0;
+  rosout_number(line, (uint32_t)seconds);
+  rosout_number(line, nanoseconds);
+  line->body[line->position] = (uint8_t)severity;
+  ++line->position;
+  rosout_text(line, name, MICROROS_LOG_ROSOUT_NAME);
+}
+
+/* Puts where the message is from, and keeps the line. */
+static bool rosout_end(rosout_line_t * line, const rcutils_log_location_t * location)
+{
+  rosout_path(line, location == NULL ? "" : location->file_name);
+  rosout_text(line, location == NULL ? "" : location->function_name, MICROROS_LOG_ROSOUT_FUNCTION);
+  rosout_number(line, location == NULL ? 0u : (uint32_t)location->line_number);
+  return xrce_rosout_put(line->body, line->position);
+}
+
+static void rosout_tell_dropped(rcutils_time_point_value_t timestamp)
+{
+  const microros_conversion_t number = {false, false, false, false, false, 0, -1, '\0', 'u'};
+  rosout_line_t line;
+  microros_format_t out;
+
+  /* Said once: there is room for a line after it. */
+  if (rosout_untold == 0u || !xrce_rosout_has_room((uint32_t)sizeof(line.body))) {
+    return;
+  }
+  rosout_begin(&line, RCUTILS_LOG_SEVERITY_WARN, "rcutils", timestamp);
+  out = rosout_text_begin(&line, MICROROS_LOG_ROSOUT_TEXT);
+  microros_format_integer(&out, &number, rosout_untold, false);
+  microros_format_string(&out, " messages dropped");
+  rosout_text_end(&line, &out);
+  if (rosout_end(&line, NULL)) {
+    rosout_untold = 0;
+  }
+}
+
+static void rosout_keep(
+  const rcutils_log_location_t * location, int severity, const char * name,
+  rcutils_time_point_value_t timestamp, const char * format, va_list * args)
+{
+  rosout_line_t line;
+  microros_format_t out;
+
+  rosout_begin(&line, severity, name, timestamp);
+  out = rosout_text_begin(&line, MICROROS_LOG_ROSOUT_TEXT);
+  microros_format_arguments(&out, format, args);
+  rosout_text_end(&line, &out);
+  if (rosout_untold != 0u || !rosout_end(&line, location)) {
+    microros_format_dropped();
+    ++rosout_untold;
+  }
+}
+
+void rcl_logging_rosout_output_handler(
+  const rcutils_log_location_t * location, int severity, const char * name,
+  rcutils_time_point_value_t timestamp, const char * format, va_list * args)
+{
+  microros_lock();
+  rosout_tell_dropped(timestamp);
+  rosout_keep(location, severity, name == NULL ? "" : name, timestamp, format, args);
+  microros_unlock();
+}
+
+void microros_rosout_log(
+  const rcutils_log_location_t * location, int severity, const char * name,
+  rcutils_time_point_value_t timestamp, const char * format, va_list * args)
+{
+  if (severity >= (int)MICROROS_LOG_ROSOUT_LEVEL) {
+    rcl_logging_rosout_output_handler(location, severity, name, timestamp, format, args);
+  }
+}
+
+void microros_rosout_step(const xrce_client_t * client)
+{
+  if (rosout_untold != 0u) {
+    rosout_tell_dropped(port_time_epoch_ns());
+  }
+  xrce_rosout_send(client);
+}
