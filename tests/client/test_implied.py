@@ -106,7 +106,11 @@ def test_ros_time_is_one_of_them() -> None:
     (clock,) = load_catalogue()["clock_ros"].implies
     assert (clock.kind, clock.name, clock.type) == ("subscription", "/clock", "rosgraph_msgs/msg/Clock")
     assert (clock.qos.reliability, clock.qos.depth, clock.queue) == ("best_effort", 1, 1)
-    assert [name for name, c in load_catalogue().items() if c.implies] == ["clock_ros", "parameters"]
+    assert [name for name, c in load_catalogue().items() if c.implies] == [
+        "clock_ros",
+        "logging_rosout",
+        "parameters",
+    ]
 
 
 @pytest.mark.parametrize(

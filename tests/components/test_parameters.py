@@ -134,13 +134,45 @@ def test_the_example_adds_what_is_declared(tmp_path: Path) -> None:
         assert line in example
 
 
+LABELED = """\
+version: 1
+profiles: [pure_sender]
+components: [+parameters]
+nodes:
+  - name: arm
+    parameters:
+      - {name: label, type: string, default: "left \\"a\\"", size: 12}
+      - {name: comment, type: string}
+"""
+
+
+def test_strings_take_what_is_declared(tmp_path: Path) -> None:
+    found = planned(tmp_path, LABELED)
+    assert slice_of(found).string_size == 49 + 1  # without a size, as names and descriptions
+    example = compiler.render(found)["examples/pure_sender/main.c"].decode()
+    for line in (
+        'rclc_add_parameter(&node_parameters, "label", RCLC_PARAMETER_STRING)',
+        'rclc_add_parameter_constraint_string(&node_parameters, "label", 12)',
+        r'rclc_parameter_set_string(&node_parameters, "label", "left \"a\"")',
+        'rclc_add_parameter_constraint_string(&node_parameters, "comment", 49)',
+    ):
+        assert line in example
+    first = largest(found, "srv/SetParameters_Request")
+    own = "limits: {rcl_interfaces/msg/ParameterValue: {string_value: 100}}\n"
+    more = planned(tmp_path, LABELED + own)
+    assert slice_of(more).string_size == 100 + 1
+    assert largest(more, "srv/SetParameters_Request") > first + 2 * 48
+
+
+def test_without_strings_nothing_of_them_is_in_the_output(tmp_path: Path) -> None:
+    files = compiler.render(planned(tmp_path, DECLARED))
+    assert slice_of(planned(tmp_path, DECLARED)).string_size == 0
+    assert "src/parameters/rclc_parameter_string.c" not in files
+
+
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        (
-            DECLARED.replace("type: bool, default: true", "type: string"),
-            "8:9: error: the parameter 'on' is a string, which a parameter server on the device does not hold yet",
-        ),
         (
             BARE + 'endpoints: {"~/get_parameters": {limits: {names: {sequence: 9, string: 9}}}}\n',
             "error: the limits of '~/get_parameters' cannot differ from those of its type",
@@ -150,7 +182,7 @@ def test_the_example_adds_what_is_declared(tmp_path: Path) -> None:
             "error: the service '~/describe_parameters', which a component opens by itself, needs a declared node",
         ),
     ],
-    ids=["string", "limits of one", "no node"],
+    ids=["limits of one", "no node"],
 )
 def test_what_cannot_be_served_is_refused(tmp_path: Path, text: str, told: str) -> None:
     with pytest.raises(UserError) as caught:

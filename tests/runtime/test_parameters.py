@@ -36,6 +36,10 @@ nodes:
 pools: {history: 2}
 """
 FEW = MANY.replace("publishers:", "parameters: [{name: a, type: integer}]\n    publishers:")
+TEXTS = MANY.replace(
+    "publishers:",
+    "parameters: [{name: label, type: string, size: 8}, {name: n, type: integer}]\n    publishers:",
+)
 SERVICES = {
     "describe_parameters": "DescribeParameters",
     "get_parameter_types": "GetParameterTypes",
@@ -135,7 +139,9 @@ class Device:
 
 @pytest.fixture(scope="module")
 def programs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Program]:
-    return {text: program_of(tmp_path_factory.mktemp("parameters") / "a", text) for text in (MANY, FEW)}
+    return {
+        text: program_of(tmp_path_factory.mktemp("parameters") / "a", text) for text in (MANY, FEW, TEXTS)
+    }
 
 
 @pytest.fixture
@@ -307,3 +313,51 @@ def test_a_large_request_after_one_that_ended_early(device: Device) -> None:
     device.agent.answered.clear()
     assert device.client.statistics()["reconnects"] == 1
     assert device.call("get_parameters", names=["a"] * 60)["values"] == []
+
+
+STRING = 4
+
+
+def text_of(name: str, value: str) -> dict[str, Any]:
+    return {"name": name, "value": {"type": STRING, "string_value": value}}
+
+
+def reasons(device: Device, *values: dict[str, Any]) -> list[str]:
+    return [r["reason"] for r in device.call("set_parameters", parameters=list(values))["results"]]
+
+
+def test_strings(programs: dict[str, Program], stack: ExitStack, codec: Codec) -> None:
+    device = started(programs, stack, codec, TEXTS)
+    device.open()
+    client = device.client
+    client.ok("text label +")
+    client.ok("text label <6")
+    client.ok("text label left")
+    assert client.ok("text label").lines == ("text left",)
+    assert client.call("text label sixsix+").error == "parameter label: the string is too long"
+    assert client.call("text label <3").error == "parameter label: its string is longer"
+    assert client.call("text label <9").code == client.call("text label <800").code != 0
+    values = device.call("get_parameters", names=["label"])["values"]
+    assert [(v["type"], v["string_value"]) for v in values] == [(STRING, "left")]
+    assert device.call("get_parameter_types", names=["label"])["types"] in ([STRING], bytes([STRING]))
+    assert reasons(device, text_of("label", "right"), text_of("label", "longest")) == [
+        "",
+        "the string for parameter 'label' is too long",
+    ]
+    assert client.ok("text label").lines == ("text right",)
+    assert reasons(device, text_of("label", "")) == [""]
+    assert client.ok("text label").lines == ("text ",)
+    assert reasons(device, text_of("label", "größe")) == ["the string for parameter 'label' is too long"]
+    assert reasons(device, text_of("label", "größ")) == [""]
+    assert client.ok("text label").lines == ("text größ",)
+    wrong = {"name": "label", "value": {"type": INTEGER, "integer_value": 1}}
+    assert reasons(device, wrong) == [
+        "Wrong parameter type, parameter {label} is of type {string}, setting it to {integer} is not allowed."
+    ]
+    both = [text_of("label", "atomic"), text_of("other", "b")]
+    result = device.call("set_parameters_atomically", parameters=both)["result"]
+    assert not result["successful"]
+    assert client.ok("text label").lines == ("text größ",)
+    assert client.ok("add n").code == 0
+    assert client.call("text n").error == "parameter n: it has another type"
+    assert client.call("text n a").error == "parameter n: it has another type"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Lines for /rosout with a scripted agent: which ones wait, which ones are dropped and counted, and that no call waits."""
+"""Lines for /rosout with a scripted agent: which ones wait, which ones are dropped and counted; no call waits."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ SIZE = 700
 APPLICATION = f"""\
 version: 1
 profiles: [pure_sender]
-logging: [{{to: rosout, level: info, size: {SIZE}}}]
+logging: [{{to: rosout, level: warn, size: {SIZE}}}]
 nodes:
   - name: device
     namespace: /arm
@@ -29,7 +29,7 @@ pools: {{history: 4}}
 """
 ROSOUT, COUNT = 0, 1
 SLOTS = 4
-WARN, FATAL = 30, 50
+WARN, ERROR, FATAL = 30, 40, 50
 
 
 class Line(NamedTuple):
@@ -72,8 +72,9 @@ def lines(agent: FakeAgent) -> list[Line]:
     return [line_of(body) for target, body in agent.written if target == identity]
 
 
-def texts(agent: FakeAgent) -> list[str]:
-    return [line.msg for line in lines(agent)]
+def texts(agent: FakeAgent, library: bool = False) -> list[str]:
+    """Return the texts of the application, or those of the library itself."""
+    return [line.msg for line in lines(agent) if (line.name == "microros") == library]
 
 
 @pytest.fixture(scope="module")
@@ -171,6 +172,25 @@ def test_a_silent_agent_delays_no_call(client: Client, agent: FakeAgent) -> None
     assert texts(agent)[-1].endswith(" messages dropped")
 
 
+def test_the_library_logs_what_happens_to_the_session(client: Client, agent: FakeAgent) -> None:
+    client.ok("init")
+    client.spin(2)
+    assert texts(agent, library=True) == []  # "session open" is below the level
+    agent.silent = True
+    client.spin(100, 100)
+    for _ in range(3):
+        client.call("publish")
+    agent.silent = False
+    agent.restart()
+    agent.refuse = {"datawriter": 0x82}
+    client.spin(40, 100)
+    agent.refuse = {}
+    client.spin(100, 100)
+    found = [line for line in lines(agent) if line.name == "microros"]
+    assert [(line.level, line.msg) for line in found][:2] == [(WARN, "session lost"), (ERROR, found[1].msg)]
+    assert found[1].msg.startswith("the agent refused ")
+
+
 def test_a_publisher_that_is_closed_keeps_lines(client: Client, agent: FakeAgent) -> None:
     client.ok("init")
     client.ok("keep")
@@ -185,3 +205,4 @@ def test_a_publisher_that_is_closed_keeps_lines(client: Client, agent: FakeAgent
     client.ok("init")
     client.spin(4)
     assert texts(agent) == ["waits", "between"]
+    assert texts(agent, library=True) == []  # to close a session is not to lose it

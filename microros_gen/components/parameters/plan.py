@@ -25,7 +25,8 @@ _PACKAGE = "rcl_interfaces"
 _NAMES = {"GetParameters": "values", "GetParameterTypes": "types", "DescribeParameters": "descriptors"}
 """Services that are asked for names, and the list of their response."""
 _SETS = ("SetParameters", "SetParametersAtomically")
-_KINDS = {"bool": "bool", "integer": "int", "double": "double"}
+_STRING_VALUE = (f"{_PACKAGE}/msg/ParameterValue", "string_value")
+_KINDS = {"bool": "bool", "integer": "int", "double": "double", "string": "string"}
 """Type in the application file → as functions and constants of rclc call it."""
 _ARRAYS = ("byte_array_value", "bool_array_value", "integer_array_value", "double_array_value")
 
@@ -41,6 +42,7 @@ class ServerPlan:
 class ParametersPlan:
     """`max` parameters of a server; sizes are bytes, those of texts with the NUL.
 
+    `string_size`: a value; 0 where none is a string.
     `request_size`: the largest request of all services; `outcomes_max`: how many parameters one can have at most.
     `servers` has one entry for each node.
     """
@@ -48,9 +50,15 @@ class ParametersPlan:
     max: int
     name_size: int
     text_size: int
+    string_size: int
     request_size: int
     outcomes_max: int
     servers: tuple[ServerPlan, ...] = ()
+
+    @property
+    def strings(self) -> str:
+        """Return what a report says of strings."""
+        return f", strings of {self.string_size}" if self.string_size else ""
 
     @property
     def handles(self) -> int:
@@ -61,13 +69,6 @@ class ParametersPlan:
 def plan(given: Given, diagnostics: Diagnostics) -> ParametersPlan:
     """Return the sizes; those of requests follow from the limits of their types."""
     application = given.application
-    for parameter in (p for node in application.nodes for p in node.parameters if p.type == "string"):
-        diagnostics.error(
-            f"the parameter '{parameter.name}' is a string, which a parameter server on the device does not hold yet",
-            parameter.span,
-            "Change it to bool, integer or double",
-            id="MG-7032",
-        )
     refuse_own_limits(given, "parameters", diagnostics)
     requests = [TypeName(_PACKAGE, "srv", f"{name}_Request") for name in (*_NAMES, *_SETS, "ListParameters")]
     largest = max(given.types[name].max_encoded_size for name in requests)
@@ -75,6 +76,7 @@ def plan(given: Given, diagnostics: Diagnostics) -> ParametersPlan:
         max=max(pool(application, "parameters", _count(application), diagnostics), _declared(application)),
         name_size=_longest(application, "name") + 1,
         text_size=_longest(application, "description") + 1,
+        string_size=_string_size(application),
         request_size=largest,
         outcomes_max=largest // _SHORTEST_PARAMETER + 1,
         servers=tuple(ServerPlan(tuple(_calls(node.parameters))) for node in application.nodes),
@@ -85,7 +87,7 @@ def record(part: ParametersPlan) -> object:
     """Return what the plan id is made of."""
     return {
         "max": part.max,
-        "sizes": [part.name_size, part.text_size, part.request_size, part.outcomes_max],
+        "sizes": [part.name_size, part.text_size, part.string_size, part.request_size, part.outcomes_max],
     }
 
 
@@ -105,7 +107,7 @@ def limits(application: Application) -> tuple[LimitRule, ...]:
         _rule("msg/ParameterDescriptor", "name", name),
         *(_rule("msg/ParameterDescriptor", part, text) for part in ("description", "additional_constraints")),
         _rule("msg/Parameter", "name", name),
-        _rule("msg/ParameterValue", "string_value", 0),
+        _rule("msg/ParameterValue", "string_value", max(_string_size(application) - 1, 0)),
         *(_rule("msg/ParameterValue", part, None, 0) for part in _ARRAYS),
         _rule("msg/ParameterValue", "string_array_value", 0, 0),
         _rule("msg/ParameterEvent", "node", node),
@@ -134,6 +136,21 @@ def _longest(application: Application, part: str) -> int:
     return max(len(text.encode()) for text in texts)
 
 
+def _string_size(application: Application) -> int:
+    """Return the bytes of the longest value with its NUL: what is declared, or the application's own limit."""
+    own = next(
+        (rule.string for rule in application.limits if rule.path == _STRING_VALUE and rule.string), None
+    )
+    sizes = [string_limit(p) for node in application.nodes for p in node.parameters if p.type == "string"]
+    longest = own if own is not None else max(sizes, default=0)
+    return longest + 1 if longest else 0
+
+
+def string_limit(parameter: ParameterDecl) -> int:
+    """Return the most bytes of a string, without the NUL."""
+    return parameter.size or max(LONGEST_TEXT, len(str(parameter.default or "").encode()))
+
+
 def _calls(parameters: tuple[ParameterDecl, ...]) -> Iterator[str]:
     """Yield the calls that add parameters and say what is declared of them."""
     for parameter in parameters:
@@ -142,6 +159,8 @@ def _calls(parameters: tuple[ParameterDecl, ...]) -> Iterator[str]:
             continue
         name = json.dumps(parameter.name)
         yield f"rclc_add_parameter({{}}, {name}, RCLC_PARAMETER_{kind.upper()})"
+        if parameter.type == "string":
+            yield f"rclc_add_parameter_constraint_string({{}}, {name}, {string_limit(parameter)})"
         if parameter.default is not None:
             value = _literal(parameter.default, parameter.type)
             yield f"rclc_parameter_set_{kind}({{}}, {name}, {value})"
@@ -157,6 +176,8 @@ def _calls(parameters: tuple[ParameterDecl, ...]) -> Iterator[str]:
 
 
 def _literal(value: bool | int | float | str, kind: str) -> str:
+    if kind == "string":
+        return json.dumps(value, ensure_ascii=False)
     if kind == "bool":
         return "true" if value else "false"
     return str(int(value)) if kind == "integer" else repr(float(value))

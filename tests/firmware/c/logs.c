@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Logs before the session, in it, and many at once; logs_report says how many the library dropped. */
 #include <rcl/rcl.h>
-#include <rclc/executor.h>
 #include <rclc/rclc.h>
 #include <rcutils/logging_macros.h>
 #include <rmw_microros/rmw_microros.h>

@@ -91,6 +91,34 @@ static rcl_ret_t get(const char * name)
   return result;
 }
 
+#if MICROROS_PARAMETER_STRING_SIZE > 0u
+static rcl_ret_t get_text(const char * name)
+{
+  const char * value = NULL;
+  const rcl_ret_t result = rclc_parameter_get_string(&server, name, &value);
+
+  printf("text %s\n", value == NULL ? "none" : value);
+  return result;
+}
+
+/* text NAME; text NAME VALUE; text NAME <SIZE: a constraint; text NAME +: adds it */
+static rcl_ret_t text(char * name)
+{
+  char * value = strchr(name, ' ');
+
+  if (value == NULL) {
+    return get_text(name);
+  }
+  *value = '\0';
+  ++value;
+  if (value[0] == '+') {
+    return rclc_add_parameter(&server, name, RCLC_PARAMETER_STRING);
+  }
+  return value[0] == '<' ? rclc_add_parameter_constraint_string(&server, name, (size_t)atoi(&value[1]))
+                         : rclc_parameter_set_string(&server, name, value);
+}
+#endif
+
 static rcl_ret_t print_statistics(void)
 {
   rmw_uros_statistics_t s;
@@ -108,6 +136,14 @@ static rcl_ret_t call(const char * line)
   const char * name = space != NULL ? &space[1] : "";
 
   switch (line[0]) {
+#if MICROROS_PARAMETER_STRING_SIZE > 0u
+    case 't': { /* text */
+      char copy[64] = "";
+
+      (void)strncpy(copy, name, sizeof(copy) - 1u);
+      return text(copy);
+    }
+#endif
     case 'i': /* init */
       return start();
     case 'o': /* open */

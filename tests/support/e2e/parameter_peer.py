@@ -3,7 +3,8 @@
 
 One JSON object a line: {"node": "/arm/device", "service": "get_parameters", "arguments": [["gain"]]} calls the method
 of rclpy's AsyncParameterClient and answers the response; {"node": …, "wait": true} waits for the services; {"node": …,
-"events": true} answers what the node said on /parameter_events since the last time. Values of parameters are the plain
+"events": true} answers what the node said on /parameter_events since the last time; {"declare": "label", "value": "a"}
+declares one more parameter of the model. Values of parameters are the plain
 ones of JSON.
 """
 
@@ -85,11 +86,14 @@ def _parameters(pairs: list[list[Any]]) -> list[Any]:
 class _Answers:
     """The process's side: calls, and keeps events."""
 
-    def __init__(self, node: Any, events: list[Any]) -> None:
-        self._node, self._events = node, events
+    def __init__(self, node: Any, model: Any, events: list[Any]) -> None:
+        self._node, self._model, self._events = node, model, events
         self._clients: dict[str, Any] = {}
 
     def answer(self, command: dict[str, Any]) -> Any:
+        if "declare" in command:
+            self._model.declare_parameter(command["declare"], command["value"])
+            return True
         if "events" in command:
             found = [event for event in self._events if event["node"] == command["node"]]
             self._events[:] = [event for event in self._events if event not in found]
@@ -129,7 +133,7 @@ def main() -> None:
     executor.add_node(node)
     executor.add_node(model)
     threading.Thread(target=executor.spin, daemon=True).start()
-    answers = _Answers(node, events)
+    answers = _Answers(node, model, events)
     for line in sys.stdin:
         print(json.dumps(answers.answer(json.loads(line))), flush=True)
 

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What the application does with its parameters. */
 #include "microros/error.h"
+#include "microros/rclc_parameter_string.h"
 #include "microros/rclc_parameters.h"
 #include "microros/text.h"
 
 #include <string.h>
 
-static rcl_ret_t parameter_refuse(rcl_ret_t result, const char * name, const char * why)
+rcl_ret_t rclc_parameter_refuse(rcl_ret_t result, const char * name, const char * why)
 {
   microros_error_set(microros_error_parameter, name, why, 0, 0);
   return result;
@@ -24,8 +25,7 @@ static parameter_text_t parameter_text(const char * text)
   return result;
 }
 
-/* Returns the place of a parameter; NULL: *result says why. */
-static rclc_parameter_place_t * parameter_look(
+rclc_parameter_place_t * rclc_parameter_look(
   rclc_parameter_server_t * server, const char * name, rcl_ret_t * result)
 {
   const rclc_parameter_place_t * found;
@@ -38,23 +38,22 @@ static rclc_parameter_place_t * parameter_look(
   text = parameter_text(name);
   found = rclc_parameter_find(server, &text);
   if (found == NULL) {
-    *result = parameter_refuse(RCL_RET_ERROR, name, MICROROS_ERROR_WORDS("unknown"));
+    *result = rclc_parameter_refuse(RCL_RET_ERROR, name, MICROROS_ERROR_WORDS("unknown"));
     return NULL;
   }
   *result = RCL_RET_OK;
   return &server->places[found - server->places];
 }
 
-/* The same where the parameter is to be changed, which its callback must not. */
-static rclc_parameter_place_t * parameter_look_to_change(
+rclc_parameter_place_t * rclc_parameter_look_to_change(
   rclc_parameter_server_t * server, const char * name, rcl_ret_t * result)
 {
   if (server != NULL && server->on_callback) {
-    *result = parameter_refuse(
+    *result = rclc_parameter_refuse(
       RCLC_PARAMETER_DISABLED_ON_CALLBACK, name, MICROROS_ERROR_WORDS("not to be changed by the callback"));
     return NULL;
   }
-  return parameter_look(server, name, result);
+  return rclc_parameter_look(server, name, result);
 }
 
 rcl_ret_t rclc_add_parameter(
@@ -67,19 +66,20 @@ rcl_ret_t rclc_add_parameter(
     return parameter_refuse_argument();
   }
   if (parameter_server->on_callback) {
-    return parameter_refuse(
+    return rclc_parameter_refuse(
       RCLC_PARAMETER_DISABLED_ON_CALLBACK, parameter_name,
       MICROROS_ERROR_WORDS("not to be added by the callback"));
   }
   name = parameter_text(parameter_name);
   if (name.size == 0u || name.size >= (uint32_t)MICROROS_PARAMETER_NAME_SIZE) {
-    return parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("empty or too long a name"));
+    return rclc_parameter_refuse(
+      RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("empty or too long a name"));
   }
-  if (type != RCLC_PARAMETER_BOOL && type != RCLC_PARAMETER_INT && type != RCLC_PARAMETER_DOUBLE) {
-    return parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("no type of a value"));
+  if (type < RCLC_PARAMETER_BOOL || (uint32_t)type > PARAMETER_TYPE_LAST) {
+    return rclc_parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("no type of a value"));
   }
   if (rclc_parameter_find(parameter_server, &name) != NULL) {
-    return parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("added already"));
+    return rclc_parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("added already"));
   }
   if (parameter_server->count == parameter_server->max_params) {
     const uint32_t count = (uint32_t)parameter_server->count;
@@ -97,7 +97,7 @@ rcl_ret_t rclc_add_parameter(
 rcl_ret_t rclc_delete_parameter(rclc_parameter_server_t * parameter_server, const char * parameter_name)
 {
   rcl_ret_t result;
-  rclc_parameter_place_t * place = parameter_look_to_change(parameter_server, parameter_name, &result);
+  rclc_parameter_place_t * place = rclc_parameter_look_to_change(parameter_server, parameter_name, &result);
 
   if (place != NULL) {
     place->event = (uint8_t)PARAMETER_EVENT_DELETED;
@@ -111,7 +111,7 @@ static rcl_ret_t parameter_set(
   const rclc_parameter_scalar_t * value)
 {
   rcl_ret_t result;
-  rclc_parameter_place_t * place = parameter_look_to_change(server, name, &result);
+  rclc_parameter_place_t * place = rclc_parameter_look_to_change(server, name, &result);
   parameter_state_t old_state;
   parameter_state_t new_state;
 
@@ -119,15 +119,17 @@ static rcl_ret_t parameter_set(
     return result;
   }
   if (place->type != (uint8_t)type) {
-    return parameter_refuse(RCLC_PARAMETER_TYPE_MISMATCH, name, MICROROS_ERROR_WORDS("it has another type"));
+    return rclc_parameter_refuse(
+      RCLC_PARAMETER_TYPE_MISMATCH, name, MICROROS_ERROR_WORDS("it has another type"));
   }
   old_state.name = place->name;
   old_state.type = place->type;
   old_state.value = place->value;
+  rclc_parameter_string_old(place, &old_state);
   new_state = old_state;
   new_state.value = *value;
   if (!rclc_parameter_accepts(server, &old_state, &new_state)) {
-    return parameter_refuse(
+    return rclc_parameter_refuse(
       RCLC_PARAMETER_MODIFICATION_REJECTED, name, MICROROS_ERROR_WORDS("the callback refused the value"));
   }
   place->value = *value;
@@ -171,12 +173,12 @@ static rcl_ret_t parameter_get(
   if (output == NULL) {
     return parameter_refuse_argument();
   }
-  place = parameter_look(server, name, &result);
+  place = rclc_parameter_look(server, name, &result);
   if (place == NULL) {
     return result;
   }
   if (place->type != (uint8_t)type) {
-    return parameter_refuse(RCL_RET_INVALID_ARGUMENT, name, MICROROS_ERROR_WORDS("it has another type"));
+    return rclc_parameter_refuse(RCL_RET_INVALID_ARGUMENT, name, MICROROS_ERROR_WORDS("it has another type"));
   }
   *value = place->value;
   return RCL_RET_OK;

@@ -2,6 +2,7 @@
 #include "microros/rclc_parameter_out.h"
 
 #include "microros/cdr.h"
+#include "microros/rclc_parameter_string.h"
 #include "microros/text.h"
 
 #include <string.h>
@@ -89,7 +90,7 @@ void rclc_parameter_out_value(parameter_out_t * out, const rclc_parameter_place_
   rclc_parameter_out_1(out, truth ? 1u : 0u);
   rclc_parameter_out_8(out, &integer);
   rclc_parameter_out_8(out, &number);
-  rclc_parameter_out_text(out, "");
+  rclc_parameter_out_text(out, rclc_parameter_string_of(place));
   for (uint32_t i = 0; i < (uint32_t)ARRAYS; ++i) {
     rclc_parameter_out_4(out, 0u);
   }

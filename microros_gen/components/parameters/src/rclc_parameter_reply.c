@@ -129,7 +129,7 @@ static void reply_out_result(
 /* Each entry of a request that did not arrive has the same result; more than there is room for have none. */
 static uint32_t reply_cut(parameter_out_t * out, const rclc_parameter_server_t * server)
 {
-  static const parameter_asked_t nothing = {{"", 0}, (uint8_t)RCLC_PARAMETER_NOT_SET, {false}};
+  static const parameter_asked_t nothing = {.name = {"", 0}, .type = (uint8_t)RCLC_PARAMETER_NOT_SET};
   const uint32_t count = server->request_cut;
 
   if (count > out->room / (uint32_t)SHORTEST_RESULT) {
@@ -168,7 +168,7 @@ uint32_t rclc_parameter_reply_result(const void * message, uint8_t * body, cdr_f
   const uint32_t count = rclc_parameter_request_length(&in);
   parameter_out_t out =
     reply_begin(body, rcl_interfaces__srv__SetParametersAtomically_Response__MAX_ENCODED_SIZE);
-  parameter_asked_t asked = {{"", 0}, (uint8_t)RCLC_PARAMETER_NOT_SET, {false}};
+  parameter_asked_t asked = {.name = {"", 0}, .type = (uint8_t)RCLC_PARAMETER_NOT_SET};
   uint8_t outcome = (uint8_t)(count == 0u ? PARAMETER_NONE : PARAMETER_SET);
 
   if (server->request_cut != 0u) {

@@ -65,7 +65,7 @@ static void request_skip_texts(cdr_in_t * in)
 
 parameter_asked_t rclc_parameter_request_parameter(cdr_in_t * in)
 {
-  parameter_asked_t asked = {{"", 0}, (uint8_t)RCLC_PARAMETER_NOT_SET, {false}};
+  parameter_asked_t asked = {.name = {"", 0}, .type = (uint8_t)RCLC_PARAMETER_NOT_SET};
   bool truth = false;
   int64_t integer = 0;
   double number = 0.0;
@@ -75,7 +75,11 @@ parameter_asked_t rclc_parameter_request_parameter(cdr_in_t * in)
   cdr_get_bool(in, &truth, 1u, "request");
   cdr_get_8(in, &integer, 1u, "request");
   cdr_get_8(in, &number, 1u, "request");
+#if MICROROS_PARAMETER_STRING_SIZE > 0u
+  asked.string = rclc_parameter_request_text(in);
+#else
   (void)rclc_parameter_request_text(in);
+#endif
   request_skip(in, 1u);
   request_skip(in, 1u);
   request_skip(in, 8u);

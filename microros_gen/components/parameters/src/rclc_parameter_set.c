@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Set requests, by the rules of rclcpp: each change is checked, then the callback decides, then it is made. */
+#include "microros/rclc_parameter_string.h"
 #include "microros/rclc_parameters.h"
 
 static bool integer_holds(const rclc_parameter_range_t * range, int64_t value)
@@ -45,8 +46,11 @@ static parameter_outcome_t set_check_new(
   if (asked->name.size >= (uint32_t)MICROROS_PARAMETER_NAME_SIZE) {
     return PARAMETER_NAME_LONG;
   }
-  if (asked->type > (uint8_t)RCLC_PARAMETER_DOUBLE) {
+  if (asked->type > PARAMETER_TYPE_LAST) {
     return PARAMETER_UNSUPPORTED;
+  }
+  if (!rclc_parameter_string_fits(NULL, asked)) {
+    return PARAMETER_STRING_LONG;
   }
   return server->count + fresh < server->max_params ? PARAMETER_SET : PARAMETER_FULL;
 }
@@ -71,8 +75,11 @@ static parameter_outcome_t set_check(
   if (asked->type != place->type && !place->dynamic_typing) {
     return PARAMETER_OTHER_TYPE;
   }
-  if (asked->type > (uint8_t)RCLC_PARAMETER_DOUBLE) {
+  if (asked->type > PARAMETER_TYPE_LAST) {
     return PARAMETER_UNSUPPORTED;
+  }
+  if (!rclc_parameter_string_fits(place, asked)) {
+    return PARAMETER_STRING_LONG;
   }
   return set_check_range(server, place, asked);
 }
@@ -87,6 +94,7 @@ static bool set_accepts(rclc_parameter_server_t * server, const parameter_asked_
 
   new_state.type = asked->type;
   new_state.value = asked->value;
+  rclc_parameter_string_new(server, asked, &new_state);
   if (found == NULL) {
     new_state.name = rclc_parameter_place(server, &asked->name, asked->type)->name;
     return rclc_parameter_accepts(server, NULL, &new_state);
@@ -95,6 +103,7 @@ static bool set_accepts(rclc_parameter_server_t * server, const parameter_asked_
   old_state.name = place->name;
   old_state.type = place->type;
   old_state.value = place->value;
+  rclc_parameter_string_old(place, &old_state);
   new_state.name = place->name;
   return rclc_parameter_accepts(
     server, &old_state, asked->type != (uint8_t)RCLC_PARAMETER_NOT_SET ? &new_state : NULL);
@@ -119,6 +128,7 @@ static void set_make(rclc_parameter_server_t * server, const parameter_asked_t *
   }
   place->type = asked->type;
   place->value = asked->value;
+  rclc_parameter_string_set(place, asked);
   if (place->event != (uint8_t)PARAMETER_EVENT_NEW) {
     place->event = (uint8_t)PARAMETER_EVENT_CHANGED;
   }

@@ -28,6 +28,9 @@ rclc_parameter_place_t * rclc_parameter_place(
   (void)memset(place, 0, sizeof(*place));
   (void)memcpy(place->name, name->data, name->size);
   place->type = type;
+#if MICROROS_PARAMETER_STRING_SIZE > 0u
+  place->string_most = MICROROS_PARAMETER_STRING_SIZE - 1u;
+#endif
   return place;
 }
 
@@ -57,6 +60,12 @@ static void parameter_present(const parameter_state_t * state, Parameter * messa
     message->value.bool_value = state->value.bool_value;
   } else if (state->type == (uint8_t)RCLC_PARAMETER_INT) {
     message->value.integer_value = state->value.integer_value;
+#if MICROROS_PARAMETER_STRING_SIZE > 0u
+  } else if (state->type == (uint8_t)RCLC_PARAMETER_STRING) {
+    message->value.string_value.data = state->string;
+    message->value.string_value.size = microros_text_size(state->string);
+    message->value.string_value.capacity = message->value.string_value.size + 1u;
+#endif
   } else {
     message->value.double_value = state->value.double_value;
   }

@@ -19,6 +19,13 @@ extern "C" {
 /* What an event says of a parameter. */
 enum { PARAMETER_EVENT_NONE, PARAMETER_EVENT_NEW, PARAMETER_EVENT_CHANGED, PARAMETER_EVENT_DELETED };
 
+/* The last type of a value that a server can hold. */
+#if MICROROS_PARAMETER_STRING_SIZE > 0u
+#define PARAMETER_TYPE_LAST ((uint8_t)RCLC_PARAMETER_STRING)
+#else
+#define PARAMETER_TYPE_LAST ((uint8_t)RCLC_PARAMETER_DOUBLE)
+#endif
+
 /* What became of a parameter of a set request. */
 typedef enum parameter_outcome_t {
   PARAMETER_SET,
@@ -33,6 +40,7 @@ typedef enum parameter_outcome_t {
   PARAMETER_REJECTED,
   PARAMETER_NAME_LONG,
   PARAMETER_FULL,
+  PARAMETER_STRING_LONG,
   PARAMETER_UNSUPPORTED, /* a value of a type that a server cannot hold */
   PARAMETER_CUT          /* its request was too large to arrive */
 } parameter_outcome_t;
@@ -48,6 +56,9 @@ typedef struct parameter_asked_t {
   parameter_text_t name;
   uint8_t type;
   rclc_parameter_scalar_t value;
+#if MICROROS_PARAMETER_STRING_SIZE > 0u
+  parameter_text_t string;
+#endif
 } parameter_asked_t;
 
 /* A parameter as the callback sees it; the name belongs to a place. */
@@ -55,6 +66,9 @@ typedef struct parameter_state_t {
   char * name;
   uint8_t type;
   rclc_parameter_scalar_t value;
+#if MICROROS_PARAMETER_STRING_SIZE > 0u
+  char * string;
+#endif
 } parameter_state_t;
 
 /* --- requests: rclc_parameter_request.c --- */
@@ -95,6 +109,17 @@ void rclc_parameter_remove(rclc_parameter_server_t * server, const rclc_paramete
 /* Whether the callback accepts a change; either state may be NULL. */
 bool rclc_parameter_accepts(
   rclc_parameter_server_t * server, const parameter_state_t * old_state, const parameter_state_t * new_state);
+
+/* --- what the application does: rclc_parameter.c --- */
+
+/* Sets an error of that parameter; returns `result`. */
+rcl_ret_t rclc_parameter_refuse(rcl_ret_t result, const char * name, const char * why);
+
+/* Return the place of a parameter; NULL: *result says why. The second one is for changes, which the callback must not make. */
+rclc_parameter_place_t * rclc_parameter_look(
+  rclc_parameter_server_t * server, const char * name, rcl_ret_t * result);
+rclc_parameter_place_t * rclc_parameter_look_to_change(
+  rclc_parameter_server_t * server, const char * name, rcl_ret_t * result);
 
 /* --- set requests: rclc_parameter_set.c --- */
 

@@ -83,7 +83,8 @@ typedef enum rclc_parameter_type_t {
   RCLC_PARAMETER_NOT_SET = 0,
   RCLC_PARAMETER_BOOL,
   RCLC_PARAMETER_INT,
-  RCLC_PARAMETER_DOUBLE
+  RCLC_PARAMETER_DOUBLE,
+  RCLC_PARAMETER_STRING /* where the application file declares one, or its limits have a size for them */
 } rclc_parameter_type_t;
 
 /*
@@ -128,6 +129,10 @@ typedef struct rclc_parameter_place_t {
   bool dynamic_typing; /* created by a set request */
   bool has_range;
   uint8_t event; /* what the next event says of it */
+#if MICROROS_PARAMETER_STRING_SIZE > 0u
+  uint32_t string_most; /* bytes without the NUL */
+  char string[MICROROS_PARAMETER_STRING_SIZE];
+#endif
   char name[MICROROS_PARAMETER_NAME_SIZE];
   char description[MICROROS_PARAMETER_TEXT_SIZE];
   char additional_constraints[MICROROS_PARAMETER_TEXT_SIZE];
@@ -157,6 +162,9 @@ typedef struct rclc_parameter_server_t {
   size_t max_params;
   size_t count;
   rclc_parameter_place_t places[MICROROS_PARAMETERS_MAX];
+#if MICROROS_PARAMETER_STRING_SIZE > 0u
+  char string_new[MICROROS_PARAMETER_STRING_SIZE]; /* what the callback is asked about */
+#endif
   uint8_t outcomes[MICROROS_PARAMETER_OUTCOMES_MAX]; /* of the parameters of a set request */
   uint8_t request[MICROROS_PARAMETER_REQUEST_SIZE];
 } rclc_parameter_server_t;
@@ -190,7 +198,7 @@ rcl_ret_t rclc_executor_add_parameter_server_with_context(
   rclc_executor_t * executor, rclc_parameter_server_t * parameter_server,
   rclc_parameter_callback_t on_modification, void * context);
 
-/* Adds a parameter of the value false or 0; the name is copied. RCL_RET_ERROR: no place left, a name that is taken, empty
+/* Adds a parameter of the value false, 0 or ""; the name is copied. RCL_RET_ERROR: no place left, a name that is taken, empty
  * or longer than MICROROS_PARAMETER_NAME_SIZE - 1 bytes, or no type of a value. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_add_parameter(
@@ -230,6 +238,25 @@ rcl_ret_t rclc_parameter_get_int(
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_parameter_get_double(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, double * output);
+
+#if MICROROS_PARAMETER_STRING_SIZE > 0u
+/* Sets a string, which is copied. As the functions above, and RCL_RET_ERROR for one that is too long. */
+RCLC_PARAMETER_PUBLIC
+rcl_ret_t rclc_parameter_set_string(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, const char * value);
+
+/* Gives the string where it is, without a copy: valid until the parameter changes, which it does in no other function
+ * than those above and a spin of the executor. */
+RCLC_PARAMETER_PUBLIC
+rcl_ret_t rclc_parameter_get_string(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, const char ** output);
+
+/* Longer strings than `size` bytes, without the NUL, are refused. RCL_RET_ERROR: no such parameter, it has another type,
+ * or a string that is longer already; RCL_RET_INVALID_ARGUMENT: there is no room for so many. */
+RCLC_PARAMETER_PUBLIC
+rcl_ret_t rclc_add_parameter_constraint_string(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, size_t size);
+#endif
 
 /* Both texts are copied. RCL_RET_ERROR: no such parameter, or a text longer than MICROROS_PARAMETER_TEXT_SIZE - 1 bytes;
  * RCLC_PARAMETER_UNSUPORTED_ON_LOW_MEM. */
