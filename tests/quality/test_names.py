@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Functions, classes and tests have names in standard English: no word of names.yaml."""
+"""Functions, classes, tests and identifiers of C have names in standard English: no word of names.yaml."""
 
 from __future__ import annotations
 
@@ -12,12 +12,25 @@ import yaml
 
 from tests.support.paths import ROOT
 
-REFUSED: dict[str, str] = {
-    entry["word"]: entry["write"]
-    for entry in yaml.safe_load(Path(__file__).with_name("names.yaml").read_text(encoding="utf-8"))
+_ENTRIES = yaml.safe_load(Path(__file__).with_name("names.yaml").read_text(encoding="utf-8"))
+REFUSED: dict[str, str] = {entry["word"]: entry["write"] for entry in _ENTRIES if "in" not in entry}
+REFUSED_IN_C: dict[str, str] = {entry["word"]: entry["write"] for entry in _ENTRIES}
+C_NAMES_THAT_STAY = {
+    "given_up": "a member of rmw_uros_client_statistics_t, which applications read",
+    "microros_memory_give_back": "called by generated type support, which stays byte for byte",
 }
 _DEFINED = re.compile(r"^[ \t]*(?:async[ \t]+)?(?:def|class)[ \t]+(\w+)", re.M)
-_WORDS = re.compile(rf"(?<![a-z])(?:{'|'.join(REFUSED)})(?![a-z])")
+_C_FILE = re.compile(r"\.[chS](\.j2)?$")
+_IN_WORK = re.compile(r"components/(parameters|logging)")
+_NOT_CODE = re.compile(r"/\*.*?\*/|//[^\n]*|\{[#%].*?[#%]\}|\"(?:\\.|[^\"\\\n])*\"", re.S)
+
+
+def _pattern(words: dict[str, str]) -> re.Pattern[str]:
+    return re.compile(rf"(?<![a-z])(?:{'|'.join(words)})(?![a-z])")
+
+
+_WORDS = _pattern(REFUSED)
+_C_WORDS = _pattern(REFUSED_IN_C)
 
 
 def refused(text: str) -> Iterator[str]:
@@ -36,6 +49,48 @@ def test_no_name_has_a_refused_word(folder: str) -> None:
         for hit in refused(path.read_text(encoding="utf-8"))
     ]
     assert found == []
+
+
+def refused_in_c(text: str) -> Iterator[str]:
+    """Yield each identifier of a C file or template that has a refused word, with what to write instead."""
+    for name in sorted(set(re.findall(r"[A-Za-z_]\w*", _NOT_CODE.sub(" ", text))) - set(C_NAMES_THAT_STAY)):
+        found = _C_WORDS.search(name.lower())
+        if found:
+            yield f"{name}: write {REFUSED_IN_C[found[0]]} for {found[0]}"
+
+
+@pytest.mark.parametrize("folder", ["components", "platform", "templates"])
+def test_no_identifier_of_c_has_a_refused_word(folder: str) -> None:
+    paths = [p for p in sorted((ROOT / "microros_gen" / folder).rglob("*")) if _C_FILE.search(p.name)]
+    paths = [p for p in paths if not _IN_WORK.search(p.as_posix())]
+    found = [f"{p.relative_to(ROOT)}: {hit}" for p in paths for hit in refused_in_c(p.read_text("utf-8"))]
+    assert paths
+    assert found == []
+
+
+@pytest.mark.parametrize("name", C_NAMES_THAT_STAY)
+def test_a_c_name_that_stays_exists(name: str) -> None:
+    paths = [p for p in (ROOT / "microros_gen").rglob("*") if _C_FILE.search(p.name)]
+    assert any(re.search(rf"\b{name}\b", p.read_text("utf-8")) for p in paths)
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        ("static bool told;", "told"),
+        ("void stream_send_piece(int PIECES_MAX);", "PIECES_MAX"),
+        ('{% if x %}bool is_gone; /* gone */{% endif %} f("told");', "is_gone"),
+    ],
+)
+def test_a_refused_word_in_c_is_found(text: str, name: str) -> None:
+    assert next(refused_in_c(text)).startswith(f"{name}: write ")
+
+
+@pytest.mark.parametrize(
+    "text", ["/* told */ int a;", 'f("told");', "{# told #}int came_from_x1;", "// told\n"]
+)
+def test_comments_and_texts_of_c_are_no_identifiers(text: str) -> None:
+    assert [hit for hit in refused_in_c(text) if "told" in hit] == []
 
 
 @pytest.mark.parametrize(

@@ -53,10 +53,10 @@ def frames(folder: Path, transport: str, size: int) -> dict[str, int]:
 def test_no_frame_grows_with_the_largest_message(transport: str, tmp_path: Path) -> None:
     small = frames(tmp_path / "small", transport, 64)
     large = frames(tmp_path / "large", transport, LARGEST)
-    assert {"rmw_uros_ping_agent", "rmw_inquiry_ask", "rmw_uros_sync_session"} <= set(small)
+    assert {"rmw_uros_ping_agent", "rmw_inquiry_run", "rmw_uros_sync_session"} <= set(small)
     grown = {name for name, size in large.items() if size != small[name]}
     # A connection contains the bytes that wait to be sent, also a separate connection for a request.
     assert grown == ({"ping_place", "discovery_reaches"} if transport == "tcp" else set())
     # That nothing else receives on the stack, port_fake.c watches in test_states.py.
-    reading = {"inquiry_once", "inquiry_try", "rmw_inquiry_ask", "xrce_discovery_search"}
+    reading = {"inquiry_attempt", "inquiry_run_attempts", "rmw_inquiry_run", "xrce_discovery_search"}
     assert {name: small[name] for name in reading & set(small) if small[name] > SAVED} == {}

@@ -232,8 +232,8 @@ def test_no_symbol_that_is_not_selected(plan: RuntimePlan, liveliness: str, tmp_
     assert any("reliable_input" in name for name in names) == (plan.input.reliable_slots > 0)
     best_effort = {name for name in names if "xrce_stream_best_effort" in name and "input" not in name}
     assert bool(best_effort) == (plan.streams.best_effort_size > 0)
-    pieces = {"stream_flow", "stream_send_place", "stream_send_of", "stream_send_piece"}
-    assert bool(pieces & _local(objects)) == plan.streams.fragments
+    chunks = {"stream_flow", "stream_send_place", "stream_send_of", "stream_send_fragment"}
+    assert bool(chunks & _local(objects)) == plan.streams.fragments
     _creates_as_the_plan_says(plan, names, b"".join(o.read_bytes() for o in objects))
     prefixes = ("rcl", "rclc", "rmw", "rcutils", "rosidl", "uxr", "xrce", "cdr", "port", "microros")
     assert all(name.startswith(prefixes) for name in names), "no name of ours can meet an application's"

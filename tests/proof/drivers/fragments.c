@@ -58,7 +58,7 @@ static void take(uint16_t whole, uint16_t here, size_t least, size_t most)
   client.fragments.skipping = proof_bool();
   client.reliable_input.next = proof_u16();
   client.session.statistics.malformed = proof_u32();
-  xrce_fragments_on_piece(&client, submessage, size, proof_u32());
+  xrce_fragments_on_fragment(&client, submessage, size, proof_u32());
   //@ check !client.fragments.begun || client.fragments.skipping || client.fragments.sample.size <= SLOT;
   //@ check !client.fragments.begun || client.fragments.skipping || client.fragments.arrived <= SLOT;
 }

@@ -75,7 +75,7 @@ static void any_session(void)
   session->key = proof_u32();
   session->now_ms = proof_u32();
   session->due_ms = proof_u32();
-  session->heard_ms = proof_u32();
+  session->received_ms = proof_u32();
   session->since_ms = proof_u32();
   session->request = proof_u16();
   session->state = (uint8_t)Frama_C_interval(XRCE_CLOSED, XRCE_CLOSING);
@@ -102,7 +102,7 @@ static void any_streams(void)
   proof_any(in->message, sizeof(in->message));
   in->next = proof_u16();
   in->announced = proof_u16();
-  in->asked = proof_u16();
+  in->requested = proof_u16();
   in->refused = proof_u16();
   for (size_t i = 0; i < XRCE_RELIABLE_INPUT_HELD; ++i) {
     in->sequence[i] = proof_u16();
@@ -116,7 +116,7 @@ static void any_entities(void)
   xrce_entities_t * entities = &client.entities;
 
   entities->due_ms = proof_u32();
-  entities->asked_ms = proof_u32();
+  entities->requested_ms = proof_u32();
   entities->request = proof_u16();
   entities->refused_place = proof_u16();
   entities->refused_status = proof_u8();
@@ -149,7 +149,7 @@ static void any_receivers(void)
   proof_any(client.slots, sizeof(client.slots));
   proof_any(client.queues, sizeof(client.queues));
   reading->due_ms = proof_u32();
-  reading->asked_ms = proof_u32();
+  reading->requested_ms = proof_u32();
   reading->sequence = proof_u16();
   reading->request = proof_u16();
   reading->samples = proof_u16();
@@ -178,12 +178,12 @@ static void any_client(void)
   any_receivers();
   proof_any(&client.ping.due_ms, sizeof(client.ping.due_ms));
   client.ping.unanswered = proof_u8();
-  client.ping.answers = Frama_C_unsigned_char_interval(0, UINT8_MAX);
+  client.ping.replies = Frama_C_unsigned_char_interval(0, UINT8_MAX);
   client.time_sync.since_ns = Frama_C_long_long_interval(0, INT64_MAX / 2);
   client.time_sync.round_trip_ns = Frama_C_long_long_interval(0, INT64_MAX);
   client.time_sync.offset_ns = 0;
   client.time_sync.callers = Frama_C_unsigned_char_interval(0, UINT8_MAX);
-  client.time_sync.answers = Frama_C_unsigned_char_interval(0, UINT8_MAX);
+  client.time_sync.replies = Frama_C_unsigned_char_interval(0, UINT8_MAX);
   client.time_sync.synchronized = proof_bool();
   proof_any(&client.fragments.sample, sizeof(client.fragments.sample));
   client.fragments.arrived = proof_u16();

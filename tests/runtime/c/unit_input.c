@@ -77,7 +77,7 @@ static bool heartbeat(uint16_t first, uint16_t last)
   if (!xrce_stream_reliable_input_on_heartbeat(&client, payload, sizeof(payload), 1)) {
     return false;
   }
-  xrce_stream_reliable_input_go_on(&client, 5);
+  xrce_stream_reliable_input_continue(&client, 5);
   return true;
 }
 

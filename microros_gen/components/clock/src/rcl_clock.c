@@ -32,7 +32,7 @@ rcl_ret_t rcl_clock_end(rcl_clock_t * clock, rcl_clock_type_t type)
     return rcl_clock_refuse(RCL_RET_ERROR, "of another type");
   }
   if (clock->num_jump_callbacks != 0u) {
-    rcl_clock_forget_callbacks(clock);
+    rcl_clock_remove_callbacks(clock);
   }
   return RCL_RET_OK;
 }

@@ -29,7 +29,7 @@ static jump_entry_t * jump_find(
   return NULL;
 }
 
-void rcl_clock_forget_callbacks(rcl_clock_t * clock)
+void rcl_clock_remove_callbacks(rcl_clock_t * clock)
 {
   for (size_t i = 0; i < MICROROS_JUMP_CALLBACKS_MAX; ++i) {
     if (jump_entries[i].clock == clock) {

@@ -22,7 +22,7 @@ static bool discovery_reaches(const rmw_uxrce_transport_params_t * params)
   xrce_transport_t transport;
 
   rmw_inquiry_await();
-  return rmw_transport_prepare(&transport, params) && rmw_inquiry_ask(&transport, PLACE_MS, 1);
+  return rmw_transport_prepare(&transport, params) && rmw_inquiry_run(&transport, PLACE_MS, 1);
 }
 
 static void discovery_put_port(char * digits, uint16_t port)

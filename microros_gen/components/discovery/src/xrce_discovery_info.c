@@ -147,12 +147,12 @@ void xrce_discovery_on_info(
   }
 }
 
-void xrce_discovery_write_question(uint8_t * message)
+void xrce_discovery_write_request(uint8_t * message)
 {
   enum { MASK_CONFIG_AND_ACTIVITY = 3 };
 
   xrce_put_header(message, XRCE_SESSION_NONE, XRCE_STREAM_NONE, 0);
-  xrce_put_submessage(&message[4], XRCE_GET_INFO, XRCE_FLAG_LITTLE_ENDIAN, XRCE_DISCOVERY_QUESTION - 8);
+  xrce_put_submessage(&message[4], XRCE_GET_INFO, XRCE_FLAG_LITTLE_ENDIAN, XRCE_DISCOVERY_REQUEST - 8);
   xrce_put_be16(&message[8], REQUEST_DISCOVERY);
   xrce_put_be16(&message[10], XRCE_OBJECT_AGENT);
   xrce_put_le16(&message[12], MASK_CONFIG_AND_ACTIVITY);

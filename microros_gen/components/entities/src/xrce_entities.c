@@ -198,7 +198,7 @@ static void entities_send(xrce_client_t * client, uint32_t now)
   uint8_t * room = xrce_creation_room(client);
   uint8_t * end = &room[DELETE_SIZE];
 
-  entities->due_ms = now + xrce_session_short_pause(now - entities->asked_ms);
+  entities->due_ms = now + xrce_session_short_pause(now - entities->requested_ms);
   if (!entities->deleting) {
     end = entities_put_object(client, entities->cursor, kind, room);
   }
@@ -226,7 +226,7 @@ static bool entities_begin(xrce_client_t * client, uint32_t now)
       }
       entities->deleting = level > goal;
       entities->outstanding = true;
-      entities->asked_ms = now;
+      entities->requested_ms = now;
       entities->request = xrce_session_next_request(&client->session);
       entities_send(client, now);
       return true;

@@ -34,11 +34,11 @@ static uint8_t * xml_put_participant(uint8_t * at, const xrce_participant_t * pa
 
 /* Writes name and type of an endpoint's topic in their elements. */
 static uint8_t * xml_put_topic(
-  uint8_t * at, const xrce_endpoint_t * endpoint, const char * before, const char * behind)
+  uint8_t * at, const xrce_endpoint_t * endpoint, const char * before, const char * after)
 {
   const char * const texts[] = {
     before, "<name>rt", endpoint->name, "</name><dataType>", endpoint->type->dds_type_name, "</dataType>",
-    behind, NULL};
+    after,  NULL};
 
   return xml_put(at, texts);
 }

@@ -17,7 +17,7 @@ static rcl_ret_t guard_look(const rclc_executor_handle_t * handle, bool * is_rea
 
 static rcl_ret_t guard_take(rclc_executor_handle_t * handle)
 {
-  rcl_guard_condition_see(handle->gc);
+  rcl_guard_condition_acknowledge(handle->gc);
   return RCL_RET_OK;
 }
 

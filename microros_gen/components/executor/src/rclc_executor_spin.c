@@ -130,7 +130,7 @@ rcl_ret_t rclc_executor_spin_some(rclc_executor_t * executor, const uint64_t tim
 }
 
 /* Returns whether to continue with further rounds after `result`. */
-static bool executor_goes_on(const rclc_executor_t * executor, rcl_ret_t result)
+static bool executor_continues(const rclc_executor_t * executor, rcl_ret_t result)
 {
   return result == RCL_RET_OK || result == RCL_RET_TIMEOUT ||
          ((result == RCL_RET_ERROR || result == RCL_RET_BAD_ALLOC || result == RCL_RET_UNSUPPORTED) &&
@@ -151,12 +151,12 @@ static void executor_rest(int64_t duration_ns)
  * Longest wait of a round whose end is not observed. A time-out makes nothing ready; it only serves
  * trigger functions that look at other state, and another task that ends the context.
  */
-static uint64_t executor_patience(const rclc_executor_t * executor)
+static uint64_t executor_wait_limit(const rclc_executor_t * executor)
 {
-  const bool for_nothing =
+  const bool is_unbounded =
     MICROROS_TASKS_SHARE == 0u && executor->trigger_function == rclc_executor_trigger_any;
 
-  return for_nothing ? UINT64_MAX : executor->timeout_ns;
+  return is_unbounded ? UINT64_MAX : executor->timeout_ns;
 }
 
 rcl_ret_t rclc_executor_spin(rclc_executor_t * executor)
@@ -165,9 +165,9 @@ rcl_ret_t rclc_executor_spin(rclc_executor_t * executor)
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "executor");
   }
   for (;;) {
-    const rcl_ret_t result = rclc_executor_spin_some(executor, executor_patience(executor));
+    const rcl_ret_t result = rclc_executor_spin_some(executor, executor_wait_limit(executor));
 
-    if (!executor_goes_on(executor, result)) {
+    if (!executor_continues(executor, result)) {
       return result;
     }
     if (result != RCL_RET_OK) {
@@ -187,7 +187,7 @@ rcl_ret_t rclc_executor_spin_one_period(rclc_executor_t * executor, const uint64
     executor->invocation_time = port_time_steady_ns();
   }
   result = rclc_executor_spin_some(executor, executor->timeout_ns);
-  if (executor_goes_on(executor, result)) {
+  if (executor_continues(executor, result)) {
     executor->invocation_time = microros_time_after(executor->invocation_time, (int64_t)period);
     executor_rest(executor->invocation_time - port_time_steady_ns()); /* neither is negative */
   }
@@ -200,6 +200,6 @@ rcl_ret_t rclc_executor_spin_period(rclc_executor_t * executor, const uint64_t p
 
   do {
     result = rclc_executor_spin_one_period(executor, period);
-  } while (executor != NULL && executor_goes_on(executor, result));
+  } while (executor != NULL && executor_continues(executor, result));
   return result;
 }

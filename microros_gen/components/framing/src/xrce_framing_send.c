@@ -7,7 +7,7 @@
 enum { CHUNK = 32 };
 
 /* Largest overhead of a frame: the flag, and header and CRC with every byte stuffed. */
-enum { FRAME_AROUND = 1 + 2 * (XRCE_FRAME_HEADER + XRCE_FRAME_CRC) };
+enum { FRAME_OVERHEAD = 1 + 2 * (XRCE_FRAME_HEADER + XRCE_FRAME_CRC) };
 
 /* A frame being sent, one chunk at a time. */
 typedef struct frame_writer_t {
@@ -17,7 +17,7 @@ typedef struct frame_writer_t {
   uint8_t chunk[CHUNK];
 } frame_writer_t;
 
-static bool frame_stuffs(uint8_t byte)
+static bool frame_is_escaped(uint8_t byte)
 {
   return byte == XRCE_FRAME_FLAG || byte == XRCE_FRAME_ESCAPE;
 }
@@ -30,7 +30,7 @@ static size_t frame_measure(const uint8_t * bytes, size_t size, uint16_t * crc)
 
   for (size_t i = 0; i < size; ++i) {
     sum = xrce_framing_crc(sum, bytes[i]);
-    stuffed += frame_stuffs(bytes[i]) ? 1u : 0u;
+    stuffed += frame_is_escaped(bytes[i]) ? 1u : 0u;
   }
   *crc = sum;
   return stuffed;
@@ -51,7 +51,7 @@ static void writer_put(frame_writer_t * writer, const uint8_t * bytes, size_t si
     if (writer->held > CHUNK - 2) { /* no room for an escape pair */
       writer_flush(writer);
     }
-    if (frame_stuffs(byte)) {
+    if (frame_is_escaped(byte)) {
       writer->chunk[writer->held++] = XRCE_FRAME_ESCAPE;
       byte ^= XRCE_FRAME_FLIP;
     }
@@ -70,7 +70,7 @@ bool xrce_framing_send(struct xrce_transport_t * line, const uint8_t * message, 
   if (size > UINT16_MAX) {
     return false;
   }
-  if (FRAME_AROUND + frame_measure(message, size, &crc) > xrce_line_room(line)) {
+  if (FRAME_OVERHEAD + frame_measure(message, size, &crc) > xrce_line_room(line)) {
     return false;
   }
   xrce_put_le16(&header[2], (uint16_t)size);

@@ -6,7 +6,7 @@
 
 enum { SHARE = 3 };
 
-static void hard_show_life(xrce_session_t * session)
+static void hard_assert_liveliness(xrce_session_t * session)
 {
   uint8_t message[XRCE_GET_INFO_SIZE];
 
@@ -22,7 +22,7 @@ void xrce_liveliness_hard_step(xrce_client_t * client, uint32_t now)
   if (
     session->state == (uint8_t)XRCE_READY && hard->sent == session->statistics.sent &&
     xrce_is_due(now, hard->due_ms)) {
-    hard_show_life(session);
+    hard_assert_liveliness(session);
     hard->due_ms = now + MICROROS_HARD_LIVELINESS_MS / SHARE;
   }
   if (hard->sent != session->statistics.sent) {

@@ -27,7 +27,7 @@ rcutils_ret_t rcutils_string_array_init(
 }
 
 /* Frees the strings from `first` on. */
-static void strings_give_back(rcutils_string_array_t * string_array, size_t first)
+static void strings_release(rcutils_string_array_t * string_array, size_t first)
 {
   const rcutils_allocator_t * allocator = &string_array->allocator;
 
@@ -48,7 +48,7 @@ rcutils_ret_t rcutils_string_array_fini(rcutils_string_array_t * string_array)
   if (!rcutils_allocator_is_valid(&string_array->allocator)) {
     return RCUTILS_RET_INVALID_ARGUMENT;
   }
-  strings_give_back(string_array, 0);
+  strings_release(string_array, 0);
   string_array->allocator.deallocate(string_array->data, string_array->allocator.state);
   string_array->data = NULL;
   string_array->size = 0;
@@ -116,7 +116,7 @@ rcutils_ret_t rcutils_string_array_resize(rcutils_string_array_t * string_array,
   if (new_size == 0u) {
     return rcutils_string_array_fini(string_array);
   }
-  strings_give_back(string_array, new_size);
+  strings_release(string_array, new_size);
   data = allocator->reallocate(string_array->data, new_size * sizeof(char *), allocator->state);
   if (data == NULL && new_size > string_array->size) {
     return RCUTILS_RET_BAD_ALLOC;

@@ -45,7 +45,7 @@ static map_pair_t * map_find(const map_t * map, const char * key, size_t size)
   return NULL;
 }
 
-static void map_give_back(const map_t * map, const map_pair_t * pair)
+static void map_release(const map_t * map, const map_pair_t * pair)
 {
   map->allocator.deallocate(pair->key, map->allocator.state);
   map->allocator.deallocate(pair->value, map->allocator.state);
@@ -119,7 +119,7 @@ rcutils_ret_t rcutils_string_map_init(
 static void map_clear(map_t * map)
 {
   for (size_t i = 0; i < map->size; ++i) {
-    map_give_back(map, &map->pairs[i]);
+    map_release(map, &map->pairs[i]);
   }
   map->size = 0;
 }
@@ -269,7 +269,7 @@ rcutils_ret_t rcutils_string_map_unset(rcutils_string_map_t * string_map, const 
   if (pair == NULL) {
     return RCUTILS_RET_STRING_KEY_NOT_FOUND;
   }
-  map_give_back(map, pair);
+  map_release(map, pair);
   --map->size;
   *pair = map->pairs[map->size];
   return RCUTILS_RET_OK;

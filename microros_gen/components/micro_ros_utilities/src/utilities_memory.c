@@ -10,15 +10,15 @@
 /* Largest alignment of any member on any target, in bytes. */
 enum { ALIGNMENT_MOST = 8 };
 
-typedef enum memory_way_t {
+typedef enum memory_mode_t {
   MEMORY_COUNT,   /* count the bytes requested from an allocator */
   MEMORY_MEASURE, /* count the bytes taken from a buffer */
   MEMORY_ALLOCATE,
   MEMORY_PLACE /* place in the buffer */
-} memory_way_t;
+} memory_mode_t;
 
 typedef struct memory_t {
-  memory_way_t way;
+  memory_mode_t mode;
   const micro_ros_utilities_memory_conf_t * conf;
   rcutils_allocator_t allocator; /* for MEMORY_ALLOCATE */
   uint8_t * buffer;              /* for MEMORY_PLACE: its first aligned byte */
@@ -26,12 +26,12 @@ typedef struct memory_t {
   size_t alignment;              /* alignment that the buffer needs so far */
 } memory_t;
 
-static memory_t memory_begin(memory_way_t way, const micro_ros_utilities_memory_conf_t * conf)
+static memory_t memory_begin(memory_mode_t mode, const micro_ros_utilities_memory_conf_t * conf)
 {
   memory_t memory;
 
   (void)memset(&memory, 0, sizeof(memory));
-  memory.way = way;
+  memory.mode = mode;
   memory.conf = conf;
   memory.alignment = 1;
   return memory;
@@ -87,21 +87,21 @@ static bool memory_take(
     microros_error_set(microros_error_memory_given, NULL, NULL, UINT32_MAX, 0);
     return false;
   }
-  if (memory->way == MEMORY_MEASURE || memory->way == MEMORY_PLACE) {
+  if (memory->mode == MEMORY_MEASURE || memory->mode == MEMORY_PLACE) {
     start = memory_aligned(start, alignment);
     memory->alignment = alignment > memory->alignment ? alignment : memory->alignment;
   }
   memory->used = start + count * element;
-  if (memory->way == MEMORY_PLACE) {
+  if (memory->mode == MEMORY_PLACE) {
     *given = &memory->buffer[start];
   }
-  return memory->way != MEMORY_ALLOCATE || memory_allocate(memory, pool, count * element, given);
+  return memory->mode != MEMORY_ALLOCATE || memory_allocate(memory, pool, count * element, given);
 }
 
 /*
  * Takes memory for one string or sequence and stores its address at `place`; *given is the memory of the
  * elements. */
-static bool memory_give(
+static bool memory_provide(
   memory_t * memory, const microros_pool_t * pool, uint8_t * place, size_t count, size_t element,
   uint8_t ** given)
 {
@@ -159,7 +159,7 @@ static bool memory_of_member(memory_t * memory, utilities_walk_t * walk)
 
   if (utilities_is_sequence(member)) {
     count = utilities_sequence_capacity(walk, memory->conf);
-    if (!memory_give(memory, memory_pool(member), walk->place, count, size, &elements)) {
+    if (!memory_provide(memory, memory_pool(member), walk->place, count, size, &elements)) {
       return false;
     }
   }
@@ -169,7 +169,7 @@ static bool memory_of_member(memory_t * memory, utilities_walk_t * walk)
     for (size_t i = 0; i < count; ++i) {
       uint8_t * characters;
 
-      if (!memory_give(
+      if (!memory_provide(
             memory, memory_text_pool(member), memory_element(elements, i, size), capacity,
             memory_unit(member), &characters)) {
         return false;
@@ -212,10 +212,10 @@ static const microros_type_members_t * memory_type(
  * failure. */
 static memory_t memory_sized(
   const rosidl_message_type_support_t * type_support, const micro_ros_utilities_memory_conf_t * conf,
-  memory_way_t way)
+  memory_mode_t mode)
 {
   const microros_type_members_t * type = memory_type(type_support, conf);
-  memory_t memory = memory_begin(way, conf);
+  memory_t memory = memory_begin(mode, conf);
 
   if (type == NULL || !memory_walk(&memory, type, NULL)) {
     memory.used = 0;
@@ -392,7 +392,7 @@ bool micro_ros_utilities_create_static_message_memory(
     (void)memset(buffer, 0, size);
     memory.buffer = &buffer[memory_aligned(address, memory.alignment) - address];
   }
-  memory.way = MEMORY_PLACE;
+  memory.mode = MEMORY_PLACE;
   memory.used = 0;
   return memory_walk(&memory, type, ros_msg);
 }

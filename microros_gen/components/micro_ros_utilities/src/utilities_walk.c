@@ -37,7 +37,7 @@ void utilities_walk_begin(utilities_walk_t * walk, const microros_type_members_t
 }
 
 /* Reports the current member of the level. */
-static utilities_event_t walk_tell(
+static utilities_event_t walk_report(
   utilities_walk_t * walk, const utilities_level_t * level, utilities_event_t event)
 {
   walk->member = &level->type->members[level->member];
@@ -51,7 +51,7 @@ utilities_event_t utilities_walk_next(utilities_walk_t * walk)
     utilities_level_t * level = &walk->levels[walk->depth - 1u];
 
     if (level->inside) {
-      const utilities_event_t event = walk_tell(walk, level, UTILITIES_AFTER);
+      const utilities_event_t event = walk_report(walk, level, UTILITIES_AFTER);
 
       level->inside = false;
       ++level->member;
@@ -59,7 +59,7 @@ utilities_event_t utilities_walk_next(utilities_walk_t * walk)
     }
     if (level->member < level->type->count) {
       level->inside = true;
-      return walk_tell(walk, level, UTILITIES_MEMBER);
+      return walk_report(walk, level, UTILITIES_MEMBER);
     }
     if (level->left != 0u) {
       --level->left;

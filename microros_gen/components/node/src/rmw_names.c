@@ -3,7 +3,7 @@
 
 #include "microros/text.h"
 
-enum { PIECES = 4 };
+enum { PARTS = 4 };
 
 rmw_name_t rmw_name_of_namespace(const char * namespace_)
 {
@@ -17,13 +17,13 @@ rmw_name_t rmw_name_of_topic(const char * topic, const char * node, const char *
   rmw_name_t name = {{topic, "", "", ""}};
 
   if (topic[0] != '/') {
-    name.piece[0] = namespace_[1] == '\0' ? "" : namespace_;
-    name.piece[1] = "/";
+    name.part[0] = namespace_[1] == '\0' ? "" : namespace_;
+    name.part[1] = "/";
     if (topic[0] == '~') {
-      name.piece[2] = node;
-      name.piece[3] = topic + 1;
+      name.part[2] = node;
+      name.part[3] = topic + 1;
     } else {
-      name.piece[2] = topic;
+      name.part[2] = topic;
     }
   }
   return name;
@@ -31,8 +31,8 @@ rmw_name_t rmw_name_of_topic(const char * topic, const char * node, const char *
 
 bool rmw_name_equals(const rmw_name_t * name, const char * text)
 {
-  for (size_t i = 0; i < PIECES; ++i) {
-    for (const char * at = name->piece[i]; *at != '\0'; ++at, ++text) {
+  for (size_t i = 0; i < PARTS; ++i) {
+    for (const char * at = name->part[i]; *at != '\0'; ++at, ++text) {
       if (*at != *text) {
         return false;
       }
@@ -45,16 +45,16 @@ size_t rmw_name_size(const rmw_name_t * name)
 {
   size_t size = 0;
 
-  for (size_t i = 0; i < PIECES; ++i) {
-    size += microros_text_size(name->piece[i]);
+  for (size_t i = 0; i < PARTS; ++i) {
+    size += microros_text_size(name->part[i]);
   }
   return size;
 }
 
 void rmw_name_copy(const rmw_name_t * name, char * buffer)
 {
-  for (size_t i = 0; i < PIECES; ++i) {
-    for (const char * at = name->piece[i]; *at != '\0'; ++at) {
+  for (size_t i = 0; i < PARTS; ++i) {
+    for (const char * at = name->part[i]; *at != '\0'; ++at) {
       *buffer++ = *at;
     }
   }

@@ -31,7 +31,7 @@ rmw_ret_t rmw_place_open(xrce_client_t * client, uint16_t place, const char * na
 {
   uint8_t outcome;
 
-  if (xrce_place_take_up(client, place)) {
+  if (xrce_place_restore(client, place)) {
     return RMW_RET_OK;
   }
   xrce_entities_add(client, place);

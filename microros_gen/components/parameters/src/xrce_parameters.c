@@ -22,7 +22,7 @@ static void parameters_keep(
   if (here < XRCE_OBJECT_PREFIX + (size_t)XRCE_PARAMETERS_BEGINNING || (data[1] & XRCE_READ_FORMATS) != 0u) {
     return;
   }
-  receiver = xrce_read_asked(client, xrce_get_be16(&data[REQUEST_AT]), xrce_get_be16(&data[OBJECT_AT]));
+  receiver = xrce_read_requested(client, xrce_get_be16(&data[REQUEST_AT]), xrce_get_be16(&data[OBJECT_AT]));
   if (
     receiver == NULL || !client->large_answered[receiver - client->receivers] ||
     whole <= (size_t)xrce_read_largest(client, receiver) + XRCE_OBJECT_PREFIX) {
@@ -40,7 +40,8 @@ void xrce_parameters_on_data(xrce_client_t * client, const uint8_t * submessage,
   parameters_keep(client, submessage, size, size, now);
 }
 
-void xrce_parameters_on_piece(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
+void xrce_parameters_on_fragment(
+  xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {
   const uint8_t * data = xrce_payload_of(submessage);
 

@@ -24,12 +24,12 @@ static rmw_ret_t ping_silent(const xrce_transport_t * transport, uint32_t waited
 static bool ping_over_session(xrce_client_t * client, uint32_t timeout_ms)
 {
   const uint32_t start = port_time_ms();
-  const uint8_t answers = client->ping.answers;
+  const uint8_t replies = client->ping.replies;
 
-  xrce_ping_ask(client);
+  xrce_ping_request(client);
   for (;;) {
     xrce_session_pump(client);
-    if (client->ping.answers != answers) {
+    if (client->ping.replies != replies) {
       return true;
     }
     if (client->session.state == (uint8_t)XRCE_CLOSED || port_time_ms() - start >= timeout_ms) {
@@ -64,7 +64,7 @@ static rmw_ret_t ping_place(
     xrce_transport_is_same_line(&transport, &client->session.transport)) {
     return ping_session(client, timeout_ms, attempts);
   }
-  return rmw_inquiry_ask(&transport, timeout_ms, attempts) ? RMW_RET_OK
+  return rmw_inquiry_run(&transport, timeout_ms, attempts) ? RMW_RET_OK
                                                            : ping_silent(&transport, timeout_ms * attempts);
 }
 

@@ -9,10 +9,10 @@ enum { INFO_SIZE = 6, IMPLEMENTATION_OUT_OF_SESSION = 0 };
 void xrce_ping_reset(xrce_ping_t * ping)
 {
   ping->unanswered = 0;
-  ++ping->answers;
+  ++ping->replies;
 }
 
-void xrce_ping_ask(xrce_client_t * client)
+void xrce_ping_request(xrce_client_t * client)
 {
   uint8_t message[XRCE_GET_INFO_SIZE];
   xrce_session_t * session = &client->session;
@@ -32,7 +32,7 @@ void xrce_ping_step(xrce_client_t * client, uint32_t now)
   if (client->session.state != XRCE_READY) {
     return;
   }
-  if (now - client->session.heard_ms < MICROROS_LIVELINESS_PERIOD_MS) {
+  if (now - client->session.received_ms < MICROROS_LIVELINESS_PERIOD_MS) {
     ping->unanswered = 0;
     ping->due_ms = now;
     return;
@@ -41,16 +41,16 @@ void xrce_ping_step(xrce_client_t * client, uint32_t now)
     return;
   }
   if (ping->unanswered == MICROROS_LIVELINESS_ATTEMPTS) {
-    xrce_session_lose(client, now);
+    xrce_session_mark_lost(client, now);
     return;
   }
-  xrce_ping_ask(client);
+  xrce_ping_request(client);
   ++ping->unanswered;
   ping->due_ms = now + MICROROS_LIVELINESS_WAIT_MS;
 }
 
 /* An agent answered: reconnect at once. */
-static void ping_hasten(xrce_session_t * session, uint32_t now)
+static void ping_expedite(xrce_session_t * session, uint32_t now)
 {
   session->since_ms = now;
   if (!xrce_is_due(now + MICROROS_RETRY_FIRST_MS, session->due_ms)) {
@@ -64,13 +64,13 @@ void xrce_ping_on_info(xrce_client_t * client, const uint8_t * submessage, size_
     ++client->session.statistics.malformed;
     return;
   }
-  ++client->ping.answers;
+  ++client->ping.replies;
   if (client->session.state == XRCE_CONNECTING) {
-    ping_hasten(&client->session, now);
+    ping_expedite(&client->session, now);
   } else if (
     client->session.in_session && xrce_payload_of(submessage)[5] == IMPLEMENTATION_OUT_OF_SESSION &&
     client->session.state == XRCE_READY) {
-    xrce_session_lose(client, now);
+    xrce_session_mark_lost(client, now);
   } else {
     /* request after silence, or by the application */
   }

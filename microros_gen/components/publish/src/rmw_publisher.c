@@ -30,7 +30,7 @@ static bool publisher_fits(const xrce_endpoint_t * writer)
   return false;
 }
 
-static rmw_publisher_t * publisher_hand_out(xrce_endpoint_t * writer)
+static rmw_publisher_t * publisher_prepare(xrce_endpoint_t * writer)
 {
   static rmw_publisher_t publishers[MICROROS_PUBLISHERS_MAX]; /* indexed by place */
   rmw_publisher_t * publisher = &publishers[writer->index];
@@ -64,7 +64,7 @@ rmw_ret_t rmw_publisher_open(
     xrce_drops_clear(writer->client, writer->index);
     result = rmw_place_open(writer->client, publisher_place(writer), writer->name);
     if (result == RMW_RET_OK) {
-      *publisher = publisher_hand_out(writer);
+      *publisher = publisher_prepare(writer);
     }
   }
   microros_unlock();

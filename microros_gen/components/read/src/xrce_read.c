@@ -81,7 +81,7 @@ static void read_send(xrce_client_t * client, uint32_t now)
   }
   message[CONTROLLED_AT] = 1;
   xrce_put_le16(&message[SAMPLES_AT], reading->samples);
-  reading->due_ms = now + xrce_session_short_pause(now - reading->asked_ms);
+  reading->due_ms = now + xrce_session_short_pause(now - reading->requested_ms);
   (void)xrce_session_send(&client->session, message, sizeof(message)); /* a lost message is repeated */
 }
 
@@ -96,7 +96,7 @@ static uint16_t read_samples(const xrce_client_t * client, const xrce_receiver_t
 
 /* Returns whether a receiver needs a READ_DATA, and for how many samples. Preconfigured entities still
  * exist at the agent when they are closed here: 0 samples tell the agent to stop. */
-static bool read_wants(xrce_client_t * client, uint16_t index, uint32_t now, uint16_t * samples)
+static bool read_needs_request(xrce_client_t * client, uint16_t index, uint32_t now, uint16_t * samples)
 {
   xrce_receiver_t * receiver = &client->receivers[index];
   const xrce_object_state_t * state = &client->states[read_place(index)];
@@ -119,7 +119,7 @@ static void read_begin(xrce_client_t * client, uint16_t samples, uint32_t now)
   xrce_receiver_t * receiver = &client->receivers[reading->receiver];
 
   reading->outstanding = true;
-  reading->asked_ms = now;
+  reading->requested_ms = now;
   reading->request = xrce_session_next_request(&client->session);
   reading->samples = samples;
   if (receiver->request != XRCE_REQUEST_NONE) {
@@ -148,7 +148,7 @@ void xrce_read_step(xrce_client_t * client, uint32_t now)
     reading->receiver = (uint16_t)(reading->receiver + 1u);
     /* cppcheck-suppress knownConditionTrueFalse ; a plan with one receiver has no other */
     reading->receiver = reading->receiver < XRCE_RECEIVERS ? reading->receiver : 0u;
-    if (read_wants(client, reading->receiver, now, &samples)) {
+    if (read_needs_request(client, reading->receiver, now, &samples)) {
       read_begin(client, samples, now);
       return;
     }
@@ -237,7 +237,7 @@ void xrce_read_count(xrce_client_t * client, xrce_receiver_t * receiver, uint16_
   }
 }
 
-xrce_receiver_t * xrce_read_asked(xrce_client_t * client, uint16_t request, uint16_t object)
+xrce_receiver_t * xrce_read_requested(xrce_client_t * client, uint16_t request, uint16_t object)
 {
   xrce_receiver_t * receiver = xrce_read_find(client, object);
 
@@ -261,7 +261,7 @@ void xrce_read_on_data(xrce_client_t * client, const uint8_t * submessage, size_
     return;
   }
   request = xrce_get_be16(&payload[0]);
-  receiver = xrce_read_asked(client, request, xrce_get_be16(&payload[2]));
+  receiver = xrce_read_requested(client, request, xrce_get_be16(&payload[2]));
   if (receiver == NULL) {
     return;
   }
@@ -279,7 +279,7 @@ void xrce_read_on_data(xrce_client_t * client, const uint8_t * submessage, size_
 
 void xrce_read_refuse(xrce_client_t * client, uint16_t request, uint16_t object, uint16_t size)
 {
-  xrce_receiver_t * receiver = xrce_read_asked(client, request, object);
+  xrce_receiver_t * receiver = xrce_read_requested(client, request, object);
 
   if (receiver != NULL) {
     xrce_read_count(client, receiver, request);

@@ -8,7 +8,7 @@
 
 bool xrce_read_begin(xrce_client_t * client, const xrce_arrival_t * arrival)
 {
-  xrce_receiver_t * receiver = xrce_read_asked(client, arrival->request, arrival->object);
+  xrce_receiver_t * receiver = xrce_read_requested(client, arrival->request, arrival->object);
 
   if (receiver == NULL) {
     return false;
@@ -28,7 +28,7 @@ bool xrce_read_begin(xrce_client_t * client, const xrce_arrival_t * arrival)
 /* Returns the receiver in whose free slot a sample is being assembled; NULL if it was dropped. */
 static xrce_receiver_t * read_arriving(xrce_client_t * client, const xrce_arrival_t * arrival)
 {
-  xrce_receiver_t * receiver = xrce_read_asked(client, arrival->request, arrival->object);
+  xrce_receiver_t * receiver = xrce_read_requested(client, arrival->request, arrival->object);
 
   return receiver != NULL && receiver->arriving ? receiver : NULL;
 }

@@ -24,7 +24,7 @@ bool rosidl_runtime_c__String__init(rosidl_runtime_c__String * str)
   return true;
 }
 
-static void string_give_back(rosidl_runtime_c__String * str)
+static void string_release(rosidl_runtime_c__String * str)
 {
   if (str->data != string_empty()) {
     microros_memory_give_back(MICROROS_POOL_text, str->data);
@@ -36,7 +36,7 @@ void rosidl_runtime_c__String__fini(rosidl_runtime_c__String * str)
   if (str == NULL) {
     return;
   }
-  string_give_back(str);
+  string_release(str);
   str->data = NULL;
   str->size = 0;
   str->capacity = 0;
@@ -58,7 +58,7 @@ static bool string_make_room(rosidl_runtime_c__String * str, size_t size)
   if (data == NULL) {
     return false;
   }
-  string_give_back(str);
+  string_release(str);
   str->data = data;
   str->capacity = room;
   return true;

@@ -24,7 +24,7 @@ bool rosidl_runtime_c__U16String__init(rosidl_runtime_c__U16String * str)
   return true;
 }
 
-static void string_give_back(rosidl_runtime_c__U16String * str)
+static void string_release(rosidl_runtime_c__U16String * str)
 {
   if (str->data != string_empty()) {
     microros_memory_give_back(MICROROS_POOL_u16text, str->data);
@@ -36,7 +36,7 @@ void rosidl_runtime_c__U16String__fini(rosidl_runtime_c__U16String * str)
   if (str == NULL) {
     return;
   }
-  string_give_back(str);
+  string_release(str);
   str->data = NULL;
   str->size = 0;
   str->capacity = 0;
@@ -62,7 +62,7 @@ static bool string_make_room(rosidl_runtime_c__U16String * str, size_t size, boo
   if (keep && str->data != NULL) {
     (void)memcpy(data, str->data, str->size * sizeof(uint_least16_t));
   }
-  string_give_back(str);
+  string_release(str);
   str->data = data;
   str->capacity = room / sizeof(uint_least16_t);
   return true;

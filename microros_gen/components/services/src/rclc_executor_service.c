@@ -54,7 +54,7 @@ static rcl_ret_t service_begin(rclc_executor_handle_t * handle, service_call_t *
 static rcl_ret_t service_end(const service_call_t * call)
 {
   if (!rcl_service_is_valid(call->service)) {
-    rmw_replier_give_up();
+    rmw_replier_abandon();
     return service_refuse(); /* the callback has finalized it */
   }
   return rmw_replier_end(call->service->impl, &call->request_id, call->response);

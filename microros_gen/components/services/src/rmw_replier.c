@@ -161,7 +161,7 @@ rmw_ret_t rmw_replier_begin(
   microros_lock();
   result = replier_take(service, info, ros_request, taken);
   if (*taken) {
-    ++endpoint->client->owed;
+    ++endpoint->client->replies_due;
   }
   microros_unlock();
   return result;
@@ -197,8 +197,8 @@ rmw_ret_t rmw_replier_respond(
 /* A session opened meanwhile has no reserved slot. */
 static void replier_release(xrce_client_t * client)
 {
-  if (client->owed != 0u) {
-    --client->owed;
+  if (client->replies_due != 0u) {
+    --client->replies_due;
   }
 }
 
@@ -215,7 +215,7 @@ rmw_ret_t rmw_replier_end(
   return result;
 }
 
-void rmw_replier_give_up(void)
+void rmw_replier_abandon(void)
 {
   microros_lock();
   replier_release(rmw_client_instance());

@@ -32,7 +32,7 @@ static rmw_ret_t requester_open(
   if (result == RMW_RET_OK) {
     xrce_endpoint_t * endpoint = &wanted.client->endpoints[wanted.index];
 
-    if (!xrce_place_took_up(endpoint->client, (uint16_t)(MICROROS_NODES_MAX + endpoint->index))) {
+    if (!xrce_place_was_restored(endpoint->client, (uint16_t)(MICROROS_NODES_MAX + endpoint->index))) {
       xrce_requests_open(endpoint);
     }
     *client = &clients[wanted.index - section.first];
@@ -67,7 +67,7 @@ bool rmw_requester_is_open(const rmw_client_t * client)
 
 static bool requester_is_ready(const rmw_client_t * client)
 {
-  return xrce_read_is_ready(client->data) || xrce_requests_of(client->data)->untold != 0u;
+  return xrce_read_is_ready(client->data) || xrce_requests_of(client->data)->unreported != 0u;
 }
 
 bool rmw_requester_is_ready(const rmw_client_t * client)
@@ -110,11 +110,11 @@ static bool requester_report(const xrce_endpoint_t * endpoint)
 {
   xrce_requester_t * requester = xrce_requests_of(endpoint);
 
-  if (requester->untold == 0u) {
+  if (requester->unreported == 0u) {
     return rmw_receiver_report(endpoint);
   }
-  microros_error_set(microros_error_requests_lost, endpoint->name, NULL, requester->untold, 0);
-  requester->untold = 0;
+  microros_error_set(microros_error_requests_lost, endpoint->name, NULL, requester->unreported, 0);
+  requester->unreported = 0;
   return true;
 }
 

@@ -93,7 +93,7 @@ void xrce_requests_renew(xrce_client_t * client)
     for (uint8_t i = 0; i < requests_queue(index)->slots; ++i) {
       if (entries[i].request != XRCE_REQUEST_NONE) {
         ++requester->interrupted;
-        ++requester->untold;
+        ++requester->unreported;
       }
     }
   }

@@ -8,7 +8,7 @@
 static rmw_uros_session_callback_t chosen; /* set by rmw_uros_set_session_callback */
 static void * chosen_argument;
 
-static void state_tell(const xrce_client_t * client)
+static void state_report(const xrce_client_t * client)
 {
   static const rmw_uros_session_state_t states[5] = {
     [XRCE_WATCH_CLOSED] = RMW_UROS_SESSION_CLOSED,
@@ -42,6 +42,6 @@ rmw_ret_t rmw_uros_set_session_callback(rmw_uros_session_callback_t callback, vo
 {
   chosen = callback;
   chosen_argument = argument;
-  xrce_watch_set_listener(state_tell);
+  xrce_watch_set_listener(state_report);
   return RMW_RET_OK;
 }

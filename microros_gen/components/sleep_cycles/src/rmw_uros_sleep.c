@@ -14,7 +14,7 @@ static const uint32_t retained_magic = 0x58520001u;
 /* Plan that both images must have. */
 static const char retained_plan[] = MICROROS_PLAN_ID;
 
-static bool retained_is_ours(const rmw_uros_retained_t * retained)
+static bool retained_has_plan(const rmw_uros_retained_t * retained)
 {
   bool same = retained->size == (uint32_t)sizeof(*retained);
 
@@ -61,22 +61,22 @@ static void sleep_write(rmw_uros_retained_t * retained, const xrce_client_t * cl
 rmw_ret_t rmw_uros_sleep(rmw_context_t * context, rmw_uros_retained_t * retained, uint32_t timeout_ms)
 {
   xrce_client_t * client;
-  bool asleep;
+  bool is_asleep;
 
   if (context == NULL || context->impl == NULL || retained == NULL) {
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "context or retained");
   }
   microros_lock();
   client = context->impl;
-  asleep = sleep_await(client, timeout_ms);
-  if (asleep) {
+  is_asleep = sleep_await(client, timeout_ms);
+  if (is_asleep) {
     xrce_sleep_begin(client);
     sleep_write(retained, client);
     xrce_session_close(client);
     context->impl = NULL;
   }
   microros_unlock();
-  return asleep ? RMW_RET_OK : RMW_RET_TIMEOUT;
+  return is_asleep ? RMW_RET_OK : RMW_RET_TIMEOUT;
 }
 
 bool rmw_uros_wake(rmw_uros_retained_t * retained)
@@ -87,7 +87,7 @@ bool rmw_uros_wake(rmw_uros_retained_t * retained)
   if (retained == NULL || client->session.state != (uint8_t)XRCE_CLOSED) {
     return false;
   }
-  good = retained->magic == retained_magic && retained_is_ours(retained) &&
+  good = retained->magic == retained_magic && retained_has_plan(retained) &&
          retained->check == retained_check(retained);
   retained->magic = 0; /* invalidated: its sequence numbers are used from now on */
   if (good) {

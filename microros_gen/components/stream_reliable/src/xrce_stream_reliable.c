@@ -57,7 +57,7 @@ void xrce_stream_reliable_commit(
 
   stream->size[stream_slot(stream, i)] = (uint16_t)size;
   if (i == 0u && !stream->held) {
-    xrce_stream_reliable_goes_on(stream, now);
+    xrce_stream_reliable_restart_timer(stream, now);
   }
   stream->count = (uint8_t)(i + 1u);
   if (
@@ -105,7 +105,7 @@ void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now)
 static void stream_release(xrce_stream_reliable_t * stream, xrce_session_t * session, uint32_t now)
 {
   stream->held = false;
-  xrce_stream_reliable_goes_on(stream, now);
+  xrce_stream_reliable_restart_timer(stream, now);
   session->statistics.resent += stream->count;
 }
 
@@ -147,7 +147,7 @@ bool xrce_stream_reliable_on_acknack(
   if (place <= stream->count) {
     stream_free(stream, (uint8_t)place);
     if (place != 0u) {
-      xrce_stream_reliable_goes_on(stream, now);
+      xrce_stream_reliable_restart_timer(stream, now);
     }
     place = 0;
   } else if (missing != 0u) {

@@ -17,9 +17,9 @@
 #include <string.h>
 
 enum {
-  PIECE_HEADER = XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER,
-  PIECE_SIZE = MICROROS_MTU - PIECE_HEADER,
-  WHOLE_SIZE = MICROROS_MTU - XRCE_MESSAGE_HEADER,
+  FRAGMENT_HEADER = XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER,
+  FRAGMENT_SIZE = MICROROS_MTU - FRAGMENT_HEADER,
+  UNFRAGMENTED_SIZE = MICROROS_MTU - XRCE_MESSAGE_HEADER,
   WINDOW = 16
 };
 
@@ -42,11 +42,11 @@ static void stream_remove(xrce_stream_reliable_t * stream, uint8_t i)
 }
 
 /* Returns the number of fragments of the i-th stored message. */
-static uint16_t stream_pieces(const xrce_stream_reliable_t * stream, uint8_t i)
+static uint16_t stream_fragments(const xrce_stream_reliable_t * stream, uint8_t i)
 {
   const uint32_t size = stream->size[stream_slot(stream, i)];
 
-  return size <= WHOLE_SIZE ? 1u : (uint16_t)((size + PIECE_SIZE - 1u) / PIECE_SIZE);
+  return size <= UNFRAGMENTED_SIZE ? 1u : (uint16_t)((size + FRAGMENT_SIZE - 1u) / FRAGMENT_SIZE);
 }
 
 uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream, xrce_session_t * session)
@@ -69,36 +69,36 @@ static stream_outcome_t stream_transmit(xrce_session_t * session, const uint8_t 
 }
 
 /* Sends `size` bytes after the room for a fragment's header. */
-static stream_outcome_t stream_send_piece(
-  xrce_session_t * session, uint8_t * piece, uint16_t sequence, uint16_t size, bool last)
+static stream_outcome_t stream_send_fragment(
+  xrce_session_t * session, uint8_t * fragment, uint16_t sequence, uint16_t size, bool last)
 {
   const uint8_t flags = last ? XRCE_FLAG_LITTLE_ENDIAN | XRCE_FLAG_LAST_FRAGMENT : XRCE_FLAG_LITTLE_ENDIAN;
 
-  xrce_put_header(piece, XRCE_SESSION_ID, XRCE_STREAM_RELIABLE, sequence);
-  xrce_put_submessage(&piece[XRCE_MESSAGE_HEADER], XRCE_FRAGMENT, flags, size);
-  return stream_transmit(session, piece, PIECE_HEADER + (size_t)size);
+  xrce_put_header(fragment, XRCE_SESSION_ID, XRCE_STREAM_RELIABLE, sequence);
+  xrce_put_submessage(&fragment[XRCE_MESSAGE_HEADER], XRCE_FRAGMENT, flags, size);
+  return stream_transmit(session, fragment, FRAGMENT_HEADER + (size_t)size);
 }
 
 /* Sends a fragment of the i-th stored message, or the whole message if it fits. */
 static stream_outcome_t stream_send_of(
-  xrce_stream_reliable_t * stream, xrce_session_t * session, uint8_t i, uint16_t piece, uint16_t sequence)
+  xrce_stream_reliable_t * stream, xrce_session_t * session, uint8_t i, uint16_t fragment, uint16_t sequence)
 {
   const uint8_t slot = stream_slot(stream, i);
-  uint8_t * at = &stream->message[slot][(size_t)piece * PIECE_SIZE];
-  const size_t size = (size_t)stream->size[slot] - (size_t)piece * PIECE_SIZE;
-  uint8_t kept[PIECE_HEADER];
+  uint8_t * at = &stream->message[slot][(size_t)fragment * FRAGMENT_SIZE];
+  const size_t size = (size_t)stream->size[slot] - (size_t)fragment * FRAGMENT_SIZE;
+  uint8_t kept[FRAGMENT_HEADER];
   stream_outcome_t outcome;
 
-  if (stream->size[slot] <= WHOLE_SIZE) {
-    at = &at[PIECE_HEADER - XRCE_MESSAGE_HEADER];
+  if (stream->size[slot] <= UNFRAGMENTED_SIZE) {
+    at = &at[FRAGMENT_HEADER - XRCE_MESSAGE_HEADER];
     xrce_put_header(at, XRCE_SESSION_ID, XRCE_STREAM_RELIABLE, sequence);
     return stream_transmit(session, at, XRCE_MESSAGE_HEADER + size);
   }
   (void)memcpy(kept, at, sizeof(kept));
-  if (size > PIECE_SIZE) {
-    outcome = stream_send_piece(session, at, sequence, PIECE_SIZE, false);
+  if (size > FRAGMENT_SIZE) {
+    outcome = stream_send_fragment(session, at, sequence, FRAGMENT_SIZE, false);
   } else {
-    outcome = stream_send_piece(session, at, sequence, (uint16_t)size, true);
+    outcome = stream_send_fragment(session, at, sequence, (uint16_t)size, true);
   }
   (void)memcpy(at, kept, sizeof(kept));
   return outcome;
@@ -109,23 +109,23 @@ static stream_outcome_t stream_send_place(
   xrce_stream_reliable_t * stream, xrce_session_t * session, uint16_t place)
 {
   const uint16_t sequence = (uint16_t)(stream->first + place);
-  uint32_t piece = (uint32_t)place + stream->done;
+  uint32_t fragment = (uint32_t)place + stream->done;
 
   if (stream->ending) {
     if (place == 0u) {
-      uint8_t message[PIECE_HEADER];
+      uint8_t message[FRAGMENT_HEADER];
 
-      return stream_send_piece(session, message, sequence, 0, true);
+      return stream_send_fragment(session, message, sequence, 0, true);
     }
-    --piece;
+    --fragment;
   }
   for (uint8_t i = 0; i < stream->count && i < MICROROS_RELIABLE_BEGUN; ++i) {
-    const uint16_t pieces = stream_pieces(stream, i);
+    const uint16_t fragments = stream_fragments(stream, i);
 
-    if (piece < pieces) {
-      return stream_send_of(stream, session, i, (uint16_t)piece, sequence);
+    if (fragment < fragments) {
+      return stream_send_of(stream, session, i, (uint16_t)fragment, sequence);
     }
-    piece -= pieces;
+    fragment -= fragments;
   }
   return STREAM_NOTHING;
 }
@@ -157,7 +157,7 @@ static void stream_flow(xrce_stream_reliable_t * stream, xrce_session_t * sessio
     return;
   }
   if (stream->sent == 0u) {
-    xrce_stream_reliable_goes_on(stream, now);
+    xrce_stream_reliable_restart_timer(stream, now);
   }
   outcome = stream_repeat(stream, session);
   while (outcome == STREAM_SENT && stream->sent < WINDOW) {
@@ -195,8 +195,8 @@ static void stream_free(xrce_stream_reliable_t * stream, uint8_t count)
     --count;
   }
   stream->done = (uint16_t)(stream->done + count);
-  while (stream->count != 0u && stream->done >= stream_pieces(stream, 0)) {
-    stream->done = (uint16_t)(stream->done - stream_pieces(stream, 0));
+  while (stream->count != 0u && stream->done >= stream_fragments(stream, 0)) {
+    stream->done = (uint16_t)(stream->done - stream_fragments(stream, 0));
     stream_remove(stream, 0);
   }
 }
@@ -211,9 +211,9 @@ static uint8_t stream_first_unsent(const xrce_stream_reliable_t * stream)
     --used;
   }
   while (i < stream->count && used != 0u) {
-    const uint16_t pieces = stream_pieces(stream, i);
+    const uint16_t fragments = stream_fragments(stream, i);
 
-    used = used > pieces ? used - pieces : 0u;
+    used = used > fragments ? used - fragments : 0u;
     ++i;
   }
   return i;
@@ -285,7 +285,7 @@ bool xrce_stream_reliable_on_acknack(
   if (place <= stream->sent) {
     stream_free(stream, (uint8_t)place);
     if (place != 0u) {
-      xrce_stream_reliable_goes_on(stream, now);
+      xrce_stream_reliable_restart_timer(stream, now);
     }
     place = 0;
   } else if (missing != 0u) {

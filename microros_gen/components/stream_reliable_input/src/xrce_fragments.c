@@ -40,7 +40,7 @@ static bool fragments_begin(xrce_client_t * client, const uint8_t * begin, size_
 }
 
 /* Appends a fragment to the sample; false if it does not belong to it, or if the slot was reused. */
-static bool fragments_add(xrce_client_t * client, const uint8_t * piece, size_t size)
+static bool fragments_add(xrce_client_t * client, const uint8_t * fragment, size_t size)
 {
   xrce_fragments_t * fragments = &client->fragments;
   uint8_t * place = xrce_read_place(client, &fragments->sample);
@@ -52,7 +52,7 @@ static bool fragments_add(xrce_client_t * client, const uint8_t * piece, size_t 
     ++client->session.statistics.malformed;
     return false;
   }
-  (void)memcpy(&place[fragments->arrived], piece, size);
+  (void)memcpy(&place[fragments->arrived], fragment, size);
   fragments->arrived = (uint16_t)(fragments->arrived + size);
   return true;
 }
@@ -77,7 +77,7 @@ static void fragments_finish(xrce_client_t * client, uint32_t now)
   }
 }
 
-void xrce_fragments_on_piece(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
+void xrce_fragments_on_fragment(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {
   xrce_fragments_t * fragments = &client->fragments;
   const uint16_t number = (uint16_t)(client->reliable_input.next - 1u);

@@ -26,7 +26,7 @@ static void fragments_refuse(xrce_client_t * client, const uint8_t * begin, size
     (uint16_t)(length - XRCE_OBJECT_PREFIX));
 }
 
-void xrce_fragments_on_piece(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
+void xrce_fragments_on_fragment(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {
   xrce_fragments_t * fragments = &client->fragments;
 

@@ -20,7 +20,8 @@ void xrce_stream_reliable_input_reset(xrce_stream_reliable_input_t * stream)
 /* Returns the messages to request: known, not received, and not requested since the last HEARTBEAT. */
 static uint16_t input_missing(const xrce_stream_reliable_input_t * stream)
 {
-  const uint32_t others = (uint32_t)xrce_stream_reliable_input_map(stream) | stream->asked | stream->refused;
+  const uint32_t others =
+    (uint32_t)xrce_stream_reliable_input_map(stream) | stream->requested | stream->refused;
 
   return (uint16_t)(stream->announced & ~others);
 }
@@ -32,7 +33,7 @@ static void input_acknowledge(xrce_client_t * client)
   const uint16_t missing = input_missing(stream);
   uint8_t message[ACKNACK_MESSAGE];
 
-  stream->asked = (uint16_t)(stream->asked | missing);
+  stream->requested = (uint16_t)(stream->requested | missing);
   xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_NONE, 0);
   xrce_put_submessage(&message[4], XRCE_ACKNACK, XRCE_FLAG_LITTLE_ENDIAN, XRCE_ACKNACK_SIZE);
   xrce_put_le16(&message[8], stream->next);
@@ -54,7 +55,7 @@ static void input_advance(xrce_stream_reliable_input_t * stream)
 {
   ++stream->next;
   stream->announced >>= 1;
-  stream->asked = (uint16_t)((uint32_t)(stream->asked & ~(uint32_t)stream->refused) >> 1);
+  stream->requested = (uint16_t)((uint32_t)(stream->requested & ~(uint32_t)stream->refused) >> 1);
   stream->refused = 0;
 }
 
@@ -85,21 +86,21 @@ static bool input_is_whole(const uint8_t * message, size_t size)
 }
 
 /* Delivers the next message. */
-static void input_hand_on(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
+static void input_deliver(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
 {
   input_advance(&client->reliable_input);
   (void)xrce_session_take_submessages(client, message, size, now); /* cannot fail: it is complete */
 }
 
 /* Delivers stored messages from the next one on. */
-static void input_hand_on_kept(xrce_client_t * client, uint32_t now)
+static void input_deliver_stored(xrce_client_t * client, uint32_t now)
 {
   xrce_stream_reliable_input_t * stream = &client->reliable_input;
   size_t size = 0;
   const uint8_t * message = xrce_stream_reliable_input_kept(stream, stream->next, &size);
 
   while (message != NULL) {
-    input_hand_on(client, message, size, now);
+    input_deliver(client, message, size, now);
     message = xrce_stream_reliable_input_kept(stream, stream->next, &size);
   }
 }
@@ -118,8 +119,8 @@ bool xrce_stream_reliable_input_take(
     return true;
   }
   if (ahead == 0u) {
-    input_hand_on(client, message, size, now);
-    input_hand_on_kept(client, now);
+    input_deliver(client, message, size, now);
+    input_deliver_stored(client, now);
   } else if (ahead < WINDOW) {
     input_take_early(stream, ahead, message, size);
   }
@@ -128,15 +129,15 @@ bool xrce_stream_reliable_input_take(
 }
 
 /* Returns whether the next message is stored. */
-static bool input_can_go_on(const xrce_stream_reliable_input_t * stream)
+static bool input_can_deliver(const xrce_stream_reliable_input_t * stream)
 {
   return (xrce_stream_reliable_input_map(stream) & 1u) != 0u;
 }
 
-void xrce_stream_reliable_input_go_on(xrce_client_t * client, uint32_t now)
+void xrce_stream_reliable_input_continue(xrce_client_t * client, uint32_t now)
 {
-  if (input_can_go_on(&client->reliable_input)) {
-    input_hand_on_kept(client, now);
+  if (input_can_deliver(&client->reliable_input)) {
+    input_deliver_stored(client, now);
     input_acknowledge(client);
   }
 }
@@ -144,7 +145,7 @@ void xrce_stream_reliable_input_go_on(xrce_client_t * client, uint32_t now)
 /* Skips up to `count` unavailable messages, up to one that is stored. */
 static void input_skip(xrce_stream_reliable_input_t * stream, uint16_t count)
 {
-  for (uint16_t left = count; left != 0u && !input_can_go_on(stream); --left) {
+  for (uint16_t left = count; left != 0u && !input_can_deliver(stream); --left) {
     input_advance(stream);
   }
 }
@@ -172,9 +173,9 @@ bool xrce_stream_reliable_input_on_heartbeat(
   known = (uint16_t)(xrce_get_u16(&payload[2], flags) - stream->next + 1u);
   stream->announced =
     known < HALF ? input_first(known) : 0u; /* a number beyond these was forged, or overtaken */
-  stream->asked = 0;
+  stream->requested = 0;
   stream->refused = 0;
-  if (!input_can_go_on(stream)) { /* otherwise xrce_stream_reliable_input_go_on acknowledges */
+  if (!input_can_deliver(stream)) { /* otherwise xrce_stream_reliable_input_continue acknowledges */
     input_acknowledge(client);
   }
   return true;

@@ -73,14 +73,14 @@ static rmw_ret_t init_open_session(rmw_context_t * context)
 {
   xrce_client_t * client = rmw_client_instance();
   const rmw_uxrce_transport_params_t * params = &context->options.transport_params;
-  const bool goes_on = xrce_place_goes_on(client, params->client_key);
+  const bool resumes = xrce_place_can_resume(client, params->client_key);
   rmw_ret_t result = RMW_RET_ERROR;
 
-  if (!goes_on) {
+  if (!resumes) {
     xrce_session_open(client, init_key(params));
   }
   if (rmw_transport_prepare(&client->session.transport, params)) {
-    if (goes_on) {
+    if (resumes) {
       xrce_place_resume(client);
     }
     result = xrce_session_await(client, MICROROS_CONNECT_TIMEOUT_MS) ? RMW_RET_OK : init_report(client);

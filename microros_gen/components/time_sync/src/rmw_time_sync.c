@@ -17,7 +17,7 @@
 static bool sync_wait(xrce_client_t * client, uint32_t timeout_ms)
 {
   const uint32_t start = port_time_ms();
-  const uint8_t answers = client->time_sync.answers;
+  const uint8_t replies = client->time_sync.replies;
   uint32_t due = start; /* when to send the next request */
 
   for (;;) {
@@ -25,13 +25,13 @@ static bool sync_wait(xrce_client_t * client, uint32_t timeout_ms)
     bool over;
 
     xrce_session_pump(client);
-    if (client->time_sync.answers != answers) {
+    if (client->time_sync.replies != replies) {
       return true;
     }
     now = port_time_ms();
     over = now - start >= timeout_ms;
     if (client->session.state == (uint8_t)XRCE_READY && xrce_is_due(now, due) && (!over || due == start)) {
-      xrce_time_sync_ask(client);
+      xrce_time_sync_request(client);
       due = now + xrce_session_short_pause(now - start);
     }
     if (over || client->session.state == (uint8_t)XRCE_CLOSED) {

@@ -7,8 +7,8 @@
 
 /* A time stamp is seconds and nanoseconds; a reply has three of them. The standard's seconds are signed
  * and would end in 2038: clocks of agents are not before 1970, so they are unsigned here. */
-enum { MOMENT_SIZE = 8, TIMESTAMP_SIZE = 8 + MOMENT_SIZE, REPLY_SIZE = 3 * MOMENT_SIZE };
-enum { TRANSMIT = 0, RECEIVE = MOMENT_SIZE, ORIGINATE = 2 * MOMENT_SIZE };
+enum { TIME_SIZE = 8, TIMESTAMP_SIZE = 8 + TIME_SIZE, REPLY_SIZE = 3 * TIME_SIZE };
+enum { TRANSMIT = 0, RECEIVE = TIME_SIZE, ORIGINATE = 2 * TIME_SIZE };
 
 static const int64_t ns_per_s = 1000000000;
 
@@ -27,12 +27,12 @@ static uint32_t time_get_u32(const uint8_t * at, uint8_t flags)
 }
 
 /* Returns false if the nanoseconds are a second or more. */
-static bool time_get_moment(const uint8_t * at, uint8_t flags, int64_t * moment_ns)
+static bool time_get_ns(const uint8_t * at, uint8_t flags, int64_t * time_ns)
 {
   const uint32_t seconds = time_get_u32(at, flags);
   const uint32_t nanoseconds = time_get_u32(&at[4], flags);
 
-  *moment_ns = (int64_t)seconds * ns_per_s + (int64_t)nanoseconds;
+  *time_ns = (int64_t)seconds * ns_per_s + (int64_t)nanoseconds;
   return nanoseconds < (uint32_t)ns_per_s;
 }
 
@@ -52,13 +52,13 @@ void xrce_time_sync_end(xrce_time_sync_t * sync)
   }
 }
 
-void xrce_time_sync_ask(xrce_client_t * client)
+void xrce_time_sync_request(xrce_client_t * client)
 {
   uint8_t message[TIMESTAMP_SIZE];
   const int64_t now_ns = port_time_steady_ns();
 
   xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_NONE, 0);
-  xrce_put_submessage(&message[4], XRCE_TIMESTAMP, XRCE_FLAG_LITTLE_ENDIAN, MOMENT_SIZE);
+  xrce_put_submessage(&message[4], XRCE_TIMESTAMP, XRCE_FLAG_LITTLE_ENDIAN, TIME_SIZE);
   time_put_le32(&message[8], (uint32_t)(now_ns / ns_per_s));
   time_put_le32(&message[12], (uint32_t)(now_ns % ns_per_s));
   (void)xrce_session_send(&client->session, message, sizeof(message)); /* a lost message is repeated */
@@ -76,9 +76,9 @@ void xrce_time_sync_on_reply(xrce_client_t * client, const uint8_t * submessage,
 
   (void)now;
   if (
-    size < REPLY_SIZE || !time_get_moment(&payload[TRANSMIT], flags, &transmitted_ns) ||
-    !time_get_moment(&payload[RECEIVE], flags, &received_ns) ||
-    !time_get_moment(&payload[ORIGINATE], flags, &originated_ns)) {
+    size < REPLY_SIZE || !time_get_ns(&payload[TRANSMIT], flags, &transmitted_ns) ||
+    !time_get_ns(&payload[RECEIVE], flags, &received_ns) ||
+    !time_get_ns(&payload[ORIGINATE], flags, &originated_ns)) {
     ++client->session.statistics.malformed;
     return;
   }
@@ -91,5 +91,5 @@ void xrce_time_sync_on_reply(xrce_client_t * client, const uint8_t * submessage,
   sync->offset_ns = ((received_ns - originated_ns) + (transmitted_ns - now_ns)) / 2;
   sync->round_trip_ns = now_ns - originated_ns;
   sync->synchronized = true;
-  ++sync->answers;
+  ++sync->replies;
 }

@@ -117,7 +117,7 @@ void rcl_timer_wake(rcl_timer_impl_t * timer)
 {
   timer->woken = true;
   if (timer->guard != NULL) {
-    timer->guard->came = timer->guard->came + 1u;
+    timer->guard->triggered = timer->guard->triggered + 1u;
   }
   port_wake();
 }

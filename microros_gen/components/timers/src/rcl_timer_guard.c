@@ -19,7 +19,8 @@ rcl_guard_condition_t * rcl_timer_get_guard_condition(const rcl_timer_t * timer)
   if (impl->guard == NULL) {
     impl->guard = &states[index];
     impl->guard->taken = true;
-    impl->guard->seen = impl->guard->came - (impl->woken ? 1u : 0u); /* triggered before it was requested */
+    impl->guard->seen =
+      impl->guard->triggered - (impl->woken ? 1u : 0u); /* triggered before it was requested */
     guards[index].impl = impl->guard;
   }
   return &guards[index];

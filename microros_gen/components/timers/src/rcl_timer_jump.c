@@ -13,7 +13,7 @@ static bool jump_changes_time(const rcl_time_jump_t * jump)
  * As in Jazzy's rcl: the elapsed part of the period in the new time is what remained in the old one. A
  * time of 0 is unset and is ignored.
  */
-static void jump_carry_over(size_t index, int64_t now, bool before_jump)
+static void jump_keep_elapsed(size_t index, int64_t now, bool before_jump)
 {
   static int64_t credits[MICROROS_TIMERS_MAX]; /* remaining time until the next call */
   rcl_timer_impl_t * timer = &rcl_timers[index];
@@ -47,7 +47,7 @@ void rcl_timer_on_jump(
     rcl_timer_impl_t * timer = &rcl_timers[i];
 
     if (timer->clock == clock && changes_time) {
-      jump_carry_over(i, now, before_jump);
+      jump_keep_elapsed(i, now, before_jump);
     } else if (timer->clock == clock && !before_jump) {
       jump_settle(timer, now);
     } else {

@@ -6,10 +6,10 @@
 
 #include <string.h>
 
-static void transport_give_up(xrce_transport_t * transport)
+static void transport_abandon(xrce_transport_t * transport)
 {
   port_tcp_close(&transport->tcp);
-  transport->gone = true;
+  transport->closed = true;
 }
 
 bool xrce_transport_open(xrce_transport_t * transport)
@@ -17,13 +17,13 @@ bool xrce_transport_open(xrce_transport_t * transport)
   transport->unsent = 0;
   transport->length_arrived = 0;
   transport->arrived = 0;
-  transport->gone = false;
+  transport->closed = false;
   return port_tcp_open(&transport->tcp, transport->host, transport->port);
 }
 
 void xrce_transport_close(xrce_transport_t * transport)
 {
-  if (!transport->gone) {
+  if (!transport->closed) {
     port_tcp_close(&transport->tcp);
   }
 }
@@ -31,12 +31,12 @@ void xrce_transport_close(xrce_transport_t * transport)
 /* Sends waiting bytes. */
 static void transport_flush(xrce_transport_t * transport)
 {
-  while (!transport->gone && transport->unsent != 0u) {
+  while (!transport->closed && transport->unsent != 0u) {
     const int32_t taken =
       port_tcp_send(&transport->tcp, &transport->output[transport->sent], transport->unsent);
 
     if (taken < 0) {
-      transport_give_up(transport);
+      transport_abandon(transport);
     }
     if (taken <= 0) {
       return;
@@ -52,7 +52,7 @@ bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, 
     return false;
   }
   transport_flush(transport);
-  if (transport->gone || transport->unsent != 0u) {
+  if (transport->closed || transport->unsent != 0u) {
     return false;
   }
   xrce_put_le16(transport->output, (uint16_t)size);
@@ -60,7 +60,7 @@ bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, 
   transport->sent = 0;
   transport->unsent = (uint16_t)(XRCE_TCP_PREFIX + size);
   transport_flush(transport);
-  return !transport->gone;
+  return !transport->closed;
 }
 
 /* Reads at most `capacity` bytes; 0 if nothing has arrived or the connection is closed. */
@@ -69,7 +69,7 @@ static uint16_t transport_read(xrce_transport_t * transport, uint8_t * buffer, s
   const int32_t size = port_tcp_receive(&transport->tcp, buffer, capacity);
 
   if (size < 0) {
-    transport_give_up(transport);
+    transport_abandon(transport);
   }
   return size > 0 ? (uint16_t)size : 0u;
 }
@@ -97,7 +97,7 @@ int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, s
   bool fits;
 
   transport_flush(transport);
-  if (transport->gone || !transport_read_length(transport)) {
+  if (transport->closed || !transport_read_length(transport)) {
     return 0;
   }
   fits = transport->size <= capacity && transport->size != 0u;

@@ -19,7 +19,7 @@ xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room)
     }
   }
   xrce_drops_add(writer->client, writer->index);
-  return xrce_write_obstacle(writer);
+  return xrce_write_failure(writer);
 }
 
 /* The message occupies the stream, so the lock is held while the line makes room. */

@@ -25,7 +25,7 @@ xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room)
       *room = xrce_route_reserve(client, true);
     }
   }
-  return *room != NULL ? XRCE_WRITTEN : xrce_write_obstacle(writer);
+  return *room != NULL ? XRCE_WRITTEN : xrce_write_failure(writer);
 }
 
 xrce_write_t xrce_write_on_unsent(xrce_endpoint_t * writer, size_t size)

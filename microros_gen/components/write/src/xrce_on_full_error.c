@@ -7,7 +7,7 @@ xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room)
 {
   (void)room;
   xrce_drops_add(writer->client, writer->index);
-  return xrce_write_obstacle(writer);
+  return xrce_write_failure(writer);
 }
 
 xrce_write_t xrce_write_on_unsent(xrce_endpoint_t * writer, size_t size)

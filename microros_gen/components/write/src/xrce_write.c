@@ -37,7 +37,7 @@ uint8_t * xrce_write_reserve(const xrce_endpoint_t * writer)
   return write_has_session(writer) ? xrce_route_reserve(writer->client, write_is_reliable(writer)) : NULL;
 }
 
-xrce_write_t xrce_write_obstacle(const xrce_endpoint_t * writer)
+xrce_write_t xrce_write_failure(const xrce_endpoint_t * writer)
 {
   return write_has_session(writer) ? XRCE_WRITE_FULL : XRCE_WRITE_NO_SESSION;
 }

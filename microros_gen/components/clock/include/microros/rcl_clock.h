@@ -30,7 +30,7 @@ rcl_ret_t rcl_clock_begin(
 rcl_ret_t rcl_clock_end(rcl_clock_t * clock, rcl_clock_type_t type);
 
 /* Frees the jump callbacks of a clock. */
-void rcl_clock_forget_callbacks(rcl_clock_t * clock);
+void rcl_clock_remove_callbacks(rcl_clock_t * clock);
 
 /* Calls the jump callbacks whose threshold is reached. */
 void rcl_clock_call_callbacks(const rcl_clock_t * clock, const rcl_time_jump_t * jump, bool before_jump);

@@ -21,7 +21,7 @@ extern "C" {
 /* Multicast group of the request; a transport with this host needs discovery. */
 #define XRCE_DISCOVERY_GROUP "239.255.0.2"
 
-enum { XRCE_DISCOVERY_PLACES = 8, XRCE_DISCOVERY_QUESTION = 16, XRCE_DISCOVERY_HOST = 16 };
+enum { XRCE_DISCOVERY_PLACES = 8, XRCE_DISCOVERY_REQUEST = 16, XRCE_DISCOVERY_HOST = 16 };
 
 typedef struct xrce_place_t {
   uint8_t address[PORT_MULTICAST_ADDRESS];
@@ -31,10 +31,10 @@ typedef struct xrce_place_t {
 /* Zero-initialized: discovery has not started. */
 typedef struct xrce_discovery_t {
   port_multicast_t group;
-  uint32_t due_ms;   /* when to ask again; while a locator is tried: its deadline */
-  uint32_t since_ms; /* start of the discovery */
-  uint32_t asked_ms; /* time of the last request */
-  bool wanted;       /* this session needs an agent */
+  uint32_t due_ms;       /* when to ask again; while a locator is tried: its deadline */
+  uint32_t since_ms;     /* start of the discovery */
+  uint32_t requested_ms; /* time of the last request */
+  bool wanted;           /* this session needs an agent */
   bool searching;
   bool open; /* the socket is open */
   bool trying;
@@ -60,8 +60,8 @@ uint16_t xrce_discovery_take(xrce_discovery_t * discovery);
 /* Ends a discovery and closes its socket. */
 void xrce_discovery_end(xrce_discovery_t * discovery);
 
-/* Writes GET_INFO into `message`, XRCE_DISCOVERY_QUESTION bytes. */
-void xrce_discovery_write_question(uint8_t * message);
+/* Writes GET_INFO into `message`, XRCE_DISCOVERY_REQUEST bytes. */
+void xrce_discovery_write_request(uint8_t * message);
 
 /* Adds the locators of an INFO, each once; the one with the sender's address first. A truncated message is
  * used up to its end. */

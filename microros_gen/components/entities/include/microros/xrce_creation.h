@@ -20,8 +20,8 @@ extern "C" {
 #endif
 
 typedef struct xrce_entities_t {
-  uint32_t due_ms;   /* while xrce_entities_waits: time of the next action */
-  uint32_t asked_ms; /* when the outstanding request was first sent */
+  uint32_t due_ms;       /* while xrce_entities_waits: time of the next action */
+  uint32_t requested_ms; /* when the outstanding request was first sent */
   uint16_t request;
   uint16_t cursor;        /* place of the outstanding request */
   uint16_t refused_place; /* the last refused place, and its status */

@@ -16,7 +16,7 @@ extern "C" {
  * Counters of triggers and of seen triggers: the triggering context writes only the first, the waiting
  * task only the second. */
 struct rcl_guard_condition_impl_s {
-  volatile uint32_t came;
+  volatile uint32_t triggered;
   uint32_t seen;
   bool taken;
 };
@@ -26,7 +26,7 @@ bool rcl_guard_condition_is_valid(const rcl_guard_condition_t * guard_condition)
 /* Returns whether a valid guard condition was triggered since it was last seen. */
 bool rcl_guard_condition_is_ready(const rcl_guard_condition_t * guard_condition);
 
-void rcl_guard_condition_see(const rcl_guard_condition_t * guard_condition);
+void rcl_guard_condition_acknowledge(const rcl_guard_condition_t * guard_condition);
 
 #ifdef __cplusplus
 }

@@ -13,9 +13,9 @@ extern "C" {
 #endif
 
 typedef struct xrce_liveliness_acknack_t {
-  uint32_t since_ms; /* time of the last acknowledgement, or when nothing was unacknowledged */
-  uint32_t heard_ms; /* value of the session at that time */
-  uint16_t first;    /* oldest unacknowledged message at that time */
+  uint32_t since_ms;    /* time of the last acknowledgement, or when nothing was unacknowledged */
+  uint32_t received_ms; /* value of the session at that time */
+  uint16_t first;       /* oldest unacknowledged message at that time */
 } xrce_liveliness_acknack_t;
 
 void xrce_liveliness_acknack_reset(xrce_liveliness_acknack_t * liveliness, uint32_t now);

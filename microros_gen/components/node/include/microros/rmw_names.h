@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 typedef struct rmw_name_t {
-  const char * piece[4]; /* concatenated; "" if unused */
+  const char * part[4]; /* concatenated; "" if unused */
 } rmw_name_t;
 
 /* Returns a namespace with a leading slash, which the caller may have omitted. */

@@ -28,7 +28,8 @@ void xrce_parameters_answer_large(const xrce_endpoint_t * endpoint, bool answers
 void xrce_parameters_on_data(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
 /* The fragments of a sample come in their order, the first with its beginning. */
-void xrce_parameters_on_piece(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
+void xrce_parameters_on_fragment(
+  xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
 /* Called for a new session: a sample of the old one has no further fragments. */
 void xrce_parameters_renew(xrce_client_t * client);

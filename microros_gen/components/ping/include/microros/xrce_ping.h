@@ -16,14 +16,14 @@ extern "C" {
 typedef struct xrce_ping_t {
   uint32_t due_ms;    /* when to ask again */
   uint8_t unanswered; /* requests since the last message from the agent */
-  uint8_t answers;    /* INFOs and granted sessions: a change shows that an agent answered */
+  uint8_t replies;    /* INFOs and granted sessions: a change shows that an agent answered */
 } xrce_ping_t;
 
 /* Called when a session was granted. */
 void xrce_ping_reset(xrce_ping_t * ping);
 
 /* Sends one request, inside the session if one is open. The session stays open. */
-void xrce_ping_ask(xrce_client_t * client);
+void xrce_ping_request(xrce_client_t * client);
 
 /* Sends a request after MICROROS_LIVELINESS_PERIOD_MS of silence; the session is lost after
  * MICROROS_LIVELINESS_ATTEMPTS requests without an answer within MICROROS_LIVELINESS_WAIT_MS. */

@@ -16,14 +16,14 @@ static inline uint32_t xrce_ping_left(const xrce_client_t * client, uint32_t lef
   return xrce_sooner(
     left,
     client->ping.unanswered != 0u ? client->ping.due_ms
-                                  : client->session.heard_ms + MICROROS_LIVELINESS_PERIOD_MS,
+                                  : client->session.received_ms + MICROROS_LIVELINESS_PERIOD_MS,
     now);
 }
 
 /* After a sleep of the device the first pump sends a request. */
 static inline void xrce_ping_wake(xrce_client_t * client, uint32_t now)
 {
-  client->session.heard_ms = now - MICROROS_LIVELINESS_PERIOD_MS;
+  client->session.received_ms = now - MICROROS_LIVELINESS_PERIOD_MS;
   client->ping.unanswered = 0;
   client->ping.due_ms = now;
 }

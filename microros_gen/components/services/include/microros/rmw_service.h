@@ -73,7 +73,7 @@ rmw_ret_t rmw_replier_end(
   const rmw_service_t * service, const rmw_request_id_t * request, const void * ros_response);
 
 /* Cancels the reply: the service was finalized meanwhile. */
-void rmw_replier_give_up(void);
+void rmw_replier_abandon(void);
 
 /*
  * Encodes a reply into the reliable stream. RMW_RET_ERROR, with a text: a field above its limit, no room,

@@ -31,12 +31,12 @@ typedef struct xrce_request_t {
 } xrce_request_t;
 
 /* Requests of a client. `given_up`: requests replaced by newer ones; `interrupted`: those outstanding when
- * a session was lost, `untold` of them not yet reported. */
+ * a session was lost, `unreported` of them not yet reported. */
 typedef struct xrce_requester_t {
   int64_t sequence; /* of the last request */
   uint32_t given_up;
   uint32_t interrupted;
-  uint32_t untold;
+  uint32_t unreported;
 } xrce_requester_t;
 
 /* Returns the service part of an endpoint. */

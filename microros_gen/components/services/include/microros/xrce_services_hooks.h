@@ -12,7 +12,7 @@ extern "C" {
 /* Returns whether the free slots of the reliable stream are reserved for replies. */
 static inline bool xrce_services_keep_back(const xrce_client_t * client, bool reliable)
 {
-  return reliable && (uint32_t)client->reliable.count + client->owed >= MICROROS_RELIABLE_SLOTS;
+  return reliable && (uint32_t)client->reliable.count + client->replies_due >= MICROROS_RELIABLE_SLOTS;
 }
 
 #ifdef __cplusplus

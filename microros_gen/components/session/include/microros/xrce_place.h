@@ -23,15 +23,15 @@ static inline bool xrce_place_is_kept(const xrce_client_t * client, uint16_t pla
 /*
  * Called when the application opens a place, which is filled in. True: the preserved one, nothing has to
  * be created. */
-static inline bool xrce_place_take_up(xrce_client_t * client, uint16_t place)
+static inline bool xrce_place_restore(xrce_client_t * client, uint16_t place)
 {
   (void)client;
   (void)place;
   return false;
 }
 
-/* Returns the result of xrce_place_take_up for this place when it was last opened. */
-static inline bool xrce_place_took_up(const xrce_client_t * client, uint16_t place)
+/* Returns the result of xrce_place_restore for this place when it was last opened. */
+static inline bool xrce_place_was_restored(const xrce_client_t * client, uint16_t place)
 {
   (void)client;
   (void)place;
@@ -40,7 +40,7 @@ static inline bool xrce_place_took_up(const xrce_client_t * client, uint16_t pla
 
 /* Returns whether the client resumes a session instead of opening one; xrce_place_resume follows once its
  * transport is prepared. `key` is the application's, 0: that of the plan. */
-static inline bool xrce_place_goes_on(xrce_client_t * client, uint32_t key)
+static inline bool xrce_place_can_resume(xrce_client_t * client, uint32_t key)
 {
   (void)client;
   (void)key;

@@ -35,13 +35,13 @@ typedef struct xrce_statistics_t {
 typedef struct xrce_session_t {
   xrce_transport_t transport;
   uint32_t key;
-  uint32_t now_ms;   /* start of the last pump */
-  uint32_t due_ms;   /* when to send the next CREATE_CLIENT */
-  uint32_t heard_ms; /* when the agent was last heard */
-  uint32_t since_ms; /* start of connecting */
-  uint16_t request;  /* the next request id */
-  uint8_t state;     /* xrce_state_t */
-  uint8_t refusal;   /* status of the agent's refusal, or 0 */
+  uint32_t now_ms;      /* start of the last pump */
+  uint32_t due_ms;      /* when to send the next CREATE_CLIENT */
+  uint32_t received_ms; /* when the agent was last heard */
+  uint32_t since_ms;    /* start of connecting */
+  uint16_t request;     /* the next request id */
+  uint8_t state;        /* xrce_state_t */
+  uint8_t refusal;      /* status of the agent's refusal, or 0 */
   bool transport_open;
   bool was_ready;  /* the next session is a reconnection */
   bool in_session; /* the current message was received within a session */
@@ -65,7 +65,7 @@ void xrce_session_close(xrce_client_t * client);
 bool xrce_session_drain(xrce_client_t * client);
 
 /* Marks the session as lost and connects again. */
-void xrce_session_lose(xrce_client_t * client, uint32_t now);
+void xrce_session_mark_lost(xrce_client_t * client, uint32_t now);
 
 /* Receives and runs all work that is due. Never blocks. */
 void xrce_session_pump(xrce_client_t * client);

@@ -19,20 +19,20 @@ static inline bool xrce_place_is_kept(const xrce_client_t * client, uint16_t pla
 /*
  * Called when the application opens a place, which is filled in. True: the preserved one, nothing has to
  * be created. */
-static inline bool xrce_place_take_up(xrce_client_t * client, uint16_t place)
+static inline bool xrce_place_restore(xrce_client_t * client, uint16_t place)
 {
-  return xrce_sleep_take_up(client, place);
+  return xrce_sleep_restore(client, place);
 }
 
-/* Returns the result of xrce_place_take_up for this place when it was last opened. */
-static inline bool xrce_place_took_up(const xrce_client_t * client, uint16_t place)
+/* Returns the result of xrce_place_restore for this place when it was last opened. */
+static inline bool xrce_place_was_restored(const xrce_client_t * client, uint16_t place)
 {
-  return xrce_sleep_took_up(client, place);
+  return xrce_sleep_was_restored(client, place);
 }
 
 /* Returns whether the client resumes a session instead of opening one; xrce_place_resume follows once its
  * transport is prepared. `key` is the application's, 0: that of the plan. */
-static inline bool xrce_place_goes_on(xrce_client_t * client, uint32_t key)
+static inline bool xrce_place_can_resume(xrce_client_t * client, uint32_t key)
 {
   const uint32_t wanted = key != 0u || MICROROS_CLIENT_KEY_OF_DEVICE != 0u ? key : MICROROS_CLIENT_KEY;
 

@@ -46,13 +46,13 @@ bool xrce_sleep_keeps(const xrce_client_t * client, uint16_t place);
 /*
  * Called when the application opens a place, which is filled in. True: the preserved one, nothing has to
  * be created. */
-bool xrce_sleep_take_up(xrce_client_t * client, uint16_t place);
+bool xrce_sleep_restore(xrce_client_t * client, uint16_t place);
 
-/* Returns the result of xrce_sleep_take_up for this place when it was last opened. */
-bool xrce_sleep_took_up(const xrce_client_t * client, uint16_t place);
+/* Returns the result of xrce_sleep_restore for this place when it was last opened. */
+bool xrce_sleep_was_restored(const xrce_client_t * client, uint16_t place);
 
 /* Called for a new session: discards everything kept from the previous one. */
-void xrce_sleep_forget(xrce_client_t * client);
+void xrce_sleep_clear(xrce_client_t * client);
 
 /* Returns the CRC-32 (IEEE 802.3) of `before` continued by these bytes; `before` is 0 for the first ones. */
 uint32_t xrce_sleep_check(uint32_t before, const uint8_t * bytes, size_t size);

@@ -31,7 +31,7 @@ extern "C" {
 /*
  * Called for an acknowledgement or the first message: a HEARTBEAT is only needed for messages that stay
  * unacknowledged. */
-static inline void xrce_stream_reliable_goes_on(xrce_stream_reliable_t * stream, uint32_t now)
+static inline void xrce_stream_reliable_restart_timer(xrce_stream_reliable_t * stream, uint32_t now)
 {
   stream->since_ms = now;
   stream->due_ms = now + MICROROS_HEARTBEAT_PERIOD_MS;

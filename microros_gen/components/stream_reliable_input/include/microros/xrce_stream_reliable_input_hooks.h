@@ -28,7 +28,7 @@ static inline void xrce_stream_reliable_input_take_heartbeat(
 }
 
 /* Handles a FRAGMENT in a client whose requested samples all fit into its input buffer. */
-static inline void xrce_stream_reliable_input_refuse_piece(
+static inline void xrce_stream_reliable_input_refuse_fragment(
   xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
 {
   (void)submessage;

@@ -21,7 +21,7 @@ typedef struct xrce_time_sync_t {
   int64_t offset_ns;     /* added to port_time_steady_ns; 0 before the first answer */
   int64_t round_trip_ns; /* of the answer that determined the offset */
   uint8_t callers;       /* waiting callers; answers are ignored if it is 0 */
-  uint8_t answers;       /* changes with each answer */
+  uint8_t replies;       /* changes with each answer */
   bool synchronized;
 } xrce_time_sync_t;
 
@@ -30,7 +30,7 @@ void xrce_time_sync_begin(xrce_time_sync_t * sync);
 void xrce_time_sync_end(xrce_time_sync_t * sync);
 
 /* Sends one request in an open session. Lost messages are not repeated here. */
-void xrce_time_sync_ask(xrce_client_t * client);
+void xrce_time_sync_request(xrce_client_t * client);
 
 /*
  * Handles an answer to any request of the waiting callers. Of several, the one with the shortest round

@@ -14,10 +14,10 @@ static inline void xrce_tcp_check(xrce_client_t * client, uint32_t now)
 {
   xrce_session_t * session = &client->session;
 
-  if (session->transport_open && xrce_transport_is_gone(&session->transport)) {
+  if (session->transport_open && xrce_transport_is_broken(&session->transport)) {
     session->transport_open = false;
     if (session->state == (uint8_t)XRCE_READY) {
-      xrce_session_lose(client, now);
+      xrce_session_mark_lost(client, now);
     }
   }
 }

@@ -41,7 +41,7 @@ xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room);
 xrce_write_t xrce_write_on_unsent(xrce_endpoint_t * writer, size_t size);
 
 /* Returns why there is no room. */
-xrce_write_t xrce_write_obstacle(const xrce_endpoint_t * writer);
+xrce_write_t xrce_write_failure(const xrce_endpoint_t * writer);
 
 #ifdef __cplusplus
 }

@@ -24,7 +24,7 @@ static const uint32_t error_overrun = 1u << 0;
 
 static bool nrf51_sends; /* of the interrupt, and of port_uart_start: a byte is on its way out */
 
-static void nrf51_go_on(void)
+static void nrf51_send_next(void)
 {
   uint8_t byte;
 
@@ -52,7 +52,7 @@ void port_cortex_m_uart_interrupt(void)
     PORT_CORTEX_M_REGISTER(UART_RX_READY) = 0;
     port_uart_received((uint8_t)(PORT_CORTEX_M_REGISTER(UART_RX_DATA) & 0xffu));
   }
-  nrf51_go_on();
+  nrf51_send_next();
 }
 
 void port_uart_start(void)

@@ -25,7 +25,7 @@ static const uint8_t state_overrun = 0x02;
 static const uint8_t state_room = 0x20; /* nothing is left of what was to be sent */
 
 /* Fills the empty FIFO; with nothing to send the room is of no interest. */
-static void ns16550_go_on(void)
+static void ns16550_send_next(void)
 {
   uint8_t byte;
   uint8_t count = 0;
@@ -50,7 +50,7 @@ void port_riscv_uart_interrupt(void)
     port_uart_received(PORT_RISCV_REGISTER_8(UART_DATA));
   }
   if ((state & state_room) != 0u) {
-    ns16550_go_on();
+    ns16550_send_next();
   }
 }
 
