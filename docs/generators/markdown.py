@@ -27,10 +27,10 @@ def _code(span: str) -> str:
 
 
 def _plain(text: str) -> str:
-    pieces = _IDENTIFIER.split(text)
-    for i, piece in enumerate(pieces):
-        pieces[i] = f"`{piece}`" if i % 2 else re.sub(r"([\\*_\[\]])", r"\\\1", piece).translate(_ENTITIES)
-    return "".join(pieces)
+    chunks = _IDENTIFIER.split(text)
+    for i, chunk in enumerate(chunks):
+        chunks[i] = f"`{chunk}`" if i % 2 else re.sub(r"([\\*_\[\]])", r"\\\1", chunk).translate(_ENTITIES)
+    return "".join(chunks)
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

@@ -19,7 +19,7 @@ from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.newcomers import Newcomer, Newcomers, Strangers, check, timeout_of, who_gives_way
 from microros_gen.agent.objects import ObjectTree
-from microros_gen.agent.operations import agent_info, tell_outcome
+from microros_gen.agent.operations import agent_info, report_outcome
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.rates import Rates
 from microros_gen.agent.representation import References
@@ -182,7 +182,7 @@ class Admission:
         client.work.clear()
         self._turns.begin(client, Job(client.objects.clearing(), adds=False))
         client.session.reset()  # what its streams hold is not kept alive by who still knows the client
-        self._tell(client, "client_gone", "client {client} " + why)
+        self._report(client, "client_gone", "client {client} " + why)
 
     def send_away(self, client: Client) -> None:
         """Dismiss a client that was adopted and does what that one would not do; it is not adopted again."""
@@ -199,7 +199,7 @@ class Admission:
             self._log.count("unfinished", text, client=client.name)
         self._deliveries.refresh(client, client.heard)
         text = "client {client} was not heard for {seconds} s: its entities left the ROS graph"
-        self._tell(client, "client_silent", text, seconds=client.timeout_s)
+        self._report(client, "client_silent", text, seconds=client.timeout_s)
 
     def wake(self, client: Client) -> bool:
         """Bring the entities of a client back that is heard again; return whether they are there."""
@@ -209,10 +209,10 @@ class Admission:
     def _waking(self, client: Client) -> Steps[None]:
         failed = yield from client.objects.resuming()
         self._deliveries.refresh(client, self._turns.clock())
-        self._tell(client, "client_back", "client {client} is heard again: its entities are back")
+        self._report(client, "client_back", "client {client} is heard again: its entities are back")
         for entity, reason in failed:
             text = "client {client}: object {object} could not be made again: {reason}"
-            self._tell(client, "client_back_without", text, object=f"{entity.id:#06x}", reason=reason)
+            self._report(client, "client_back_without", text, object=f"{entity.id:#06x}", reason=reason)
 
     def _enter(
         self, header: Header, wanted: CreateClient, address: Hashable, transport: Transport, now: float
@@ -275,7 +275,7 @@ class Admission:
             return Status.RESOURCES
         new.objects.inherit(heritage)
         text = "client {client} connected from {peer} (session {session}, MTU {mtu})"
-        self._tell(
+        self._report(
             new, "client_connected", text, peer=new.place, session=f"{link.session:#04x}", mtu=link.mtu
         )
         if client is not None and client.work:  # what it had still leaves the ROS graph: that comes first
@@ -320,7 +320,7 @@ class Admission:
     def _giving(self, client: Client) -> Steps[None]:
         for given in self._held.preconfigured.objects(client.session.link.key):
             outcome = yield from client.objects.giving(given.id, given.parent, given.description)
-            tell_outcome(self._log, client, given.id, outcome)
+            report_outcome(self._log, client, given.id, outcome)
             yield
 
     def _adopt(
@@ -350,7 +350,7 @@ class Admission:
         if isinstance(submessage, Heartbeat):
             client.session.begin(submessage.stream, submessage.first)
         text = "client {client} adopted at {peer}: it goes on with a session that it opened before"
-        self._tell(client, "client_adopted", text, peer=client.place)
+        self._report(client, "client_adopted", text, peer=client.place)
         self._give(client)
         return client
 
@@ -367,7 +367,7 @@ class Admission:
             self.move(client, transport, address, now)
         if client.asleep:
             self.wake(client)
-        self._tell(client, "client_again", "client {client} connected again, its entities are kept")
+        self._report(client, "client_again", "client {client} connected again, its entities are kept")
         self._give(client)
 
     def _count_stranger(self, now: float) -> None:
@@ -394,5 +394,5 @@ class Admission:
     def _who_gives_way(self, now: float) -> Client | None:
         return who_gives_way(self._clients, now, self._limits.client_timeout_s * SILENT_PART)
 
-    def _tell(self, client: Client, event: str, text: str, **fields: str | int | float) -> None:
+    def _report(self, client: Client, event: str, text: str, **fields: str | int | float) -> None:
         self._log.emit(Level.INFO, event, text, client=client.name, **fields)

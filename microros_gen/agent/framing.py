@@ -119,9 +119,9 @@ class FrameDecoder:
         frames: list[Frame] = []
         first, *begun = data.split(FLAG)
         self._take(first, frames)
-        for piece in begun:
+        for chunk in begun:
             self._begin()
-            self._take(piece, frames)
+            self._take(chunk, frames)
         return frames
 
     def _begin(self) -> None:
@@ -135,38 +135,38 @@ class FrameDecoder:
         self._plain = bytearray()
         self._in_frame = self._escaped = False
 
-    def _take(self, piece: bytes, frames: list[Frame]) -> None:
+    def _take(self, chunk: bytes, frames: list[Frame]) -> None:
         """Take bytes without a flag."""
-        if not piece:
+        if not chunk:
             return
         if not self._in_frame:
-            self._noise(piece)
+            self._noise(chunk)
             return
-        plain, bad = self._unstuff(piece)
+        plain, bad = self._unstuff(chunk)
         self._plain += plain
         if self._complete(frames):
             return
         if bad:
             self._fail("frame_escape", f"0x7d before {bad}")
 
-    def _unstuff(self, piece: bytes) -> tuple[bytes, str]:
+    def _unstuff(self, chunk: bytes) -> tuple[bytes, str]:
         """Return the plain bytes up to a wrong escape, and what follows the escape there (empty: none)."""
         if self._escaped:
-            piece = ESCAPE + piece
+            chunk = ESCAPE + chunk
             self._escaped = False
-        escapes = piece.count(ESCAPE)
+        escapes = chunk.count(ESCAPE)
         if not escapes:
-            return piece, ""
-        if piece[-1] == ESCAPE[0]:
+            return chunk, ""
+        if chunk[-1] == ESCAPE[0]:
             self._escaped = True
-            piece = piece[:-1]
+            chunk = chunk[:-1]
             escapes -= 1
         bad = ""
-        if escapes != piece.count(_ESCAPED_FLAG) + piece.count(_ESCAPED_ESCAPE):
-            end = _wrong_escape(piece)
-            bad = f"{piece[end + 1]:#04x}" if end + 1 < len(piece) else f"{ESCAPE[0]:#04x}"
-            piece = piece[:end]
-        return piece.replace(_ESCAPED_FLAG, FLAG).replace(_ESCAPED_ESCAPE, ESCAPE), bad
+        if escapes != chunk.count(_ESCAPED_FLAG) + chunk.count(_ESCAPED_ESCAPE):
+            end = _wrong_escape(chunk)
+            bad = f"{chunk[end + 1]:#04x}" if end + 1 < len(chunk) else f"{ESCAPE[0]:#04x}"
+            chunk = chunk[:end]
+        return chunk.replace(_ESCAPED_FLAG, FLAG).replace(_ESCAPED_ESCAPE, ESCAPE), bad
 
     def _complete(self, frames: list[Frame]) -> bool:
         """Look at the frame that is gathered; return whether it is decided, for good or bad."""
@@ -182,9 +182,9 @@ class FrameDecoder:
         if len(plain) < end + _CRC:
             return False
         payload, rest = bytes(plain[_HEADER:end]), bytes(plain[end + _CRC :])
-        said, found = plain[end] | plain[end + 1] << 8, crc16(payload)
-        if said != found:
-            self._fail("frame_crc", f"a frame of {length} bytes says {said:#06x}, its bytes {found:#06x}")
+        expected, found = plain[end] | plain[end + 1] << 8, crc16(payload)
+        if expected != found:
+            self._fail("frame_crc", f"a frame of {length} bytes says {expected:#06x}, its bytes {found:#06x}")
         elif destination != self._address:
             self._fail("frame_address", f"from {source:#04x} to {destination:#04x}")
         else:
@@ -194,10 +194,10 @@ class FrameDecoder:
                 self._noise(rest)
         return True
 
-    def _noise(self, piece: bytes) -> None:
+    def _noise(self, chunk: bytes) -> None:
         if not self._skipping:
             self._skipping = True
-            self._fault("frame_noise", f"{len(piece)} bytes that begin with {piece[:24]!r}")
+            self._fault("frame_noise", f"{len(chunk)} bytes that begin with {chunk[:24]!r}")
 
     def _fail(self, kind: str, found: str) -> None:
         self._drop()
@@ -205,11 +205,11 @@ class FrameDecoder:
         self._fault(kind, found)
 
 
-def _wrong_escape(piece: bytes) -> int:
+def _wrong_escape(chunk: bytes) -> int:
     """Return where the first escape stands that is not a pair with the byte after it; there is one."""
-    at = piece.find(ESCAPE)
-    while piece[at : at + 2] in (_ESCAPED_FLAG, _ESCAPED_ESCAPE):
-        at = piece.find(ESCAPE, at + 2)
+    at = chunk.find(ESCAPE)
+    while chunk[at : at + 2] in (_ESCAPED_FLAG, _ESCAPED_ESCAPE):
+        at = chunk.find(ESCAPE, at + 2)
     return at
 
 

@@ -29,7 +29,7 @@ class Keeping:
     def before_sleep(self, client: Client) -> None:
         """Take what DDS has for a client whose readers are about to leave the ROS graph."""
         if self._keep_s:
-            self._tell_lost(client, sum(reading.save() for reading in client.readings.values()))
+            self._report_lost(client, sum(reading.save() for reading in client.readings.values()))
 
     def forget_old(self, client: Client, now: float) -> None:
         """Drop the samples of a client that is away for too long."""
@@ -59,9 +59,9 @@ class Keeping:
             entity = client.objects.find(object_id)
             if entity is not None and entity.keeps and self._keep_s:
                 lost += entity.keep(samples_of, client.shares)
-        self._tell_lost(client, lost)
+        self._report_lost(client, lost)
 
-    def _tell_lost(self, client: Client, lost: int) -> None:
+    def _report_lost(self, client: Client, lost: int) -> None:
         for _ in range(lost):
             text = "client {client}: a sample was lost with its session: no room to keep it"
             self._log.count("not_kept", text, client=client.name)

@@ -34,7 +34,7 @@ class KeyConflicts:
             del self._before[next(iter(self._before))]
         was, when = self._before.pop((transport, address), (b"", 0.0))
         if was == key and now - when < MEMORY_S:
-            self._tell(key, client.place, transport.name_of(address))
+            self._report(key, client.place, transport.name_of(address))
 
     def heard(self, transport: Transport, address: Hashable, now: float) -> bytes | None:
         """Return the key that a place without a client had until some time ago, if one had; it goes on sending."""
@@ -43,9 +43,9 @@ class KeyConflicts:
 
     def fight(self, client: Client, transport: Transport, address: Hashable) -> None:
         """Tell that `client` shares its key with whoever sends from another place."""
-        self._tell(client.session.link.key, client.place, transport.name_of(address))
+        self._report(client.session.link.key, client.place, transport.name_of(address))
 
-    def _tell(self, key: bytes, place: str, other: str) -> None:
+    def _report(self, key: bytes, place: str, other: str) -> None:
         if key in self._reported or len(self._reported) >= self._limit:
             return
         self._reported.add(key)

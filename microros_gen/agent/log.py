@@ -118,7 +118,7 @@ class EventLog:
     def finish(self) -> None:
         """Tell how often warnings were repeated that were not written again."""
         for event in list(self._before):
-            self._tell_repeated(event)
+            self._report_repeated(event)
 
     def _write(self, level: Level, event: str, text: str, fields: Mapping[str, Json]) -> None:
         shown = {key: printable(value) if isinstance(value, str) else value for key, value in fields.items()}
@@ -140,11 +140,11 @@ class EventLog:
             before.count += 1
             return before.count >= REPEATED
         if before is not None:
-            self._tell_repeated(event)
+            self._report_repeated(event)
         self._before[event] = _Repeated(message, now)
         return False
 
-    def _tell_repeated(self, event: str) -> None:
+    def _report_repeated(self, event: str) -> None:
         before = self._before.pop(event)
         if before.count >= REPEATED:
             count = before.count - REPEATED + 1

@@ -60,7 +60,7 @@ from microros_gen.agent.wire.submessages import Submessage, encode
 
 Handler = Callable[[Client, Submessage, float], "Steps[None] | None"]
 """What it returns is still to be done, step by step."""
-TOLD_AGAIN, MOST_CREDIT = 2, 262_144
+MOST_REPORTS, MOST_CREDIT = 2, 262_144
 """How often a client whose address may be forged is told what it said of an object, and how many bytes of it."""
 CALLS = (ObjectKind.REQUESTER, ObjectKind.REPLIER)
 READABLE = (ObjectKind.DATAREADER, *CALLS)
@@ -106,13 +106,13 @@ class Operations:
 
     def _create(self, client: Client, submessage: Submessage, now: float) -> Steps[None]:
         assert isinstance(submessage, Create)
-        client.credit = min(MOST_CREDIT, client.credit + TOLD_AGAIN * len(submessage.representation.body))
+        client.credit = min(MOST_CREDIT, client.credit + MOST_REPORTS * len(submessage.representation.body))
         stream = client.stream
         outcome = yield from client.objects.creating(submessage)
         client.stream = stream
         self._deliveries.refresh(client, now)
         self._answer(client, submessage.request, submessage.object, outcome.status, now)
-        tell_outcome(self._log, client, submessage.object & 0xFFF0 | submessage.kind, outcome)
+        report_outcome(self._log, client, submessage.object & 0xFFF0 | submessage.kind, outcome)
 
     def _delete(self, client: Client, submessage: Submessage, now: float) -> Steps[None]:
         assert isinstance(submessage, Delete)
@@ -246,7 +246,7 @@ class Operations:
             client.send(client.session.unnumbered(agent_info(submessage, in_session=True)))
             return
         info = object_info(client, submessage)
-        if info.config is not None and not self._may_tell(client, info.config):
+        if info.config is not None and not self._may_report(client, info.config):
             info = replace(info, config=None)
         entity = client.objects.find(submessage.object)
         little = entity is None or entity.representation is None or entity.representation.little
@@ -257,7 +257,7 @@ class Operations:
         else:
             self._send(client, info, now, little)
 
-    def _may_tell(self, client: Client, config: object) -> bool:
+    def _may_report(self, client: Client, config: object) -> bool:
         """Return whether a client gets a configuration of this size: over UDP it may be somebody else who has to take
         it, so the answers are at most twice as long as the requests."""
         if not client.transport.forgeable or not isinstance(config, Representation):
@@ -265,9 +265,7 @@ class Operations:
         size = len(config.body)
         if size > client.credit:
             client.account.refused = True
-            text = (
-                "client {client} at {peer} is told the configuration of an object no more: it asks too often"
-            )
+            text = "client {client} at {peer} no longer gets the configuration of an object: it requests it too often"
             self._log.count("info_withheld", text, client=client.name, peer=client.place)
             return False
         client.credit -= size
@@ -355,7 +353,7 @@ def _signed(number: int) -> int:
     return number - 0x10000 if number >= 0x8000 else number
 
 
-def tell_outcome(log: EventLog, client: Client, object_id: int, outcome: Outcome) -> None:
+def report_outcome(log: EventLog, client: Client, object_id: int, outcome: Outcome) -> None:
     """Tell of an object that was made, or why it was not."""
     kind = ObjectKind(object_id & 0x0F).name.lower()
     if outcome.status >= Status.DDS_ERROR:

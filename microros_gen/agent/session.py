@@ -134,7 +134,7 @@ class Session:
         reassembly = self._reassembly.get(stream)
         if reassembly is None:
             reassembly = self._reassembly[stream] = Reassembly(self._limits.message_bytes, self._holder)
-        return reassembly.add(fragment.piece, fragment.last)
+        return reassembly.add(fragment.data, fragment.last)
 
     def acknack(self, stream: int, unfinished: int = 0) -> bytes:
         """Return the message that tells the client what arrived on reliable stream `stream`.
@@ -144,7 +144,7 @@ class Session:
         reliable = self._reliable_in.get(stream)
         first, missing = reliable.missing(unfinished) if reliable else (0, 0)
         # One goes out for every reliable message: its bytes are put together here.
-        reported = (
+        body = (
             ACKNACK,
             FLAG_LITTLE,
             5,
@@ -155,7 +155,7 @@ class Session:
             missing & 0xFF,
             stream,
         )
-        return self.link.header(STREAM_NONE, 0) + bytes(reported)
+        return self.link.header(STREAM_NONE, 0) + bytes(body)
 
     def last_received(self) -> int:
         """Return the number of the last message that was taken from the client's built-in reliable stream."""

@@ -149,10 +149,10 @@ class Reassembly:
     def __init__(self, limit: int, holder: Holder | None = None) -> None:
         self._holder = holder or Holder()
         self._limit = limit
-        self._pieces = bytearray()
+        self._received = bytearray()
         self._refusing = False
 
-    def add(self, piece: bytes, last: bool) -> bytes | None:
+    def add(self, fragment: bytes, last: bool) -> bytes | None:
         """Take a piece; return the whole with the last one, else None.
 
         MalformedError once for each whole that is larger than the limit, or for which the pool has no room; all of its
@@ -161,23 +161,23 @@ class Reassembly:
         if self._refusing:
             self._refusing = not last
             return None
-        if len(self._pieces) + len(piece) > self._limit:
+        if len(self._received) + len(fragment) > self._limit:
             self._refuse(last)
             raise MalformedError("fragments_too_large", f"more than {self._limit} bytes")
-        if not self._holder.take(len(piece)):
+        if not self._holder.take(len(fragment)):
             self._refuse(last)
             raise MalformedError("input_full", "no room for fragments: those of all clients take too much")
-        self._pieces += piece
+        self._received += fragment
         if not last:
             return None
-        whole = bytes(self._pieces)
+        whole = bytes(self._received)
         self._forget()
         return whole
 
     @property
     def unfinished(self) -> bool:
         """Whether a whole began and did not end."""
-        return bool(self._pieces)
+        return bool(self._received)
 
     def drop(self) -> None:
         """Forget what was gathered: a message between two pieces is lost. What comes is no whole any more."""
@@ -188,5 +188,5 @@ class Reassembly:
         self._refusing = not last
 
     def _forget(self) -> None:
-        self._holder.add(-len(self._pieces))
-        self._pieces = bytearray()
+        self._holder.add(-len(self._received))
+        self._received = bytearray()

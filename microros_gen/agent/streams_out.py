@@ -143,19 +143,19 @@ class ReliableOut:
                 size += size
             self._bytes += size
             if self._bytes - self._reported >= STEP_BYTES:
-                self._tell()
+                self._report()
             return [message]
         if self._backlog_bytes + size > (self._backlog_limit if self._backlog else self._largest):
             return None
-        pieces = self._fragments(submessage) if size > self._room else [submessage]
-        taken = sum(map(len, pieces))
-        self._backlog.extend(pieces)
+        fragments = self._fragments(submessage) if size > self._room else [submessage]
+        taken = sum(map(len, fragments))
+        self._backlog.extend(fragments)
         self._backlog_bytes += taken
         if kept is not None:
             self._kept.append((self._numbered + len(self._backlog), kept, size))
             taken += size
         self._bytes += taken
-        self._tell()
+        self._report()
         return self._release(now)
 
     def acknowledge(self, first: int, missing: int, now: float) -> list[bytes]:
@@ -173,7 +173,7 @@ class ReliableOut:
                 size += kept.popleft()[2]
             self._bytes -= size
             if self._reported - self._bytes >= STEP_BYTES:
-                self._tell()
+                self._report()
             self._went_on(first, now)
         again = self._repeat(first, missing, now) if missing else []
         return again + self._release(now)
@@ -237,7 +237,7 @@ class ReliableOut:
         """Return what the client has not acknowledged, or not all of it, in order."""
         return [kept for _, kept, _ in self._kept]
 
-    def _tell(self) -> None:
+    def _report(self) -> None:
         """Tell the holder what is here: in steps, as this changes with each message."""
         self._holder.add(self._bytes - self._reported)
         self._reported = self._bytes
@@ -264,13 +264,13 @@ class ReliableOut:
 
     def _fragments(self, submessage: bytes) -> list[bytes]:
         size = (self._room - SUBMESSAGE_HEADER) & ~3
-        pieces = [submessage[at : at + size] for at in range(0, len(submessage), size)]
-        last = len(pieces) - 1
+        fragments = [submessage[at : at + size] for at in range(0, len(submessage), size)]
+        last = len(fragments) - 1
         return [
             submessage_bytes(
-                SubmessageId.FRAGMENT, piece, FLAG_LITTLE | (FLAG_LAST_FRAGMENT if i == last else 0)
+                SubmessageId.FRAGMENT, fragment, FLAG_LITTLE | (FLAG_LAST_FRAGMENT if i == last else 0)
             )
-            for i, piece in enumerate(pieces)
+            for i, fragment in enumerate(fragments)
         ]
 
 

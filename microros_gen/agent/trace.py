@@ -100,15 +100,15 @@ def record(data: bytes) -> dict[str, Json]:
 def dump(data: bytes) -> list[str]:
     """Return the summary, every submessage decoded, then all bytes, 16 a line; never raises."""
     lines = [summary(data)]
-    reported = record(data).get("submessages", [])
-    for submessage in reported if isinstance(reported, list) else []:
+    submessages = record(data).get("submessages", [])
+    for submessage in submessages if isinstance(submessages, list) else []:
         assert isinstance(submessage, dict)
         about = ", ".join(f"{key} {_text(value)}" for key, value in submessage.items() if key != "name")
         lines.append(f"  {submessage['name']}: {about}")
     for at in range(0, len(data), 16):
-        piece = data[at : at + 16]
-        shown = "".join(chr(byte) if 0x20 <= byte < 0x7F else "." for byte in piece)
-        lines.append(f"  {at:04x}  {piece.hex(' '):<47}  {shown}")
+        row = data[at : at + 16]
+        shown = "".join(chr(byte) if 0x20 <= byte < 0x7F else "." for byte in row)
+        lines.append(f"  {at:04x}  {row.hex(' '):<47}  {shown}")
     return lines
 
 

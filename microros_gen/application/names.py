@@ -64,7 +64,7 @@ def topic_fault(name: str) -> NameFault | None:
 def expanded_fault(name: str, longest: int = LONGEST_TOPIC_NAME) -> NameFault | None:
     """Return what is wrong with a fully qualified name, or None."""
     if len(name) > longest:
-        message = f"is {len(name)} characters long as '{name[:40]}…'; {longest} are allowed"
+        message = f"is {len(name)} characters long as '{name[:40]}…'; at most {longest} are allowed"
         return NameFault(message, 0, f"Shorten it by {len(name) - longest}", id="MG-3040")
     return _shape_fault(name, "/")
 
@@ -89,7 +89,7 @@ def node_name_fault(name: str) -> NameFault | None:
     if not name:
         return NameFault("is empty", 0, "Write a name such as imu", id="MG-3041")
     if len(name) > LONGEST_NODE_NAME:
-        message = f"is {len(name)} characters long; {LONGEST_NODE_NAME} are allowed"
+        message = f"is {len(name)} characters long; at most {LONGEST_NODE_NAME} are allowed"
         return NameFault(message, LONGEST_NODE_NAME, "Shorten it", id="MG-3042")
     return _character_fault(name, "") or _digit_fault(name, 0)
 
@@ -98,13 +98,13 @@ def _braces_fault(name: str) -> NameFault | None:
     rest = _SUBSTITUTION.sub(lambda m: "_" * len(m.group()), name)
     for match in _SUBSTITUTION.finditer(name):
         if match.group(1) not in SUBSTITUTIONS:
-            message = f"has the substitution '{match.group()}', which ROS 2 does not know"
-            return NameFault(message, match.start(), "There are {node}, {ns} and {namespace}", id="MG-3043")
+            message = f"has the substitution '{match.group()}', which ROS 2 does not define"
+            return NameFault(message, match.start(), "Available: {node}, {ns} and {namespace}", id="MG-3043")
     index = next((i for i, c in enumerate(rest) if c in "{}"), None)
     return (
         None
         if index is None
-        else NameFault("has a brace without its other half", index, "Write {node} or {ns}", id="MG-3044")
+        else NameFault("has an unmatched brace", index, "Write {node} or {ns}", id="MG-3044")
     )
 
 
@@ -121,7 +121,7 @@ def _shape_fault(name: str, allowed: str) -> NameFault | None:
             id="MG-3045",
         )
     if tilde == 0 and name[1:2] not in ("", "/"):
-        return NameFault("needs a slash behind '~'", 1, f"Write ~/{name[1:]}", id="MG-3046")
+        return NameFault("needs a slash after '~'", 1, f"Write ~/{name[1:]}", id="MG-3046")
     if "//" in name:
         return NameFault("has two slashes in a row", name.index("//") + 1, "Remove one of them", id="MG-3047")
     if name.endswith("/"):

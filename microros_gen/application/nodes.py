@@ -190,7 +190,7 @@ def _check_range(parameter: ParameterDecl, node: YamlNode | None, diagnostics: D
         and parameter.minimum > parameter.maximum
     ):
         message = f"the range of the parameter '{parameter.name}' is empty: min is above max"
-        diagnostics.error(message, node.span, "Exchange them", id="MG-3009")
+        diagnostics.error(message, node.span, "Swap them", id="MG-3009")
 
 
 def _executor(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> ExecutorDecl:
@@ -198,7 +198,9 @@ def _executor(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> Execu
     known = {t.name for t in node.timers} | {e.topic for e in node.endpoints if KIND[e.kind].waited}
     for handle in handles:
         if handle.name not in known:
-            hint = nearest(handle.name, known) or (f"There are {', '.join(sorted(known))}" if known else None)
+            hint = nearest(handle.name, known) or (
+                f"Available: {', '.join(sorted(known))}" if known else None
+            )
             diagnostics.error(
                 f"the node has no timer, subscription or service '{handle.name}'",
                 handle.span,

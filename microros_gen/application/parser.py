@@ -131,7 +131,7 @@ def _log_writers(node: YamlNode | None, diagnostics: Diagnostics) -> tuple[LogWr
             message = f"the log writer '{writer.to}' keeps no lines, so it has no size"
             diagnostics.error(message, item.span, "Remove `size`", id="MG-3053")
         if writer.to in found:
-            message = f"'logging' has the writer '{writer.to}' twice"
+            message = f"duplicate writer '{writer.to}' in 'logging'"
             diagnostics.error(message, item.span, "Write it once, with its lowest level", id="MG-3052")
         found.setdefault(writer.to, writer)
     return tuple(found.values())
@@ -150,7 +150,7 @@ def _endpoint_change(entry: Entry) -> EndpointChange:
 def _check_pools(node: YamlNode | None, diagnostics: Diagnostics) -> None:
     for entry in entries(node):
         if entry.key not in _POOLS_BESIDE_NODES:
-            message = f"'pools.{entry.key}' has no effect: with `nodes` there is what they declare"
+            message = f"'pools.{entry.key}' has no effect: `nodes` decides what is created"
             diagnostics.warning(message, entry.key_span, "Remove it", id="MG-3012")
 
 
@@ -231,7 +231,7 @@ def _agent(node: YamlNode | None, diagnostics: Diagnostics) -> tuple[str, int] |
 def parse_agent_address(text: str, span: Span | None, diagnostics: Diagnostics) -> tuple[str, int] | None:
     """Return host and port of `192.168.1.10:8888` or `[fd00::1]:8888`; None and an error where it is neither."""
     if text.count(":") > 1 and not re.fullmatch(r"\[.*\]:[^:\]]*", text):
-        message = f"the agent '{text}' has an IPv6 address that is not in brackets, or lacks its port"
+        message = f"the agent '{text}' has an IPv6 address that is not in brackets, or has no port"
         diagnostics.error(message, span, 'Write it as "[::1]:8888"', id="MG-3018")
         return None
     host, separator, port = text.rpartition(":")

@@ -62,7 +62,7 @@ def rename_endpoints(node: NodeDecl, tree: YamlNode | None, diagnostics: Diagnos
             node = replace(node, clock_topic=rule.wire, clock_span=rule.span)
         elif rule.given not in known:
             hint = nearest(rule.key, known.values()) or (
-                f"There are {', '.join(known.values())}" if known else "Declare it first"
+                f"Available: {', '.join(known.values())}" if known else "Declare it first"
             )
             diagnostics.error(
                 f"the node has no topic or service '{rule.key}' to remap", rule.span, hint, id="MG-3027"
@@ -73,7 +73,7 @@ def rename_endpoints(node: NodeDecl, tree: YamlNode | None, diagnostics: Diagnos
 def _rule_fault(name: str) -> NameFault | None:
     if "{" in name:
         return NameFault(
-            "has a substitution, which a rule does not have",
+            "has a substitution, which a remap rule cannot have",
             name.index("{"),
             "Write ~ or the name",
             id="MG-3051",
@@ -108,7 +108,9 @@ def _rules(node: NodeDecl, tree: YamlNode | None, diagnostics: Diagnostics) -> d
                 f"the name '{wire[:60]}' {long.message}", entry.value.span, long.hint, id="MG-3029"
             )
         elif given in found:
-            message = f"'{entry.key}' and '{found[given].key}' are one name, '{given}': it is remapped twice"
+            message = (
+                f"'{entry.key}' and '{found[given].key}' are the same name, '{given}': it is remapped twice"
+            )
             diagnostics.error(message, entry.key_span, "Remove one of the rules", id="MG-3030")
         else:
             found[given] = _Rule(given, wire, entry.key, entry.key_span)

@@ -58,12 +58,12 @@ def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
     resolved = compiler.resolve(compiler.read(compiler.Options(**options)))
     out = compiler.output_folder(resolved, output)
     planned = compiler.plan(resolved)
-    reported = warnings_text(planned.warnings)
-    click.echo(reported, nl=False, err=True)
+    warnings = warnings_text(planned.warnings)
+    click.echo(warnings, nl=False, err=True)
     report = compiler.write(compiler.render(planned), out)
     summary = plan_summary(planned)
     files = report.written + report.unchanged
-    run = Run(out, summary, len(files), reported)
+    run = Run(out, summary, len(files), warnings)
     inputs = tuple(read_paths(planned))
     outputs = [out / name for name in files]
     if depfile is not None:

@@ -73,11 +73,11 @@ def command(
     click.echo(warnings_text(warnings), nl=False, err=True)
     made = write_folder(wish, draft)
     click.echo(warnings_text(made.found), nl=False, err=True)
-    _tell(made)
+    _report(made)
     return 0 if made.builds else 2
 
 
-def _tell(made: NewFolder) -> None:
+def _report(made: NewFolder) -> None:
     own = [name for name in made.files if not name.startswith("golden/")]
     click.echo(f"{made.folder}: {', '.join(own)}")
     if len(own) < len(made.files):

@@ -129,8 +129,8 @@ def _origin(profile: Profile, text: str = "{}") -> str:
     """Return where a profile is from that does not ship with the tool."""
     if profile.builtin or profile.span is None:
         return ""
-    bringer = INSTALLED.profile(profile.name, None, Diagnostics())
-    return text.format(bringer.origin) if bringer is not None else ""
+    extension = INSTALLED.profile(profile.name, None, Diagnostics())
+    return text.format(extension.origin) if extension is not None else ""
 
 
 def _data(profile: Profile, ready: bool) -> dict[str, object]:

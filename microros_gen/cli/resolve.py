@@ -154,12 +154,12 @@ def _stream_rows(streams: StreamSizes) -> list[tuple[str, str, str]]:
         else ""
     )
     arriving += f", and behind {streams.input_free} of them a sample that waits" if streams.input_slot else ""
-    in_pieces = f", sent in fragments of {streams.mtu} bytes" if streams.fragments else ""
+    fragmented = f", sent in fragments of {streams.mtu} bytes" if streams.fragments else ""
     return [
         (
             "reliable output",
             f"{streams.reliable_slots} x {streams.reliable_slot_size} bytes",
-            f"pools.history times the largest reliable message{in_pieces}",
+            f"pools.history times the largest reliable message{fragmented}",
         ),
         (
             "best-effort output",

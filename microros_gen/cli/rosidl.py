@@ -65,7 +65,7 @@ class Generator:
                     compiler.Options(config=config, interface_paths=paths), Path(output_path)
                 )
             except UserError as error:
-                _tell(error, package, origins)
+                _report(error, package, origins)
                 raise SystemExit(error.status) from None
         for warning in generated.planned.warnings:
             print(warning.render(), file=sys.stderr)
@@ -86,7 +86,7 @@ def _staged(file: str, package: Path) -> tuple[Path, Path]:
     return copy, origin
 
 
-def _tell(error: UserError, package: Path, origins: dict[Path, Path]) -> None:
+def _report(error: UserError, package: Path, origins: dict[Path, Path]) -> None:
     for diagnostic in error.diagnostics:
         text = (
             diagnostic.render()

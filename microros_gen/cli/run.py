@@ -202,7 +202,7 @@ def _image_of(located: Located, domain: int | None) -> _Image:
         ) from error
     path = located.image.image if located.image is not None else _example_of(located, name, target)
     if machine is None and target != "host":
-        message = f"the image is for {target}, which names no emulator"
+        message = f"the image is for {target}, which has no emulator"
         raise UserError(
             [
                 Diagnostic(
@@ -217,14 +217,14 @@ def _example_of(located: Located, name: str | None, target: str) -> Path:
     """Return the image that `build` made. UserError if none exists."""
     if located.library is not None:
         message = (
-            f"{located.library.archive} is a library alone: no image was linked to it by microros_image()"
+            f"{located.library.archive} is only a library: no image was linked to it by microros_image()"
         )
         raise UserError(
             [Diagnostic(message, hint="Give the one that you linked: --image FILE", id="MG-9716")]
         )
     if name is None:
         what = f"target {target} has no image, or the application must provide a part"
-        message = f"{located.output} holds a library alone: {what}"
+        message = f"{located.output} contains only a library: {what}"
         hint = "`microros-gen build` says which; --image FILE starts one of yours"
         raise UserError([Diagnostic(message, hint=hint, id="MG-9717")])
     path = located.output / "bin" / name
@@ -232,7 +232,7 @@ def _example_of(located: Located, name: str | None, target: str) -> Path:
         hint = (
             "Make it with `microros-gen build`, then run it; for your own image give the CMake build folder"
         )
-        raise UserError([Diagnostic(f"{located.output} holds no image yet", hint=hint, id="MG-9718")])
+        raise UserError([Diagnostic(f"{located.output} contains no image yet", hint=hint, id="MG-9718")])
     return path
 
 

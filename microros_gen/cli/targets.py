@@ -62,11 +62,7 @@ def _toolchain(target: Target | None) -> bytes:
     hint = "For example: microros-gen targets cortex-m4f --format cmake"
     if target is None:
         raise UserError(
-            [
-                Diagnostic(
-                    "a tool-chain file is that of one target, and no NAME is given", hint=hint, id="MG-9721"
-                )
-            ]
+            [Diagnostic("a tool-chain file is for one target: NAME is missing", hint=hint, id="MG-9721")]
         )
     if target.hosted:
         what = (

@@ -84,7 +84,7 @@ def request_of(source: Source | None, near: Path, options: Options, diagnostics:
 def _refuse_rtos(target: TargetRef, diagnostics: Diagnostics) -> None:
     if target.rtos not in (None, "none"):
         diagnostics.error(
-            f"no port for the RTOS {target.rtos!r} is here yet",
+            f"the RTOS {target.rtos!r} is not supported yet",
             target.rtos_span,
             "leave `rtos` out and define port_time_ms, port_sleep_ms and what else the library's port gives "
             "over your RTOS: your functions win over the archive's (microros/port.h)",
@@ -125,7 +125,7 @@ def _with_agent(transport: Transport, agent: Named, diagnostics: Diagnostics) ->
         )
     if is_device or chosen in ("serial", "custom"):
         what = "device" if is_device else "agent address"
-        hint = "Give the path of a device, as in /dev/ttyUSB0" if chosen == "serial" else "Leave it out"
+        hint = "Give the path of a device such as /dev/ttyUSB0" if chosen == "serial" else "Leave it out"
         diagnostics.error(f"transport: {chosen} has no {what}", agent.span, hint, id="MG-8607")
         return transport
     discover = parse_discover(agent.name, agent.span, diagnostics)

@@ -48,8 +48,10 @@ def _report(tree: YamlNode, difference: Difference, diagnostics: Diagnostics) ->
         for key in cast("list[str]", schema["required"]):
             meant = any(key_without_space(entry.key, schema) == key for entry in node)
             if key not in node.entries and not meant:
-                owner = f"'{label}' lacks" if label else "the file lacks"
-                diagnostics.error(f"{owner} the key '{key}'", node.span, f"Add `{key}: …`", id="MG-1003")
+                where = f"'{label}'" if label else "the file"
+                diagnostics.error(
+                    f"missing key '{key}' in {where}", node.span, f"Add `{key}: …`", id="MG-1003"
+                )
     elif keyword == "not" and "x-reserved" in schema:
         message = (
             f"the key '{path[-1]}' is reserved for {schema['x-reserved']}, which this version does not have"
@@ -83,7 +85,7 @@ def _report_twins(node: SequenceNode, label: str, diagnostics: Diagnostics) -> N
     for item in node.items:
         text = repr(to_data(item))
         if text in seen:
-            message = f"'{label}' has {text} twice; first in line {seen[text]}"
+            message = f"'{label}' contains {text} twice; first in line {seen[text]}"
             diagnostics.error(message, item.span, "Remove one of them", id="MG-1006")
         seen.setdefault(text, item.span.line)
 

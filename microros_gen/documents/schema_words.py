@@ -48,7 +48,7 @@ def describe_unknown_key(key: str, label: str, schema: dict[str, Any]) -> tuple[
     begun = key_without_space(key, schema)
     if begun is not None:
         return (
-            f"{where} has no key '{key}'",
+            f"unknown key '{key}' in {where}",
             f"Write `{begun}: {key[len(begun) + 1 :]}`, with a space after the colon",
         )
     if "x-keys" in schema:
@@ -56,7 +56,7 @@ def describe_unknown_key(key: str, label: str, schema: dict[str, Any]) -> tuple[
         hint = f"Write {corrected}" if corrected else nearest(key, schema.get("properties", {}))
         return f"the keys of {where} must be {schema['x-keys']}; '{key}' is not", hint
     known = [k for k, value in schema.get("properties", {}).items() if "x-reserved" not in value]
-    return f"{where} has no key '{key}'", nearest(key, known) or f"Known are {', '.join(known)}"
+    return f"unknown key '{key}' in {where}", nearest(key, known) or f"Known: {', '.join(known)}"
 
 
 def key_without_space(key: str, schema: dict[str, Any]) -> str | None:

@@ -33,7 +33,7 @@ def check_keys(
     """Report keys that are not known, with the nearest one that is, and keys that are missing."""
     for entry in node:
         if entry.key not in known:
-            hint = nearest(entry.key, known) or f"Known are {', '.join(known)}"
+            hint = nearest(entry.key, known) or f"Known: {', '.join(known)}"
             diagnostics.error(f"unknown key '{entry.key}'", entry.key_span, hint, id="MG-1008")
     for key in required:
         if key not in node.entries:

@@ -181,7 +181,9 @@ class _Builder:
         path.pop()
         self._sizes[id(node)] = size = 1 + sum(self._sizes[id(child)] for child in children)
         if size > LARGEST_TREE:
-            message = f"holds {size} values with its aliases written out; {LARGEST_TREE} are taken"
+            message = (
+                f"contains {size} values with its aliases written out; at most {LARGEST_TREE} are allowed"
+            )
             self._error(node, message, "Use fewer aliases of aliases", id="MG-1041")
             return False
         return True
@@ -216,7 +218,7 @@ class _Builder:
             first = entries[key.value].key_span
             self._error(
                 key,
-                f"the key '{key.value}' is there twice; first in line {first.line}",
+                f"duplicate key '{key.value}'; first in line {first.line}",
                 "Remove one of them",
                 id="MG-1044",
             )
@@ -226,7 +228,7 @@ class _Builder:
     def _scalar(self, node: yaml.ScalarNode) -> ScalarNode:
         span, text = self._span(node), str(node.value)
         if "\0" in text:
-            self._error(node, "a text with a NUL character", "Remove it", id="MG-1045")
+            self._error(node, "the text contains a NUL character", "Remove it", id="MG-1045")
             return ScalarNode(None, text.replace("\0", ""), True, span)
         if not _is_plain(node):
             return ScalarNode(text, text, False, span)
@@ -239,7 +241,7 @@ class _Builder:
         if len(text) > LONGEST_NUMBER and (_INTEGER.fullmatch(text) or _FLOAT.fullmatch(text)):
             self._error(
                 node,
-                f"a number of {len(text)} characters",
+                f"a number of {len(text)} characters is too long",
                 "Write a smaller one, or quote a text",
                 id="MG-1047",
             )
@@ -253,7 +255,7 @@ class _Builder:
         match = _PROPERTIES.match(self._source.text, start)
         tag = next((w for w in match.group().split() if w.startswith("!")), None) if match else None
         if tag is not None:
-            self._error(node, f"tags ({tag}) are not taken here", "Remove it", id="MG-1048")
+            self._error(node, f"tags ({tag}) are not supported", "Remove it", id="MG-1048")
 
     def _span(self, node: yaml.Node) -> Span:
         start, end = node.start_mark, node.end_mark

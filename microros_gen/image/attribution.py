@@ -58,7 +58,7 @@ class Owner:
 
 
 @dataclass(frozen=True)
-class Piece:
+class Chunk:
     """Neighboring bytes of one owner. `kind` is text, data or bss; `symbol` is None for what has no name.
 
     `source` is a C file below the output folder, or the linker's name of an object that was not made from one.
@@ -95,7 +95,7 @@ RESERVED = {
 }
 
 
-def attribute(folder: Folder, image: Elf) -> tuple[Piece, ...]:
+def attribute(folder: Folder, image: Elf) -> tuple[Chunk, ...]:
     """Return the parts of a linked image, by section and address. UserError where the linker left no map."""
     layout = layout_of(folder, image)
     if not layout.placed:
@@ -105,13 +105,13 @@ def attribute(folder: Folder, image: Elf) -> tuple[Piece, ...]:
     by_output: dict[str, list[Placed]] = {}
     for item in layout.placed:
         by_output.setdefault(item.output, []).append(item)
-    pieces: list[Piece] = []
+    chunks: list[Chunk] = []
     for section in image.loaded:
         symbols = _sized(s for s in image.symbols if s.section == section.index)
         parts = _cover(section, by_output.get(section.name, ()), owners)
         for part in parts:
-            pieces += _split(part, symbols, image, section, texts)
-    return tuple(pieces)
+            chunks += _split(part, symbols, image, section, texts)
+    return tuple(chunks)
 
 
 def _no_map(folder: Folder) -> UserError:
@@ -122,13 +122,13 @@ def _no_map(folder: Folder) -> UserError:
     return UserError([Diagnostic(what, hint=hint, id="MG-8401")])
 
 
-def attribute_library(folder: Folder) -> tuple[Piece, ...]:
+def attribute_library(folder: Folder) -> tuple[Chunk, ...]:
     """Return the parts of every object of the library, before a linker drops unused ones.
 
     Nothing has an address yet: the sections are laid one after the other, so that each piece has its own.
     """
     owners = Owners(folder, {})
-    pieces: list[Piece] = []
+    chunks: list[Chunk] = []
     base = 0
     for source in folder.sources:
         item = folder.object(source)
@@ -137,12 +137,12 @@ def attribute_library(folder: Folder) -> tuple[Piece, ...]:
         owner, name = owners.of_source(source), source
         for section in item.loaded:
             symbols = _sized(s for s in item.symbols if s.section == section.index)
-            whole = Piece(
+            whole = Chunk(
                 str(section.kind), section.name, section.name, section.address, section.size, owner, name
             )
-            pieces += (replace(p, address=base + p.address) for p in _by_symbol(whole, symbols))
+            chunks += (replace(p, address=base + p.address) for p in _by_symbol(whole, symbols))
             base += section.address + section.size
-    return tuple(pieces)
+    return tuple(chunks)
 
 
 class Owners:
@@ -192,7 +192,7 @@ def _group_of(archive: str) -> str:
     return "C library" if is_of_tool_chain(archive) else "other library"
 
 
-def _cover(section: Section, placed: Iterable[Placed], owners: Owners) -> Iterator[Piece]:
+def _cover(section: Section, placed: Iterable[Placed], owners: Owners) -> Iterator[Chunk]:
     """Yield pieces that cover `section` without gap or overlap."""
     kind, at = str(section.kind), section.address
     for item in placed:
@@ -202,50 +202,50 @@ def _cover(section: Section, placed: Iterable[Placed], owners: Owners) -> Iterat
         if begin > at:
             yield _gap(section, at, begin, owners.mapped)
         owner, source = owners.of(item)
-        yield Piece(kind, section.name, item.section, begin, end - begin, owner, source)
+        yield Chunk(kind, section.name, item.section, begin, end - begin, owner, source)
         at = end
     if at < section.end:
         yield _gap(section, at, section.end, owners.mapped)
 
 
-def _gap(section: Section, begin: int, end: int, mapped: bool) -> Piece:
+def _gap(section: Section, begin: int, end: int, mapped: bool) -> Chunk:
     """Return what no object has: all of a section is the linker's; without a map, most of it has no symbol."""
     kind, whole = str(section.kind), (begin, end) == (section.address, section.end)
     if not mapped and not _LINKER_MADE.match(section.name) and (whole or end - begin >= _LARGEST_GAP):
         owner = RESERVED.get(section.name, UNKNOWN)
-        return Piece(kind, section.name, section.name, begin, end - begin, owner)
+        return Chunk(kind, section.name, section.name, begin, end - begin, owner)
     owner = RESERVED.get(section.name, LINKER) if whole else PADDING
-    return Piece(kind, section.name, "", begin, end - begin, owner)
+    return Chunk(kind, section.name, "", begin, end - begin, owner)
 
 
 def _split(
-    piece: Piece, symbols: Sequence[Symbol], image: Elf, section: Section, texts: Mapping[bytes, Piece]
-) -> Iterator[Piece]:
-    if piece.kind == "text" and _MERGED_TEXT.search(piece.input) and texts:
-        begin = piece.address - section.address
-        content = image.content(section)[begin : begin + piece.size]
-        named = any(piece.address <= s.address < piece.address + piece.size for s in symbols)
+    chunk: Chunk, symbols: Sequence[Symbol], image: Elf, section: Section, texts: Mapping[bytes, Chunk]
+) -> Iterator[Chunk]:
+    if chunk.kind == "text" and _MERGED_TEXT.search(chunk.input) and texts:
+        begin = chunk.address - section.address
+        content = image.content(section)[begin : begin + chunk.size]
+        named = any(chunk.address <= s.address < chunk.address + chunk.size for s in symbols)
         if not named:
-            yield from _by_text(piece, content, texts)
+            yield from _by_text(chunk, content, texts)
             return
-    yield from _by_symbol(piece, symbols)
+    yield from _by_symbol(chunk, symbols)
 
 
-def _by_symbol(piece: Piece, symbols: Sequence[Symbol]) -> Iterator[Piece]:
-    at, end = piece.address, piece.address + piece.size
+def _by_symbol(chunk: Chunk, symbols: Sequence[Symbol]) -> Iterator[Chunk]:
+    at, end = chunk.address, chunk.address + chunk.size
     for symbol in symbols:
         begin, stop = max(symbol.address, at), min(symbol.address + symbol.size, end)
         if begin >= stop:
             continue
         if begin > at:
-            yield replace(piece, address=at, size=begin - at)
+            yield replace(chunk, address=at, size=begin - at)
         same = tuple(
             s.name
             for s in symbols
             if (s.address, s.size) == (symbol.address, symbol.size) and s.name != symbol.name
         )
         yield replace(
-            piece,
+            chunk,
             address=begin,
             size=stop - begin,
             symbol=symbol.name,
@@ -254,15 +254,15 @@ def _by_symbol(piece: Piece, symbols: Sequence[Symbol]) -> Iterator[Piece]:
         )
         at = stop
     if at < end:
-        yield replace(piece, address=at, size=end - at)
+        yield replace(chunk, address=at, size=end - at)
 
 
-def _by_text(piece: Piece, content: bytes, texts: Mapping[bytes, Piece]) -> Iterator[Piece]:
+def _by_text(chunk: Chunk, content: bytes, texts: Mapping[bytes, Chunk]) -> Iterator[Chunk]:
     """Split strings that the linker merged, each to the first source file that has it.
 
     What is no string of any source (a rest that begins in a neighboring section) stays with its section.
     """
-    at, end = piece.address, piece.address + piece.size
+    at, end = chunk.address, chunk.address + chunk.size
     for text in content.split(b"\0"):
         size = min(len(text) + 1, end - at)
         if size <= 0:
@@ -271,14 +271,14 @@ def _by_text(piece: Piece, content: bytes, texts: Mapping[bytes, Piece]) -> Iter
         shown = text.decode("utf-8", "replace")
         shown = shown if len(shown) <= _SHOWN_TEXT else f"{shown[: _SHOWN_TEXT - 1]}…"
         name = f'"{shown}"' if found else None
-        owner, source = (found.owner, found.source) if found else (piece.owner, piece.source)
-        yield replace(piece, address=at, size=size, owner=owner, source=source, symbol=name)
+        owner, source = (found.owner, found.source) if found else (chunk.owner, chunk.source)
+        yield replace(chunk, address=at, size=size, owner=owner, source=source, symbol=name)
         at += size
 
 
-def _texts(folder: Folder, placed: Iterable[Placed], owners: Owners) -> Mapping[bytes, Piece]:
+def _texts(folder: Folder, placed: Iterable[Placed], owners: Owners) -> Mapping[bytes, Chunk]:
     """Return each string constant of the objects in the image, with the owner that comes first."""
-    found: dict[bytes, Piece] = {}
+    found: dict[bytes, Chunk] = {}
     code = [p for p in placed if p.section.startswith(".text")]
     mine = {source: owner for p in code for owner, source in [owners.of(p)] if source is not None}
     for source in sorted(mine):
@@ -286,7 +286,7 @@ def _texts(folder: Folder, placed: Iterable[Placed], owners: Owners) -> Mapping[
         for section in elf.sections if elf is not None else ():
             if section.strings and section.kind:
                 for text in elf.content(section).split(b"\0") if elf is not None else ():
-                    found.setdefault(text, Piece("text", "", "", 0, 0, mine[source], source))
+                    found.setdefault(text, Chunk("text", "", "", 0, 0, mine[source], source))
     return found
 
 

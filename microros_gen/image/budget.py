@@ -12,7 +12,7 @@ from dataclasses import asdict
 from typing import Any
 
 from microros_gen.documents.files import read_json
-from microros_gen.image.attribution import Piece
+from microros_gen.image.attribution import Chunk
 from microros_gen.image.entities import MESSAGE_STORAGE, RamPart
 from microros_gen.image.folder import Folder
 from microros_gen.image.stack import Bound, StackReport
@@ -65,7 +65,7 @@ class BudgetLine:
 
 
 def budget_lines(
-    folder: Folder, pieces: Sequence[Piece], parts: Sequence[RamPart], stack: StackReport
+    folder: Folder, chunks: Sequence[Chunk], parts: Sequence[RamPart], stack: StackReport
 ) -> tuple[BudgetLine, ...]:
     """Return a line for each budget of the application; that of the stack only where a bound is known.
 
@@ -80,8 +80,8 @@ def budget_lines(
         advice = (*planned_advice(folder), *_ram_advice(folder, parts))
         found.append(_line(budgets, "ram_budget", f"static RAM {where}", uses, advice))
     if "flash_budget" in budgets:
-        sizes = _sum((p.owner.name, p.flash) for p in pieces if p.owner.group in _LIBRARY)
-        found.append(_line(budgets, "flash_budget", f"flash {where}", sizes, _flash_advice(folder, pieces)))
+        sizes = _sum((p.owner.name, p.flash) for p in chunks if p.owner.group in _LIBRARY)
+        found.append(_line(budgets, "flash_budget", f"flash {where}", sizes, _flash_advice(folder, chunks)))
     if "stack" in budgets and stack.known:
         found.append(_stack_line(budgets, stack))
     return tuple(found)
@@ -184,12 +184,12 @@ def _ram_advice(folder: Folder, parts: Iterable[RamPart]) -> tuple[Advice, ...]:
     )
 
 
-def _flash_advice(folder: Folder, pieces: Sequence[Piece]) -> tuple[Advice, ...]:
+def _flash_advice(folder: Folder, chunks: Sequence[Chunk]) -> tuple[Advice, ...]:
     found = []
     if folder.manifest["pools"]["error_text"]:
-        text = sum(p.flash for p in pieces if p.source == "src/support/error_text.c")
+        text = sum(p.flash for p in chunks if p.source == "src/support/error_text.c")
         found.append(Advice("errors: code", "", text, False))
-    sizes = _sum((p.owner.name, p.flash) for p in pieces if p.owner.group == "component")
+    sizes = _sum((p.owner.name, p.flash) for p in chunks if p.owner.group == "component")
     return (*found, *_component_advice(folder, sizes))
 
 

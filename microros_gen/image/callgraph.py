@@ -13,7 +13,7 @@ from collections.abc import Container, Iterable, Mapping
 from dataclasses import field
 from typing import Literal
 
-from microros_gen.image.attribution import Piece
+from microros_gen.image.attribution import Chunk
 from microros_gen.image.disassembly import Code, parse_disassembly
 from microros_gen.image.elf import THUMB, Elf
 from microros_gen.image.folder import Folder
@@ -93,11 +93,11 @@ def parse_call_graph(text: str) -> Mapping[str, Frame]:
     }
 
 
-def build_call_graph(folder: Folder, image: Elf, pieces: Iterable[Piece]) -> CallGraph:
+def build_call_graph(folder: Folder, image: Elf, chunks: Iterable[Chunk]) -> CallGraph:
     """Return the call graph of the linked image."""
-    functions = {p.address: p for p in pieces if p.function and p.symbol}
+    functions = {p.address: p for p in chunks if p.function and p.symbol}
     frames = _frames(folder, functions.values())
-    nodes = {address: _node(piece, frames) for address, piece in functions.items()}
+    nodes = {address: _node(chunk, frames) for address, chunk in functions.items()}
     for code in _disassembled(folder, image):
         _add_code(nodes, code, _is_external(image, code))
     pointers = read_pointers(folder, image, functions)
@@ -105,7 +105,7 @@ def build_call_graph(folder: Folder, image: Elf, pieces: Iterable[Piece]) -> Cal
     return CallGraph(nodes, image.machine, bool(frames))
 
 
-def _frames(folder: Folder, functions: Iterable[Piece]) -> Mapping[tuple[str, str], Frame]:
+def _frames(folder: Folder, functions: Iterable[Chunk]) -> Mapping[tuple[str, str], Frame]:
     found: dict[tuple[str, str], Frame] = {}
     for source in sorted({p.source for p in functions if p.source}):
         path = folder.object_path(source)
@@ -116,23 +116,23 @@ def _frames(folder: Folder, functions: Iterable[Piece]) -> Mapping[tuple[str, st
     return found
 
 
-def _node(piece: Piece, frames: Mapping[tuple[str, str], Frame]) -> Node:
-    names = (str(piece.symbol), *piece.aliases)
+def _node(chunk: Chunk, frames: Mapping[tuple[str, str], Frame]) -> Node:
+    names = (str(chunk.symbol), *chunk.aliases)
     for name in names:
-        frame = frames.get((piece.source or "", name))
+        frame = frames.get((chunk.source or "", name))
         if frame:
-            node = Node(names[0], piece.address, frame.size, "compiler", piece.source)
+            node = Node(names[0], chunk.address, frame.size, "compiler", chunk.source)
             if not frame.bounded:
                 node.open.add(f"{names[0]}: a frame of variable size")
             return node
-    node = Node(names[0], piece.address, None, "unknown", piece.source)
-    if piece.owner.group == "application" and frames:
-        node.open.add(f"what {_file(piece)} calls through pointers (compile it with {CALL_GRAPH})")
+    node = Node(names[0], chunk.address, None, "unknown", chunk.source)
+    if chunk.owner.group == "application" and frames:
+        node.open.add(f"what {_file(chunk)} calls through pointers (compile it with {CALL_GRAPH})")
     return node
 
 
-def _file(piece: Piece) -> str:
-    return (piece.source or "the application").rpartition("/")[2]
+def _file(chunk: Chunk) -> str:
+    return (chunk.source or "the application").rpartition("/")[2]
 
 
 def _disassembled(folder: Folder, image: Elf) -> tuple[Code, ...]:
@@ -172,7 +172,7 @@ def _add_code(nodes: dict[int, Node], code: Code, external: bool) -> None:
 def _add_compiled(
     folder: Folder,
     nodes: Mapping[int, Node],
-    functions: Mapping[int, Piece],
+    functions: Mapping[int, Chunk],
     frames: Mapping[tuple[str, str], Frame],
     constructors: frozenset[int],
     pointers: Pointers,
@@ -180,12 +180,12 @@ def _add_compiled(
     """Add what the compiler knows of calls: those through pointers; the others where there is no disassembly."""
     exported = {p.symbol: a for a, p in functions.items()}
     local = {(p.source, p.symbol): a for a, p in functions.items()}
-    for address, piece in functions.items():
-        frame = frames.get((piece.source or "", str(piece.symbol)))
+    for address, chunk in functions.items():
+        frame = frames.get((chunk.source or "", str(chunk.symbol)))
         if frame is None:
             continue
         for name in frame.calls:
-            to = local.get((piece.source, name), exported.get(name))
+            to = local.get((chunk.source, name), exported.get(name))
             if to is not None:
                 nodes[address].calls.add(to)
         for place in frame.pointers:
@@ -193,13 +193,13 @@ def _add_compiled(
             targets: frozenset[int] | None = _targets(member, functions)
             if member and not targets:
                 targets = pointers.targets(member)
-            if member is None and (piece.source or "").startswith("src/port_"):
+            if member is None and (chunk.source or "").startswith("src/port_"):
                 nodes[address].calls |= constructors
                 continue
             nodes[address].calls |= targets or frozenset()
             if targets is None or not member:
                 what = f"the callback {member}" if member else "a call through a pointer"
-                nodes[address].open.add(f"{piece.symbol}: {what} ({place.rpartition(':')[0]})")
+                nodes[address].open.add(f"{chunk.symbol}: {what} ({place.rpartition(':')[0]})")
 
 
 def _constructors(image: Elf) -> frozenset[int]:
@@ -211,7 +211,7 @@ def _constructors(image: Elf) -> frozenset[int]:
     return frozenset(word & ~THUMB if image.arm else word for word in words)
 
 
-def _targets(member: str | None, functions: Mapping[int, Piece]) -> frozenset[int]:
+def _targets(member: str | None, functions: Mapping[int, Chunk]) -> frozenset[int]:
     """Return where a call through a member can go: the type support, or what backs the default allocator."""
     if member in TYPE_MEMBERS:
         found = (a for a, p in functions.items() if p.owner.group == "type support")

@@ -28,7 +28,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Place:
-    """Where something is defined: a file as the compiler was told it, and a line (0: not known)."""
+    """Where something is defined: a file as it was given to the compiler, and a line (0: not known)."""
 
     file: str
     line: int
@@ -89,7 +89,7 @@ def read_variables(item: Elf) -> Mapping[str, tuple[str, tuple[Part, ...]]]:
 
 
 def read_units(image: Elf) -> Mapping[int, str]:
-    """Return the source file, as the compiler was told it, of each function and static variable by address."""
+    """Return the source file, as it was given to the compiler, of each function and static variable by address."""
     found: dict[int, str] = {}
     for unit in image.dwarf.iter_CUs() if image.dwarf else ():
         name = _name(unit.get_top_DIE())

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from microros_gen.application.kinds import KINDS, RECEIVING, EntityKind
-from microros_gen.image.attribution import Piece
+from microros_gen.image.attribution import Chunk
 from microros_gen.image.dwarf import Facts
 from microros_gen.image.folder import Folder
 from microros_gen.records import dataclass
@@ -82,20 +82,20 @@ _MEMBERS = {
 }
 
 
-def ram_parts(folder: Folder, pieces: Iterable[Piece], facts: Facts) -> tuple[RamPart, ...]:
+def ram_parts(folder: Folder, chunks: Iterable[Chunk], facts: Facts) -> tuple[RamPart, ...]:
     """Split all static memory; the sizes add up to data and bss."""
-    return tuple(part for piece in pieces if piece.ram for part in _of_piece(folder, piece, facts))
+    return tuple(part for chunk in chunks if chunk.ram for part in _of_chunk(folder, chunk, facts))
 
 
-def entities(folder: Folder, pieces: Iterable[Piece], parts: Iterable[RamPart]) -> tuple[Entity, ...]:
+def entities(folder: Folder, chunks: Iterable[Chunk], parts: Iterable[RamPart]) -> tuple[Entity, ...]:
     """Return nodes and publishers with what they take; the places of pools where nothing is declared."""
     by_use: dict[str, int] = {}
     for part in parts:
         by_use[part.use] = by_use.get(part.use, 0) + part.size
     flash: dict[str, int] = {}
-    for piece in pieces:
-        if piece.owner.group == "type support":
-            flash[piece.owner.name] = flash.get(piece.owner.name, 0) + piece.flash
+    for chunk in chunks:
+        if chunk.owner.group == "type support":
+            flash[chunk.owner.name] = flash.get(chunk.owner.name, 0) + chunk.flash
     return (
         *_nodes(folder.manifest, by_use),
         *_publishers(folder.manifest, by_use, flash),
@@ -108,29 +108,29 @@ def library_ram(parts: Iterable[RamPart]) -> int:
     return sum(p.size for p in parts if p.group in ("component", "type support"))
 
 
-def _of_piece(folder: Folder, piece: Piece, facts: Facts) -> Iterator[RamPart]:
-    symbol, group, owner = piece.symbol or piece.input or piece.section, piece.owner.group, piece.owner.name
-    kind = facts.types.get(piece.address, "")
-    found = facts.parts.get(piece.address, ()) if piece.symbol else ()
-    if group == "application" and piece.symbol:
-        yield RamPart(symbol, "", piece.size, group, owner, _of_application(folder, kind))
+def _of_chunk(folder: Folder, chunk: Chunk, facts: Facts) -> Iterator[RamPart]:
+    symbol, group, owner = chunk.symbol or chunk.input or chunk.section, chunk.owner.group, chunk.owner.name
+    kind = facts.types.get(chunk.address, "")
+    found = facts.parts.get(chunk.address, ()) if chunk.symbol else ()
+    if group == "application" and chunk.symbol:
+        yield RamPart(symbol, "", chunk.size, group, owner, _of_application(folder, kind))
         return
     used = 0
     for part in found:
-        if part.size and part.offset >= used and part.offset + part.size <= piece.size:
+        if part.size and part.offset >= used and part.offset + part.size <= chunk.size:
             if part.offset > used:
                 yield RamPart(symbol, "", part.offset - used, group, owner, "alignment")
-            use = _use(folder.manifest, piece, kind, part.path)
+            use = _use(folder.manifest, chunk, kind, part.path)
             yield RamPart(symbol, part.path, part.size, group, owner, use)
             used = part.offset + part.size
-    if used < piece.size:
-        rest = _use(folder.manifest, piece, kind, "") if not used else "alignment"
-        yield RamPart(symbol, "", piece.size - used, group, owner, rest)
+    if used < chunk.size:
+        rest = _use(folder.manifest, chunk, kind, "") if not used else "alignment"
+        yield RamPart(symbol, "", chunk.size - used, group, owner, rest)
 
 
-def _use(manifest: Mapping[str, Any], piece: Piece, kind: str, path: str) -> str:
-    symbol = (piece.symbol or "").split(".")[0]
-    own = _own_use(manifest, piece.owner.name, symbol, kind, path)
+def _use(manifest: Mapping[str, Any], chunk: Chunk, kind: str, path: str) -> str:
+    symbol = (chunk.symbol or "").split(".")[0]
+    own = _own_use(manifest, chunk.owner.name, symbol, kind, path)
     if own:
         return own
     for text in (path, f"{symbol}{path}"):
@@ -150,15 +150,15 @@ def _use(manifest: Mapping[str, Any], piece: Piece, kind: str, path: str) -> str
             match = pattern.search(text)
             if match:
                 return _endpoint(manifest, int(match[1]), name)
-    if kind == _CLIENT or (piece.owner.name == "support" and path.startswith(".session")):
+    if kind == _CLIENT or (chunk.owner.name == "support" and path.startswith(".session")):
         slot = _SLOT.match(path)
         if slot:
             return f"reliable stream, slot {slot[1]}"
         member = path.removeprefix(".").partition(".")[0].partition("[")[0]
         return _MEMBERS.get(member, member.replace("_", " ") or "client")
-    if piece.owner.group == "component":
-        return _SOURCES.get((piece.source or "").rpartition("/")[2][:-2], piece.owner.name)
-    return piece.owner.name if piece.owner.group == "start-up" else piece.owner.group
+    if chunk.owner.group == "component":
+        return _SOURCES.get((chunk.source or "").rpartition("/")[2][:-2], chunk.owner.name)
+    return chunk.owner.name if chunk.owner.group == "start-up" else chunk.owner.group
 
 
 def _own_use(manifest: Mapping[str, Any], owner: str, symbol: str, kind: str, path: str) -> str:

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from microros_gen.application.kinds import RECEIVING
 from microros_gen.diagnostics import Diagnostic, UserError, nearest
-from microros_gen.image.attribution import Piece, attribute_library
+from microros_gen.image.attribution import Chunk, attribute_library
 from microros_gen.image.entities import messages_of, shown_endpoint, with_parts
 from microros_gen.image.folder import Folder
 from microros_gen.image.references import References, read_references
@@ -86,12 +86,12 @@ class Explainer:
 
     def _component(self, query: str) -> Explanation | None:
         if query in self._folder.components:
-            pieces = [
-                p for p in self._report.pieces if p.owner.name == query and p.owner.group == "component"
+            chunks = [
+                p for p in self._report.chunks if p.owner.name == query and p.owner.group == "component"
             ]
             component = self._catalogue.get(query)
             note = component.summary if component else self._outside(query)
-            return self._of_pieces("component", query, pieces, note)
+            return self._of_chunks("component", query, chunks, note)
         if query in self._catalogue:
             return self._unselected(query, query)
         return None
@@ -104,8 +104,8 @@ class Explainer:
     def _type(self, query: str) -> Explanation | None:
         if query not in self._folder.manifest["types"]:
             return None
-        pieces = [p for p in self._report.pieces if p.owner.group == "type support" and p.owner.name == query]
-        return self._of_pieces("type", query, pieces, "")
+        chunks = [p for p in self._report.chunks if p.owner.group == "type support" and p.owner.name == query]
+        return self._of_chunks("type", query, chunks, "")
 
     def _file(self, query: str) -> Explanation | None:
         names = [*self._folder.manifest["outputs"]]
@@ -115,22 +115,20 @@ class Explainer:
             return None
         if len(found) > 1:
             hint = f"Say which: {', '.join(found)}"
-            raise UserError(
-                [Diagnostic(f"there are {len(found)} files named {query}", hint=hint, id="MG-8404")]
-            )
+            raise UserError([Diagnostic(f"{len(found)} files are named {query}", hint=hint, id="MG-8404")])
         name = found[0]
         text = (self._folder.path / name).read_text(encoding="utf-8", errors="replace")
         refusal = _ERROR.search(text) if name.endswith(".h") else None
         if refusal and text.count("\n") < 20:
             return Explanation("file", name, "", name, 0, 0, False, f"Including it is an error: {refusal[1]}")
-        pieces = [p for p in self._report.pieces if p.source == name]
-        return self._of_pieces("file", name, pieces, self._header_note(name))
+        chunks = [p for p in self._report.chunks if p.source == name]
+        return self._of_chunks("file", name, chunks, self._header_note(name))
 
     def _own(self, query: str) -> Explanation | None:
         """Explain an object or archive that is not the library's: `app.c`, `app.c.o`, `libdriver.a`."""
         names = (query, f"{query}.o", f"{query}.obj")
-        pieces = [p for p in self._report.pieces if p.owner.group in _OTHERS and p.owner.name in names]
-        return self._of_pieces("file", query, pieces, pieces[0].owner.group) if pieces else None
+        chunks = [p for p in self._report.chunks if p.owner.group in _OTHERS and p.owner.name in names]
+        return self._of_chunks("file", query, chunks, chunks[0].owner.group) if chunks else None
 
     def _symbol(self, query: str) -> Explanation | None:
         names = self._names()
@@ -138,11 +136,11 @@ class Explainer:
         found = exact or sorted(n for n in names if n.startswith(query))
         if len(found) != 1:
             return None
-        pieces = names[found[0]]
-        piece = pieces[0]
-        answer = self._of_pieces("symbol", found[0], pieces, "")
-        place = self._report.facts.places.get(piece.address)
-        where = piece.source or ""
+        chunks = names[found[0]]
+        chunk = chunks[0]
+        answer = self._of_chunks("symbol", found[0], chunks, "")
+        place = self._report.facts.places.get(chunk.address)
+        where = chunk.source or ""
         if place is not None and place.line:
             where = f"{self._folder.shown_file(place.file)}:{place.line}"
         return _with_place(answer, where)
@@ -150,10 +148,10 @@ class Explainer:
     def _absent(self, query: str) -> Explanation | None:
         """Explain a symbol that the linker dropped, or that a component brings that is not selected."""
         if self._folder.image:
-            for piece in attribute_library(self._folder):
-                if piece.symbol and shown_name(piece.symbol) == query:
+            for chunk in attribute_library(self._folder):
+                if chunk.symbol and shown_name(chunk.symbol) == query:
                     note = "It is in the library, and the linker left it out: nothing that runs refers to it"
-                    name, source = piece.owner.name, piece.source or ""
+                    name, source = chunk.owner.name, chunk.source or ""
                     reasons = tuple(self._folder.manifest["selection"]["reasons"].get(name, ()))
                     return Explanation("symbol", query, name, source, 0, 0, False, note, reasons)
         word = re.compile(rb"^[^\s#/].*\b" + re.escape(query.encode()) + rb"\(", re.MULTILINE)
@@ -171,19 +169,19 @@ class Explainer:
         )
         return Explanation(kind, query, component, "", 0, 0, False, note)
 
-    def _of_pieces(self, kind: str, name: str, pieces: list[Piece], note: str) -> Explanation:
-        owner = self._owner_of(kind, name, pieces)
-        flash, ram = sum(p.flash for p in pieces), sum(p.ram for p in pieces)
+    def _of_chunks(self, kind: str, name: str, chunks: list[Chunk], note: str) -> Explanation:
+        owner = self._owner_of(kind, name, chunks)
+        flash, ram = sum(p.flash for p in chunks), sum(p.ram for p in chunks)
         reasons = tuple(self._folder.manifest["selection"]["reasons"].get(owner, ()))
         if (
-            not pieces
+            not chunks
             and kind in ("component", "file", "type")
             and self._folder.image
             and not note.endswith("header")
         ):
             left = "nothing of it is in the image: the linker left out what nobody refers to, or it has headers only"
             note = f"{note}; {left}" if note else left
-        source = pieces[0].source or "" if kind in ("symbol", "file") and pieces else ""
+        source = chunks[0].source or "" if kind in ("symbol", "file") and chunks else ""
         return Explanation(
             kind,
             name,
@@ -191,19 +189,19 @@ class Explainer:
             source,
             flash,
             ram,
-            bool(pieces),
+            bool(chunks),
             note,
             reasons,
-            self._chain(pieces),
+            self._chain(chunks),
             tuple(self._entities(owner)),
             tuple(dict.fromkeys(self._removes(owner))),
-            tuple(dict.fromkeys(self._file_choice(pieces, kind))),
-            _holds(pieces) if kind != "symbol" else (),
+            tuple(dict.fromkeys(self._file_choice(chunks, kind))),
+            _holds(chunks) if kind != "symbol" else (),
         )
 
-    def _owner_of(self, kind: str, name: str, pieces: list[Piece]) -> str:
-        if pieces:
-            return pieces[0].owner.name
+    def _owner_of(self, kind: str, name: str, chunks: list[Chunk]) -> str:
+        if chunks:
+            return chunks[0].owner.name
         if kind == "file":
             parts = name.split("/")
             by_header = [
@@ -219,28 +217,28 @@ class Explainer:
     def _header_note(self, name: str) -> str:
         return "a header" if name.endswith(".h") else ""
 
-    def _chain(self, pieces: Iterable[Piece]) -> tuple[str, ...]:
+    def _chain(self, chunks: Iterable[Chunk]) -> tuple[str, ...]:
         if not self._folder.image:
             return ()
         if self._references is None:
-            self._references = read_references(self._folder, self._report.pieces)
+            self._references = read_references(self._folder, self._report.chunks)
         stack = self._report.stack
         roots = ("main", *(b.name for b in (stack.main, *stack.handlers) if b))
         chains = [
             self._references.chain((p.source, p.symbol), roots)
-            for p in sorted(pieces, key=lambda p: (-p.size, p.address))
+            for p in sorted(chunks, key=lambda p: (-p.size, p.address))
             if p.symbol and p.source and not p.symbol.startswith('"')
         ]
         found = min((c for c in chains if c), key=len, default=())
         return tuple(shown_name(name) for name in found)
 
-    def _names(self) -> dict[str, list[Piece]]:
+    def _names(self) -> dict[str, list[Chunk]]:
         """Return the named pieces of the image by the name that the application writes."""
-        found: dict[str, list[Piece]] = {}
-        for piece in self._report.pieces:
-            for name in (piece.symbol, *piece.aliases):
+        found: dict[str, list[Chunk]] = {}
+        for chunk in self._report.chunks:
+            for name in (chunk.symbol, *chunk.aliases):
                 if name and not name.startswith('"'):
-                    found.setdefault(shown_name(name), []).append(piece)
+                    found.setdefault(shown_name(name), []).append(chunk)
         return found
 
     def _entities(self, owner: str) -> Iterator[str]:
@@ -281,9 +279,9 @@ class Explainer:
             else:
                 yield _change(reason, owner)
 
-    def _file_choice(self, pieces: Iterable[Piece], kind: str) -> Iterator[str]:
+    def _file_choice(self, chunks: Iterable[Chunk], kind: str) -> Iterator[str]:
         """Yield the alternatives to a file that one choice of the plan selects."""
-        sources = sorted({p.source for p in pieces if p.source}) if kind in ("file", "symbol") else ()
+        sources = sorted({p.source for p in chunks if p.source}) if kind in ("file", "symbol") else ()
         for source in sources:
             component = self._catalogue.get(source.split("/")[1]) if source.count("/") > 1 else None
             for file in component.files if component else ():
@@ -312,11 +310,11 @@ def _change(reason: str, owner: str) -> str:
     return f"a change of: {reason}" if reason else f"leaving out {owner}"
 
 
-def _holds(pieces: Iterable[Piece]) -> tuple[tuple[str, int], ...]:
+def _holds(chunks: Iterable[Chunk]) -> tuple[tuple[str, int], ...]:
     sizes: dict[str, int] = {}
-    for piece in pieces:
-        name = shown_name(piece.symbol) if piece.symbol else f"({piece.input or piece.section})"
-        sizes[name] = sizes.get(name, 0) + piece.size
+    for chunk in chunks:
+        name = shown_name(chunk.symbol) if chunk.symbol else f"({chunk.input or chunk.section})"
+        sizes[name] = sizes.get(name, 0) + chunk.size
     return tuple(sorted(sizes.items(), key=lambda s: (-s[1], s[0]))[:_LISTED])
 
 

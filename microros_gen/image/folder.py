@@ -129,7 +129,7 @@ class Folder:
         return Sources(self.path, self.sources)
 
     def shown_file(self, name: str) -> str:
-        """Return a file as the compiler was told it, without this folder where it lies in it."""
+        """Return a file as it was given to the compiler, without this folder where it lies in it."""
         for base in (self.path, self.path.resolve()):
             if name.startswith(f"{base}/"):
                 return name[len(f"{base}/") :]
@@ -189,7 +189,7 @@ def _tools(located: Located) -> Mapping[str, Any]:
         return tools
     if located.image is not None:
         return {}
-    message = f"{located.output} was not built yet"
+    message = f"{located.output} has not been built yet"
     hint = (
         "Make it with `microros-gen build`; for your own image give the CMake build folder, or --image FILE"
     )

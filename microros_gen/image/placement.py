@@ -91,10 +91,10 @@ def _by_symbols(folder: Folder, image: Elf) -> Layout:
     for section in image.loaded:
         for symbol in (s for s in image.symbols if s.section == section.index and s.size):
             name = _object_of(symbol, defined, units.get(symbol.address, ""), folder.sources)
-            piece = Placed(section.name, section.name, name, symbol.address, symbol.size)
-            placed.append(piece)
+            chunk = Placed(section.name, section.name, name, symbol.address, symbol.size)
+            placed.append(chunk)
             if name in folder.sources:
-                sources[piece] = name
+                sources[chunk] = name
     return Layout(tuple(sorted(placed, key=lambda p: (p.address, -p.size, p.object))), sources)
 
 

@@ -12,7 +12,7 @@ from typing import Any
 from elftools.elf.constants import SH_FLAGS
 from elftools.elf.relocation import RelocationSection
 
-from microros_gen.image.attribution import Piece
+from microros_gen.image.attribution import Chunk
 from microros_gen.image.dwarf import function_address, origin_of, plain_type, type_name, type_of
 from microros_gen.image.elf import Elf
 from microros_gen.image.folder import Folder
@@ -66,14 +66,14 @@ class Pointers:
         return signature in exact or (address in self.foreign and _loose(signature) in loose)
 
 
-def read_pointers(folder: Folder, image: Elf, functions: Mapping[int, Piece]) -> Pointers:
+def read_pointers(folder: Folder, image: Elf, functions: Mapping[int, Chunk]) -> Pointers:
     """Read the objects of an image and its debugging information; `functions` are those of the image by address."""
     foreign = frozenset(a for a, p in functions.items() if p.owner.group in FOREIGN)
     signatures, members = _read_types(image)
     return Pointers(frozenset(_taken(folder, functions)), foreign, signatures, members)
 
 
-def _taken(folder: Folder, functions: Mapping[int, Piece]) -> Iterator[int]:
+def _taken(folder: Folder, functions: Mapping[int, Chunk]) -> Iterator[int]:
     """Yield the functions that something holds the address of."""
     local = {(p.source, n): a for a, p in functions.items() for n in (p.symbol, *p.aliases)}
     exported = {name: address for (_, name), address in local.items()}

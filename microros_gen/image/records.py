@@ -150,7 +150,7 @@ def _chosen(path: Path, libraries: tuple[LibraryRecord, ...], images: tuple[Imag
 
 def _not_built(path: Path, missing: Path) -> UserError:
     hint = f"Build it: cmake --build {_home_of(path) or path}"
-    return UserError([Diagnostic(f"{missing} was not built yet", hint=hint, id="MG-8410")])
+    return UserError([Diagnostic(f"{missing} has not been built yet", hint=hint, id="MG-8410")])
 
 
 def _nothing(path: Path) -> UserError:

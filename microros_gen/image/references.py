@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 
 from elftools.elf.relocation import RelocationSection
 
-from microros_gen.image.attribution import Piece
+from microros_gen.image.attribution import Chunk
 from microros_gen.image.elf import Elf
 from microros_gen.image.folder import Folder
 from microros_gen.records import dataclass
@@ -41,13 +41,13 @@ class References:
         return ()
 
 
-def read_references(folder: Folder, pieces: Iterable[Piece]) -> References:
+def read_references(folder: Folder, chunks: Iterable[Chunk]) -> References:
     """Read the relocations of every object that has a symbol in the image."""
-    mine: dict[Key, Piece] = {}
-    for piece in pieces:
-        for name in (piece.symbol, *piece.aliases):
-            if name and piece.source and piece.owner.group not in ("compiler", "C library"):
-                mine[piece.source, name] = piece
+    mine: dict[Key, Chunk] = {}
+    for chunk in chunks:
+        for name in (chunk.symbol, *chunk.aliases):
+            if name and chunk.source and chunk.owner.group not in ("compiler", "C library"):
+                mine[chunk.source, name] = chunk
     exported: dict[str, Key] = {}
     for key in mine:
         exported.setdefault(key[1], key)

@@ -10,7 +10,7 @@ from pathlib import Path
 from elftools.common.exceptions import DWARFError, ELFError
 
 from microros_gen.diagnostics import Diagnostic, Source, Span, UserError
-from microros_gen.image.attribution import Piece, attribute, attribute_library
+from microros_gen.image.attribution import Chunk, attribute, attribute_library
 from microros_gen.image.budget import BudgetLine, advice_hint, advice_lines, budget_lines, exceeded_message
 from microros_gen.image.callgraph import CallGraph, build_call_graph
 from microros_gen.image.dwarf import Facts, Part, read_facts, read_variables
@@ -30,7 +30,7 @@ class SizeReport:
     """What an output folder takes. Without an image the parts are those of every object of the library."""
 
     folder: Folder
-    pieces: tuple[Piece, ...]
+    chunks: tuple[Chunk, ...]
     facts: Facts
     ram: tuple[RamPart, ...]
     entities: tuple[Entity, ...]
@@ -46,7 +46,7 @@ class SizeReport:
     @property
     def totals(self) -> Mapping[str, int]:
         """Bytes of text, data and bss, as `size` counts them."""
-        return {kind: sum(p.size for p in self.pieces if p.kind == kind) for kind in ("text", "data", "bss")}
+        return {kind: sum(p.size for p in self.chunks if p.kind == kind) for kind in ("text", "data", "bss")}
 
 
 def measure(path: Path, image: Path | None = None, linker_map: Path | None = None) -> SizeReport:
@@ -69,21 +69,21 @@ def measure_folder(folder: Folder) -> SizeReport:
 
 def static_memory(folder: Folder) -> int:
     """Return the static memory of the library in what was built, bytes; much faster than to measure everything."""
-    pieces = attribute_library(folder) if folder.image is None else attribute(folder, Elf(folder.image))
-    return sum(p.ram for p in pieces if p.owner.group in ("component", "type support"))
+    chunks = attribute_library(folder) if folder.image is None else attribute(folder, Elf(folder.image))
+    return sum(p.ram for p in chunks if p.owner.group in ("component", "type support"))
 
 
 def _measure_image(folder: Folder, path: Path) -> SizeReport:
     image = Elf(path)
     if folder.linked is not None:
         _check_plan(folder, image)
-    pieces = attribute(folder, image)
+    chunks = attribute(folder, image)
     facts = read_facts(image)
-    parts = ram_parts(folder, pieces, facts)
-    graph = build_call_graph(folder, image, pieces)
-    stack = stack_report(graph, image, public_functions(folder, pieces))
-    budgets = budget_lines(folder, pieces, parts, stack)
-    return SizeReport(folder, pieces, facts, parts, entities(folder, pieces, parts), graph, stack, budgets)
+    parts = ram_parts(folder, chunks, facts)
+    graph = build_call_graph(folder, image, chunks)
+    stack = stack_report(graph, image, public_functions(folder, chunks))
+    budgets = budget_lines(folder, chunks, parts, stack)
+    return SizeReport(folder, chunks, facts, parts, entities(folder, chunks, parts), graph, stack, budgets)
 
 
 def _check_plan(folder: Folder, image: Elf) -> None:
@@ -96,13 +96,13 @@ def _check_plan(folder: Folder, image: Elf) -> None:
         )
 
 
-def public_functions(folder: Folder, pieces: Iterable[Piece]) -> frozenset[str]:
+def public_functions(folder: Folder, chunks: Iterable[Chunk]) -> frozenset[str]:
     """Return the functions of the library in the image that a public header declares."""
     declared: set[str] = set()
     for path in sorted((folder.path / "include").rglob("*.h")):
         if path.relative_to(folder.path / "include").parts[0] != _PRIVATE:
             declared.update(_CALL.findall(path.read_text(encoding="utf-8", errors="replace")))
-    mine = (p.symbol for p in pieces if p.function and p.symbol and p.owner.group == "component")
+    mine = (p.symbol for p in chunks if p.function and p.symbol and p.owner.group == "component")
     return frozenset(name for name in mine if shown_name(name) in declared)
 
 
@@ -129,27 +129,27 @@ def check_budgets(
 
 
 def _measure_library(folder: Folder) -> SizeReport:
-    pieces = attribute_library(folder)
-    facts = _library_facts(folder, pieces)
-    parts = ram_parts(folder, pieces, facts)
+    chunks = attribute_library(folder)
+    facts = _library_facts(folder, chunks)
+    parts = ram_parts(folder, chunks, facts)
     stack = StackReport(False, "there is no image: calls are not linked yet", 0, None, (), (), 0)
-    budgets = budget_lines(folder, pieces, parts, stack)
-    return SizeReport(folder, pieces, facts, parts, entities(folder, pieces, parts), None, stack, budgets)
+    budgets = budget_lines(folder, chunks, parts, stack)
+    return SizeReport(folder, chunks, facts, parts, entities(folder, chunks, parts), None, stack, budgets)
 
 
-def _library_facts(folder: Folder, pieces: Iterable[Piece]) -> Facts:
+def _library_facts(folder: Folder, chunks: Iterable[Chunk]) -> Facts:
     """Return types and parts of the variables of the library's objects."""
     types: dict[int, str] = {}
     parts: dict[int, tuple[Part, ...]] = {}
     known: dict[str, Mapping[str, tuple[str, tuple[Part, ...]]]] = {}
-    for piece in pieces:
-        if piece.ram and piece.symbol and piece.source:
-            if piece.source not in known:
-                item = folder.object(piece.source)
-                known[piece.source] = read_variables(item) if item is not None else {}
-            found = known[piece.source].get(piece.symbol.partition(".")[0])
+    for chunk in chunks:
+        if chunk.ram and chunk.symbol and chunk.source:
+            if chunk.source not in known:
+                item = folder.object(chunk.source)
+                known[chunk.source] = read_variables(item) if item is not None else {}
+            found = known[chunk.source].get(chunk.symbol.partition(".")[0])
             if found:
-                types[piece.address], parts[piece.address] = found
+                types[chunk.address], parts[chunk.address] = found
     return Facts(types, parts, {})
 
 

@@ -213,7 +213,7 @@ class _Resolver:
             if len(own) > 1:
                 folders = " and ".join(f"'{place.folder}'" for place in own)
                 self._diagnostics.error(
-                    f"the package '{package}' is there {len(own)} times: {folders}",
+                    f"found {len(own)} packages named '{package}': {folders}",
                     hint="ROS 2 takes a name once: remove one, or name the folder that counts first with"
                     " --interface-path",
                     id="MG-2007",

@@ -84,8 +84,8 @@ def write_folder(wish: Wish, draft: Draft) -> NewFolder:
         _refuse_to_overwrite(wish.folder, files)
         write_files(wish.folder, files)
     for remark in undecided:
-        tell = found.error if remark.refused else found.warning
-        tell(remark.text, remark.span, remark.refused or None, id="MG-9099")
+        report = found.error if remark.refused else found.warning
+        report(remark.text, remark.span, remark.refused or None, id="MG-9099")
     builds = planned is not None and not any(remark.refused for remark in undecided)
     return NewFolder(wish.folder, tuple(sorted(files)), len(undecided), builds, tuple(found))
 

@@ -31,7 +31,7 @@ def read_code(folder: Path, diagnostics: Diagnostics) -> tuple[Source, ...]:
     """
     if not folder.exists():
         diagnostics.error(
-            f"there is no '{folder}'", hint="Give the folder of the application's sources", id="MG-9003"
+            f"folder '{folder}' not found", hint="Give the folder of the application's sources", id="MG-9003"
         )
         return ()
     found: list[Source] = []

@@ -19,7 +19,7 @@ from microros_gen.documents.yaml_tree import (
 from microros_gen.records import dataclass
 
 _DEFINITION = re.compile(r"-D\s*(?P<name>[A-Za-z_][A-Za-z0-9_]*)(?::[A-Z]+)?=(?P<value>.*)", re.DOTALL)
-_TWICE = "is there twice"
+_DUPLICATE_KEY = "MG-1044"
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ def read_settings(source: Source, diagnostics: Diagnostics) -> tuple[MetaSetting
     found = Diagnostics()
     tree = parse_yaml(Source(source.name, source.text.replace("\t", " ")), found)
     for diagnostic in found:
-        if _TWICE in diagnostic.message:
+        if diagnostic.id == _DUPLICATE_KEY:
             diagnostics.warning(
                 diagnostic.message + "; the first one is used", diagnostic.span, diagnostic.hint, id="MG-9006"
             )
@@ -90,7 +90,7 @@ def _arguments(package: str, node: YamlNode, diagnostics: Diagnostics) -> Iterat
     for item in items:
         if not isinstance(item, ScalarNode):
             diagnostics.error(
-                "'cmake-args' must list texts", item.span, 'Write ["-DNAME=VALUE"]', id="MG-9009"
+                "'cmake-args' must list strings", item.span, 'Write ["-DNAME=VALUE"]', id="MG-9009"
             )
             continue
         for word in item.text.split() if isinstance(node, ScalarNode) else [item.text.strip()]:

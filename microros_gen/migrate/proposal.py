@@ -106,7 +106,7 @@ def _joined(wish: Wish, meta: Draft, adopted: Adopted) -> Draft:
 
 
 def _limits(wish: Wish, adopted: Adopted) -> Mapping[str, DraftValue]:
-    """Return the limits; where a type is not found, that is told when the proposal is planned."""
+    """Return the limits; where a type is not found, that is reported when the proposal is planned."""
     types = [e.type for node in adopted.draft.nodes for e in node.endpoints if e.type]
     finder = InterfaceFinder.from_environment(wish.interface_paths)
     try:
@@ -142,13 +142,11 @@ def _with_defaults(wish: Wish, draft: Draft) -> Draft:
     profiles = wish.profiles or draft.profiles
     if not profiles and not draft.nodes:
         profiles = (DEFAULT_PROFILE,)
-        remarks.append(
-            Remark(f"what the application does is not said anywhere: `profiles` has {DEFAULT_PROFILE}")
-        )
+        remarks.append(Remark(f"what the application does is unknown: `profiles` has {DEFAULT_PROFILE}"))
     interfaces = draft.interfaces
     if not draft.nodes:
         interfaces = (DEFAULT_INTERFACE, *((DEFAULT_SERVICE,) if "+services" in draft.components else ()))
-        text = f"which types it uses is not said anywhere: `interfaces` has {' and '.join(interfaces)}"
+        text = f"which types it uses is unknown: `interfaces` has {' and '.join(interfaces)}"
         more = "With `nodes`, as `init --from SRC_DIR` proposes them, everything has its exact size"
         remarks.append(Remark(f"{text}. {more}"))
     settings = dict(draft.settings)

@@ -93,7 +93,7 @@ def rclc_draft(
     )
     if not nodes and not called:
         diagnostics.error(
-            "these sources call nothing of rclc or rcl",
+            "these sources call no function of rclc or rcl",
             hint="Give the folder of one application: it calls rclc_support_init",
             id="MG-9011",
         )
@@ -112,7 +112,7 @@ def _check_one(files: Iterable[CFile], diagnostics: Diagnostics) -> None:
     for start in starts[1:]:
         if start.name == starts[0].name:
             diagnostics.error(
-                f"there are several applications here: {start.name}() is also in {place(starts[0].span)}",
+                f"several applications in these sources: {start.name}() is also in {place(starts[0].span)}",
                 start.span,
                 "Give the folder or file of one of them",
                 id="MG-9012",

@@ -19,7 +19,7 @@ def one_idl(interfaces: InterfaceSet, portable: bool, diagnostics: Diagnostics) 
     """Return the .idl file of the one type that was asked for; of a derived type that of its service or action."""
     roots = {declaring_name(root) for root in interfaces.roots}
     if len(roots) != 1:
-        message = f"these are {len(roots)} interfaces, and an .idl file holds one"
+        message = f"found {len(roots)} interfaces, but an .idl file holds one"
         raise UserError(
             [Diagnostic(message, hint="Name one of them, or write all of them with -o DIR", id="MG-8003")]
         )

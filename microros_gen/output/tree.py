@@ -142,8 +142,8 @@ def _ours(path: Path) -> dict[str, object]:
 
 def _named(listed: object) -> Iterator[tuple[str, frozenset[str]]]:
     """Yield each name of a manifest or journal that lies in the folder, with its digest or list of digests."""
-    for name, reported in listed.items() if isinstance(listed, dict) else ():
-        digests = reported if isinstance(reported, list) else [reported]
+    for name, entry in listed.items() if isinstance(listed, dict) else ():
+        digests = entry if isinstance(entry, list) else [entry]
         if isinstance(name, str) and _is_inside(name):
             yield name, frozenset(d for d in digests if isinstance(d, str))
 

@@ -41,13 +41,13 @@ def capabilities() -> Mapping[str, Capability]:
     diagnostics.check()
     found = {}
     for entry in entries(tree):
-        said = {one.key: one.value for one in entries(entry.value)}
+        facts = {one.key: one.value for one in entries(entry.value)}
         found[entry.key] = Capability(
             entry.key,
-            text_of(said["summary"]) or "",
-            text_of(said["header"]) or "",
-            tuple(text_of(item) or "" for item in items(said["functions"])),
-            bool_of(said.get("application")) or False,
+            text_of(facts["summary"]) or "",
+            text_of(facts["header"]) or "",
+            tuple(text_of(item) or "" for item in items(facts["functions"])),
+            bool_of(facts.get("application")) or False,
         )
     return MappingProxyType(found)
 

@@ -108,7 +108,7 @@ class _Reader:
         extension = self._extensions.target(name, span, self._diagnostics)
         if extension is None and len(tuple(self._diagnostics)) == faults:
             known = target_names(self._extensions)
-            hint = nearest(name, known) or f"There are: {', '.join(known)}; or give the path of a target file"
+            hint = nearest(name, known) or f"Available: {', '.join(known)}; or give the path of a target file"
             self._diagnostics.error(f"unknown target '{name}'", span, hint, id="MG-6001")
         if extension is None:
             return None
@@ -138,7 +138,7 @@ class _Reader:
         try:
             return Source(str(path), read_text(path))
         except (OSError, UnicodeDecodeError) as error:
-            hint = f"There are: {', '.join(builtin_targets())}; a path is relative to the file that names it"
+            hint = f"Available: {', '.join(builtin_targets())}; a path is relative to the file that names it"
             self._diagnostics.error(
                 f"cannot read the target file '{shown}': {reason_of(error)}", span, hint, id="MG-6003"
             )

@@ -74,7 +74,7 @@ def find_part(
     folder = extension.part(kind, name) if extension is not None else None
     if extension is None or folder is None:
         known = builtin_parts(kind)
-        hint = nearest(name, known) or f"Known are: {', '.join(known)}; or give a folder, ./{name}"
+        hint = nearest(name, known) or f"Known: {', '.join(known)}; or give a folder, ./{name}"
         diagnostics.error(f"unknown {kind} '{name}'", span, hint, id="MG-6004")
         return None
     return PartFolder(folder, extension.origin, own=True)
@@ -149,7 +149,7 @@ def _check(component: Component, kind: str, span: Span | None, diagnostics: Diag
     place = f"the {kind} '{component.name}'"
     if component.layer != "port" or not component.name.startswith("port_"):
         diagnostics.error(
-            f"{place} is no part of a platform",
+            f"{place} is not a part of a platform",
             span,
             "Write `component: port_…`, `layer: port`",
             id="MG-6006",
@@ -158,12 +158,12 @@ def _check(component: Component, kind: str, span: Span | None, diagnostics: Diag
     asks = (*component.asks, *(ask for provision in component.provides for ask in provision.asks))
     named += [ask.capability for ask in asks]
     for name in sorted(set(named) - set(capabilities())):
-        hint = nearest(name, capabilities()) or f"Known are: {', '.join(capabilities())}"
+        hint = nearest(name, capabilities()) or f"Known: {', '.join(capabilities())}"
         diagnostics.error(f"{place} names an unknown capability '{name}'", span, hint, id="MG-6007")
     for file in component.files:
         if not (component.folder / "src" / file.path).is_file():
             diagnostics.error(
-                f"{place} lacks the file 'src/{file.path}'", span, "Add it, or remove its name", id="MG-6008"
+                f"{place} has no file 'src/{file.path}'", span, "Add it, or remove its name", id="MG-6008"
             )
 
 

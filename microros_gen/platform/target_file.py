@@ -104,7 +104,7 @@ def target_of(
     for key in _REQUIRED:
         if key not in node.entries:
             hint = f"Add `{key}: …`, or `extends: cortex-m4` and its like, which have it"
-            diagnostics.error(f"the target lacks the key '{key}'", node.span, hint, id="MG-6011")
+            diagnostics.error(f"missing key '{key}' in the target", node.span, hint, id="MG-6011")
     if diagnostics.has_errors():
         return None
     target = _target(node, _parts(node, diagnostics, extensions))
@@ -227,7 +227,7 @@ def _check_provides(node: MappingNode, diagnostics: Diagnostics) -> None:
     for item in items(node.get("provides")):
         name = text_of(item) or ""
         if name not in capabilities():
-            hint = nearest(name, capabilities()) or f"Known are: {', '.join(capabilities())}"
+            hint = nearest(name, capabilities()) or f"Known: {', '.join(capabilities())}"
             diagnostics.error(f"unknown capability '{name}'", item.span, hint, id="MG-6013")
 
 
@@ -236,10 +236,8 @@ def _check_registers(node: MappingNode, target: Target, diagnostics: Diagnostics
     known = (*cpu.registers, *cpu.optional_registers)
     for entry in entries(node.get("registers")):
         if entry.key not in known:
-            hint = nearest(entry.key, known) or f"Known are: {', '.join(known) or 'none'}"
-            diagnostics.error(
-                f"{name_of} knows no register '{entry.key}'", entry.key_span, hint, id="MG-6014"
-            )
+            hint = nearest(entry.key, known) or f"Known: {', '.join(known) or 'none'}"
+            diagnostics.error(f"{name_of} has no register '{entry.key}'", entry.key_span, hint, id="MG-6014")
     if target.hosted or not target.has_image:
         return
     for name in cpu.registers:
@@ -269,7 +267,7 @@ def _check_uart(node: MappingNode, target: Target, diagnostics: Diagnostics) -> 
     for key in ("base", "irq"):
         if child(uart, key) is None:
             diagnostics.error(
-                f"'uart' lacks the key '{key}'", (uart or node).span, f"Add `{key}: …`", id="MG-6017"
+                f"missing key '{key}' in 'uart'", (uart or node).span, f"Add `{key}: …`", id="MG-6017"
             )
     name = text_of(driver) or ""
     if target.cpu.driver(name) is None:
@@ -288,7 +286,9 @@ def _check_memory(node: MappingNode, diagnostics: Diagnostics) -> None:
     for name, there, other, lacks in (("flash", flash, "ram", ram), ("ram", ram, "flash", flash)):
         if there is not None and lacks is None:
             hint = f"Add `{other}: {{origin: 0x20000000, size: 64 KiB}}`"
-            diagnostics.error(f"'{name}' without '{other}' makes no image", there.span, hint, id="MG-6019")
+            diagnostics.error(
+                f"'{name}' without '{other}' is not enough for an image", there.span, hint, id="MG-6019"
+            )
     if flash is None or ram is None:
         return
     if node.get("clock_hz") is None:
@@ -309,7 +309,7 @@ def _check_regions(node: MappingNode, diagnostics: Diagnostics) -> None:
             )
         if region.offset >= region.size:
             diagnostics.error(
-                f"'{name}.offset' leaves nothing of it", value.span, "Lower the offset", id="MG-6022"
+                f"'{name}.offset' leaves no room in '{name}'", value.span, "Lower the offset", id="MG-6022"
             )
     for (first, name, value), (second, other, after) in pairwise(regions):
         if first.origin + first.size > second.origin:
@@ -321,7 +321,7 @@ def _check_regions(node: MappingNode, diagnostics: Diagnostics) -> None:
         for item in items(child(entry.value, "holds")):
             what = text_of(item) or ""
             if held.setdefault(what, entry.key) != entry.key:
-                message = f"'{what}' lies in 'memories.{held[what]}' already"
+                message = f"'{what}' is already in 'memories.{held[what]}'"
                 diagnostics.error(message, item.span, "Remove it here or there", id="MG-6024")
 
 
@@ -354,7 +354,7 @@ def _check_stdio(node: MappingNode, target: Target, diagnostics: Diagnostics) ->
             )
         if found is None and to == "uart" and key != "baud":
             diagnostics.error(
-                f"'stdio' lacks the key '{key}'", (stdio or node).span, f"Add `{key}: …`", id="MG-6027"
+                f"missing key '{key}' in 'stdio'", (stdio or node).span, f"Add `{key}: …`", id="MG-6027"
             )
     floats = child(stdio, "floats")
     if floats is not None and not target.cpu.stdio_heap:

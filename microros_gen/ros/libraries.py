@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The C libraries of ROS 2 Jazzy that are called by ctypes, besides rclpy, and a check of what they are.
+"""The C libraries of ROS 2 Jazzy that are called with ctypes, next to rclpy, and a check of their data structures.
 
-The calls keep Python's lock (PyDLL): who calls has one thread, and ROS 2's own threads never need it.
+The calls keep Python's interpreter lock (PyDLL): the caller has one thread, and ROS 2's threads never need the lock.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from microros_gen.ros.layout import (
 )
 
 INSTALL = "pip install ros-jazzy-rclpy ros-jazzy-rmw-fastrtps-cpp ros-jazzy-common-interfaces"
-"""What is needed of ROS 2, where it is not sourced: the extra `ros` of pyproject.toml."""
+"""The ROS 2 packages needed where ROS 2 is not sourced: the extra `ros` of pyproject.toml."""
 OK, TIMEOUT, BAD_ALLOC = 0, 2, 10
 """rcl_ret_t (rcl/types.h)."""
 SUBSCRIPTION_TAKE_FAILED, CLIENT_TAKE_FAILED, SERVICE_TAKE_FAILED = 401, 501, 601
@@ -44,11 +44,11 @@ new_bytes: Callable[[int, int], bytes] = ctypes.PYFUNCTYPE(ctypes.py_object, c_v
 _SAMPLE = "rcl_interfaces", "ListParameters"
 """A service that every rclpy brings, with type supports of the kinds that are made here."""
 _PATIENCE_NS = 1_000_000
-"""How long DDS waits for room in a writer's history: the agent has one thread, and comes again."""
+"""How long DDS waits for room in a writer's history: the agent has one thread, and tries again later."""
 _HEARTBEAT_NS = 100_000_000
-"""How long a writer waits before it asks its readers what they lack, while it does not know; Fast DDS's own is 3 s. Its
-shared memory drops what a reader's thread does not fetch in time (512 messages), as on a busy machine; until the reader
-is asked, the history fills and further samples wait."""
+"""The period of a writer's heartbeats while samples are unacknowledged; the default of Fast DDS is 3 s. Its shared
+memory transport drops messages that a reader's thread does not fetch in time (it holds 512), as on a busy machine;
+until the next heartbeat, the history fills and further samples wait."""
 _WRITER_DEFAULTS = f"""<?xml version="1.0" encoding="UTF-8"?>
 <dds xmlns="http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles"><profiles>
 <data_writer profile_name="microros_gen_agent" is_default_profile="true"><qos><reliability><kind>RELIABLE</kind>
@@ -57,23 +57,23 @@ _WRITER_DEFAULTS = f"""<?xml version="1.0" encoding="UTF-8"?>
 </data_writer></profiles></dds>""".encode()
 _FACTORY = "_ZN8eprosima7fastdds3dds24DomainParticipantFactory"
 _CDR_ROOM = 4096
-"""More bytes than a Cdr object has."""
+"""An upper bound of the size of a Cdr object in bytes."""
 _LITTLE, _XCDR1 = 1, 2
 _WORD = ctypes.sizeof(c_size_t)
 
 
 class LayoutError(Exception):
-    """A library is there, but not as expected; the text says what."""
+    """A library was found, but differs from what is expected; the text names the difference."""
 
 
 class Libraries:
-    """Functions of librcl and libc, identifiers of type supports."""
+    """Functions of librcl and libc, and identifiers of type supports; they stay loaded until the process ends."""
 
     FASTRTPS = b"rosidl_typesupport_fastrtps_c"
     INTROSPECTION = b"rosidl_typesupport_introspection_c"
 
     def __init__(self) -> None:
-        """Find everything; RosUnusableError when something is missing. rclpy has been imported before."""
+        """Find all functions and identifiers; import rclpy before. Raises RosUnusableError if one is missing."""
         try:
             self._load()
         except (OSError, AttributeError, ValueError) as error:
@@ -118,7 +118,7 @@ class Libraries:
         self.cdr_skip = _function(self._cdr, "_ZN8eprosima7fastcdr3Cdr4jumpEm", c_bool, c_void_p, c_size_t)
 
     def error(self) -> str:
-        """Return what ROS 2 says about the last call that failed, and forget it."""
+        """Return the first line of rcutils' error text for the last failed call, and reset it."""
         text: bytes = self._utils.rcutils_get_error_string().text
         self._utils.rcutils_reset_error()
         return text.decode("utf-8", "replace").splitlines()[0] if text else "no reason given"
@@ -126,10 +126,10 @@ class Libraries:
     @staticmethod
     @functools.cache  # Fast DDS complains of a profile that it has already
     def hurry_writers() -> None:
-        """Let writers that are created from now on wait 1 ms for room, not 100, and ask readers after 100 ms, not 3 s.
+        """Let writers created from now on wait 1 ms (not 100) for room, and send heartbeats after 100 ms (not 3 s).
 
         ROS 2 sets reliability and leaves its max_blocking_time to the default profile of Fast DDS. A default profile in
-        the user's own XML file comes later and wins; so does the wait of 100 ms where the library is another one.
+        the user's XML file is loaded later and wins. Without the symbols of this Fast DDS, its own times stay.
         """
         try:
             fast_dds = ctypes.PyDLL("librmw_fastrtps_shared_cpp.so")  # and what it is linked with
@@ -142,18 +142,18 @@ class Libraries:
         load(factory(), _WRITER_DEFAULTS, len(_WRITER_DEFAULTS))
 
     def cdr_buffer(self, cdr: int) -> FastBuffer:
-        """Return the buffer of a Cdr object; after `check_layout`."""
+        """Return the buffer of the Cdr object at address `cdr`; call `check_layout` before."""
         return FastBuffer.from_address(c_size_t.from_address(cdr + self._buffer_offset).value)
 
     @staticmethod
     def capsule(address: int) -> Any:
-        """Return a PyCapsule, as rclpy takes a C pointer."""
+        """Return a PyCapsule without name or destructor for a C address, as rclpy accepts C pointers."""
         new = ctypes.pythonapi.PyCapsule_New
         new.restype, new.argtypes = ctypes.py_object, (c_void_p, c_char_p, c_void_p)
         return new(address, None, None)
 
     def check_layout(self) -> None:
-        """Compare the structures with what is installed; RosUnusableError when they are not alike."""
+        """Compare the structures of `layout` with the installed ROS 2. Raises RosUnusableError if they differ."""
         try:
             self._check_messages()
             self._check_service()
@@ -162,7 +162,7 @@ class Libraries:
             raise _unsuitable(f"its type supports are not as in ROS 2 Jazzy: {error}") from error
 
     def _check_messages(self) -> None:
-        """The identifier comes first, by its address: what is after other members is read only after it."""
+        """Check the identifier first, by its address: other members are only read if it is the expected one."""
         fast = self._sample(self.FASTRTPS)
         _expect(fast.identifier, self.fastrtps_identifier, "identifier")
         callbacks = MessageCallbacks.from_address(fast.data)
@@ -207,7 +207,7 @@ class Libraries:
         _expect(TypeHash.from_address(type_hash).version, HASH_RIHS01, "hash of a service")
 
     def _check_cdr(self) -> None:
-        """Let libfastcdr make a buffer and a Cdr; learn where a Cdr has its buffer, which depends on its version."""
+        """Have libfastcdr create a buffer and a Cdr; find the buffer's offset in a Cdr, which varies by version."""
         content = ctypes.create_string_buffer(24)
         buffer, cdr = FastBuffer(), ctypes.create_string_buffer(_CDR_ROOM)
         make_buffer = _function(
@@ -234,7 +234,7 @@ class Libraries:
 
 
 def first_line(error: Exception) -> str:
-    """Return what an exception says, without the lines of context that rcl adds."""
+    """Return the first line of an exception's text; rcl adds lines of context."""
     return (str(error) or type(error).__name__).splitlines()[0]
 
 
@@ -249,7 +249,10 @@ def _address(function: Any) -> int:
 
 
 def _text_at(library: ctypes.PyDLL, expected: bytes) -> int:
-    """Return the address of an identifier; the library has a pointer to it in a variable named like it."""
+    """Return the address of a type support identifier. Raises ValueError if the library has a different one.
+
+    The library's variable `<identifier>__identifier` points to it.
+    """
     where = c_void_p.in_dll(library, f"{expected.decode()}__identifier").value
     if where is None or ctypes.string_at(where) != expected:
         raise ValueError(f"{expected.decode()} has another identifier")

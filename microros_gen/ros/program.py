@@ -33,24 +33,30 @@ _SCALARS: dict[str, Any] = {"?": False, "f": 0.0, "d": 0.0}
 
 
 class Program:
-    """Writes and reads one message type. Its containers are the dicts of the message and of its nested messages."""
+    """Writes and reads one message type.
+
+    Its containers are the dicts of the message (number 0) and of its nested messages, in the order of their creation.
+    """
 
     def __init__(self, message: Message) -> None:
         self._names: list[dict[str, None]] = [{field.name: None for field in message.fields}]
         self._links: list[tuple[int, str]] = []
-        """Of each nested message: the container that it is in, and its name there."""
+        """For each nested message: the number of its parent's container, and the name of the member in the parent."""
         self._paths = [""]
         self.steps: tuple[Step, ...] = ()
 
     def add_container(self, parent: int, path: str, field: Field, message: Message) -> int:
-        """Return the number of a new container."""
+        """Add a container for the nested message `field` of container `parent`; return its number."""
         self._names.append({member.name: None for member in message.fields})
         self._links.append((parent, field.name))
         self._paths.append(path)
         return len(self._links)
 
     def write(self, value: Any, out: bytearray) -> None:
-        """Append the CDR of `value`; positions count from the begin of `out`."""
+        """Append the CDR of `value` to `out`; alignment counts from the start of `out`.
+
+        Raises CodecError, which names the member, if the value does not match the type.
+        """
         containers = [self._checked(0, value)]
         for number, (parent, name) in enumerate(self._links, 1):
             containers.append(self._checked(number, containers[parent].get(name, _NOTHING)))
@@ -58,7 +64,10 @@ class Program:
             step.write(containers, out)
 
     def read(self, data: memoryview, at: int, order: str) -> tuple[dict[str, Any], int]:
-        """Return what begins at `at`, and where it ends."""
+        """Return the message at position `at` of `data`, and the position after it; `order` is `<` or `>`.
+
+        Raises CodecError, which names the member, if the data end too early or exceed a bound.
+        """
         containers: list[dict[str, Any]] = [names.copy() for names in self._names]
         for number, (parent, name) in enumerate(self._links, 1):
             containers[parent][name] = containers[number]

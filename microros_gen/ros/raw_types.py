@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Type supports for messages and services of any type, installed or not: their messages are CDR as it is on the wire.
+"""Type supports for messages and services of any type, installed or not: their messages are CDR bytes of the wire.
 
 rmw_fastrtps_cpp asks a type support for the type's name, its hash and functions that turn a message into CDR and
 back. Here a message is a `RawMessage`, so these functions copy. They are Python (ctypes) and are only called where this
@@ -48,7 +48,7 @@ _MAXIMUM_SIZE = ctypes.CFUNCTYPE(c_size_t, ctypes.POINTER(c_char))
 
 
 class _Message(ctypes.Structure):
-    """All that follows the handle of a message type; the handle is its first member."""
+    """The C data of a message type: its handle, which is the first member, and the data that the handle points to."""
 
     _fields_ = (
         ("support", MessageSupport),
@@ -62,7 +62,7 @@ class _Message(ctypes.Structure):
 
 
 class _Service(ctypes.Structure):
-    """The same of a service type."""
+    """The C data of a service type: its handle, which is the first member, and the data that the handle points to."""
 
     _fields_ = (
         ("support", ServiceSupport),
@@ -74,10 +74,10 @@ class _Service(ctypes.Structure):
 
 
 class RawTypes:
-    """Makes and keeps the handles. One for the process: Fast DDS may use them until it ends."""
+    """Creates handles and keeps them; one object per process, since Fast DDS may use handles until the process ends."""
 
     def __init__(self, libraries: Libraries) -> None:
-        """Use the type support identifiers of `libraries`; RosUnusableError when their layout is another one."""
+        """Use the type support identifiers of `libraries`. Raises RosUnusableError if their layout differs."""
         libraries.check_layout()
         self.libraries = libraries
         self._taken = b""
@@ -99,16 +99,19 @@ class RawTypes:
         }
 
     def message_class(self, name: TypeName, type_hash: str | None) -> Any:
-        """Return what rclpy's publishers and subscriptions take as message type; `type_hash` is RIHS01 or None.
+        """Return a message class for rclpy's publishers and subscriptions; `type_hash` is RIHS01 text or None.
 
-        RosError: the hash is none of REP-2011, or there are too many types (TypeLimitError).
+        Raises RosError if the hash does not follow REP-2011, TypeLimitError if the process uses too many types.
         """
         return self._class(addressof(self._message(name, type_hash)))
 
     def service_class(
         self, name: ServiceName, type_hash: str | None, request_hash: str | None, response_hash: str | None
     ) -> Any:
-        """Return the same for services and service clients."""
+        """Return a service class for rclpy's services and clients, with the hashes of service, request and response.
+
+        Raises as `message_class` does.
+        """
         key = (name.type, (type_hash, request_hash, response_hash))
         if key not in self._services:
             self._check_room()
@@ -120,7 +123,7 @@ class RawTypes:
         return self._class(addressof(self._services[key]))
 
     def taken(self) -> bytes:
-        """Return the message (encapsulation and body) that the last taking of a request or a reply gave."""
+        """Return and clear the request or reply (encapsulation and body) that was taken last; else empty bytes."""
         taken, self._taken = self._taken, b""
         return taken
 
@@ -185,7 +188,7 @@ class RawTypes:
         return made
 
     def _description(self, name: str) -> TypeDescription:
-        """Return a description without fields: rcl copies it; no node made here offers it to others."""
+        """Return a type description without fields: rcl copies it, and nodes created here offer it to no other node."""
         text = ctypes.create_string_buffer(name.encode())
         self._kept.append(text)
         description = TypeDescription()
@@ -205,7 +208,7 @@ class RawTypes:
         return handle + _Message.introspection.offset if identifier == self.libraries.INTROSPECTION else None
 
     def _serialize(self, message: int, cdr: int) -> bool:
-        """Copy a message after the encapsulation header that is there already, and that header as well."""
+        """Copy encapsulation header and body into the buffer; the header that Fast CDR wrote is overwritten."""
         raw = RawMessage.from_address(message)
         buffer = self.libraries.cdr_buffer(cdr)
         body = raw.size - ENCAPSULATION_BYTES
@@ -222,12 +225,12 @@ class RawTypes:
 
 @functools.cache
 def raw_types() -> RawTypes:
-    """Return those of the process; RosUnusableError when ROS 2 is not as expected. rclpy has been imported before."""
+    """Return the raw types of the process; import rclpy before. Raises RosUnusableError if ROS 2 is not usable."""
     return RawTypes(Libraries())
 
 
-def _offset(bytes_behind: int) -> Callable[[int], int]:
-    return lambda handle: handle + bytes_behind
+def _offset(bytes_after: int) -> Callable[[int], int]:
+    return lambda handle: handle + bytes_after
 
 
 def _serialized_size(message: int) -> int:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The steps of a program: each writes and reads one member, or numbers that follow each other."""
+"""The steps of a program: each writes and reads one member, or a run of adjacent numbers."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ CODES: Mapping[Primitive, str] = {
 }
 """Formats of `struct`; long double has none."""
 OCTETS = (Primitive.BYTE, Primitive.CHAR, Primitive.UINT8)
-"""What is bytes in Python where there are several of them."""
+"""Element types whose arrays and sequences are bytes in Python."""
 _FLOATS = (Primitive.FLOAT32, Primitive.FLOAT64)
 _UNPACKABLE = (struct.error, OverflowError, TypeError, ValueError)
 
 
 @dataclass(frozen=True)
 class Place:
-    """A member: the container that it is in, its name there, its path in the message, and its default."""
+    """A member: the number of its container, its name there, its path in the message, and its default."""
 
     container: int
     name: str
@@ -46,7 +46,7 @@ class Place:
     default: Any
 
     def value(self, containers: Sequence[Mapping[str, Any]]) -> Any:
-        """Return what the message has there, or the default."""
+        """Return the value of the member, or its default if the message omits it."""
         return containers[self.container].get(self.name, self.default)
 
 
@@ -54,24 +54,27 @@ class Step(Protocol):
     """A part of a message, in the order of the wire."""
 
     def write(self, containers: Sequence[Mapping[str, Any]], out: bytearray) -> None:
-        """Append it to `out`, which begins where positions count from."""
+        """Append the member to `out`, from whose start alignment counts. Raises CodecError for an invalid value."""
 
     def read(self, data: memoryview, at: int, order: str, containers: Sequence[dict[str, Any]]) -> int:
-        """Put what begins at `at` into its container; return where it ends."""
+        """Read the member at position `at` into its container; return the position after it.
+
+        `order` is `<` or `>`, as in `struct`. Raises CodecError if the data end too early or exceed a bound.
+        """
 
 
 class Element(Protocol):
-    """What several are of: strings or messages."""
+    """The element type of an array or sequence: a string or a message."""
 
     def write(self, value: Any, out: bytearray) -> None:
-        """Append one."""
+        """Append one element to `out`. Raises CodecError for an invalid value."""
 
     def read(self, data: memoryview, at: int, order: str) -> tuple[Any, int]:
-        """Return one, and where it ends."""
+        """Return the element at position `at`, and the position after it. Raises CodecError for invalid data."""
 
 
 class Run:
-    """Numbers that follow each other; a place that is None is the one member of a message without members."""
+    """Adjacent numbers, written and read in one call; the place None is the placeholder member of an empty message."""
 
     def __init__(self, members: Sequence[tuple[Place | None, Primitive]]) -> None:
         self._members = [member for member in members if member[0] is not None]
@@ -82,7 +85,7 @@ class Run:
         self._structs: dict[tuple[str, int], struct.Struct] = {}
 
     def write(self, containers: Sequence[Mapping[str, Any]], out: bytearray) -> None:
-        """See Step."""
+        """Append the member; see `Step.write`."""
         values = [containers[number].get(name, default) for number, name, default in self._reads]
         for i in self._bools:
             if not isinstance(values[i], bool):
@@ -93,7 +96,7 @@ class Run:
             raise self._refused(values) from None
 
     def read(self, data: memoryview, at: int, order: str, containers: Sequence[dict[str, Any]]) -> int:
-        """See Step."""
+        """Read the member; see `Step.read`."""
         layout = self._struct(order, at)
         end = at + layout.size
         if end > len(data):
@@ -104,7 +107,7 @@ class Run:
         return end
 
     def _struct(self, order: str, at: int) -> struct.Struct:
-        """Return the layout of a run that begins at `at`: padding depends on it up to 8."""
+        """Return the layout of a run at position `at`: padding depends on the position modulo 8."""
         key = (order, at & 7)
         found = self._structs.get(key)
         if found is None:
@@ -123,7 +126,7 @@ class Run:
         raise AssertionError("every number fits, and together they do not")
 
     def _missing(self, at: int, end: int) -> CodecError:
-        """Return the error that names the first number that is not there."""
+        """Return the error that names the first number beyond the end of the data."""
         members = iter(self._members)
         for code, size in self._layout:
             at += -at % size + size
@@ -145,7 +148,7 @@ class _Several:
         self.bound = bound
 
     def write(self, containers: Sequence[Mapping[str, Any]], out: bytearray) -> None:
-        """See Step."""
+        """Append the member; see `Step.write`."""
         try:
             elements = self._elements(self.place.value(containers))
             self._check_count(len(elements))
@@ -157,7 +160,7 @@ class _Several:
             raise error.within(self.place.path) from None
 
     def read(self, data: memoryview, at: int, order: str, containers: Sequence[dict[str, Any]]) -> int:
-        """See Step."""
+        """Read the member; see `Step.read`."""
         try:
             count = self.size
             if count is None:
@@ -189,7 +192,7 @@ class _Several:
 
 
 class Numbers(_Several):
-    """Numbers of one type."""
+    """An array or sequence of numbers of one type."""
 
     def __init__(self, place: Place, kind: Primitive, size: int | None, bound: int | None) -> None:
         super().__init__(place, size, bound)
@@ -215,7 +218,7 @@ class Numbers(_Several):
 
 
 class Octets(_Several):
-    """`byte`, `char` or `uint8`: bytes."""
+    """An array or sequence of `byte`, `char` or `uint8`: bytes in Python."""
 
     def __init__(self, place: Place, kind: Primitive, size: int | None, bound: int | None) -> None:
         super().__init__(place, size, bound)
@@ -238,7 +241,7 @@ class Octets(_Several):
 
 
 class Many(_Several):
-    """Strings or messages."""
+    """An array or sequence of strings or messages."""
 
     def __init__(self, place: Place, element: Element, size: int | None, bound: int | None) -> None:
         super().__init__(place, size, bound)
@@ -265,21 +268,21 @@ class Many(_Several):
 
 
 class Text:
-    """One string."""
+    """A string member."""
 
     def __init__(self, place: Place, element: Element) -> None:
         self._place = place
         self._element = element
 
     def write(self, containers: Sequence[Mapping[str, Any]], out: bytearray) -> None:
-        """See Step."""
+        """Append the member; see `Step.write`."""
         try:
             self._element.write(self._place.value(containers), out)
         except CodecError as error:
             raise error.within(self._place.path) from None
 
     def read(self, data: memoryview, at: int, order: str, containers: Sequence[dict[str, Any]]) -> int:
-        """See Step."""
+        """Read the member; see `Step.read`."""
         try:
             value, at = self._element.read(data, at, order)
         except CodecError as error:
@@ -300,7 +303,7 @@ def fits(kind: Primitive, value: Any) -> bool:
 
 
 def unfit(kind: Primitive, value: Any) -> str:
-    """Return why `value` is refused."""
+    """Return why `value` is not a number of this type, as a reason for CodecError."""
     if kind is Primitive.BOOL:
         wanted = "True or False"
     elif kind in _FLOATS:

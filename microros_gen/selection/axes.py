@@ -77,7 +77,7 @@ def _application_axes(application: Application) -> dict[str, tuple[Named, ...]]:
 def _known(axis: str, value: Named, values: Iterable[str], diagnostics: Diagnostics) -> bool:
     if value.name in values:
         return True
-    hint = nearest(value.name, values) or f"There are {', '.join(values)}"
+    hint = nearest(value.name, values) or f"Available: {', '.join(values)}"
     diagnostics.error(f"unknown {axis} '{value.name}'", value.span, hint, id="MG-4001")
     return False
 
@@ -90,11 +90,11 @@ def _choice(axis: str, value: Named) -> AxisChoice:
 def _of_profiles(
     axis: str, profiles: tuple[ResolvedProfile, ...], diagnostics: Diagnostics
 ) -> AxisChoice | None:
-    said = [(profile, profile.axes[axis]) for profile in profiles if axis in profile.axes]
-    if not said:
+    chosen_values = [(profile, profile.axes[axis]) for profile in profiles if axis in profile.axes]
+    if not chosen_values:
         return None
-    first, chosen = said[0]
-    for profile, value in said[1:]:
+    first, chosen = chosen_values[0]
+    for profile, value in chosen_values[1:]:
         if value.name != chosen.name:
             diagnostics.error(
                 f"the profile '{profile.name}' has {axis}: {value.name}, and the profile '{first.name}' has "

@@ -75,10 +75,10 @@ def _check(
     if component.layer == "port" or component.provides:
         key = "provides" if component.provides else "layer"
         hint = "Name its folder in the target file: `os: ./folder`"
-        diagnostics.error("a part of a platform is no component", _span(tree, key), hint, id="MG-4065")
+        diagnostics.error("a part of a platform is not a component", _span(tree, key), hint, id="MG-4065")
     for span, name in _texts(tree.get("asks"), "capability"):
         if name not in capabilities:
-            hint = nearest(name, capabilities) or f"Known are: {', '.join(capabilities)}"
+            hint = nearest(name, capabilities) or f"Known: {', '.join(capabilities)}"
             diagnostics.error(f"unknown capability '{name}'", span, hint, id="MG-4066")
     _check_files(tree, folder, diagnostics)
     for item in items(tree.get("implies")):
@@ -121,7 +121,7 @@ def _check_type(item: YamlNode, diagnostics: Diagnostics) -> None:
         return
     default = KIND[kind].type_kind
     if split_type_name(text_of(node) or "", default) is None:
-        message = f"'{text_of(node)}' is no type"
+        message = f"'{text_of(node)}' is not a type"
         diagnostics.error(message, node.span, f"Write `package/{default}/Name`", id="MG-4069")
 
 

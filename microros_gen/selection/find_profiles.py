@@ -108,8 +108,8 @@ class _Reader:
             return name
         path = _user_file(name.name, near)
         if path is None and not _is_path(name.name):
-            bringer = self._extensions.profile(name.name, name.span, self._diagnostics)
-            path = bringer.profile(name.name) if bringer is not None else None
+            extension = self._extensions.profile(name.name, name.span, self._diagnostics)
+            path = extension.profile(name.name) if extension is not None else None
         if path is None:
             self._unknown(name, near)
             return None

@@ -41,7 +41,7 @@ class Picker:
 
     def unknown(self, name: str, text: str, span: Span | None) -> None:
         """Report an unknown component."""
-        hint = nearest(name, self.catalogue) or f"There are {', '.join(MICRO_ROS_COMPONENTS)}"
+        hint = nearest(name, self.catalogue) or f"Available: {', '.join(MICRO_ROS_COMPONENTS)}"
         self.diagnostics.error(f"unknown component '{name}' ({text})", span, hint, id="MG-4030")
 
     def close(self) -> None:

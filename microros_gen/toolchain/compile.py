@@ -159,9 +159,9 @@ def _link(out: Path, main_object: str, image: str, tools: Toolchain, script: str
     (out / fresh).replace(out / image)
 
 
-def _too_large(said: str) -> str | None:
+def _too_large(message: str) -> str | None:
     """Return what to do where the linker says that a memory region is too small."""
-    match = _OVERFLOW.search(said)
+    match = _OVERFLOW.search(message)
     if match is None:
         return None
     region, size = match.groups()

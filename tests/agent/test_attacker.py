@@ -105,8 +105,8 @@ class Stage:
         """Send submessages in fragments; return the answers to the last of them."""
         answers: list[Submessage] = []
         for at in range(0, len(content), 20_000):
-            piece = content[at : at + 20_000]
-            answers = self.say(Fragment(piece, at + 20_000 >= len(content)))
+            chunk = content[at : at + 20_000]
+            answers = self.say(Fragment(chunk, at + 20_000 >= len(content)))
         return answers
 
     def serve(self) -> None:
@@ -154,7 +154,7 @@ class Stage:
                 assert stream._held_bytes == sum(map(len, stream._held.values()))
                 assert stream._held_bytes <= limits.message_bytes + 70_000
             for gathered in session._reassembly.values():
-                assert len(gathered._pieces) <= limits.message_bytes
+                assert len(gathered._received) <= limits.message_bytes
 
 
 def submessages_of(data: bytes) -> list[Submessage]:

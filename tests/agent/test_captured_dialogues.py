@@ -41,7 +41,7 @@ class Side:
     """What one side sent, read message by message."""
 
     acknowledged: dict[int, int] = field(default_factory=dict)
-    pieces: bytes = b""
+    chunks: bytes = b""
 
     def read(self, message: bytes) -> Iterator[Meaning]:
         """Yield what a message means, without what only keeps streams going."""
@@ -53,10 +53,10 @@ class Side:
             payload = message[at + 4 : at + 4 + length]
             assert len(payload) == length
             if kind == FRAGMENT:
-                self.pieces += payload
+                self.chunks += payload
                 if message[at + 1] & 2:
-                    yield (*head, *meaning(self.pieces[0], self.pieces[4:]))
-                    self.pieces = b""
+                    yield (*head, *meaning(self.chunks[0], self.chunks[4:]))
+                    self.chunks = b""
             elif kind == ACKNACK:
                 self.acknowledged[payload[4]] = int.from_bytes(payload[:2], "little")
             elif kind != HEARTBEAT:
@@ -79,15 +79,15 @@ def lines(name: str) -> list[Line]:
     return [(line[0], bytes.fromhex(line[2:])) for line in text.splitlines() if line[0] != "#"]
 
 
-def unframed(pieces: Iterable[Line], feed: dict[str, Callable[[bytes], list[bytes]]]) -> list[Line]:
+def unframed(chunks: Iterable[Line], feed: dict[str, Callable[[bytes], list[bytes]]]) -> list[Line]:
     """Return the messages of a byte stream that was recorded in parts."""
-    return [(direction, message) for direction, piece in pieces for message in feed[direction](piece)]
+    return [(direction, message) for direction, chunk in chunks for message in feed[direction](chunk)]
 
 
 class Replay:
     """An agent that is told what the client of a record said."""
 
-    def __init__(self, said: Iterable[Line]) -> None:
+    def __init__(self, dialogue: Iterable[Line]) -> None:
         references = HERE / "references.xml"
         self.bench = Bench(
             references=read_references([Source(str(references), references.read_text("ascii"))])
@@ -95,7 +95,7 @@ class Replay:
         self.record, self.agent = Side(), Side()
         self.waiting: list[Meaning] = []
         self.graph: list[str] = []
-        for direction, message in said:
+        for direction, message in dialogue:
             if direction == ">":
                 self._note(self.bench.say(message))
                 self.graph = max(self.graph, list(self.bench.bridge.graph), key=len)
@@ -149,32 +149,32 @@ def test_every_representation_gives_the_same_entities_in_ros(name: str) -> None:
 
 
 def test_the_same_over_tcp() -> None:
-    pieces = lines("streams/tcp")
-    messages = unframed(pieces, {">": LengthDecoder().feed, "<": LengthDecoder().feed})
+    chunks = lines("streams/tcp")
+    messages = unframed(chunks, {">": LengthDecoder().feed, "<": LengthDecoder().feed})
     replay = Replay(messages)
     assert (replay.waiting, replay.bench.log.counters) == ([], {})
     for side in "<>":
-        sent = b"".join(piece for direction, piece in pieces if direction == side)
+        sent = b"".join(chunk for direction, chunk in chunks if direction == side)
         assert sent == b"".join(
             encode_length(message) for direction, message in messages if direction == side
         )
 
 
 def test_the_same_over_a_serial_line() -> None:
-    pieces = lines("streams/serial")
+    chunks = lines("streams/serial")
     faults: list[tuple[str, str]] = []
     agent, client = (FrameDecoder(lambda *fault: faults.append(fault), address) for address in (0, 1))
 
-    def from_client(piece: bytes) -> list[bytes]:
-        return [payload for source, payload in agent.feed(piece) if source == 1]
+    def from_client(chunk: bytes) -> list[bytes]:
+        return [payload for source, payload in agent.feed(chunk) if source == 1]
 
-    def from_agent(piece: bytes) -> list[bytes]:
-        return [payload for source, payload in client.feed(piece) if source == 0]
+    def from_agent(chunk: bytes) -> list[bytes]:
+        return [payload for source, payload in client.feed(chunk) if source == 0]
 
-    messages = unframed(pieces, {">": from_client, "<": from_agent})
+    messages = unframed(chunks, {">": from_client, "<": from_agent})
     replay = Replay(messages)
     assert (replay.waiting, replay.bench.log.counters, faults) == ([], {}, [])
     for side, source in ((">", 1), ("<", 0)):
-        sent = b"".join(piece for direction, piece in pieces if direction == side)
+        sent = b"".join(chunk for direction, chunk in chunks if direction == side)
         frames = (encode_frame(m, 1 - source, source) for direction, m in messages if direction == side)
         assert sent == b"".join(frames)

@@ -138,13 +138,13 @@ references: refs.xml
     reported = [without_id(d.headline()).removeprefix(f"{path}:") for d in error.value.diagnostics]
     assert reported == [
         "1:10: error: 'version' must be 1, the only version; it is 2",
-        "3:5: error: 'transports[0]' has no key 'upd4'. Did you mean 'udp4'?",
-        "4:12: error: 'transports[1].udp4' has no key 'prot'. Did you mean 'port'?",
+        "3:5: error: unknown key 'upd4' in 'transports[0]'. Did you mean 'udp4'?",
+        "4:12: error: unknown key 'prot' in 'transports[1].udp4'. Did you mean 'port'?",
         "5:18: error: 'transports[2].tcp4.port' must be a whole number between 0 and 65535; it is 70000",
-        "6:13: error: 'transports[3].serial' lacks the key 'device'. Add `device: …`",
+        "6:13: error: missing key 'device' in 'transports[3].serial'. Add `device: …`",
         "7:5: error: 'transports[4]' must be one transport with its settings, as `udp4: {port: 8888}`; it is a mapping",
-        "8:1: error: the file has no key 'limit'. Did you mean 'limits'?",
-        "9:10: error: 'limits' has no key 'clent_timeout_s'. Did you mean 'client_timeout_s'?",
+        "8:1: error: unknown key 'limit' in the file. Did you mean 'limits'?",
+        "9:10: error: unknown key 'clent_timeout_s' in 'limits'. Did you mean 'client_timeout_s'?",
         "9:39: error: 'limits.clients' must be a whole number between 1 and 65535; it is the text 'many'",
         "9:54: error: 'limits.domains' must be a whole number between 1 and 233; it is 0",
         "10:9: error: 'domain' must be a whole number between 0 and 232; it is 300",
@@ -211,9 +211,9 @@ def test_the_schema_has_every_limit_and_its_default() -> None:
 
 def test_the_example_holds(tmp_path: Path) -> None:
     diagnostics = Diagnostics()
-    said = parse_agent_file(Source("agent.yaml", EXAMPLE.read_text()), diagnostics)
+    options = parse_agent_file(Source("agent.yaml", EXAMPLE.read_text()), diagnostics)
     diagnostics.check()
-    assert said.transports
+    assert options.transports
 
 
 def manifest(path: Path, *nodes: str, **types: str) -> ManifestOf:

@@ -135,7 +135,9 @@ def test_faults_of_the_file_are_reported_before_everything_else(tmp_path: Path) 
     (tmp_path / "agent.yaml").write_text("version: 1\ntransports: [upd4: {}]\ndomain: x\n")
     result = run("--config", "agent.yaml", path=tmp_path)
     assert result.returncode == 2
-    assert "agent.yaml:2:14: error: 'transports[0]' has no key 'upd4'. Did you mean 'udp4'?" in result.stderr
+    assert (
+        "agent.yaml:2:14: error: unknown key 'upd4' in 'transports[0]'. Did you mean 'udp4'?" in result.stderr
+    )
     assert "agent.yaml:3:9: error: 'domain' must be a whole number" in result.stderr
 
 

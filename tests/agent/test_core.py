@@ -89,7 +89,7 @@ def test_ping_with_the_key_in_the_header() -> None:
 
 
 @pytest.mark.parametrize(
-    "said",
+    "submessage",
     [
         "81 01 00 00" + WRITE,
         "81 80 00 00" + WRITE,
@@ -98,9 +98,9 @@ def test_ping_with_the_key_in_the_header() -> None:
         "82 00 00 00 0c 01 00 00",
     ],
 )
-def test_without_a_session_there_is_no_answer(said: str) -> None:
+def test_without_a_session_there_is_no_answer(submessage: str) -> None:
     bench = Bench()
-    assert bench.say(said) == []
+    assert bench.say(submessage) == []
     assert bench.log.counters["no_session"] == 1
 
 
@@ -215,7 +215,7 @@ def test_a_recorded_dialogue() -> None:
 
 
 @pytest.mark.parametrize(
-    ("said", "kind"),
+    ("submessage", "kind"),
     [
         ("01 07 08 00 00 0a 00 1d 0d 03 00 00", "truncated"),
         ("01 07 0c 00 00 0a 00 1d 0d 03 00 00 00 00 00 00", "object_kind"),
@@ -225,10 +225,10 @@ def test_a_recorded_dialogue() -> None:
         ("08 01 08 00 00 0a 00 1d 01 00 02 00", "boolean"),
     ],
 )
-def test_a_request_that_cannot_be_read_is_answered(said: str, kind: str) -> None:
+def test_a_request_that_cannot_be_read_is_answered(submessage: str, kind: str) -> None:
     """Table 2: STATUS_ERR_INVALID_DATA; whoever created or read something waits for a STATUS."""
     bench = publishing()
-    assert bench.say("81 01 04 00" + said) == ["81 01 04 00 05 01 06 00 00 0a 00 1d 85 00"]
+    assert bench.say("81 01 04 00" + submessage) == ["81 01 04 00 05 01 06 00 00 0a 00 1d 85 00"]
     assert bench.log.counters == {kind: 1}
 
 
@@ -270,7 +270,7 @@ def test_several_samples_in_one_message() -> None:
 
 
 @pytest.mark.parametrize(
-    ("said", "kind"),
+    ("submessage", "kind"),
     [
         ("07 01 08 00 00 05 00 25 2a 00 00 00", "unknown_writer"),
         ("07 01 08 00 00 05 00 13 2a 00 00 00", "unknown_writer"),
@@ -278,9 +278,9 @@ def test_several_samples_in_one_message() -> None:
         ("07 01 02 00 00 05", "truncated"),
     ],
 )
-def test_samples_without_a_reader_are_counted(said: str, kind: str) -> None:
+def test_samples_without_a_reader_are_counted(submessage: str, kind: str) -> None:
     bench = publishing()
-    assert bench.say("81 01 04 00" + said) == []
+    assert bench.say("81 01 04 00" + submessage) == []
     assert bench.bridge.published == []
     assert bench.log.counters == {kind: 1}
 
@@ -289,9 +289,9 @@ def test_fragments_are_joined() -> None:
     bench = publishing()
     body = bytes(range(256)) * 5
     whole = encode(WriteData(1, 0x15, body))
-    pieces = [whole[:500], whole[500:1000], whole[1000:]]
-    for i, piece in enumerate(pieces):
-        fragment = Fragment(piece, i == 2)
+    chunks = [whole[:500], whole[500:1000], whole[1000:]]
+    for i, chunk in enumerate(chunks):
+        fragment = Fragment(chunk, i == 2)
         answer = f"81 00 00 00 0a 01 05 00 {i + 1:02x} 00 00 00 80"
         assert bench.say(message(fragment, stream=0x80, sequence=i)) == [answer]
     assert bench.bridge.published == [(GRAPH[1], b"\0\1\0\0" + body)]

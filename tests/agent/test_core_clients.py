@@ -197,16 +197,16 @@ def test_info_on_the_agent_and_the_client_is_the_agents(object_id: int) -> None:
 def test_a_long_configuration_goes_where_there_is_room_for_it() -> None:
     bench = connected()
     text = captured.PARTICIPANT_XML.replace("p1", "p" * 100) + " " * 600
-    pieces = [
+    chunks = [
         message(Create(1, 0x11, 1, Format.REFERENCE, b"x"), stream=0),
         message(Create(2, 0x11, 1, Format.XML, text.encode()), stream=0),
     ]
-    for data in pieces:
+    for data in chunks:
         bench.say(data)
     assert info(bench, 0x11).config is None
     answers = bench.say(message(GetInfo(7, 0x11, 1), stream=0x80))
     fragments = [bytes.fromhex(a) for a in answers if a[12:14] == "0d"]
-    whole = b"".join(piece[8:] for piece in fragments)
+    whole = b"".join(chunk[8:] for chunk in fragments)
     found = decode(whole[0], whole[1], whole, 4, len(whole))
     assert isinstance(found, Info)
     assert found.config is not None

@@ -258,8 +258,8 @@ def test_large_samples_go_in_fragments_or_not_at_all() -> None:
     listener.take()
     sizes = [len(data) for _, data in bench.transport.sent]
     assert sizes[:-1] == [508, 508]
-    pieces = b"".join(a.piece for a in listener.answers() if isinstance(a, Fragment))
-    assert pieces == bytes.fromhex("09010405 00200016") + body
+    chunks = b"".join(a.data for a in listener.answers() if isinstance(a, Fragment))
+    assert chunks == bytes.fromhex("09010405 00200016") + body
     listener.read(stream=1)
     source.put(b"\0\1\0\0" + body, sample(1), b"\0\1\0\0" + body)
     assert values(listener.take()) == [1]
@@ -274,8 +274,8 @@ def test_a_sample_beyond_64_kib() -> None:
     body = bytes(100_000)
     bench.bridge.source(LABEL).put(b"\0\1\0\0" + body)
     listener.take()
-    pieces = b"".join(a.piece for a in listener.answers() if isinstance(a, Fragment))
-    assert pieces == bytes.fromhex("09010000 00200016") + body
+    chunks = b"".join(a.data for a in listener.answers() if isinstance(a, Fragment))
+    assert chunks == bytes.fromhex("09010000 00200016") + body
     bench.bridge.source(LABEL).put(b"\0\1\0\0" + bytes(300_000))
     assert listener.take() == []
     assert bench.log.counters == {"sample_too_large": 1}

@@ -111,7 +111,7 @@ class LossyClient:
         self.bench, self.chance, self.header = bench, chance, header
         self.expected = 0
         self.held: dict[int, bytes] = {}
-        self.pieces = b""
+        self.chunks = b""
         self.got: list[bytes] = []
 
     def hear(self) -> None:
@@ -132,9 +132,9 @@ class LossyClient:
         for identifier, flags, at, end in split(data, start, rest_when_zero=True):
             submessage = decode(identifier, flags, data, at, end)
             if isinstance(submessage, Fragment):
-                self.pieces += submessage.piece
+                self.chunks += submessage.data
                 if submessage.last:
-                    whole, self.pieces = self.pieces, b""
+                    whole, self.chunks = self.chunks, b""
                     self.take(whole, 0)
             elif isinstance(submessage, Data):
                 self.got.append(submessage.data)

@@ -33,8 +33,8 @@ class Listener:
         self.faults[kind] += 1
         self.reported.append(found)
 
-    def hear(self, *pieces: bytes) -> list[bytes]:
-        return [payload for piece in pieces for _, payload in self.decoder.feed(piece)]
+    def hear(self, *chunks: bytes) -> list[bytes]:
+        return [payload for chunk in chunks for _, payload in self.decoder.feed(chunk)]
 
 
 def test_captured_frames() -> None:
@@ -106,9 +106,9 @@ GOOD = frame(b"good")
     ],
 )
 def test_a_fault_costs_only_its_own_frame(kind: str, bad: bytes) -> None:
-    for pieces in ([GOOD + bad + GOOD], [GOOD, bad, GOOD], [bytes((b,)) for b in GOOD + bad + GOOD]):
+    for chunks in ([GOOD + bad + GOOD], [GOOD, bad, GOOD], [bytes((b,)) for b in GOOD + bad + GOOD]):
         listener = Listener(largest=100)
-        assert listener.hear(*pieces) == [b"good", b"good"]
+        assert listener.hear(*chunks) == [b"good", b"good"]
         assert listener.faults == {kind: 1}
 
 
@@ -152,9 +152,9 @@ def test_memory_is_bounded() -> None:
 
 @settings(max_examples=300, deadline=None)
 @given(st.lists(st.binary(max_size=60) | st.just(GOOD) | st.just(b"\x7e") | st.just(b"\x7d"), max_size=20))
-def test_any_stream(pieces: list[bytes]) -> None:
+def test_any_stream(chunks: list[bytes]) -> None:
     listener = Listener(largest=200)
-    listener.hear(*pieces)
+    listener.hear(*chunks)
     assert listener.hear(GOOD, GOOD)[-1] == b"good"
 
 

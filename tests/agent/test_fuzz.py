@@ -73,9 +73,9 @@ conversation = st.lists(st.tuples(messages, st.sampled_from("abc")), max_size=12
     max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large]
 )
 @given(conversation)
-def test_any_conversation(said: list[tuple[bytes, str]]) -> None:
+def test_any_conversation(datagrams: list[tuple[bytes, str]]) -> None:
     bench = bench_in_session()
-    for data, address in said:
+    for data, address in datagrams:
         bench.say(data, address)
         bench.wait(0.3, step=0.1)
     unharmed(bench)
@@ -84,9 +84,9 @@ def test_any_conversation(said: list[tuple[bytes, str]]) -> None:
 @pytest.mark.long
 @settings(max_examples=20_000, deadline=None, suppress_health_check=list(HealthCheck))
 @given(conversation)
-def test_any_conversation_at_length(said: list[tuple[bytes, str]]) -> None:
+def test_any_conversation_at_length(datagrams: list[tuple[bytes, str]]) -> None:
     bench = bench_in_session()
-    for data, address in said:
+    for data, address in datagrams:
         bench.say(data, address)
     unharmed(bench)
 

@@ -80,7 +80,7 @@ def samples_of(chance: random.Random, form: int) -> bytes:
     return writer.content()
 
 
-def said(chance: random.Random) -> Submessage:
+def submessage_of(chance: random.Random) -> Submessage:
     """Return what belongs to data, right or nearly so."""
     form = chance.choice(FORMS)
     number = chance.randrange(0x10000)
@@ -137,7 +137,9 @@ class Talk:
         chance = self.chance
         stream = chance.choice((0, 1, 0x80))
         self.sequence += 1
-        parts = (encode(said(chance), chance.random() < 0.8) for _ in range(chance.choice((1, 1, 3))))
+        parts = (
+            encode(submessage_of(chance), chance.random() < 0.8) for _ in range(chance.choice((1, 1, 3)))
+        )
         content = [distorted(part, chance) for part in parts]
         if chance.random() < 0.1:
             content = [encode(Fragment(b"".join(content), chance.random() < 0.7))]
@@ -210,8 +212,8 @@ def tcp_bytes(seed: int, rounds: int) -> None:
         stream = encode_length(talk.message())
         if talk.chance.random() < 0.02:
             stream = distorted(stream, talk.chance)
-        for piece in pieces(stream, talk.chance):
-            for data in decoder.feed(piece):
+        for chunk in chunks(stream, talk.chance):
+            for data in decoder.feed(chunk):
                 if data:
                     talk.bench.say(data)
             assert len(decoder._rest) < 2 + 0xFFFF
@@ -235,8 +237,8 @@ def serial_bytes(seed: int, rounds: int) -> None:
         if broken:
             stream = distorted(stream, talk.chance) + talk.chance.choice((b"", b"\x7d", b"\x7e", b"noise"))
         whole += not broken
-        for piece in pieces(stream, talk.chance):
-            for _, data in decoder.feed(piece):
+        for chunk in chunks(stream, talk.chance):
+            for _, data in decoder.feed(chunk):
                 arrived += data == plain and not broken
                 talk.bench.say(data)
             assert len(decoder._plain) <= 0xFFFF + 6
@@ -245,7 +247,7 @@ def serial_bytes(seed: int, rounds: int) -> None:
     talk.end()
 
 
-def pieces(stream: bytes, chance: random.Random) -> list[bytes]:
+def chunks(stream: bytes, chance: random.Random) -> list[bytes]:
     cuts = sorted(chance.randrange(len(stream) + 1) for _ in range(chance.choice((0, 1, 5))))
     return [stream[a:b] for a, b in zip([0, *cuts], [*cuts, len(stream)], strict=True)]
 

@@ -161,7 +161,7 @@ def lasting(client: XrceClient, number: int, depth: int) -> int:
 def test_histories_stay_below_the_configured_limit_and_recover() -> None:
     """S1: it was 3.0 GB, of which 833 MB stayed. A client that behaves is served meanwhile."""
     with running_agent(own_domain(), "--log-format", "json") as agent:
-        said, descriptors = event(agent, "memory"), event(agent, "descriptors")
+        memory, descriptors = event(agent, "memory"), event(agent, "descriptors")
         assert len(list(Path(f"/proc/{agent.process.pid}/fd").iterdir())) < descriptors["most"]
         assert descriptors["allowed"] == resource.getrlimit(resource.RLIMIT_NOFILE)[0]
         with XrceClient(agent.port, mtu=65_000) as client, XrceClient(agent.port, key=2) as honest:
@@ -182,7 +182,7 @@ def test_histories_stay_below_the_configured_limit_and_recover() -> None:
             assert client.ping() == 1
             most = max(most, rss_mib(agent.process.pid))
             assert most - before > 8, "samples were kept"
-            assert most < said["limit"]
+            assert most < memory["limit"]
             assert client.leave() == OK
             end = deadline(60)
             while (left := rss_mib(agent.process.pid)) > before + 8 and time.monotonic() < end:

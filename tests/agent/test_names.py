@@ -109,7 +109,7 @@ def test_services_of_actions() -> None:
 
 
 @pytest.mark.parametrize(
-    ("service", "said"),
+    ("service", "expected"),
     [
         (Service("", REQUEST, RESPONSE), "request topic 'rq/Request'"),
         (Service("a b", REQUEST, RESPONSE), "request topic"),
@@ -123,8 +123,8 @@ def test_services_of_actions() -> None:
         (Service("a" * 239, REQUEST, RESPONSE), "too long"),
     ],
 )
-def test_refused_services(service: Service, said: str) -> None:
-    with pytest.raises(BridgeError, match=said) as caught:
+def test_refused_services(service: Service, expected: str) -> None:
+    with pytest.raises(BridgeError, match=expected) as caught:
         ros_service(service)
     assert caught.value.status is Status.INVALID_DATA
 

@@ -146,17 +146,17 @@ def test_an_unverified_address_gets_no_more_bytes_than_it_sent(forgeable: bool) 
     """S9: 200 times the 60 kB of a TYPE, asked in one datagram from a forged address, was 4,997 times what came."""
     bench = over_udp()
     bench.transport.forgeable = forgeable
-    said = 0
+    sent = 0
 
     def say(data: bytes) -> int:
-        nonlocal said
-        said += len(data)
+        nonlocal sent
+        sent += len(data)
         return sum(len(bytes.fromhex(answer)) for answer in bench.say(data, "a"))
 
     text = f'<types><struct name="T">{" " * 60_000}</struct></types>'.encode()
     heard = say(hello(1, mtu=65_000))
     heard += say(message(Create(1, 0x1A, 0x0A, Format.XML, text, 0, 0), stream=0))
     heard += say(message(*(GetInfo(number, 0x1A, INFO_CONFIG) for number in range(200)), stream=0))
-    assert (heard > 2.2 * said) is not forgeable
+    assert (heard > 2.2 * sent) is not forgeable
     assert heard > 60_000, "it is reported more than once"
     assert bool(bench.log.counters["info_withheld"]) is forgeable

@@ -300,7 +300,7 @@ def one(client: str) -> str:
         ("", "", "this file is empty"),
         ("[]", "[]", "an entities file must be a mapping"),
         ('{"version": 1', "", ""),
-        ('{"version": 2, "clients": []}', "2,", "this version of the file is not known. Write 1"),
+        ('{"version": 2, "clients": []}', "2,", "unknown version of the file. Write 1"),
         ('{"version": 1, "clients": [], "name": 1}', '"name"', "unknown key 'name'"),
         ('{"version": 1, "clients": {}}', "{}", "'clients' must be a list"),
         (one('"key": "0x0", "objects": []'), '"0x0"', "a client key is a hexadecimal number"),
@@ -310,12 +310,16 @@ def one(client: str) -> str:
         (changed(0, id="1"), '"1"', "'id' must be an object id"),
         (changed(0, domain=233), "233", "'domain' must be a number from 0 to 232, or 255"),
         (changed(0, name=""), '""', "'name' is empty"),
-        (changed(1, parent="0x0011"), '"0x0011"', "no participant 0x0011 is among the objects before"),
+        (
+            changed(1, parent="0x0011"),
+            '"0x0011"',
+            "unknown participant 0x0011: no earlier object has this id",
+        ),
         (changed(1, type=None), '{"id": "0x0002"', "missing key 'type'"),
         (changed(1, type=3), "3}", "'type' must be a text"),
         (changed(2, kind="publsher"), '"publsher"', "'kind' must be one of"),
         (changed(2, kind=None), '{"id": "0x0003"', "missing key 'kind'"),
-        (changed(3, topic="0x0001"), '"0x0001", "rel', "no topic 0x0001 is among the objects before"),
+        (changed(3, topic="0x0001"), '"0x0001", "rel', "unknown topic 0x0001: no earlier object has this id"),
         (changed(3, reliability="relable"), '"relable"', "'reliability' must be one of"),
         (changed(3, depth=70000), "70000", "'depth' must be a number from 0 to 65535"),
         (changed(3, deadline=1), '"deadline"', "unknown key 'deadline'"),
@@ -356,9 +360,9 @@ def test_adopting_a_client_that_reads_is_a_warning() -> None:
 def test_an_id_or_a_key_twice() -> None:
     made = content()
     made["clients"][0]["objects"].append(made["clients"][0]["objects"][0])
-    assert "the id 0x0001 is there twice" in faults(json.dumps(made))[0]
+    assert "duplicate id 0x0001" in faults(json.dumps(made))[0]
     with pytest.raises(
-        UserError, match=r"e1.json:5:14: error: client 0xA1B2C3D4 is there twice; first in e0.json"
+        UserError, match=r"e1.json:5:14: error: duplicate client 0xA1B2C3D4; first in e0.json"
     ):
         load(content(), content())
 
@@ -374,7 +378,7 @@ def test_names_that_ros_does_not_have() -> None:
     ("change", "wanted"),
     [
         ({"id": "0x0027"}, 'the last digit of a replier\'s id is 8. Perhaps "0x0028"'),
-        ({"parent": "0x0003"}, "no participant 0x0003 is among the objects before"),
+        ({"parent": "0x0003"}, "unknown participant 0x0003: no earlier object has this id"),
         ({"reply_type": 1}, "'reply_type' must be a text"),
         ({"depth": 3}, "unknown key 'depth'"),
         ({"request_type": "std_srvs::srv::dds_::SetBool_"}, "is not"),

@@ -70,12 +70,12 @@ def test_several_files_join() -> None:
     [
         ("", "refs0.xml:1:1: error: not well-formed XML: no element found"),
         ("<profiles>\n  <topic></profiles>", "refs0.xml:2:12: error: not well-formed XML: mismatched tag"),
-        ("<profile/>", "refs0.xml:1:1: error: <profile> holds no references. The root"),
+        ("<profile/>", "refs0.xml:1:1: error: <profile> contains no references. The root"),
         (
             "<dds>\n <topic/></dds>",
             "refs0.xml:2:2: error: <topic> is not allowed in <dds>. Put profiles into",
         ),
-        ("<!DOCTYPE x>\n<profiles/>", "refs0.xml:1:1: error: document types and entities are not taken"),
+        ("<!DOCTYPE x>\n<profiles/>", "refs0.xml:1:1: error: document types and entities are not supported"),
         (
             PROFILES.replace("<topic prof", "<tpoic prof").replace(
                 "</dataType></topic>\n  <", "</dataType></tpoic>\n  <"
@@ -115,7 +115,7 @@ def test_all_faults_in_one_run_and_across_files() -> None:
         "refs2.xml:4:3:",
         "refs2.xml:5:3:",
     ]
-    assert "'count__t' is another one already, in refs1.xml:4:3. Give one" in found[2]
+    assert "duplicate name 'count__t'; first in refs1.xml:4:3. Give one" in found[2]
 
 
 LIBRARIES = """<dds>

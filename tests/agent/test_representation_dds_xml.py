@@ -208,7 +208,7 @@ def test_an_application_keeps_to_the_limit() -> None:
     assert len(objects) == 1
 
 
-pieces = st.sampled_from(
+chunks = st.sampled_from(
     [
         "types", "struct", "qos_library", "qos_profile", "application_library", "application", "topic",
         "domain_participant", "publisher", "data_writer", "data_writer_qos", "reliability", "kind", "deadline",
@@ -219,7 +219,7 @@ pieces = st.sampled_from(
 
 
 @settings(max_examples=300, deadline=None)
-@given(st.sampled_from((1, 2, 3, 5, 6, 10, 11, 12)), st.lists(pieces, max_size=20))
+@given(st.sampled_from((1, 2, 3, 5, 6, 10, 11, 12)), st.lists(chunks, max_size=20))
 def test_any_text_is_described_or_refused(kind: int, words: list[str]) -> None:
     with contextlib.suppress(MalformedError, UnknownNameError):
         from_xml(kind, "".join(words), 0)

@@ -41,7 +41,7 @@ class Sender:
         self.agent = agent or Agent(bridged.bridge, self.log, Limits())
         self.address = address
         self.transport = FakeTransport()
-        self.said = 0
+        self.sent = 0
         self.acknowledged = 0
         self._say(bytes.fromhex(CREATE_CLIENT.replace("a1 b2 c3 d4", key)))
         topic = dds_type("std_msgs/msg/Int32")
@@ -59,11 +59,11 @@ class Sender:
 
     def write(self) -> None:
         """Say what the window has room for, and let the agent work for a moment."""
-        while self.said < MESSAGES and self.said - self.acknowledged < RELIABLE_WINDOW:
-            first = self.said * EACH
+        while self.sent < MESSAGES and self.sent - self.acknowledged < RELIABLE_WINDOW:
+            first = self.sent * EACH
             some = (WriteData(1, 0x15, int32_body(value)) for value in range(first, first + EACH))
-            self._say(message(0x80, self.said, *some))
-            self.said += 1
+            self._say(message(0x80, self.sent, *some))
+            self.sent += 1
         self.agent.tick()
         self.agent.flush()
         self.bridged.named(0.002)

@@ -226,9 +226,9 @@ def test_fragments_fill_the_announced_size() -> None:
     sent = stream.push(whole, 0.0)
     assert sent is not None
     assert [len(m) for m in sent] == [508, 508, 4 + 4 + 208]
-    pieces = [decode(*span[:2], m, *span[2:]) for m in sent for span in split(m, header_size(m))]
-    assert [p.last for p in pieces if isinstance(p, Fragment)] == [False, False, True]
-    assert b"".join(p.piece for p in pieces if isinstance(p, Fragment)) == whole
+    chunks = [decode(*span[:2], m, *span[2:]) for m in sent for span in split(m, header_size(m))]
+    assert [p.last for p in chunks if isinstance(p, Fragment)] == [False, False, True]
+    assert b"".join(p.data for p in chunks if isinstance(p, Fragment)) == whole
 
 
 # Both ends over a bad line
@@ -274,12 +274,12 @@ def fragments_of(body: bytes, mtu: int, first: int) -> list[bytes]:
     size = len(body) + 4
     whole = bytes((7, 1, size & 0xFF, size >> 8, 0, 0x12, 0, 0x15)) + body
     room = mtu - 8
-    pieces = [whole[at : at + room] for at in range(0, len(whole), room)]
+    chunks = [whole[at : at + room] for at in range(0, len(whole), room)]
     return [
         bytes((0x81, 0x80, (first + i) & 0xFF, (first + i) >> 8 & 0xFF))
-        + bytes((13, 3 if i == len(pieces) - 1 else 1, len(piece) & 0xFF, len(piece) >> 8))
-        + piece
-        for i, piece in enumerate(pieces)
+        + bytes((13, 3 if i == len(chunks) - 1 else 1, len(chunk) & 0xFF, len(chunk) >> 8))
+        + chunk
+        for i, chunk in enumerate(chunks)
     ]
 
 

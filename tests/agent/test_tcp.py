@@ -355,30 +355,30 @@ def test_resets_and_empty_messages() -> None:
 
 
 def test_noise_on_many_connections() -> None:
-    drown(pieces=300, seed=5)
+    drown(chunks=300, seed=5)
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("seed", range(5))
 def test_noise_on_many_connections_at_length(seed: int) -> None:
-    drown(pieces=20_000, seed=seed)
+    drown(chunks=20_000, seed=seed)
 
 
-def drown(pieces: int, seed: int) -> None:
+def drown(chunks: int, seed: int) -> None:
     """Random bytes, lying lengths and hang-ups: nothing raises, and the next client is served."""
     chance = random.Random(seed)
     bench = Bench()
     transport = tcp(bench, connections=16)
     with Served(transport, bench=bench) as served:
         links: list[TcpLink] = []
-        for _ in range(pieces):
+        for _ in range(chunks):
             if len(links) < 10 or chance.random() < 0.1:
                 links.append(TcpLink("127.0.0.1", transport.port))
             link = chance.choice(links)
             size = chance.choice((0, 1, 40, 300, 5000))
-            said = chance.choice((size, chance.randrange(65536)))
+            announced = chance.choice((size, chance.randrange(65536)))
             try:
-                link.socket.sendall(said.to_bytes(2, "little") + chance.randbytes(size))
+                link.socket.sendall(announced.to_bytes(2, "little") + chance.randbytes(size))
             except OSError:
                 links.remove(link)
             if chance.random() < 0.05 and link in links:

@@ -58,7 +58,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "unknown key": (
         "profles: [a]\n",
-        "f:1:1: error: the file has no key 'profles'. Did you mean 'profiles'?",
+        "f:1:1: error: unknown key 'profles' in the file. Did you mean 'profiles'?",
     ),
     "a deadline below a millisecond": (
         f"{NODE}    publishers: [{{topic: a, type: std_msgs/msg/Bool, qos: {{deadline: 1500 us}}}}]\n",
@@ -66,15 +66,15 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "unknown key, nothing near": (
         "xyzzy: 1\n",
-        "f:1:1: error: the file has no key 'xyzzy'. Known are version,",
+        "f:1:1: error: unknown key 'xyzzy' in the file. Known: version,",
     ),
     "unknown nested key": (
         "transport: {mtuu: 512}\n",
-        "f:1:13: error: 'transport' has no key 'mtuu'. Did you mean 'mtu'?",
+        "f:1:13: error: unknown key 'mtuu' in 'transport'. Did you mean 'mtu'?",
     ),
     "missing key": (
         f"{NODE}    timers: [{{name: t}}]\n",
-        "f:3:14: error: 'nodes[0].timers[0]' lacks the key 'period'. Add `period: …`",
+        "f:3:14: error: missing key 'period' in 'nodes[0].timers[0]'. Add `period: …`",
     ),
     "empty file": ("# only a comment\n", "f:1:1: error: the file is empty. Write `key: value` lines"),
     "not a mapping": (
@@ -83,7 +83,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "a profile twice": (
         "profiles: [a,\n  a]\n",
-        "f:2:3: error: 'profiles' has 'a' twice; first in line 1. Remove one of them",
+        "f:2:3: error: 'profiles' contains 'a' twice; first in line 1. Remove one of them",
     ),
     "quoted number": (
         "transport: {mtu: '512'}\n",
@@ -123,22 +123,22 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "topic: tilde without slash": (
         topic("~imu"),
-        "f:3:27: error: the topic name '~imu' needs a slash behind '~'. Write ~/imu",
+        "f:3:27: error: the topic name '~imu' needs a slash after '~'. Write ~/imu",
     ),
     "topic: substitution": (
         topic("'{host}/imu'"),
         "f:3:27: error: the topic name '{host}/imu' has the substitution '{host}', which ROS 2 "
-        "does not know. "
-        "There are {node}, {ns} and {namespace}",
+        "does not define. "
+        "Available: {node}, {ns} and {namespace}",
     ),
     "topic: open brace": (
         topic("'a{node'"),
-        "f:3:28: error: the topic name 'a{node' has a brace without its other half. Write {node} or {ns}",
+        "f:3:28: error: the topic name 'a{node' has an unmatched brace. Write {node} or {ns}",
     ),
     "topic: too long": (
         topic("a" * 247),
         f"f:3:26: error: the topic name '/{'a' * 59}…' is 248 characters long as '/{'a' * 39}…'; "
-        f"247 are allowed. "
+        f"at most 247 are allowed. "
         "Shorten it by 1",
     ),
     "topic: wrong when expanded": (
@@ -163,7 +163,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "node: too long": (
         f"nodes: [{{name: {'a' * 256}}}]\n",
-        f"f:1:271: error: the node name '{'a' * 256}' is 256 characters long; 255 are allowed. Shorten it",
+        f"f:1:271: error: the node name '{'a' * 256}' is 256 characters long; at most 255 are allowed. Shorten it",
     ),
     "namespace: double slash": (
         "nodes: [{name: a, namespace: /b//c}]\n",
@@ -172,7 +172,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     "namespace: too long": (
         f"nodes: [{{name: a, namespace: /{'b' * 245}}}]\n",
         f"f:1:30: error: the namespace '/{'b' * 245}' is 246 characters long as '/{'b' * 39}…'; "
-        f"245 are allowed. "
+        f"at most 245 are allowed. "
         "Shorten it by 1",
     ),
     "two nodes of one name": (
@@ -214,7 +214,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "empty range": (
         f"{NODE}    parameters: [{{name: p, type: integer, range: {{min: 5, max: 1}}}}]\n",
-        "f:3:50: error: the range of the parameter 'p' is empty: min is above max. Exchange them",
+        "f:3:50: error: the range of the parameter 'p' is empty: min is above max. Swap them",
     ),
     "unknown handle": (
         f"{NODE}    timers: [{{name: tick, period: 1 s}}]\n    executors: [{{name: e, handles: [tik]}}]\n",
@@ -259,11 +259,11 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "IPv6 without brackets": (
         'transport: {agent: "::1:8888"}\n',
-        "f:1:20: error: the agent '::1:8888' has an IPv6 address that is not in brackets, or lacks its port. Write it",
+        "f:1:20: error: the agent '::1:8888' has an IPv6 address that is not in brackets, or has no port. Write it",
     ),
     "IPv6 without a port": (
         'transport: {agent: "[fd00::1]"}\n',
-        "f:1:20: error: the agent '[fd00::1]' has an IPv6 address that is not in brackets, or lacks its port",
+        "f:1:20: error: the agent '[fd00::1]' has an IPv6 address that is not in brackets, or has no port",
     ),
     "IPv6 that is none": (
         'transport: {agent: "[fd00::12345]:8888"}\n',
@@ -302,7 +302,8 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "no space after the colon": (
         "nodes: [{name: n, publishers: [{topic:t, type: a/msg/B}]}]\n",
-        "f:1:33: error: 'nodes[0].publishers[0]' has no key 'topic:t'. Write `topic: t`, with a space after the colon",
+        "f:1:33: error: unknown key 'topic:t' in 'nodes[0].publishers[0]'. Write `topic: t`, with a space after"
+        " the colon",
     ),
     "no space after the colon of the only key": (
         "nodes:\n - name:n\n",
@@ -419,7 +420,7 @@ def test_pools_next_to_nodes_are_a_warning() -> None:
     application, lines = parse("nodes: [{name: n}]\npools: {publishers: 3, history: 2}\n")
     assert application is not None
     assert lines == [
-        "f:2:9: warning: 'pools.publishers' has no effect: with `nodes` there is what they declare. Remove it"
+        "f:2:9: warning: 'pools.publishers' has no effect: `nodes` decides what is created. Remove it"
     ]
 
 

@@ -11,13 +11,13 @@ from tests.support.ids import without_id
 
 
 def test_the_file_of_the_folder_is_taken_where_there_is_one(tmp_path: Path) -> None:
-    said = Diagnostics()
-    assert read_application(None, tmp_path, said) is None
+    found_diagnostics = Diagnostics()
+    assert read_application(None, tmp_path, found_diagnostics) is None
     (tmp_path / "microros.yaml").write_text("version: 1\n")
-    source = read_application(None, tmp_path, said)
+    source = read_application(None, tmp_path, found_diagnostics)
     assert source is not None
     assert (source.name, source.text) == ("microros.yaml", "version: 1\n")
-    assert list(said) == []
+    assert list(found_diagnostics) == []
 
 
 def test_a_named_file_is_named_as_the_user_wrote_it(tmp_path: Path) -> None:
@@ -31,8 +31,8 @@ def test_a_named_file_is_named_as_the_user_wrote_it(tmp_path: Path) -> None:
 def test_unreadable_files_are_reported(tmp_path: Path) -> None:
     (tmp_path / "bad.yaml").write_bytes(b"a: \xff\n")
     for name, reason in (("none.yaml", "No such file"), ("bad.yaml", "it is not UTF-8 text")):
-        said = Diagnostics()
-        assert read_application(tmp_path / name, tmp_path, said) is None
-        (line,) = [without_id(d.headline()) for d in said]
+        found_diagnostics = Diagnostics()
+        assert read_application(tmp_path / name, tmp_path, found_diagnostics) is None
+        (line,) = [without_id(d.headline()) for d in found_diagnostics]
         assert line.startswith("microros-gen: error: cannot read the application file")
         assert reason in line

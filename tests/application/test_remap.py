@@ -33,7 +33,7 @@ ERRORS = {
     "a substitution": ('data: "{node}/x"', "f:4:20: error: the name '{node}/x' has a substitution"),
     "one name twice": (
         "data: x, /arm/data: y",
-        "f:4:22: error: '/arm/data' and 'data' are one name, '/arm/data': it is remapped twice",
+        "f:4:22: error: '/arm/data' and 'data' are the same name, '/arm/data': it is remapped twice",
     ),
     "no node name": ("__node: a/b", "f:4:22: error: the node name 'a/b' has the character '/'"),
     "no namespace": ("__ns: /9", "f:4:20: error: the namespace '/9' has a part that begins with a digit"),
@@ -54,13 +54,13 @@ def parse(rules: str) -> tuple[NodeDecl | None, list[str]]:
 @pytest.mark.parametrize("name", ERRORS)
 def test_a_rule_that_cannot_hold_is_an_error_at_its_place(name: str) -> None:
     rules, expected = ERRORS[name]
-    _, said = parse(rules)
-    assert [line[: len(expected)] for line in said] == [expected]
+    _, messages = parse(rules)
+    assert [line[: len(expected)] for line in messages] == [expected]
 
 
 def test_names_of_the_source_are_kept_next_to_those_on_the_wire() -> None:
-    node, said = parse("__ns: /left, data: /robot/imu, reset: ~/restart")
-    assert said == []
+    node, messages = parse("__ns: /left, data: /robot/imu, reset: ~/restart")
+    assert messages == []
     assert node is not None
     assert (node.name, node.namespace, node.given_name, node.given_namespace) == (
         "imu",
@@ -108,8 +108,8 @@ def test_names_are_those_that_ros_makes(rules: dict[str, str], tmp_path: Path) -
         peer.destroy_node()
     finally:
         rclpy.shutdown(context=context)
-    node, said = parse(", ".join(f'"{key}": "{value}"' for key, value in rules.items()))
-    assert said == []
+    node, messages = parse(", ".join(f'"{key}": "{value}"' for key, value in rules.items()))
+    assert messages == []
     assert node is not None
     full = [expand_topic_name(e.topic, node.name, node.namespace) for e in node.endpoints]
     assert (node.name, node.namespace, *full) == theirs

@@ -26,7 +26,7 @@ APPLICATION = load_schema(APPLICATION_SCHEMA)
 PROFILE = load_schema(PROFILE_SCHEMA)
 
 
-def said(text: str) -> list[str]:
+def faults_of(text: str) -> list[str]:
     found = Diagnostics()
     parse_application(Source("f", text), found)
     return [without_id(d.headline()) for d in found]
@@ -65,16 +65,16 @@ def test_a_good_value_is_taken_and_read(path: str) -> None:
 @pytest.mark.parametrize("path", CASES)
 def test_a_bad_value_is_refused_at_its_place(path: str) -> None:
     case = CASES[path]
-    assert any(line.startswith(f"f:{case.place}: error: {case.reported}") for line in said(case.bad)), said(
-        case.bad
+    assert any(line.startswith(f"f:{case.place}: error: {case.reported}") for line in faults_of(case.bad)), (
+        faults_of(case.bad)
     )
 
 
 @pytest.mark.parametrize("key", RESERVED)
 def test_a_reserved_key_says_so(key: str) -> None:
     text, place, reported = RESERVED[key]
-    assert said(text)[0].startswith(f"f:{place}: error: {reported}")
-    assert not any(key in line for line in said("zzz: 1\n")), "a reserved key is no suggestion"
+    assert faults_of(text)[0].startswith(f"f:{place}: error: {reported}")
+    assert not any(key in line for line in faults_of("zzz: 1\n")), "a reserved key is no suggestion"
 
 
 @pytest.mark.parametrize("path", CASES)
@@ -86,7 +86,7 @@ def test_the_schema_alone_agrees(path: str) -> None:
         assert tree is not None
         errors = list(validator.iter_errors(to_data(tree)))
         assert (not errors) is good
-        assert not (errors and not said(text))
+        assert not (errors and not faults_of(text))
 
 
 @pytest.mark.parametrize("schema", [APPLICATION, PROFILE], ids=["application", "profile"])

@@ -47,8 +47,8 @@ def bench_client(work: Path) -> None:
         load = compiled(work, "client_load.c", [f"-I{out / 'include'}", str(out / "lib/libmicroros.a")])
 
         def line(title: str, task: str, word: int | None, count: int = COUNT) -> None:
-            said = [run([str(load), task, str(size), str(count)]).stdout.split() for size in SIZES]
-            values = ["; ".join(words) if word is None else words[word] for words in said]
+            outputs = [run([str(load), task, str(size), str(count)]).stdout.split() for size in SIZES]
+            values = ["; ".join(words) if word is None else words[word] for words in outputs]
             print(f"  {title:58} {values[0]:>14} {values[1]:>14}")
 
         line("one send() of a datagram, ns", "datagram", 0)

@@ -43,7 +43,7 @@ def bench_type_flash(work: Path) -> None:
         "-o",
         str(out),
     ]
-    said([*command, "--interface-path", str(IDL)], work)
+    checked_output([*command, "--interface-path", str(IDL)], work)
     encoders = compiled(out, "src/sensor_msgs/*__type_support.c")
     decoders = compiled(out, "src/sensor_msgs/*__decode.c")
     shared = compiled(out, "src/cdr_decode/cdr_*.c")
@@ -69,7 +69,9 @@ def compiled(out: Path, pattern: str) -> dict[str, Path]:
     objects = {}
     for source in sorted(out.glob(pattern)):
         objects[source.name] = source.with_suffix(".o")
-        said(["arm-none-eabi-gcc", *CORTEX_M4, "-Iinclude", "-c", source, "-o", objects[source.name]], out)
+        checked_output(
+            ["arm-none-eabi-gcc", *CORTEX_M4, "-Iinclude", "-c", source, "-o", objects[source.name]], out
+        )
     return objects
 
 
@@ -77,17 +79,17 @@ def linked(objects: list[Path], work: Path) -> int:
     """Return the flash of all objects in one image, with nothing left out."""
     image = work / "types.elf"
     linker = ["arm-none-eabi-ld", "-O2", "-e", "0", "--unresolved-symbols=ignore-all"]
-    said([*linker, "-o", image, *objects], work)
+    checked_output([*linker, "-o", image, *objects], work)
     return flash([image])
 
 
 def flash(objects: list[Path]) -> int:
     """Return text and data of all of them, bytes."""
-    lines = said(["arm-none-eabi-size", *objects], Path.cwd()).splitlines()[1:]
+    lines = checked_output(["arm-none-eabi-size", *objects], Path.cwd()).splitlines()[1:]
     return sum(int(line.split()[0]) + int(line.split()[1]) for line in lines)
 
 
-def said(command: Sequence[str | Path], folder: Path) -> str:
+def checked_output(command: Sequence[str | Path], folder: Path) -> str:
     """Run `command`; end the bench with its output when it fails, or return it."""
     words = [str(word) for word in command]
     result = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)

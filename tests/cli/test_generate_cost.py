@@ -136,12 +136,12 @@ def test_only_commands_that_end_soon_collect_no_cycles() -> None:
     code = "import atexit, gc, sys; from microros_gen.cli.main import main\n"
     code += "atexit.register(lambda: print(gc.isenabled())); main()"
     environment = {**os.environ, "PYTHONPATH": str(Path(microros_gen.__file__).parents[1])}
-    said = {}
+    output = {}
     for command in ("generate", "build", "agent"):
         call = [sys.executable, "-c", code, command, "--help"]
         done = subprocess.run(call, env=environment, text=True, capture_output=True, check=True)
-        said[command] = done.stdout.splitlines()[-1]
-    assert said == {"generate": "False", "build": "False", "agent": "True"}
+        output[command] = done.stdout.splitlines()[-1]
+    assert output == {"generate": "False", "build": "False", "agent": "True"}
 
 
 def test_a_caller_in_the_same_process_keeps_its_garbage_collection(run: Runner) -> None:

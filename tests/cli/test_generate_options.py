@@ -53,16 +53,16 @@ def test_a_depfile_that_is_gone_is_written_again_and_an_unchanged_one_is_not(
     assert run(*made).status == 0
     assert (folder / "out.d").stat().st_mtime_ns == first.st_mtime_ns
     (folder / "out.d").unlink()
-    said = run(*made)
-    assert "0 written" in said.out
+    output = run(*made)
+    assert "0 written" in output.out
     assert read_depfile(folder / "out.d")[0] == str(folder / OUT / "manifest.json")
 
 
 def test_a_depfile_that_cannot_be_written(run: Runner, folder: Path) -> None:
     (folder / "file").write_text("")
-    said = run("generate", "--profile", "pure_sender", "--depfile", "file/out.d")
-    assert said.status == 2
-    assert "cannot write the depfile file/out.d" in said.err
+    output = run("generate", "--profile", "pure_sender", "--depfile", "file/out.d")
+    assert output.status == 2
+    assert "cannot write the depfile file/out.d" in output.err
 
 
 def test_components_of_the_command_line_add_to_the_files(run: Runner, folder: Path) -> None:
@@ -88,7 +88,7 @@ def test_a_tool_chain_file_is_that_of_one_target_without_an_operating_system(
     assert printed.status == 0
     assert 'set(CMAKE_C_FLAGS_INIT "' in printed.out
     assert "-mcpu=cortex-m4" in printed.out
-    assert "no NAME is given" in run("targets", "--format", "cmake").err
+    assert "NAME is missing" in run("targets", "--format", "cmake").err
     assert "target host has no tool-chain file" in run("targets", "host", "--format", "cmake").err
 
 

@@ -102,7 +102,7 @@ def test_a_derived_message_is_shown(folder: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "expected"),
     [
         (["nope"], "unknown interface package 'nope'"),
         (["std_msgs/Nope"], "has no type 'Nope'"),
@@ -110,7 +110,7 @@ def test_a_derived_message_is_shown(folder: Path) -> None:
         (["--interface-path", "/does/not/exist"], "the interface path '/does/not/exist' does not exist"),
     ],
 )
-def test_faults_end_with_their_diagnostics(arguments: list[str], said: str) -> None:
+def test_faults_end_with_their_diagnostics(arguments: list[str], expected: str) -> None:
     result = run(*arguments)
     assert isinstance(result.exception, UserError)
-    assert said in str(result.exception)
+    assert expected in str(result.exception)

@@ -81,8 +81,8 @@ def test_the_schema_describes_every_key() -> None:
 
     def undescribed(node: Any, where: str) -> Iterator[str]:
         for key, value in node.get("properties", {}).items():
-            said = {"const", "description", "enum"} & set(value)
-            if not said and value.get("type") not in ("number", "boolean", "array"):
+            keywords = {"const", "description", "enum"} & set(value)
+            if not keywords and value.get("type") not in ("number", "boolean", "array"):
                 yield f"{where}/{key}"
             yield from undescribed(value, f"{where}/{key}")
             yield from undescribed(value.get("items", {}), f"{where}/{key}")

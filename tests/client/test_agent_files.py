@@ -100,12 +100,13 @@ def test_several_nodes_have_references_of_their_own_and_share_what_is_alike(tmp_
 def test_one_reference_for_two_is_refused(tmp_path: Path, change: tuple[str, str]) -> None:
     text = two_nodes().replace(*change)
     assert text != two_nodes()
-    said = refused(tmp_path, text + "entities: reference\n")
-    assert said.partition("microros.yaml:")[2].startswith("11:")
+    error_text = refused(tmp_path, text + "entities: reference\n")
+    assert error_text.partition("microros.yaml:")[2].startswith("11:")
     assert (
-        "two publishers of /state differ in type or QoS and would get one reference name, 'state__dw'" in said
+        "two publishers of /state differ in type or QoS and would get the same reference name, 'state__dw'"
+        in error_text
     )
-    assert "microros.yaml:9:" in said
+    assert "microros.yaml:9:" in error_text
     rendered(tmp_path, text)
 
 
@@ -146,7 +147,7 @@ def test_services_have_their_topics_and_types(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("kind", "other", "place", "said"),
+    ("kind", "other", "place", "error_text"),
     [
         ("services", "{name: /left/grip, type: std_srvs/srv/SetBool}", "10:16", "two servers for /left/grip"),
         (
@@ -158,7 +159,7 @@ def test_services_have_their_topics_and_types(tmp_path: Path) -> None:
     ],
 )
 def test_a_service_has_one_server_and_one_type(
-    tmp_path: Path, kind: str, other: str, place: str, said: str
+    tmp_path: Path, kind: str, other: str, place: str, error_text: str
 ) -> None:
     start, end = SERVICES.split("    services: [")
     first = end.partition("]")[0]
@@ -166,7 +167,7 @@ def test_a_service_has_one_server_and_one_type(
     both = f"    services:\n      - {first}\n"
     text = start + both + ("" if kind == "services" else "    clients:\n") + f"      - {other}\n" + limits
     line = refused(tmp_path, text)
-    assert said in line
+    assert error_text in line
     assert line.partition("microros.yaml:")[2].startswith(f"{place}:")
 
 
@@ -237,13 +238,13 @@ def test_the_files_are_in_the_manifest(tmp_path: Path) -> None:
 
 
 def test_preconfigured_needs_nodes(tmp_path: Path) -> None:
-    said = refused(
+    error_text = refused(
         tmp_path,
         "version: 1\nprofiles: [pure_sender]\nentities: preconfigured\ninterfaces: [std_msgs/msg/Int32]\n",
     )
-    assert "microros.yaml:3:11: error: entities: preconfigured" in said
-    assert "needs `nodes:`" in said
-    assert said.endswith("Declare the nodes and what they own, or write `entities: reference`")
+    assert "microros.yaml:3:11: error: entities: preconfigured" in error_text
+    assert "needs `nodes:`" in error_text
+    assert error_text.endswith("Declare the nodes and what they own, or write `entities: reference`")
 
 
 @pytest.mark.parametrize("entities", ["binary", "xml", "reference"])

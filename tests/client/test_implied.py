@@ -97,9 +97,9 @@ def test_what_is_built_has_them_and_the_example_leaves_them_to_the_library(made_
 def test_without_nodes_the_message_says_what_is_missing(made_up: Path) -> None:
     with pytest.raises(UserError) as caught:
         planned(made_up, APPLICATION + "interfaces: [std_msgs/msg/Int32]\n")
-    said = [without_id(diagnostic.headline()) for diagnostic in caught.value.diagnostics]
-    assert len(said) == 2
-    assert "the publisher '/beats', which a component opens by itself, needs a declared node" in said[0]
+    messages = [without_id(diagnostic.headline()) for diagnostic in caught.value.diagnostics]
+    assert len(messages) == 2
+    assert "the publisher '/beats', which a component opens by itself, needs a declared node" in messages[0]
 
 
 def test_ros_time_is_one_of_them() -> None:
@@ -114,7 +114,7 @@ def test_ros_time_is_one_of_them() -> None:
 
 
 @pytest.mark.parametrize(
-    ("item", "said"),
+    ("item", "messages"),
     [
         ("{topic: /x, type: a/msg/B}", "'implies' must list endpoints"),
         ("{service: /x}", "type"),
@@ -122,14 +122,14 @@ def test_ros_time_is_one_of_them() -> None:
         ("{publisher: /x, type: a/msg/B, qos: {reliability: never}}", "'reliability' must be one of"),
     ],
 )
-def test_a_faulty_one_is_refused(item: str, said: str, tmp_path: Path) -> None:
+def test_a_faulty_one_is_refused(item: str, messages: str, tmp_path: Path) -> None:
     folder = tmp_path / "x"
     folder.mkdir()
     head = "component: x\nsummary: An example\nlayer: middleware\nstatus: ready\n"
     (folder / "component.yaml").write_text(f"{head}implies: [{item}]\n")
     with pytest.raises(UserError) as caught:
         load_catalogue(tmp_path)
-    assert any(said in without_id(diagnostic.headline()) for diagnostic in caught.value.diagnostics)
+    assert any(messages in without_id(diagnostic.headline()) for diagnostic in caught.value.diagnostics)
 
 
 LIMITED = """\
@@ -196,17 +196,17 @@ def test_one_of_every_node_is_changed_in_each(limited: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    ("change", "messages"),
     [
         ("/herd: {depth: 1}", "no selected component opens an endpoint '/herd'. Did you mean '/heard'?"),
         ("/words: {queue: 1}", "the publisher '/words' has no queue"),
         ("/words: {limits: {dat: 3}}", "String has no member 'dat'"),
     ],
 )
-def test_a_faulty_change_is_refused(change: str, said: str, limited: Path) -> None:
+def test_a_faulty_change_is_refused(change: str, messages: str, limited: Path) -> None:
     with pytest.raises(UserError) as caught:
         planned(limited, f"{BARE}endpoints: {{{change}}}\n")
-    assert any(said in without_id(d.headline()) for d in caught.value.diagnostics), [
+    assert any(messages in without_id(d.headline()) for d in caught.value.diagnostics), [
         d.headline() for d in caught.value.diagnostics
     ]
 

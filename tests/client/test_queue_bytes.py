@@ -152,6 +152,6 @@ def test_bytes_that_save_nothing_are_reported(tmp_path: Path, text: str, words: 
 
 def test_next_to_nodes_the_key_of_pools_has_no_effect(tmp_path: Path) -> None:
     found = planned(tmp_path, NODES.format("", "") + "pools: {queue_bytes: 2000}\n")
-    said = [warning.message for warning in found.warnings if "has no effect" in warning.message]
-    assert said == ["'pools.queue_bytes' has no effect: with `nodes` there is what they declare"]
+    found_warnings = [warning.message for warning in found.warnings if "has no effect" in warning.message]
+    assert found_warnings == ["'pools.queue_bytes' has no effect: `nodes` decides what is created"]
     assert found.project.runtime.input.queue_mode == "slots"

@@ -119,12 +119,12 @@ def test_a_rule_of_the_first_node_moves_it(tmp_path: Path) -> None:
     result = planned(tmp_path, text)
     clock = result.project.runtime.entities.subscriptions.declared[0]
     assert (clock.given, clock.topic, clock.dds_topic) == ("/clock", "/sim/clock", "rt/sim/clock")
-    for wrong, said in (
+    for wrong, expected in (
         (text.replace("clock: ros\n", ""), "first does not subscribe to /clock. Select it with `clock: ros`"),
         (
             NODES.replace("name: second", "name: second\n    remap: {/clock: /sim/clock}"),
             "second does not subscribe to /clock. Give the rule to the first node",
         ),
     ):
-        with pytest.raises(UserError, match=said):
+        with pytest.raises(UserError, match=expected):
             planned(tmp_path, wrong)

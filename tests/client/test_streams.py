@@ -88,10 +88,13 @@ def test_a_send_buffer_is_what_the_application_says_if_the_longest_frame_fits() 
 
     assert asked(238)[0].send_buffer == 240
     assert asked(4000)[0].send_buffer == 4000
-    said = asked(200)[1]
-    assert len(said) == 1
-    assert "'transport.send_buffer' is 200 and the longest frame on the line may take 237 bytes" in said[0]
-    assert "Set send_buffer: 240" in said[0]
+    found_warnings = asked(200)[1]
+    assert len(found_warnings) == 1
+    assert (
+        "'transport.send_buffer' is 200 and the longest frame on the line may take 237 bytes"
+        in found_warnings[0]
+    )
+    assert "Set send_buffer: 240" in found_warnings[0]
 
 
 def large(size: int, reliable: bool = True) -> Written:
@@ -99,10 +102,10 @@ def large(size: int, reliable: bool = True) -> Written:
 
 
 def test_no_buffer_is_larger_than_it_must_be() -> None:
-    streams, said = plan(INT32)
+    streams, found_warnings = plan(INT32)
     assert streams == StreamSizes(92, 92, 4, 16, 64)
     assert streams.ram == 92 + 4 * 16 + 64
-    assert said == []
+    assert found_warnings == []
 
 
 def test_reliable_creation_alone_needs_no_best_effort_stream() -> None:
@@ -125,17 +128,17 @@ def test_fragments_begin_one_byte_above_the_mtu(transport: str) -> None:
     mtu = DEFAULT_MTU[transport]
     fits, _ = plan(large(mtu - 12), transport=transport)
     assert (fits.fragments, fits.reliable_slot_size, fits.mtu) == (False, mtu, mtu)
-    above, said = plan(large(mtu - 11), transport=transport)
-    assert (above.fragments, above.mtu, said) == (True, mtu, [])
+    above, found_warnings = plan(large(mtu - 11), transport=transport)
+    assert (above.fragments, above.mtu, found_warnings) == (True, mtu, [])
     assert above.reliable_slot_size == mtu + 4 + 4, "the message, and FRAGMENT's header in front of it"
 
 
 @given(size=st.integers(1, LARGEST_BODY), mtu=st.integers(64, 65507))
 def test_a_slot_holds_the_whole_message(size: int, mtu: int) -> None:
     application = Application(transport=Transport(mtu=mtu))
-    streams, said = plan(large(size), application=application, create=0)
+    streams, found_warnings = plan(large(size), application=application, create=0)
     front = 8 if streams.fragments else 4
-    assert said == []
+    assert found_warnings == []
     assert streams.fragments == (-(-(12 + size) // 4) * 4 > mtu)
     assert 0 <= streams.reliable_slot_size - (front + 8 + size) < 4
     assert streams.mtu <= mtu
@@ -143,9 +146,9 @@ def test_a_slot_holds_the_whole_message(size: int, mtu: int) -> None:
 
 def test_the_largest_message_is_reported() -> None:
     assert plan(large(LARGEST_BODY))[1] == []
-    _, said = plan(large(LARGEST_BODY + 1))
-    (line,) = said
-    assert "a/msg/B on /b takes up to 65528 bytes, and a message holds 65527 at most" in line
+    _, found_warnings = plan(large(LARGEST_BODY + 1))
+    (line,) = found_warnings
+    assert "a/msg/B on /b takes up to 65528 bytes, but a message holds at most 65527" in line
 
 
 def test_a_best_effort_message_above_the_mtu_has_three_ways_out() -> None:
@@ -182,10 +185,10 @@ def test_the_settings_of_another_stack() -> None:
     asked = Application(
         transport=Transport(mtu=512), pools={"history": 4, "input_history": 1, "slot_size": 512}
     )
-    streams, said = plan(INT32, application=asked, reliable_input=True)
+    streams, found_warnings = plan(INT32, application=asked, reliable_input=True)
     assert streams == StreamSizes(512, 512, 4, 512, 512, reliable_input_slots=1)
     assert streams.ram == 6 * 512
-    assert said == []
+    assert found_warnings == []
 
 
 def test_slots_above_the_mtu_are_for_reliable_streams_alone() -> None:
@@ -198,8 +201,8 @@ def test_slots_above_the_mtu_are_for_reliable_streams_alone() -> None:
 
 
 def test_an_input_history_without_a_reliable_input_stream_has_no_effect() -> None:
-    streams, said = plan(INT32, application=Application(pools={"input_history": 2}))
-    (line,) = said
+    streams, found_warnings = plan(INT32, application=Application(pools={"input_history": 2}))
+    (line,) = found_warnings
     assert "'pools.input_history' has no effect" in line
     assert streams.reliable_input_slots == 0
 
@@ -232,7 +235,7 @@ SMALL = Received("std_msgs/msg/String on /said", 100, True, False)
 
 
 def test_a_reliable_sample_that_waits_alone_arrives_in_fragments() -> None:
-    """The agent is told the input buffer; what else comes whole makes it larger, and so does pools.slot_size."""
+    """The client announces its input buffer to the agent; other whole messages and pools.slot_size make it larger."""
     streams = reception(SCAN)
     assert (streams.input_size, streams.arrives_in_fragments, streams.input_buffer) == (988, True, 988)
     assert reception(SCAN, transport="serial").input_size == 372

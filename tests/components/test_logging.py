@@ -198,7 +198,7 @@ def test_a_writer_is_named_once(tmp_path: Path) -> None:
     with pytest.raises(UserError) as caught:
         planned(tmp_path, BARE + "logging: [console, {to: console, level: debug}]\n")
     (reported,) = caught.value.diagnostics
-    assert "4:20: error: 'logging' has the writer 'console' twice" in without_id(reported.headline())
+    assert "4:20: error: duplicate writer 'console' in 'logging'" in without_id(reported.headline())
 
 
 def test_a_console_that_goes_nowhere_is_reported(tmp_path: Path) -> None:

@@ -56,19 +56,19 @@ def test_of_a_long_line_the_part_around_the_place_is_shown(column: int) -> None:
 
 
 def test_a_long_word_is_cut() -> None:
-    said = Diagnostic(f"unknown type '{'x' * 5000}'").headline()
-    assert len(said) < LONGEST_WORD + 100
-    assert said.endswith("…")
+    text = Diagnostic(f"unknown type '{'x' * 5000}'").headline()
+    assert len(text) < LONGEST_WORD + 100
+    assert text.endswith("…")
 
 
 def test_a_collector_keeps_each_diagnostic_once_and_raises_at_the_end() -> None:
-    said = Diagnostics()
-    said.warning("w", id="MG-0001")
-    said.check()
-    said.error("e", Span(FILE, 1, 1), id="MG-0002")
-    said.error("e", Span(FILE, 1, 1), id="MG-0002")
+    diagnostics = Diagnostics()
+    diagnostics.warning("w", id="MG-0001")
+    diagnostics.check()
+    diagnostics.error("e", Span(FILE, 1, 1), id="MG-0002")
+    diagnostics.error("e", Span(FILE, 1, 1), id="MG-0002")
     with pytest.raises(UserError) as raised:
-        said.check()
+        diagnostics.check()
     assert [d.message for d in raised.value.diagnostics] == ["w", "e"]
     assert raised.value.status == 2
     assert str(raised.value) == "microros-gen: warning: w [MG-0001]\nmicroros.yaml:1:1: error: e [MG-0002]"

@@ -88,10 +88,10 @@ def test_the_commands_run(line: str, tmp_path: Path) -> None:
 def test_the_file_of_the_page_holds() -> None:
     (text,) = blocks("yaml")
     diagnostics = Diagnostics()
-    said = parse_agent_file(Source("docs/howto/agent.md", text), diagnostics)
+    options = parse_agent_file(Source("docs/howto/agent.md", text), diagnostics)
     diagnostics.check()
-    assert len(said.transports) == 5
-    assert said.discovery == 7400
+    assert len(options.transports) == 5
+    assert options.discovery == 7400
 
 
 def test_every_option_is_there() -> None:

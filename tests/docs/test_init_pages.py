@@ -47,10 +47,12 @@ def test_the_commands_of_init(folder: Path, capfd: pytest.CaptureFixture[str]) -
     for line in own:
         assert call(line) == 0, line
         # What remains of the page's commands is what the tool itself says comes next.
-        said = capfd.readouterr().out.splitlines()[-1]
+        output = capfd.readouterr().out.splitlines()[-1]
         name = shlex.split(line)[2]
-        assert said == f"cmake -S {name} -B {name}/build && cmake --build {name}/build"
-    assert " && ".join(line for line in lines if line not in own) == said.replace("old_settings", "my_robot")
+        assert output == f"cmake -S {name} -B {name}/build && cmake --build {name}/build"
+    assert " && ".join(line for line in lines if line not in own) == output.replace(
+        "old_settings", "my_robot"
+    )
 
 
 def test_the_commands_of_check(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -46,7 +46,7 @@ def lossy() -> Fault:
 
 
 @pytest.mark.parametrize(
-    ("name", "mtu", "fault", "pieces"),
+    ("name", "mtu", "fault", "chunks"),
     [
         ("large", 1472, no_fault, 14),
         ("large_small_mtu", 512, no_fault, 41),
@@ -61,7 +61,7 @@ def test_large_messages_arrive_whole(
     name: str,
     mtu: int,
     fault: Fault,
-    pieces: int,
+    chunks: int,
 ) -> None:
     image = images.build(1, APPLICATION.format(mtu=mtu, name=name), "gcc", SANITIZE)
     program = image.application(
@@ -87,5 +87,5 @@ def test_large_messages_arrive_whole(
     assert (running.returncode, errors) == (0, "")
     assert found == [text(i) for i in range(SAMPLES)]
     sent, resent = map(int, out.split())
-    assert sent >= SAMPLES * pieces
+    assert sent >= SAMPLES * chunks
     assert (resent > 0) == (name == "large_lossy")

@@ -133,7 +133,7 @@ LARGE = "the request is too large, none of it was set"
 
 
 def large_requests(peer: ParameterPeer) -> None:
-    """Above the limits of the device: each is answered, each is told there, and nothing of it is lost or set."""
+    """Above the limits of the device: each is answered, each is reported there, and nothing of it is lost or set."""
     many = [("enabled", False)] * 12
     found = peer.call(DEVICE, "set_parameters", [*many, ("motor.steps", 30)])["results"]
     assert [(r["successful"], r["reason"] in ("", LARGE)) for r in found] == [(False, True)] * 13

@@ -157,10 +157,10 @@ def test_the_example_asks_itself(images: Images, image_port: Relay, agent: Agent
     for entity, queue in queues.items():
         assert queue < entities[entity]["ram"] < queue + 250
         assert entities[entity]["type_flash"] > 0
-    said = tool("explain", image.out, "std_srvs/srv/SetBool_Response")
-    assert "service /left/grip (std_srvs/srv/SetBool)" in said
-    assert "client /left/grip (std_srvs/srv/SetBool)" in said
-    assert "/left/empty" not in said
+    output = tool("explain", image.out, "std_srvs/srv/SetBool_Response")
+    assert "service /left/grip (std_srvs/srv/SetBool)" in output
+    assert "client /left/grip (std_srvs/srv/SetBool)" in output
+    assert "/left/empty" not in output
 
 
 def tool(command: str, out: Path, *arguments: str) -> str:

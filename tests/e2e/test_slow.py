@@ -50,9 +50,9 @@ def exchange(observer: Observer, program: Path, timeout_s: float, how: str) -> d
     began = time.monotonic()
     with started(program, str(len(SAMPLES) + len(SUMS)), str(int(timeout_s)), how) as process:
         print(await_line(process, "created"))
-        said = float(await_line(process, "time").split()[1]) / 1000
-        print(await_line(process, "ready"), f"time is off by {time.time() - said:.1f} s")
-        assert abs(time.time() - said) < 5
+        reported_time = float(await_line(process, "time").split()[1]) / 1000
+        print(await_line(process, "ready"), f"time is off by {time.time() - reported_time:.1f} s")
+        assert abs(time.time() - reported_time) < 5
         values = [{"data": value} for value in SAMPLES]
         observer.ask(do="publish", topic="/slow_in", type="std_msgs/msg/Int32", values=values)
         observer.ask(do="ask_sums", service="/slow_sum", pairs=SUMS)

@@ -54,13 +54,13 @@ def test_over_a_bad_line_every_reliable_sample_arrives_once_and_in_order(builds:
         with scripted_agent(relay.device, agent):
             running.go_on()
             running.wait_for(lambda: report(running)["done"], 30)
-            said = report(running)
+            statistics = report(running)
     assert agent.values() == list(range(1, 61))
     assert relay.lost > 0
     assert relay.spoiled > 0
-    assert said["resent"] > 0, said
-    assert said["fault"] == 0
-    assert 0 < said["stack"] < 2048
+    assert statistics["resent"] > 0, statistics
+    assert statistics["fault"] == 0
+    assert 0 < statistics["stack"] < 2048
 
 
 @pytest.mark.parametrize("name", FAULTS)
@@ -142,8 +142,8 @@ def test_bytes_not_read_in_time_are_counted_and_the_line_recovers(builds: Builds
             os.write(flood, b"\x7e" * 3 + bytes(range(64)) * 4)
         os.close(flood)
         running.wait_for(lambda: report(running)["done"])
-        said = report(running)
-    assert said["lost"] > 0
+        statistics = report(running)
+    assert statistics["lost"] > 0
     assert agent.values() == list(range(1, 21))
 
 

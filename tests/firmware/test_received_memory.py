@@ -89,9 +89,9 @@ def test_storage_that_the_library_binds_is_the_difference(builds: Builds) -> Non
 def _size(built: Built) -> tuple[dict[str, Any], dict[str, Any]]:
     """Return what `size` says, and of the subscription."""
     command = [sys.executable, "-m", "microros_gen", "size", str(built.out), "--format", "json"]
-    said = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
-    [scan] = [entity for entity in said["entities"] if entity["kind"] == "subscription"]
-    return said, scan
+    report = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+    [scan] = [entity for entity in report["entities"] if entity["kind"] == "subscription"]
+    return report, scan
 
 
 @pytest.mark.system
@@ -117,7 +117,7 @@ def test_size_counts_a_slot_in_the_input_buffer_once(builds: Builds, line: str, 
     """Samples that wait there take no memory of the subscription."""
     need(CORTEX_M4)
     built = _built(builds, line, 360)
-    said, scan = _size(built)
-    buffer = sum(part["bytes"] for part in said["ram"] if part["use"] == "input buffer")
+    report, scan = _size(built)
+    buffer = sum(part["bytes"] for part in report["ram"] if part["use"] == "input buffer")
     assert (buffer > _largest(built)) == lent == (scan["ram"] < 200)
     assert scan["shared"] == ([{"what": "input buffer", "bytes": buffer, "users": 1}] if lent else [])

@@ -90,12 +90,12 @@ def test_over_a_bad_line_rclpy_gets_every_reliable_sample_and_the_agent_says_wha
         running.wait_for(lambda: running.words("counter_report")[0], 30)
         statistics = report(running)
         agent.stop()
-        said = agent.wait_for("faults of input")
+        output = agent.wait_for("faults of input")
     assert samples[0] < 150  # DDS gives nothing of before the subscription was found
     assert samples == list(range(samples[0], 201))
     assert relay.lost > 0
     assert relay.spoiled > 0
-    assert int(said.split(" faults of input")[0].rpartition(" ")[2]) > 0
+    assert int(output.split(" faults of input")[0].rpartition(" ")[2]) > 0
     assert statistics["resent"] > 0
     assert statistics["reconnects"] == 0
 
@@ -155,4 +155,4 @@ def test_a_library_alone_does_not_run(tmp_path: Path) -> None:
     assert build(tmp_path, "cortex-m3").returncode == 0
     done = subprocess.run(program("run", str(tmp_path / "out")), text=True, capture_output=True, check=False)
     assert done.returncode == 2
-    assert "holds a library alone: target cortex-m3 has no image" in done.stderr
+    assert "contains only a library: target cortex-m3 has no image" in done.stderr

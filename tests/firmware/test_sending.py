@@ -56,7 +56,7 @@ def counted(built: Built) -> Built:
     return replace(built, target=replace(built.target, emulator=slow))
 
 
-def said(running: Board) -> dict[str, int]:
+def counts_of(running: Board) -> dict[str, int]:
     return dict(zip(REPORT, running.words("large_report", len(REPORT)), strict=True))
 
 
@@ -97,12 +97,12 @@ def published_while_the_line_stalls(
     agent = FakeAgent()
     with board(built, image) as running, Relay(running.device) as relay, scripted_agent(relay.device, agent):
         running.go_on()
-        running.wait_for(lambda: said(running)["ready"], 60)
+        running.wait_for(lambda: counts_of(running)["ready"], 60)
         relay.stopped = True
-        running.wait_for(lambda: said(running)["published"], 60)
-        stopped = said(running)
+        running.wait_for(lambda: counts_of(running)["published"], 60)
+        stopped = counts_of(running)
         relay.stopped = False
-        running.wait_for(lambda: said(running)["done"], 60)
+        running.wait_for(lambda: counts_of(running)["done"], 60)
     assert stopped["large_taken"] == 2, "the stream has two slots"
     assert stopped["dropped"] == (SMALL - stopped["small_taken"]) + 1, "each refused one is counted"
     assert stopped["small_ticks"] < 0.3 * TICKS_PER_MS, stopped

@@ -73,7 +73,7 @@ def refused(*arguments: Path) -> str:
 
 def test_an_image_brings_its_library(folder: BuildFolder) -> None:
     folder.image("app", "robot")
-    assert f"{folder.path / 'app'} was not built yet" in refused(folder.path)
+    assert f"{folder.path / 'app'} has not been built yet" in refused(folder.path)
     folder.file("app")
     for path in (folder.path, folder.path / "robot-microros"):
         found = locate(path)
@@ -108,7 +108,7 @@ def test_each_configuration_has_a_separate_library(folder: BuildFolder) -> None:
 
 
 def test_a_library_without_an_image(folder: BuildFolder, tmp_path: Path) -> None:
-    assert "librobot.a was not built yet" in refused(folder.path)
+    assert "librobot.a has not been built yet" in refused(folder.path)
     archive = folder.file("librobot.a")
     assert locate(folder.path).image is None
     assert locate(folder.path, archive).image is None

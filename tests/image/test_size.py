@@ -69,47 +69,49 @@ def berkeley(program: str, *files: Path) -> dict[str, int]:
 def test_the_sums_are_those_of_size(measured: Measured, target: str) -> None:
     report = measured(target)
     assert report.folder.image is not None
-    said = berkeley(f"{BOARDS[target]}size", report.folder.image)
-    assert report.totals == said
-    assert sum(p.size for p in report.ram) == said["data"] + said["bss"]
-    assert all(p.size > 0 for p in report.pieces)
-    for one, next_one in zip(report.pieces, report.pieces[1:], strict=False):
+    expected = berkeley(f"{BOARDS[target]}size", report.folder.image)
+    assert report.totals == expected
+    assert sum(p.size for p in report.ram) == expected["data"] + expected["bss"]
+    assert all(p.size > 0 for p in report.chunks)
+    for one, next_one in zip(report.chunks, report.chunks[1:], strict=False):
         assert one.section != next_one.section or one.address + one.size == next_one.address
 
 
 @pytest.mark.parametrize("target", BOARDS)
 def test_every_symbol_of_nm_has_its_size(measured: Measured, target: str) -> None:
     report = measured(target)
-    said: dict[str, int] = {}
+    expected: dict[str, int] = {}
     for line in tool(f"{BOARDS[target]}nm", "-S", "-P", report.folder.image or "").splitlines():
         parts = line.split()
         if len(parts) == 4 and parts[1] in "TtBbDdRr":
-            said[parts[0]] = said.get(parts[0], 0) + int(parts[3], 16)
+            expected[parts[0]] = expected.get(parts[0], 0) + int(parts[3], 16)
     mine: dict[str, int] = {}
     ours = ("component", "type support", "application")
-    for piece in (p for p in report.pieces if p.owner.group in ours):
-        for name in (piece.symbol, *piece.aliases):
+    for chunk in (p for p in report.chunks if p.owner.group in ours):
+        for name in (chunk.symbol, *chunk.aliases):
             if name:
-                mine[name] = mine.get(name, 0) + piece.size
+                mine[name] = mine.get(name, 0) + chunk.size
     mine = {name: size for name, size in mine.items() if not name.startswith('"')}
     assert len(mine) > 100
-    assert mine == {name: size for name, size in said.items() if name in mine}
-    assert not [n for n in said if n.startswith(("rcl", "rmw_", "xrce_", "port_")) and n not in mine]
+    assert mine == {name: size for name, size in expected.items() if name in mine}
+    assert not [n for n in expected if n.startswith(("rcl", "rmw_", "xrce_", "port_")) and n not in mine]
 
 
 @pytest.mark.parametrize("target", BOARDS)
 def test_an_owner_is_the_object_that_defines_a_symbol(measured: Measured, target: str) -> None:
     """`nm -A` of the library is the oracle: which member defines an exported function."""
     report = measured(target)
-    said = tool(f"{BOARDS[target]}nm", "-A", "-P", "--defined-only", report.folder.path / "lib/libmicroros.a")
-    members = dict(re.findall(r"\[([^]]+)\]: (\w+) T ", said))
-    by_name = {name: member for member, name in re.findall(r"\[([^]]+)\]: (\w+) T ", said)}
+    expected = tool(
+        f"{BOARDS[target]}nm", "-A", "-P", "--defined-only", report.folder.path / "lib/libmicroros.a"
+    )
+    members = dict(re.findall(r"\[([^]]+)\]: (\w+) T ", expected))
+    by_name = {name: member for member, name in re.findall(r"\[([^]]+)\]: (\w+) T ", expected)}
     assert members
     checked = 0
-    for piece in report.pieces:
-        if piece.symbol in by_name and piece.owner.group in ("component", "type support"):
-            folder, _, name = by_name[piece.symbol].removesuffix(".o").partition("__")
-            assert re.fullmatch(rf"src/{folder}/{re.escape(name)}\.[cS]", piece.source or "")
+    for chunk in report.chunks:
+        if chunk.symbol in by_name and chunk.owner.group in ("component", "type support"):
+            folder, _, name = by_name[chunk.symbol].removesuffix(".o").partition("__")
+            assert re.fullmatch(rf"src/{folder}/{re.escape(name)}\.[cS]", chunk.source or "")
             checked += 1
     assert checked > 50
 
@@ -124,8 +126,8 @@ def test_members_of_the_library_have_names_of_their_own(measured: Measured) -> N
 def test_the_library_alone_adds_up(measured: Measured) -> None:
     folder = measured("host").folder
     last = tool("size", "-t", folder.path / "lib/libmicroros.a").splitlines()[-1].split()
-    pieces = attribute_library(folder)
-    kinds = {k: sum(p.size for p in pieces if p.kind == k) for k in ("text", "data", "bss")}
+    chunks = attribute_library(folder)
+    kinds = {k: sum(p.size for p in chunks if p.kind == k) for k in ("text", "data", "bss")}
     assert list(kinds.values()) == [int(n) for n in last[:3]]
 
 
@@ -139,8 +141,8 @@ def check_message_storage(report: SizeReport) -> None:
     folder = replace(report.folder, manifest={**report.folder.manifest, **budget})
     linked = ImageRecord(folder.path / "bin/image", folder.path / "bin/image.map", (), ())
     image = replace(folder, linked=linked)
-    (without,) = budget_lines(folder, report.pieces, report.ram, report.stack)
-    (line,) = budget_lines(image, report.pieces, report.ram, report.stack)
+    (without,) = budget_lines(folder, report.chunks, report.ram, report.stack)
+    (line,) = budget_lines(image, report.chunks, report.ram, report.stack)
     assert line.used == without.used + storage, (
         "the library alone has it for functions that may never be called"
     )
@@ -172,18 +174,18 @@ def test_the_map_of_lld(measured: Measured, tmp_path: Path) -> None:
     flags = ["-fuse-ld=lld", "-Wl,--gc-sections", f"-Wl,-Map={MAP}", "-o", "bin/pure_sender"]
     subprocess.run(["clang", main, "lib/libmicroros.a", *flags], cwd=out, check=True)
     folder = read_folder(out)
-    pieces = attribute(folder, Elf(out / "bin/pure_sender"))
-    kinds = {k: sum(p.size for p in pieces if p.kind == k) for k in ("text", "data", "bss")}
+    chunks = attribute(folder, Elf(out / "bin/pure_sender"))
+    kinds = {k: sum(p.size for p in chunks if p.kind == k) for k in ("text", "data", "bss")}
     assert kinds == berkeley("size", out / "bin/pure_sender")
-    mine = [p for p in pieces if p.symbol == "rcl_publish"]
+    mine = [p for p in chunks if p.symbol == "rcl_publish"]
     assert [(p.owner.name, p.source) for p in mine] == [("publish", "src/publish/rcl_publisher.c")]
 
 
 def test_string_constants_belong_to_who_wrote_them(measured: Measured) -> None:
     """Linkers merge strings into one section; what main.c prints is in main.c alone, the type's name in its support."""
-    pieces = {p.symbol: p for p in measured("host").pieces if p.symbol and p.symbol.startswith('"')}
-    assert pieces['"start"'].source == "examples/pure_sender/main.c"
-    assert pieces['"sensor_msgs::msg::dds_::Imu_"'].source == "src/sensor_msgs/imu__type_support.c"
+    chunks = {p.symbol: p for p in measured("host").chunks if p.symbol and p.symbol.startswith('"')}
+    assert chunks['"start"'].source == "examples/pure_sender/main.c"
+    assert chunks['"sensor_msgs::msg::dds_::Imu_"'].source == "src/sensor_msgs/imu__type_support.c"
 
 
 def sizeof(out: Path, *expressions: str) -> list[int]:
@@ -255,8 +257,8 @@ def test_the_measured_high_water_mark_is_below_the_bound(probe_tree: Path, tmp_p
     """The same calls with a measured high-water mark, port functions included: it does not exceed the bound."""
     main = (Path(__file__).parent / "c" / "stack_probe.c").read_text(encoding="utf-8")
     report = run_with(probe_tree, tmp_path, main)
-    said = tool(report.folder.path / "bin/pure_sender")
-    failed, used = map(int, said.split())
+    expected = tool(report.folder.path / "bin/pure_sender")
+    failed, used = map(int, expected.split())
     assert failed == 0
     assert report.graph is not None
     bound = bound_of(report.graph, "work")
@@ -291,12 +293,12 @@ def test_a_board_starts_at_reset_and_counts_its_interrupts(measured: Measured) -
 def test_every_frame_of_the_chain_is_what_gcc_says(measured: Measured) -> None:
     report = measured("qemu-mps2-an385")
     assert report.stack.main is not None
-    said: dict[str, int] = {}
+    expected: dict[str, int] = {}
     for path in report.folder.path.rglob("*.ci"):
-        said.update({shown_name(n): f.size for n, f in parse_call_graph(path.read_text()).items()})
+        expected.update({shown_name(n): f.size for n, f in parse_call_graph(path.read_text()).items()})
     compiled = [link for link in report.stack.main.chain if link.origin == "compiler"]
     assert len(compiled) > 10
-    assert all(said[link.name] == link.frame for link in compiled)
+    assert all(expected[link.name] == link.frame for link in compiled)
 
 
 def test_clang_gives_no_bound_and_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -413,7 +415,7 @@ int main(void)
 
 def check_pointers(report: SizeReport, image: Path) -> None:
     """A pointer leads to the functions of its type whose address something holds."""
-    functions = {p.address: p for p in report.pieces if p.function and p.symbol}
+    functions = {p.address: p for p in report.chunks if p.function and p.symbol}
     pointers = read_pointers(report.folder, Elf(image), functions)
     assert {functions[a].symbol for a in pointers.targets("weigh") or ()} == {"light", "heavy"}
     assert pointers.targets("nobody") == frozenset(), "no function of that type is held anywhere"
@@ -432,14 +434,14 @@ def test_an_image_of_an_application(probe_tree: Path, tmp_path: Path) -> None:
     tool("gcc", "-Wl,--gc-sections", *linked)
     unmapped = measure(probe_tree, image)
     assert (unmapped.mapped, unmapped.totals) == (False, berkeley("size", image))
-    owners = {p.symbol: p.owner.group for p in unmapped.pieces if p.symbol}
+    owners = {p.symbol: p.owner.group for p in unmapped.chunks if p.symbol}
     assert (owners["heavy"], owners["rcutils_get_default_allocator"]) == ("application", "component")
     tool("gcc", "-Wl,--gc-sections", f"-Wl,-Map={image.with_suffix('.map')}", *linked)
     report = measure(probe_tree, image)
     assert report.mapped
     check_pointers(report, image)
     assert report.totals == berkeley("size", image)
-    owners = {p.symbol: p.owner.group for p in report.pieces if p.symbol}
+    owners = {p.symbol: p.owner.group for p in report.chunks if p.symbol}
     assert (owners["heavy"], owners["rcutils_get_default_allocator"]) == ("application", "component")
     assert report.stack.main is not None
     assert "never_held" in {link.name for link in report.stack.main.chain}

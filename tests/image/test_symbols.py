@@ -90,10 +90,10 @@ class Symbols:
 
 def symbols_of(objects: Mapping[str, Path]) -> Symbols:
     """Return the symbols of `objects`, by the source that each was made from."""
-    said = check(["nm", "-A", "-P", *map(str, objects.values())], Path("/"))
+    output = check(["nm", "-A", "-P", *map(str, objects.values())], Path("/"))
     by_object = {str(path): source for source, path in objects.items()}
     found: dict[str, dict[str, set[str]]] = {kind: {s: set() for s in objects} for kind in ("T", "t", "U")}
-    for line in said.splitlines():
+    for line in output.splitlines():
         where, name, kind = line.split()[:3]
         source = by_object[where.removesuffix(":")]
         group = "U" if kind in "Uw" else "T" if kind.isupper() else "t"

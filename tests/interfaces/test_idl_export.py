@@ -131,7 +131,7 @@ def test_a_vendors_compiler_takes_the_whole_tree(compiler: IdlCompiler, portable
 @pytest.mark.ros
 @pytest.mark.long
 def test_a_vendors_compiler_takes_each_file_by_itself(compiler: IdlCompiler, portable: Path) -> None:
-    refused = {name: said for name in NAMES if (said := compiler.refusal(portable / name, portable))}
+    refused = {name: reason for name in NAMES if (reason := compiler.refusal(portable / name, portable))}
     assert refused == {}
 
 
@@ -182,7 +182,7 @@ def test_a_derived_type_is_in_the_file_of_its_service() -> None:
 def test_several_interfaces_need_a_folder() -> None:
     done = run("std_srvs", "--format", "idl")
     assert isinstance(done.exception, UserError)
-    assert "these are 3 interfaces, and an .idl file holds one. Name one of them, or" in str(done.exception)
+    assert "found 3 interfaces, but an .idl file holds one. Name one of them, or" in str(done.exception)
 
 
 @pytest.mark.parametrize("arguments", [["-o", "x"], ["std_msgs/Int32", "--portable"]])

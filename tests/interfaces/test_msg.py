@@ -44,8 +44,8 @@ def read(text: str) -> tuple[Message | None, list[str]]:
 
 
 def good(text: str) -> Message:
-    message, said = read(text)
-    assert message is not None, said
+    message, messages = read(text)
+    assert message is not None, messages
     return without_places(message)
 
 
@@ -90,7 +90,7 @@ def test_places_of_declarations() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "messages"),
     [
         ("int32", "1:6: error: expected '[' or a space, found the end of the line"),
         ("int32[3 a", "1:8: error: expected ']', found a space"),
@@ -112,18 +112,18 @@ def test_places_of_declarations() -> None:
         ("int32 a\nbool b\nint32 a", "3:7: error: the name 'a' is declared twice. Line 1 has it first"),
         ("uint8 a  256 # x", "1:10: error: 256 does not fit uint8. Its range is 0 to 255"),
         ("uint8[] a [1,  256]", "1:16: error: 256 does not fit uint8"),
-        ("string<=3 a 'abcd'", "1:13: error: the string has 4 characters and its type takes 3"),
-        ("int32[2] a [1]", "1:14: error: the default has 1 elements and the array 2"),
+        ("string<=3 a 'abcd'", "1:13: error: the string has 4 characters, but its type takes at most 3"),
+        ("int32[2] a [1]", "1:14: error: the default has 1 elements, but the array has 2"),
         ("string a x=y", "1:11: error: a default cannot hold '='"),
         ("int32 a 1e3", "1:9: error: '1e3' is not an integer"),
         ("float32 a 1e39", "1:11: error: 1e39 does not fit float32"),
         ("string[0] a", "1:8: error: the size of an array is a whole number above zero, not '0'"),
     ],
 )
-def test_errors_say_where_what_and_what_to_do(text: str, said: str) -> None:
+def test_errors_say_where_what_and_what_to_do(text: str, messages: str) -> None:
     message, found = read(text)
     assert message is None
-    assert any(said in line for line in found), found
+    assert any(messages in line for line in found), found
     assert all(line.startswith("Foo.msg:") for line in found)
 
 
@@ -140,7 +140,7 @@ def test_each_error_has_a_caret_below_its_text() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "messages"),
     [
         ("\ufeffint32 a", "1:1: warning: the file begins with a byte order mark"),
         (
@@ -159,11 +159,11 @@ def test_each_error_has_a_caret_below_its_text() -> None:
         ('string A="b', "1:10: warning: the quote is not closed"),
     ],
 )
-def test_warnings_do_not_stop(text: str, said: str) -> None:
+def test_warnings_do_not_stop(text: str, messages: str) -> None:
     message, found = read(text)
     assert message is not None
     assert len(found) == 1
-    assert said in found[0]
+    assert messages in found[0]
 
 
 def test_columns_after_a_byte_order_mark_are_those_of_an_editor() -> None:
@@ -190,16 +190,16 @@ def test_what_is_taken_has_no_error_and_what_is_refused_has_one() -> None:
 @given(messages())
 def test_a_printed_message_reads_as_the_same_message(message: Message) -> None:
     text = message_text(message)
-    again, said = read(text)
-    assert again is not None, said
+    again, messages = read(text)
+    assert again is not None, messages
     assert without_places(again) == message
 
 
 @settings(max_examples=300, deadline=None)
 @given(st.text(st.sampled_from("int8 strg<=[]#\"'\\,=\n\taAB/_5é.-"), max_size=60))
 def test_no_text_makes_the_reader_fail(text: str) -> None:
-    message, said = read(text)
-    assert (message is None) == any(": error: " in line for line in said)
+    message, messages = read(text)
+    assert (message is None) == any(": error: " in line for line in messages)
 
 
 # --- other oracles

@@ -183,8 +183,8 @@ def test_a_comment_that_stops_the_adapter_is_reported(tmp_path: Path) -> None:
     for text in BACKSLASHES:
         diagnostics = Diagnostics()
         assert parse_msg(Source("F", text), TypeName("pkg_a", "msg", "Foo"), diagnostics) is not None
-        said = [without_id(d.headline()) for d in diagnostics]
-        assert (ros_message(text, tmp_path) is None) is bool(said), text
-        assert all("cannot read this comment" in line for line in said)
-        refused += bool(said)
+        messages = [without_id(d.headline()) for d in diagnostics]
+        assert (ros_message(text, tmp_path) is None) is bool(messages), text
+        assert all("cannot read this comment" in line for line in messages)
+        refused += bool(messages)
     assert 15 < refused < 30

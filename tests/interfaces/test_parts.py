@@ -38,15 +38,15 @@ def read(text: str, kind: str = "srv", name: str = "Foo") -> tuple[Service | Act
 
 
 def errors(text: str, kind: str = "srv") -> list[str]:
-    found, said = read(text, kind)
+    found, messages = read(text, kind)
     assert found is None
-    return said
+    return messages
 
 
 def test_a_service_has_its_parts_and_the_event() -> None:
     text = "# What it does.\n# And how.\n\nint8 A=1\nbool data true # on\n---\n# Second.\n\nint8 A=2\nstring text"
-    service, said = read(text)
-    assert said == []
+    service, messages = read(text)
+    assert messages == []
     assert isinstance(service, Service)
     assert service.comment == ("What it does.", "And how.") == service.request.comment
     assert [c.value for c in (*service.request.constants, *service.response.constants)] == [1, 2]
@@ -59,8 +59,8 @@ def test_a_service_has_its_parts_and_the_event() -> None:
 
 
 def test_an_action_has_its_parts_and_what_ros_adds() -> None:
-    action, said = read("int32 order\n---\n---\nint32[] part", "action", "Fib")
-    assert said == []
+    action, messages = read("int32 order\n---\n---\nint32[] part", "action", "Fib")
+    assert messages == []
     assert isinstance(action, Action)
     assert action.result.fields == ()
     assert [m.name.name for m in action.messages] == [
@@ -75,14 +75,14 @@ def test_an_action_has_its_parts_and_what_ros_adds() -> None:
 
 @pytest.mark.parametrize("end", ["", "\n", "\r\n", "\n\n"])
 def test_parts_may_be_empty(end: str) -> None:
-    service, said = read(f"---{end}")
-    assert said == []
+    service, messages = read(f"---{end}")
+    assert messages == []
     assert isinstance(service, Service)
     assert service.request.fields == service.response.fields == ()
 
 
 @pytest.mark.parametrize(
-    ("text", "kind", "said"),
+    ("text", "kind", "messages"),
     [
         (
             "",
@@ -108,10 +108,10 @@ def test_parts_may_be_empty(end: str) -> None:
         (" ---\nint8 b\n", "srv", ["1:1: error: '---' is not a separator."]),
     ],
 )
-def test_separators(text: str, kind: str, said: list[str]) -> None:
+def test_separators(text: str, kind: str, messages: list[str]) -> None:
     found = [line for line in errors(text, kind) if "separator" in line or "---' " in line]
-    assert len(found) == len(said)
-    for line, expected in zip(found, said, strict=True):
+    assert len(found) == len(messages)
+    for line, expected in zip(found, messages, strict=True):
         assert line.startswith(expected)
 
 
@@ -130,9 +130,9 @@ def test_every_fault_of_every_part_is_reported_at_its_line() -> None:
 
 
 def test_names_are_distinguished_by_part() -> None:
-    service, said = read("int8 same\nint8 SAME=1\n---\nint16 same\nint16 SAME=2")
+    service, messages = read("int8 same\nint8 SAME=1\n---\nint16 same\nint16 SAME=2")
     assert service is not None
-    assert said == []
+    assert messages == []
 
 
 ALIKE = [
@@ -153,10 +153,10 @@ UNLIKE = [
 @pytest.mark.parametrize(("text", "kind"), ALIKE)
 def test_constants_declared_alike_in_two_parts_are_reported(text: str, kind: str) -> None:
     """Their C does not compile in ROS 2 Jazzy, which gives both to the first part."""
-    (said,) = errors(text, kind)
+    (messages,) = errors(text, kind)
     line = max(i for i, written in enumerate(text.splitlines(), 1) if "=" in written)
-    assert re.match(rf"{line}:\d+: error: ROS 2 Jazzy takes '[AB]' for a constant of Foo_\w+ too", said)
-    assert said.endswith("Give one of them another name or comment")
+    assert re.match(rf"{line}:\d+: error: ROS 2 Jazzy takes '[AB]' for a constant of Foo_\w+ too", messages)
+    assert messages.endswith("Give one of them another name or comment")
 
 
 @pytest.mark.ros
@@ -181,10 +181,11 @@ def test_names_of_services(name: str) -> None:
 )
 def test_an_interface_with_the_name_of_a_part_has_a_warning(kind: str, name: str) -> None:
     """A C++ class cannot have a member with the name of the class."""
-    found, said = read("---\n---" if kind == "action" else "---", kind, name)
+    found, messages = read("---\n---" if kind == "action" else "---", kind, name)
     assert found is not None
-    assert said == [
-        f"1:1: warning: the C++ that ROS 2 Jazzy makes of an interface named '{name}' does not compile. Rename it"
+    assert messages == [
+        f"1:1: warning: the C++ code that ROS 2 Jazzy generates for an interface named '{name}' does not compile. "
+        "Rename it"
     ]
     assert not read("---\n---" if kind == "action" else "---", kind, f"{name}s")[1]
 
@@ -214,8 +215,8 @@ def declarations(draw: st.DrawFn) -> Service | Action:
 @settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(declarations())
 def test_a_printed_declaration_reads_as_the_same(declaration: Service | Action) -> None:
-    again, said = read(declaration_text(declaration), declaration.name.kind)
-    assert again is not None, said
+    again, messages = read(declaration_text(declaration), declaration.name.kind)
+    assert again is not None, messages
     for (_, ours), (_, read_again) in zip(parts_of(declaration), parts_of(again), strict=True):
         assert without_places(read_again) == ours
 
@@ -223,8 +224,8 @@ def test_a_printed_declaration_reads_as_the_same(declaration: Service | Action) 
 @settings(max_examples=200, deadline=None)
 @given(st.text(st.sampled_from("-----\n\n\nint8 ab=#"), max_size=60), st.sampled_from(["srv", "action"]))
 def test_no_text_makes_the_reader_fail(text: str, kind: str) -> None:
-    found, said = read(text, kind)
-    assert (found is None) == any(": error: " in line for line in said)
+    found, messages = read(text, kind)
+    assert (found is None) == any(": error: " in line for line in messages)
 
 
 # --- against ROS 2
@@ -285,8 +286,8 @@ def test_installed_files_are_read_as_ros_reads_them(path: Path, tmp_path: Path) 
 )
 def test_good_and_bad_text_as_ros_takes_it(text: str, tmp_path: Path) -> None:
     theirs = ros_declaration(text, "srv", tmp_path)
-    ours, said = read(text)
-    assert (ours is not None) == (theirs is not None), said
+    ours, messages = read(text)
+    assert (ours is not None) == (theirs is not None), messages
     if ours is not None and theirs is not None:
         assert described(ours) == theirs.descriptions
 

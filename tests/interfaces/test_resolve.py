@@ -34,8 +34,8 @@ def test_search_order_and_hiding(tmp_path: Path) -> None:
         ("only_shipped", Origin.SHIPPED),
     ]
     assert finder.types("all") == (TypeName("all", "msg", "Path"),)
-    _, said = resolve(finder, "all/Ament")
-    assert said == [
+    _, messages = resolve(finder, "all/Ament")
+    assert messages == [
         f"microros-gen: error: package 'all' ({tmp_path}/path/all) has no type 'Ament'. It hides "
         f"{tmp_path}/ament/share/all, which has this type: a package is taken from one place only"
     ]
@@ -61,15 +61,15 @@ def test_a_path_is_a_package_or_a_folder_of_packages(tmp_path: Path) -> None:
     for path, expected in ((tmp_path / "src", ["b", "real_name"]), (inner, ["real_name"])):
         finder = InterfaceFinder((path,))
         assert [p.name for p in finder.packages()] == expected
-        interfaces, said = resolve(finder, "real_name")
-        assert (names(interfaces), said) == (["real_name/msg/A"], [])
+        interfaces, messages = resolve(finder, "real_name")
+        assert (names(interfaces), messages) == (["real_name/msg/A"], [])
 
 
 def test_a_path_is_printed_as_the_user_gave_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     package(tmp_path / "src", "b", B="int32 X")
     monkeypatch.chdir(tmp_path)
-    _, said = resolve(InterfaceFinder((Path("src"),)), "b")
-    assert said[0].startswith("src/b/msg/B.msg:1:7: error: 'X' is not a field name")
+    _, messages = resolve(InterfaceFinder((Path("src"),)), "b")
+    assert messages[0].startswith("src/b/msg/B.msg:1:7: error: 'X' is not a field name")
 
 
 def manifest(folder: Path, name: str) -> None:
@@ -87,8 +87,8 @@ def test_a_workspace_is_searched_as_colcon_does(tmp_path: Path) -> None:
     manifest(package(tmp_path / "src/two", "inside", A=""), "inside")  # colcon does not look below a package
     finder = InterfaceFinder((tmp_path,), shipped=shipped_folder())
     assert [p.name for p in finder.packages() if p.origin is Origin.PATH] == ["one", "two_by_manifest"]
-    interfaces, said = resolve(finder, "two_by_manifest")
-    assert (names(interfaces), said) == (["one/msg/A", "two_by_manifest/msg/B"], [])
+    interfaces, messages = resolve(finder, "two_by_manifest")
+    assert (names(interfaces), messages) == (["one/msg/A", "two_by_manifest/msg/B"], [])
     deciding = set(finder.deciding(["one"]))
     assert {tmp_path / "src/group/deep", tmp_path / "src/group/deep/one/package.xml"} <= deciding
 
@@ -96,8 +96,8 @@ def test_a_workspace_is_searched_as_colcon_does(tmp_path: Path) -> None:
 def test_an_installed_prefix_can_be_named(tmp_path: Path) -> None:
     manifest(package(tmp_path / "share", "a", A=""), "a")
     package(tmp_path / "include/a", "a", A="")  # generated headers lie in a folder msg/ too
-    interfaces, said = resolve(InterfaceFinder((tmp_path,)), "a")
-    assert (names(interfaces), said) == (["a/msg/A"], [])
+    interfaces, messages = resolve(InterfaceFinder((tmp_path,)), "a")
+    assert (names(interfaces), messages) == (["a/msg/A"], [])
 
 
 def test_paths_that_hold_nothing_are_errors(tmp_path: Path) -> None:
@@ -106,35 +106,36 @@ def test_paths_that_hold_nothing_are_errors(tmp_path: Path) -> None:
     paths = tuple(tmp_path / name for name in ("none", "file", "empty"))
     diagnostics = Diagnostics()
     InterfaceFinder(paths).check_paths(diagnostics)
-    said = [without_id(d.headline()) for d in diagnostics]
-    assert len(said) == 3
-    assert "'" + str(tmp_path / "none") + "' does not exist" in said[0]
-    assert "file' is not a folder" in said[1]
+    messages = [without_id(d.headline()) for d in diagnostics]
+    assert len(messages) == 3
+    assert "'" + str(tmp_path / "none") + "' does not exist" in messages[0]
+    assert "file' is not a folder" in messages[1]
     assert (
-        "empty' holds no interface package. A package has a folder msg/, srv/ or action/; itself" in said[2]
+        "empty' holds no interface package. A package has a folder msg/, srv/ or action/; itself"
+        in messages[2]
     )
 
 
 def test_a_file_that_is_not_utf8_is_an_error(tmp_path: Path) -> None:
     folder = package(tmp_path, "a")
     (folder / "msg/A.msg").write_bytes(b"int32 a\n# caf\xe9\nint32 b\n")
-    _, said = resolve(InterfaceFinder((tmp_path,)), "a")
-    assert len(said) == 1
-    assert f"'{folder / 'msg/A.msg'}' is not UTF-8: byte 0xe9 in line 2" in said[0]
+    _, messages = resolve(InterfaceFinder((tmp_path,)), "a")
+    assert len(messages) == 1
+    assert f"'{folder / 'msg/A.msg'}' is not UTF-8: byte 0xe9 in line 2" in messages[0]
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root reads everything")
 def test_an_unreadable_file_is_an_error(tmp_path: Path) -> None:
     path = package(tmp_path, "a", A="int32 a") / "msg/A.msg"
     path.chmod(0)
-    _, said = resolve(InterfaceFinder((tmp_path,)), "a")
-    assert f"cannot read '{path}': Permission denied" in said[0]
+    _, messages = resolve(InterfaceFinder((tmp_path,)), "a")
+    assert f"cannot read '{path}': Permission denied" in messages[0]
 
 
 def test_a_folder_with_the_name_of_a_file_is_an_error(tmp_path: Path) -> None:
     (package(tmp_path, "a") / "msg/A.msg").mkdir()
-    _, said = resolve(InterfaceFinder((tmp_path,)), "a/A")
-    assert "cannot read" in said[0]
+    _, messages = resolve(InterfaceFinder((tmp_path,)), "a/A")
+    assert "cannot read" in messages[0]
 
 
 def idl(package_name: str, kind: str, struct: str) -> str:
@@ -148,8 +149,8 @@ def test_an_idl_file_alone_is_read(tmp_path: Path) -> None:
     parts = "struct Do_Request { a::msg::A a; }; struct Do_Response { boolean done; };"
     text = f'#include "a/msg/A.idl"\n{idl("a", "srv", parts)}'
     (folder / "srv/Do.idl").write_text(text, encoding="utf-8")
-    interfaces, said = resolve(InterfaceFinder((tmp_path,), shipped=shipped_folder()), "a")
-    assert said == []
+    interfaces, messages = resolve(InterfaceFinder((tmp_path,), shipped=shipped_folder()), "a")
+    assert messages == []
     assert [str(root) for root in interfaces.roots] == ["a/msg/A", "a/msg/B", "a/srv/Do"]
     assert interfaces.message(TypeName("a", "msg", "A")).fields[0].name == "number"
     assert interfaces.interfaces[TypeName("a", "srv", "Do")].source.name == str(folder / "srv/Do.idl")
@@ -158,8 +159,8 @@ def test_an_idl_file_alone_is_read(tmp_path: Path) -> None:
 def test_an_idl_file_next_to_another_one_is_not_read(tmp_path: Path) -> None:
     folder = package(tmp_path, "a", A="int8 x")
     (folder / "msg/A.idl").write_text("not IDL", encoding="utf-8")
-    interfaces, said = resolve(InterfaceFinder((tmp_path,)), "a")
-    assert said == []
+    interfaces, messages = resolve(InterfaceFinder((tmp_path,)), "a")
+    assert messages == []
     assert interfaces.interfaces[TypeName("a", "msg", "A")].source.text == "int8 x"
 
 
@@ -168,8 +169,8 @@ def test_faults_of_idl_files(tmp_path: Path) -> None:
     (folder / "msg/A.idl").write_text(idl("a", "msg", "struct B { long x; };"), encoding="utf-8")
     (folder / "msg/C.idl").write_text("module a {", encoding="utf-8")
     (folder / "msg/D.idl").write_text(idl("a", "msg", "struct D { b::msg::E e; };"), encoding="utf-8")
-    _, said = resolve(InterfaceFinder((tmp_path,)), "a")
-    at = {line.removeprefix(f"{folder}/msg/").split(":")[0]: line for line in said}
+    _, messages = resolve(InterfaceFinder((tmp_path,)), "a")
+    at = {line.removeprefix(f"{folder}/msg/").split(":")[0]: line for line in messages}
     assert set(at) == {"A.idl", "C.idl", "D.idl"}
     assert "the file declares a/msg/B and not a/msg/A" in at["A.idl"]
     assert "unknown interface package 'b'" in at["D.idl"]
@@ -177,15 +178,15 @@ def test_faults_of_idl_files(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("request_", ["std_msgs/Header", "std_msgs/msg/Header", "/std_msgs/Header"])
 def test_forms_of_a_request(request_: str) -> None:
-    interfaces, said = resolve(InterfaceFinder(shipped=shipped_folder()), request_)
-    assert said == []
+    interfaces, messages = resolve(InterfaceFinder(shipped=shipped_folder()), request_)
+    assert messages == []
     assert names(interfaces) == ["builtin_interfaces/msg/Time", "std_msgs/msg/Header"]
     assert interfaces.roots == (TypeName("std_msgs", "msg", "Header"),)
     assert interfaces.closure(interfaces.roots[0]) == (TypeName("builtin_interfaces", "msg", "Time"),)
 
 
 @pytest.mark.parametrize(
-    ("request_", "said"),
+    ("request_", "messages"),
     [
         (
             "std_msg",
@@ -210,11 +211,11 @@ def test_forms_of_a_request(request_: str) -> None:
         ("../idl/std_msgs", "unknown interface package '..'"),
     ],
 )
-def test_requests_that_name_nothing(request_: str, said: str) -> None:
+def test_requests_that_name_nothing(request_: str, messages: str) -> None:
     interfaces, found = resolve(InterfaceFinder(shipped=shipped_folder()), request_)
     assert len(interfaces) == 0
     assert len(found) == 1
-    assert said in found[0]
+    assert messages in found[0]
 
 
 def test_a_fault_is_reported_at_the_request() -> None:
@@ -230,33 +231,39 @@ def test_a_fault_is_reported_at_the_request() -> None:
 
 def test_a_missing_dependency_is_reported_at_the_field_that_needs_it(tmp_path: Path) -> None:
     package(tmp_path, "a", A="int8 x\nHeader header\nnope/Type[3] other\nstd_msgs/Int33 number")
-    _, said = resolve(InterfaceFinder((tmp_path,), shipped=shipped_folder()), "a")
+    _, messages = resolve(InterfaceFinder((tmp_path,), shipped=shipped_folder()), "a")
     place = f"{tmp_path}/a/msg/A.msg"
-    assert said[0].startswith(f"{place}:2:1: error: package 'a' ({tmp_path}/a) has no type 'Header', which")
-    assert "Did you mean 'std_msgs/Header'? A type without its package is one of the same package" in said[0]
-    assert said[1].startswith(
+    assert messages[0].startswith(
+        f"{place}:2:1: error: package 'a' ({tmp_path}/a) has no type 'Header', which"
+    )
+    assert (
+        "Did you mean 'std_msgs/Header'? A type without its package is one of the same package" in messages[0]
+    )
+    assert messages[1].startswith(
         f"{place}:3:1: error: unknown interface package 'nope', which the field 'other'"
     )
-    assert f"Looked in {tmp_path}, the definitions that ship" in said[1]
-    assert said[2].startswith(f"{place}:4:1: error: ")
-    assert "Did you mean 'Int32'?" in said[2]
+    assert f"Looked in {tmp_path}, the definitions that ship" in messages[1]
+    assert messages[2].startswith(f"{place}:4:1: error: ")
+    assert "Did you mean 'Int32'?" in messages[2]
 
 
 def test_faults_of_every_file_are_reported_in_one_run(tmp_path: Path) -> None:
     package(tmp_path, "a", A="int32 X\nb/B b", C="int33 c")
     package(tmp_path, "b", B="int32 Y")
-    _, said = resolve(InterfaceFinder((tmp_path,)), "a", "b", "c")
-    assert len(said) == 4
+    _, messages = resolve(InterfaceFinder((tmp_path,)), "a", "b", "c")
+    assert len(messages) == 4
 
 
 def test_cycles_are_reported_once_each_at_a_field(tmp_path: Path) -> None:
     package(tmp_path, "a", Self="int8 x\nSelf me", A="B b", B="c/C[] c", Outside="A a")
     package(tmp_path, "c", C="int8 x\na/A a")
-    interfaces, said = resolve(InterfaceFinder((tmp_path,)), "a")
-    assert len(said) == 2
-    assert any(s.startswith(f"{tmp_path}/a/msg/Self.msg:2:1: error: a message contains itself") for s in said)
+    interfaces, messages = resolve(InterfaceFinder((tmp_path,)), "a")
+    assert len(messages) == 2
+    assert any(
+        s.startswith(f"{tmp_path}/a/msg/Self.msg:2:1: error: a message contains itself") for s in messages
+    )
     ring = "a message contains itself: a/msg/A → a/msg/B → c/msg/C → a/msg/A"
-    assert any(s.startswith(f"{tmp_path}/a/msg/A.msg:1:1: error: {ring}") for s in said)
+    assert any(s.startswith(f"{tmp_path}/a/msg/A.msg:1:1: error: {ring}") for s in messages)
     assert names(interfaces) == ["a/msg/Outside"]
 
 
@@ -282,8 +289,8 @@ def test_all_of_common_interfaces_resolves_quickly() -> None:
     best = 1.0
     for _ in range(3):
         start = time.process_time()
-        interfaces, said = resolve(finder, *requests)
+        interfaces, messages = resolve(finder, *requests)
         best = min(best, time.process_time() - start)
-    assert said == []
+    assert messages == []
     assert len(interfaces) > 180
     assert best < 0.4, f"{best:.3f} s"

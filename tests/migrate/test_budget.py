@@ -32,16 +32,16 @@ def test_a_budget_is_checked_when_the_image_is_linked(init: Init, tmp_path: Path
 
     config.write_text(f"{before}memory: {{ram_budget: 1 KiB}}\n")
     place = f"microros.yaml:{before.count(chr(10)) + 1}:22: error: static RAM in the image: "
-    status, said = run(
+    status, output = run(
         "cmake", "-S", ".", "-B", "build", "-G", "Ninja", f"-DMICROROS_GEN_PYTHON={sys.executable}"
     )
-    assert status == 0, said
-    status, said = run("cmake", "--build", "build", "-j2")
+    assert status == 0, output
+    status, output = run("cmake", "--build", "build", "-j2")
     assert status != 0
-    assert place in said
-    assert "memory.ram_budget is 1024" in said
+    assert place in output
+    assert "memory.ram_budget is 1024" in output
     config.write_text(f"{before}memory: {{ram_budget: 64 KiB}}\n")
-    status, said = run("cmake", "--build", "build", "-j2")
-    assert status == 0, said
-    status, said = run(sys.executable, "-m", "microros_gen", "size", "build", "--budgets")
-    assert (status, said) == (0, "")
+    status, output = run("cmake", "--build", "build", "-j2")
+    assert status == 0, output
+    status, output = run(sys.executable, "-m", "microros_gen", "size", "build", "--budgets")
+    assert (status, output) == (0, "")

@@ -115,7 +115,7 @@ def test_what_is_not_needed_is_named_with_its_reason_and_line(init: Init, tmp_pa
     _, _, err = init("app", "--from-colcon-meta", "a.meta")
     text = (tmp_path / "app/microros.yaml").read_text()
     listed = " ".join(line.lstrip("# ") for line in text.splitlines() if line.startswith("#"))
-    for line, said in [
+    for line, expected in [
         (5, "rcutils RCUTILS_NO_FILESYSTEM=ON: the library has no heap, no files and no threads"),
         (6, "rcutils ENABLE_TESTING=OFF: the tests of the old stack are not built"),
         (11, "tracetools TRACETOOLS_DISABLED=ON: the tracing"),
@@ -125,12 +125,12 @@ def test_what_is_not_needed_is_named_with_its_reason_and_line(init: Init, tmp_pa
         (24, "rmw_microxrcedds RMW_UXRCE_MAX_TOPICS=9: topics are counted"),
         (25, "rmw_microxrcedds RMW_UXRCE_DEFAULT_UDP_PORT=1: the transport is custom"),
     ]:
-        assert f"- a.meta:{line}: {said}" in listed
+        assert f"- a.meta:{line}: {expected}" in listed
     assert err.count("warning") == ALWAYS
 
 
 @pytest.mark.parametrize(
-    ("setting", "said"),
+    ("setting", "expected"),
     [
         ("RMW_UXRCE_STREAM_HISTORY=32", "here it can be 1 to 16"),
         ("RMW_UXRCE_MAX_NODES=many", "'many' is no whole number"),
@@ -142,11 +142,11 @@ def test_what_is_not_needed_is_named_with_its_reason_and_line(init: Init, tmp_pa
         ("RMW_UXRCE_MAX_SUBSCRIPTIOS=2", "not known here. Did you mean 'RMW_UXRCE_MAX_SUBSCRIPTIONS'?"),
     ],
 )
-def test_undecided_settings_are_reported(setting: str, said: str) -> None:
+def test_undecided_settings_are_reported(setting: str, expected: str) -> None:
     (remark,) = draft(rmw_microxrcedds=[setting]).remarks
     assert remark.undecided
     assert str(remark.span) == "a.meta:5:17"
-    assert remark.text.startswith(f"rmw_microxrcedds {setting}: {said}")
+    assert remark.text.startswith(f"rmw_microxrcedds {setting}: {expected}")
 
 
 def test_what_could_not_be_decided_is_marked(init: Init, tmp_path: Path) -> None:
@@ -176,26 +176,24 @@ def test_a_duplicate_package_is_reported(init: Init, tmp_path: Path) -> None:
     one = '"rcutils": {"cmake-args": []}'
     (tmp_path / "a.meta").write_text(f'{{\n\t"names": {{\n\t\t{one},\n\t\t{one}\n\t}}\n}}\n')
     _, _, err = init("app", "--from-colcon-meta", "a.meta")
-    assert (
-        "a.meta:4:3: warning: the key 'rcutils' is there twice; first in line 3; the first one is used" in err
-    )
+    assert "a.meta:4:3: warning: duplicate key 'rcutils'; first in line 3; the first one is used" in err
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "expected"),
     [
         ("", "'a.meta' is empty. A colcon.meta has a mapping `names` of packages"),
         ("{}", "a.meta:1:1: error: no packages in this file"),
-        ('{"names": {"a": {"cmake-args": [["x"]]}}}', "a.meta:1:33: error: 'cmake-args' must list texts"),
+        ('{"names": {"a": {"cmake-args": [["x"]]}}}', "a.meta:1:33: error: 'cmake-args' must list strings"),
         ('{"names": ["a"]}', "a.meta:1:11: error: 'names' must be a mapping"),
         ("names: {a: {", "a.meta:1:13: error: "),
     ],
 )
-def test_what_is_no_colcon_meta_is_refused(text: str, said: str, init: Init, tmp_path: Path) -> None:
+def test_what_is_no_colcon_meta_is_refused(text: str, expected: str, init: Init, tmp_path: Path) -> None:
     (tmp_path / "a.meta").write_text(text)
     status, _, err = init("app", "--from-colcon-meta", "a.meta")
     assert status == 2
-    assert said in err
+    assert expected in err
     assert not (tmp_path / "app").exists()
 
 

@@ -60,7 +60,7 @@ def test_all_examples_at_once_are_several_applications(init: Init, tmp_path: Pat
     status, _, err = init("app", "--from", str(EXAMPLES))
     assert status == 2
     first = without_id(err.splitlines()[0])
-    assert "error: there are several applications here: main() is also in" in first
+    assert "error: several applications in these sources: main() is also in" in first
     assert first.endswith("Give the folder or file of one of them")
     assert not (tmp_path / "app").exists()
 

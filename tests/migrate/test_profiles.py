@@ -76,8 +76,8 @@ def test_a_folder_for_each_target(target: str, init: Init, tmp_path: Path) -> No
         "firmware", "--profile", "pure_sender", "--profile", "pure_reader", "--target", target, "--ci"
     )
     assert status == 0
-    said = [line for line in err.splitlines() if "microros.yaml" in line]
-    assert all("unique id" in line or "provides no serial" in line for line in said), err
+    warnings = [line for line in err.splitlines() if "microros.yaml" in line]
+    assert all("unique id" in line or "provides no serial" in line for line in warnings), err
     folder = tmp_path / "firmware"
     assert own_files(folder) - {"toolchain.cmake"} == FILES | {WORKFLOW}
     assert (folder / "toolchain.cmake").exists() == (target != "host")
@@ -125,8 +125,8 @@ def test_nothing_is_overwritten(init: Init, tmp_path: Path) -> None:
 
 def test_a_file_is_no_folder(init: Init, tmp_path: Path) -> None:
     (tmp_path / "app").write_text("")
-    said = "microros-gen: error: cannot make the folder app: File exists. Name a new folder\n"
-    assert without_id(init("app")[2]) == said
+    warnings = "microros-gen: error: cannot make the folder app: File exists. Name a new folder\n"
+    assert without_id(init("app")[2]) == warnings
 
 
 @pytest.mark.parametrize(("folder", "name"), [("a", "a"), ("42", "app_42"), ("Über", "ber"), ("x__y", "x_y")])

@@ -365,11 +365,11 @@ def test_functions_of_the_programs_own_are_no_missing_ones() -> None:
     ],
 )
 def test_what_creates_no_node_is_refused(text: str) -> None:
-    with pytest.raises(Exception, match="these sources call nothing of rclc or rcl"):
+    with pytest.raises(Exception, match="these sources call no function of rclc or rcl"):
         adopted(text)
 
 
-PIECES = st.sampled_from(
+FRAGMENTS_PER_SAMPLE = st.sampled_from(
     ["{", "}", "(", ")",
      "[", "]", ",", ";", "=", ".", "->", "*", "&", "a", "msg", "7", '"x"', "'", '"', "/*", "*/", "//", "\\",
      "\n", "#if 0\n", "#define A A\n", "\n#endif\n", "A", "sizeof", "enum", "char", "std_msgs__msg__String", "capacity",
@@ -377,10 +377,10 @@ PIECES = st.sampled_from(
 )  # fmt: skip
 
 
-@given(st.lists(PIECES, max_size=60))
+@given(st.lists(FRAGMENTS_PER_SAMPLE, max_size=60))
 @settings(max_examples=150, deadline=None)
-def test_any_text_is_read_to_its_end(pieces: list[str]) -> None:
-    found = adopted(program("") + " ".join(pieces))
+def test_any_text_is_read_to_its_end(chunks: list[str]) -> None:
+    found = adopted(program("") + " ".join(chunks))
     assert found.draft.nodes[0].name == "n"
 
 

@@ -153,7 +153,7 @@ def test_half_of_a_file_cannot_be_replaced(demo: Path, run: Runner) -> None:
     done = run("generate", "-o", "out")
     assert done.status == 2
     assert (
-        "port_demo_time.c of port_demo has 'sleep' and 'time', and only 'time' comes from elsewhere"
+        "port_demo_time.c of port_demo implements 'sleep' and 'time', but only 'time' is provided elsewhere"
         in done.err
     )
     assert "`provides: [time, sleep]`" in done.err
@@ -292,7 +292,7 @@ def test_a_board_says_nothing_of_the_compiler(folder: Path, run: Runner) -> None
     write_board(folder, "hawk", "c_flags: [-mcpu=cortex-m4]\n")
     done = run("targets", "hawk.yaml")
     assert done.status == 2
-    assert "hawk/board.yaml:5:1: error: the file has no key 'c_flags'" in without_id(done.err)
+    assert "hawk/board.yaml:5:1: error: unknown key 'c_flags' in the file" in without_id(done.err)
 
 
 ERRORS = {
@@ -304,7 +304,7 @@ ERRORS = {
     "file": (
         {"component.yaml": PART.replace("port_demo_timer.c", "x.c")},
         TARGET,
-        "demo.yaml:4:5: error: the os 'port_demo' lacks the file 'src/x.c'",
+        "demo.yaml:4:5: error: the os 'port_demo' has no file 'src/x.c'",
     ),
     "folder": ({}, TARGET.replace("./kernel", "./kernal"), "demo.yaml:4:5: error: cannot read"),
     "name": (
@@ -315,7 +315,7 @@ ERRORS = {
     "layer": (
         {"component.yaml": PART.replace("layer: port", "layer: middleware")},
         TARGET,
-        "is no part of a platform",
+        "is not a part of a platform",
     ),
     "facts": (
         {"os.yaml": "hosted: true\ntikc: f\n"},

@@ -70,8 +70,8 @@ def test_each_driver_of_a_processor_has_its_files(name: str) -> None:
 
 
 def test_a_file_adds_a_board_to_a_cpu(tmp_path: Path) -> None:
-    found, said = read(tmp_path, BOARD + "c_flags: [-DBOARD=1]\n")
-    assert found is not None, said
+    found, messages = read(tmp_path, BOARD + "c_flags: [-DBOARD=1]\n")
+    assert found is not None, messages
     target = found.target
     assert target.name == "mine"
     assert target.compilers == ("arm-none-eabi-gcc",)
@@ -85,10 +85,10 @@ def test_a_file_adds_a_board_to_a_cpu(tmp_path: Path) -> None:
 def test_extends_is_relative_to_the_file_that_says_it(tmp_path: Path) -> None:
     (tmp_path / "boards").mkdir()
     (tmp_path / "boards" / "base.yaml").write_text(BOARD)
-    found, said = read(
+    found, messages = read(
         tmp_path, "target: top\nextends: boards/base.yaml\nram: {origin: 0x20000000, size: 8 KiB}\n"
     )
-    assert found is not None, said
+    assert found is not None, messages
     assert found.target.ram == Region(0x20000000, 8 * 1024)
     assert len(found.own) == 2
 
@@ -96,8 +96,11 @@ def test_extends_is_relative_to_the_file_that_says_it(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("target: mine\n", "mine.yaml:1:1: error: the target lacks the key 'summary'"),
-        (BOARD + "flahs: 1\n", "mine.yaml:6:1: error: the file has no key 'flahs'. Did you mean 'flash'?"),
+        ("target: mine\n", "mine.yaml:1:1: error: missing key 'summary' in the target"),
+        (
+            BOARD + "flahs: 1\n",
+            "mine.yaml:6:1: error: unknown key 'flahs' in the file. Did you mean 'flash'?",
+        ),
         (
             BOARD + "transport: seriel\n",
             "mine.yaml:6:12: error: 'transport' must be udp, tcp, serial or custom",
@@ -107,12 +110,15 @@ def test_extends_is_relative_to_the_file_that_says_it(tmp_path: Path) -> None:
             BOARD.replace("clock_hz: 48000000\n", ""),
             "mine.yaml:1:1: error: an image needs the key 'clock_hz'",
         ),
-        (BOARD.replace("ram:", "#ram:"), "mine.yaml:4:8: error: 'flash' without 'ram' makes no image"),
+        (
+            BOARD.replace("ram:", "#ram:"),
+            "mine.yaml:4:8: error: 'flash' without 'ram' is not enough for an image",
+        ),
         (BOARD.replace("0x20000000", "0x08000000"), "mine.yaml:5:6: error: 'flash' and 'ram' overlap"),
         (BOARD.replace("0x20000000", "0xFFFFF000"), "mine.yaml:5:6: error: 'ram' ends beyond 32 bits"),
         (
             BOARD + "uart: {driver: cmsdk, base: 0x40004000}\n",
-            "error: 'uart' lacks the key 'irq'. Add `irq: …`",
+            "error: missing key 'irq' in 'uart'. Add `irq: …`",
         ),
         (
             BOARD + "uart: {driver: ns16550, base: 0, irq: 0}\n",
@@ -148,11 +154,11 @@ def test_extends_is_relative_to_the_file_that_says_it(tmp_path: Path) -> None:
     ],
 )
 def test_what_is_wrong_has_a_place_and_a_hint(tmp_path: Path, text: str, expected: str) -> None:
-    found, said = read(tmp_path, text)
+    found, messages = read(tmp_path, text)
     assert found is None
-    assert any(expected in line for line in said), said
+    assert any(expected in line for line in messages), messages
 
 
 def test_all_errors_of_a_file_are_reported_at_once(tmp_path: Path) -> None:
-    _, said = read(tmp_path, BOARD + "hosted: 5\nemulator: {}\nunique_id: {address: 2, words: 9}\n")
-    assert [line.split(":")[1] for line in said] == ["6", "7", "7", "8", "8"]
+    _, messages = read(tmp_path, BOARD + "hosted: 5\nemulator: {}\nunique_id: {address: 2, words: 9}\n")
+    assert [line.split(":")[1] for line in messages] == ["6", "7", "7", "8", "8"]

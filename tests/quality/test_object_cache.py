@@ -73,12 +73,12 @@ FLAGS = [
 def test_the_same_text_is_compiled_once_whatever_the_folder(
     workshop: Workshop, flags: tuple[str, ...]
 ) -> None:
-    first, said, a = workshop.compile("a", *flags)
+    first, output, a = workshop.compile("a", *flags)
     again, repeated, b = workshop.compile("b", *flags)
     assert (first, again) == (True, False)
     assert (a / "x.o").read_bytes() == (b / "x.o").read_bytes()
-    assert "unused" in said.stderr
-    assert repeated.stderr == said.stderr
+    assert "unused" in output.stderr
+    assert repeated.stderr == output.stderr
     for ending in ("d", "ci"):
         beside = [(folder / f"x.{ending}") for folder in (a, b)]
         assert beside[0].exists() == beside[1].exists() == ("-MMD" in flags)

@@ -35,7 +35,7 @@ def _other_order(kind: type) -> type:
 
 
 @pytest.mark.parametrize(
-    ("name", "change", "said"),
+    ("name", "change", "expected"),
     [
         ("MessageSupport", _other_order, "identifier"),
         ("ServiceSupport", _other_order, "identifier of a service"),
@@ -54,10 +54,10 @@ def test_another_layout_is_refused(
     monkeypatch: pytest.MonkeyPatch,
     name: str,
     change: Callable[[Any], Any],
-    said: str,
+    expected: str,
 ) -> None:
     monkeypatch.setattr(libraries, name, change(getattr(libraries, name)))
-    with pytest.raises(RosUnusableError, match=rf"not as in ROS 2 Jazzy: .*{said}") as caught:
+    with pytest.raises(RosUnusableError, match=rf"not as in ROS 2 Jazzy: .*{expected}") as caught:
         loaded.check_layout()
     assert "pip install" in caught.value.hint
 

@@ -84,12 +84,12 @@ def test_topics_of_installed_types_both_ways(peer: Peer, installed_node: Node) -
     from sensor_msgs.msg import JointState
 
     heard: list[Any] = []
-    said: list[Any] = []
+    received: list[Any] = []
     node: Any = installed_node.node
     node.create_subscription(JointState, "/bench/out", heard.append, 10)
     there: Any = node.create_publisher(JointState, "/bench/in", 10)
     publisher = peer.publisher("out", "sensor_msgs/msg/JointState")
-    subscription = peer.subscribe("/bench/in", "sensor_msgs/JointState", said.append)
+    subscription = peer.subscribe("/bench/in", "sensor_msgs/JointState", received.append)
 
     def connected() -> bool:
         ends = (publisher.subscriptions(), subscription.publishers(), there.get_subscription_count())
@@ -98,14 +98,14 @@ def test_topics_of_installed_types_both_ways(peer: Peer, installed_node: Node) -
     spin_both(peer, installed_node, connected)
     publisher.publish({"header": {"frame_id": "base"}, "name": ["a", "b"], "position": [1.0, -2.5]})
     there.publish(JointState(name=["é"], effort=[0.5]))
-    spin_both(peer, installed_node, lambda: heard and said)
+    spin_both(peer, installed_node, lambda: heard and received)
     assert (heard[0].header.frame_id, heard[0].name, list(heard[0].position)) == (
         "base",
         ["a", "b"],
         [1.0, -2.5],
     )
-    assert said[0]["name"] == ["é"]
-    assert (said[0]["effort"], said[0]["velocity"]) == ([0.5], [])
+    assert received[0]["name"] == ["é"]
+    assert (received[0]["effort"], received[0]["velocity"]) == ([0.5], [])
     found: list[Any] = []
 
     def named() -> bool:

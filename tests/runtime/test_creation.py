@@ -317,9 +317,11 @@ def test_nodes_among_several_have_references_of_their_own(bench: Bench) -> None:
 def test_qos_in_xml(bench: Bench, qos: str, words: tuple[bytes, ...]) -> None:
     client, _ = started(bench, plan_of("xml", "best_effort"))
     client.ok(f"publisher 1 0 Int32 x {qos}")
-    said = client.sent[-1]
-    assert [said.find(word) >= 0 for word in words] == [True] * len(words)
-    assert said.find(b"<durability><kind>" + words[1]) < said.find(b"<reliability><kind>" + words[2])
+    last_message = client.sent[-1]
+    assert [last_message.find(word) >= 0 for word in words] == [True] * len(words)
+    assert last_message.find(b"<durability><kind>" + words[1]) < last_message.find(
+        b"<reliability><kind>" + words[2]
+    )
 
 
 def test_the_largest_create_fits_to_the_byte(bench: Bench, plan: RuntimePlan) -> None:

@@ -71,7 +71,7 @@ def test_every_key_that_a_text_names_is_taken() -> None:
         for line in lines
         for key in (POOL_KEYS if "{%s:" in line else ("",))
     }
-    assert {line: said for line in sorted(each) if (said := refused(line))} == {}
+    assert {line: hit for line in sorted(each) if (hit := refused(line))} == {}
 
 
 def full_text(plan: RuntimePlan) -> str:
@@ -95,7 +95,7 @@ def test_a_full_stream_advises_what_helps(slots: int, on_full: str, advice: list
         changed(POOL, streams__reliable_slots=slots, streams__on_full=on_full, streams__on_full_block_ms=20)
     )
     assert advised(text) == advice
-    assert [said for line in advice for said in refused(line)] == []
+    assert [hit for line in advice for hit in refused(line)] == []
     assert advice[:1] == [f"pools: {{history: {slots + 1}}}"] or "publish less often" in text
 
 

@@ -17,7 +17,7 @@ from tests.support.runtime.driver import Client
 from tests.support.runtime.fake_agent import FakeAgent
 
 MTU = 32
-PIECE = MTU - 8
+CHUNK = MTU - 8
 FRAGMENT, HEARTBEAT, WRITE_DATA = 0x0D, 0x0B, 0x07
 LARGE = changed(
     POOL,
@@ -49,7 +49,7 @@ def bodies(agent: FakeAgent) -> list[bytes]:
 
 
 @pytest.mark.parametrize(
-    "size", [1, 20, 21, PIECE - 8, PIECE - 7, 2 * PIECE - 8, 2 * PIECE - 7, 200, 600, 1008]
+    "size", [1, 20, 21, CHUNK - 8, CHUNK - 7, 2 * CHUNK - 8, 2 * CHUNK - 7, 200, 600, 1008]
 )
 def test_fragments_join_to_the_submessage(bench: Bench, size: int) -> None:
     client = bench.connected(LARGE)
@@ -67,14 +67,14 @@ def test_fragments_join_to_the_submessage(bench: Bench, size: int) -> None:
             bytes((FRAGMENT, 1 | LAST))
         ]
         assert all(struct.unpack_from("<H", d, 6)[0] == len(d) - 8 for d in sent)
-        assert len(sent) == -(-len(whole) // PIECE)
+        assert len(sent) == -(-len(whole) // CHUNK)
     assert bodies(client.agent) == [body(size, 3)]
     assert (client.agent.discarded, client.agent.spoiled) == (0, 0)
 
 
 def test_a_session_begins_with_an_empty_last_fragment(bench: Bench) -> None:
     client = bench.start(LARGE)
-    client.agent.pieces = b"\x07\x01\xff\0 what another session left"
+    client.agent.chunks = b"\x07\x01\xff\0 what another session left"
     for call in ("init", "node 0 talker -", "publisher 0 0 Int32 chatter reliable"):
         client.ok(call)
     client.ok("large 0 300 5")
@@ -150,7 +150,7 @@ def test_a_new_session_sends_the_whole_again(bench: Bench) -> None:
     client.agent.drop = lambda datagram: datagram[1] == 0x80 and sequence(datagram) > 9
     client.ok("large 0 600 1")
     client.spin(5, 1)
-    assert client.agent.pieces, "the agent has a part of it"
+    assert client.agent.chunks, "the agent has a part of it"
     client.agent.restart()
     client.agent.drop = lambda datagram: False
     client.agent.silent = True

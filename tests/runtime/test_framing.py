@@ -42,8 +42,8 @@ class Framing:
             [program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
         )
 
-    def open(self, capacity: int, piece: int = 32) -> None:
-        self._say(f"open {capacity} {piece}")
+    def open(self, capacity: int, chunk: int = 32) -> None:
+        self._say(f"open {capacity} {chunk}")
 
     def feed(self, data: bytes) -> list[Event]:
         self._say(f"feed {data.hex()}")
@@ -146,12 +146,12 @@ def test_65536_bytes_are_refused(framing: Framing) -> None:
 @given(
     messages=st.lists(MESSAGES, max_size=6),
     cuts=st.lists(st.integers(1, 40), min_size=1),
-    piece=st.integers(1, 40),
+    chunk=st.integers(1, 40),
 )
 @QUICK
-def test_any_split(framing: Framing, messages: list[bytes], cuts: list[int], piece: int) -> None:
+def test_any_split(framing: Framing, messages: list[bytes], cuts: list[int], chunk: int) -> None:
     stream = b"".join(map(frame, messages))
-    framing.open(90, piece)
+    framing.open(90, chunk)
     found = []
     for i in range(len(stream) + 1):
         size = cuts[i % len(cuts)]
@@ -162,11 +162,11 @@ def test_any_split(framing: Framing, messages: list[bytes], cuts: list[int], pie
     assert found == [Event(message) for message in messages]
 
 
-@given(noise=BYTES, message=MESSAGES, capacity=st.integers(1, 90), piece=st.integers(1, 40))
+@given(noise=BYTES, message=MESSAGES, capacity=st.integers(1, 90), chunk=st.integers(1, 40))
 @QUICK
-def test_noise(framing: Framing, noise: bytes, message: bytes, capacity: int, piece: int) -> None:
+def test_noise(framing: Framing, noise: bytes, message: bytes, capacity: int, chunk: int) -> None:
     stream = noise + frame(message) + noise
-    framing.open(capacity, piece)
+    framing.open(capacity, chunk)
     found = framing.feed(stream)
     assert found == events(stream, capacity)
     assert (Event(message) in found) or len(message) > capacity

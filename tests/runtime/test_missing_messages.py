@@ -14,9 +14,9 @@ from tests.support.runtime.driver import Client
 from tests.support.runtime.reading_agent import ReadingAgent
 
 FIRST = POOL.entities.publishers.max
-PIECES = 9
+FRAGMENTS_PER_SAMPLE = 9
 LARGE = changed(READER, input__queues=(QueuePlan(1, 500), QueuePlan(1, 16)), input__arrives_in_fragments=True)
-TEXT = "z" * (PIECES * 56 - 8 - 5)
+TEXT = "z" * (FRAGMENTS_PER_SAMPLE * 56 - 8 - 5)
 SAMPLE = struct.pack("<I", len(TEXT) + 1) + TEXT.encode() + b"\0"
 
 
@@ -58,7 +58,7 @@ class Line:
 
 
 @pytest.mark.parametrize("slots", [1, 2, 16])
-@pytest.mark.parametrize("lost", range(PIECES))
+@pytest.mark.parametrize("lost", range(FRAGMENTS_PER_SAMPLE))
 def test_a_lost_fragment_is_requested_once(bench: Bench, slots: int, lost: int) -> None:
     """Without a HEARTBEAT the agent sends the lost piece and, where there was no slot, those after it: once each."""
     line = Line(bench, slots)
@@ -67,13 +67,13 @@ def test_a_lost_fragment_is_requested_once(bench: Bench, slots: int, lost: int) 
     line.client.sent.clear()
     line.client.queued += line.agent.offer(FIRST, SAMPLE)
     line.client.spin(6)
-    if lost == PIECES - 1:  # nothing after it tells of it
+    if lost == FRAGMENTS_PER_SAMPLE - 1:  # nothing after it tells of it
         line.client.queued += line.agent.tick()
         line.client.spin(2)
     assert line.client.ok("read_text 0 1000").lines == ("text " + TEXT,)
-    without_slot = max(0, PIECES - 1 - lost - (slots - 1))
-    assert line.sent == PIECES + 1 + without_slot
-    again = set(range(first + PIECES - without_slot, first + PIECES))
+    without_slot = max(0, FRAGMENTS_PER_SAMPLE - 1 - lost - (slots - 1))
+    assert line.sent == FRAGMENTS_PER_SAMPLE + 1 + without_slot
+    again = set(range(first + FRAGMENTS_PER_SAMPLE - without_slot, first + FRAGMENTS_PER_SAMPLE))
     assert sorted(line.named()) == sorted({first + lost, *again})
 
 
@@ -84,7 +84,7 @@ def test_two_losses_cost_two_fragments(bench: Bench) -> None:
     line.client.queued += line.agent.offer(FIRST, SAMPLE)
     line.client.spin(6)
     assert line.client.ok("read_text 0 1000").lines == ("text " + TEXT,)
-    assert line.sent == PIECES + 2
+    assert line.sent == FRAGMENTS_PER_SAMPLE + 2
 
 
 def test_a_lost_request_is_made_again_after_the_next_heartbeat(bench: Bench) -> None:

@@ -101,8 +101,24 @@ SOURCES = (
     "support/error_state.c",
 )
 SCOPES = st.tuples(st.sampled_from(["node", "n_2"]), st.sampled_from(["/", "/ns", "/a/b"]))
-PIECES = ["a", "b2", "3", "/", "~", "_", "{node}", "{ns}", "{namespace}", "{x}", "{", "}", "-", "{1}", "{}"]
-MORE_NAMES = st.lists(st.sampled_from(PIECES), max_size=6).map("".join)
+FRAGMENTS_PER_SAMPLE = [
+    "a",
+    "b2",
+    "3",
+    "/",
+    "~",
+    "_",
+    "{node}",
+    "{ns}",
+    "{namespace}",
+    "{x}",
+    "{",
+    "}",
+    "-",
+    "{1}",
+    "{}",
+]
+MORE_NAMES = st.lists(st.sampled_from(FRAGMENTS_PER_SAMPLE), max_size=6).map("".join)
 
 
 class Names:
@@ -230,7 +246,7 @@ def test_names_with_substitutions(names: Names, ros: Any, name: str, scope: tupl
 def test_where_a_topic_is_wrong(names: Names, ros: Any, name: str) -> None:
     from rclpy.impl.implementation_singleton import rclpy_implementation
 
-    said = rclpy_implementation.rclpy_get_validation_error_for_topic_name(name)
+    fault = rclpy_implementation.rclpy_get_validation_error_for_topic_name(name)
     if "\0" in name or (len(name) == 2 and name[0] == "~"):
         return  # rcl takes ~x, and refuses ~xy: it does not look at what is last
-    assert names.index(name) == (said[1] if said else None)
+    assert names.index(name) == (fault[1] if fault else None)

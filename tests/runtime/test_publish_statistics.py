@@ -151,8 +151,8 @@ def test_without_it_there_is_no_counter(tmp_path: Path) -> None:
         source.write_text(size, encoding="utf-8")
         command = ["gcc", "-c", f"-I{tree.include}", str(source), "-o", str(tree.folder / "size.o")]
         subprocess.run(command, check=True)
-        said = subprocess.run(
+        output = subprocess.run(
             ["nm", "-S", str(tree.folder / "size.o")], capture_output=True, text=True, check=True
         )
-        sizes.append(int(said.stdout.split()[1], 16))
+        sizes.append(int(output.stdout.split()[1], 16))
     assert 4 * plan.entities.publishers.max <= sizes[1] - sizes[0] <= 4 * plan.entities.publishers.max + 4

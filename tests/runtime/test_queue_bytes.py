@@ -80,13 +80,13 @@ def test_as_many_of_the_largest_fit_after_any_sequence(bench: Bench) -> None:
     assert places.take(GO) == "s" * 20
     places.client.spin(6)
     assert asked(places, GO)[-1] == 1, "one is here, and another one of the largest has room"
-    pieces = places.agent.offer(FIRST + GO, text(395, "b"))
-    assert len(pieces) > 4
-    places.send(pieces[:3])
+    chunks = places.agent.offer(FIRST + GO, text(395, "b"))
+    assert len(chunks) > 4
+    places.send(chunks[:3])
     places.client.spin(2)
     assert places.take(GO) == "a" * 395
     assert places.take(GO) is None, "the last one is not whole yet"
-    places.send(pieces[3:])
+    places.send(chunks[3:])
     places.client.spin(6)
     assert places.take(GO) == "b" * 395
     offered(places, GO, (395, "c"), (395, "d"), (1, "e"))

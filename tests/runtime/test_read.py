@@ -512,12 +512,12 @@ def test_fragments_where_none_are_planned(bench: Bench) -> None:
 def test_a_missing_fragment(bench: Bench) -> None:
     """A HEARTBEAT reports it: received fragments of that sample are discarded up to its last one."""
     reader = Reader(bench, LARGE, type_name="String")
-    pieces = reader.agent.offer(FIRST, _text(200))
-    number = struct.unpack_from("<H", pieces[1], 2)[0]
-    reader.send([pieces[0]])
+    chunks = reader.agent.offer(FIRST, _text(200))
+    number = struct.unpack_from("<H", chunks[1], 2)[0]
+    reader.send([chunks[0]])
     reader.client.spin()
     skip = b"\x81\0\0\0\x0b\x01\x05\0" + struct.pack("<HH", number + 1, number + 3) + b"\x80"
-    reader.send([skip, *pieces[2:]])
+    reader.send([skip, *chunks[2:]])
     reader.client.spin(2)
     assert reader.client.call("read_text 0 1000").code == TAKE_FAILED
     reader.send(reader.agent.offer(FIRST, _text(150, "b")))

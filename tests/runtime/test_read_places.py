@@ -83,14 +83,14 @@ def test_large_and_small_ones_under_loss_and_disorder(bench: Bench, seed: int) -
 
 def test_fragments_of_a_subscription_that_is_closed_meanwhile(bench: Bench) -> None:
     places = Places(bench, FRAGMENTS, THREE)
-    pieces = places.agent.offer(FIRST, text(300, "a"))
-    places.send(pieces[:3])
+    chunks = places.agent.offer(FIRST, text(300, "a"))
+    places.send(chunks[:3])
     places.client.spin(2)
     places.client.ok("read_fini 0 0")
     places.client.ok("read_init 0 0 String go best_effort")
     places.client.spin(4)
     places.send(places.agent.offer(FIRST, text(20, "b")))
-    places.send(pieces[3:])
+    places.send(chunks[3:])
     places.client.spin(2)
     assert places.take(0) == "b" * 20
     assert places.take(0) is None
@@ -100,10 +100,10 @@ def test_fragments_of_a_subscription_that_is_closed_meanwhile(bench: Bench) -> N
 def test_an_unrequested_sample_between_fragments(bench: Bench) -> None:
     """It takes the slot; a partly received sample is counted, and never delivered."""
     places = Places(bench, FRAGMENTS, THREE)
-    pieces = places.agent.offer(FIRST, text(300, "a"))
-    places.send(pieces[:3])
+    chunks = places.agent.offer(FIRST, text(300, "a"))
+    places.send(chunks[:3])
     places.send([places.message(places.data(0, text(30, "b")))])
-    places.send(pieces[3:])
+    places.send(chunks[3:])
     places.client.spin(2)
     assert places.take(0) == "b" * 30
     assert places.take(0) is None
@@ -112,8 +112,8 @@ def test_an_unrequested_sample_between_fragments(bench: Bench) -> None:
 
 def test_a_new_session_between_fragments(bench: Bench) -> None:
     places = Places(bench, FRAGMENTS, THREE)
-    pieces = places.agent.offer(FIRST, text(300, "a"))
-    places.send(pieces[:3])
+    chunks = places.agent.offer(FIRST, text(300, "a"))
+    places.send(chunks[:3])
     places.client.spin(1)
     places.agent.restart()
     places.client.spin(40, 50)

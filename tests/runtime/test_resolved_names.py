@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from tests.support.runtime.harness import FIXTURES, compile_merged, link
-from tests.support.runtime.returns import FLAGS, FOLDER, said
+from tests.support.runtime.returns import FLAGS, FOLDER, results_of
 from tests.support.runtime.surface import write_application
 
 pytestmark = pytest.mark.ros
@@ -62,7 +62,7 @@ def test_a_remapped_node_resolves_as_ros(tmp_path: Path) -> None:
     tree = write_application(tmp_path / "ours", APPLICATION)
     sources = [s for s in tree.sources if not s.parent.name.startswith("port_posix")]
     objects = compile_merged(tree, sources, [FOLDER / "resolve.c", FIXTURES / "port_agent.c"], "gcc", FLAGS)
-    mine = said(tmp_path, link(objects, "gcc", (), tmp_path / "mine"), *NAMES)
+    mine = results_of(tmp_path, link(objects, "gcc", (), tmp_path / "mine"), *NAMES)
     with ros_node() as node:
         expected = [
             (resolve(name, only_expand=bool(only)), index)

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.runtime.harness import FIXTURES, Tree, compile_merged, link
-from tests.support.runtime.returns import FLAGS, FOLDER, returned, said
+from tests.support.runtime.returns import FLAGS, FOLDER, results_of, returned
 from tests.support.runtime.surface import generate, write_application
 
 pytestmark = pytest.mark.ros
@@ -68,13 +68,13 @@ def of_librcl(source: Path, folder: Path, *packages: str) -> list[tuple[str, int
     paths = os.pathsep.join(map(str, (prefix / "lib", *bundled)))
     # Some of librcl's libraries are for Python alone, so an interpreter has to load them.
     load = f"import ctypes; ctypes.CDLL({str(theirs)!r}).main()"
-    return said(folder, sys.executable, "-c", load, LD_LIBRARY_PATH=paths, ROS_DOMAIN_ID="")
+    return results_of(folder, sys.executable, "-c", load, LD_LIBRARY_PATH=paths, ROS_DOMAIN_ID="")
 
 
 def of_ours(source: Path, tree: Tree, folder: Path, more: Iterable[Path] = ()) -> list[tuple[str, int]]:
     """Return what the program says over a generated library."""
     objects = compile_merged(tree, tree.sources, [source, *more], "gcc", FLAGS)
-    return said(folder, link(objects, "gcc", (), folder / "mine"))
+    return results_of(folder, link(objects, "gcc", (), folder / "mine"))
 
 
 def differing(mine: list[tuple[str, int]], known: list[tuple[str, int]]) -> dict[str, tuple[int, int]]:

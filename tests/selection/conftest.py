@@ -43,17 +43,17 @@ def resolve(catalogue: Catalogue, middleware: Middleware) -> Callable[..., Outco
     def run(
         *profiles: str, text: str = "", folder: Path = Path(), parts: tuple[str, ...] | None = None
     ) -> Outcome:
-        said = Diagnostics()
+        found_diagnostics = Diagnostics()
         application = Application()
         if text:
-            parsed = parse_application(Source("microros.yaml", text), said)
-            assert parsed is not None, [without_id(d.headline()) for d in said]
+            parsed = parse_application(Source("microros.yaml", text), found_diagnostics)
+            assert parsed is not None, [without_id(d.headline()) for d in found_diagnostics]
             application = parsed
         names = [Named(name) for name in profiles] or list(application.profiles)
-        resolved = resolve_profiles(load_profiles(names, folder, said), said)
+        resolved = resolve_profiles(load_profiles(names, folder, found_diagnostics), found_diagnostics)
         below = parts_of(application) if parts is None else parts
-        selection = resolve_selection(application, resolved, catalogue, middleware, said, below)
-        return Outcome(selection, tuple(without_id(d.headline()) for d in said))
+        selection = resolve_selection(application, resolved, catalogue, middleware, found_diagnostics, below)
+        return Outcome(selection, tuple(without_id(d.headline()) for d in found_diagnostics))
 
     return run
 
@@ -68,11 +68,15 @@ def resolve_with(middleware: Middleware) -> Callable[..., Outcome]:
     """Resolve built-in profiles with a catalogue and the text of an application file."""
 
     def run(parts: Catalogue, *profiles: str, text: str) -> Outcome:
-        said = Diagnostics()
-        application = parse_application(Source("microros.yaml", text), said)
+        found_diagnostics = Diagnostics()
+        application = parse_application(Source("microros.yaml", text), found_diagnostics)
         assert application is not None
-        resolved = resolve_profiles(load_profiles([Named(n) for n in profiles], Path(), said), said)
-        selection = resolve_selection(application, resolved, parts, middleware, said, parts_of(application))
-        return Outcome(selection, tuple(without_id(d.headline()) for d in said))
+        resolved = resolve_profiles(
+            load_profiles([Named(n) for n in profiles], Path(), found_diagnostics), found_diagnostics
+        )
+        selection = resolve_selection(
+            application, resolved, parts, middleware, found_diagnostics, parts_of(application)
+        )
+        return Outcome(selection, tuple(without_id(d.headline()) for d in found_diagnostics))
 
     return run

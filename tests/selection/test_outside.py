@@ -232,7 +232,7 @@ FAULTS = [
         "needs: [publisch]",
         "component.yaml:5:9: error: the component 'beacon' needs the unknown",
     ),
-    ("asks: [time]", "hue: red", "component.yaml:6:1: error: the file has no key 'hue'"),
+    ("asks: [time]", "hue: red", "component.yaml:6:1: error: unknown key 'hue' in the file"),
     (
         "component: beacon",
         "component: buoy",
@@ -246,27 +246,31 @@ FAULTS = [
         "hooks: {due: beacon_left(message)}",
         "component.yaml:6:14: error: unknown variable 'message' of the hook",
     ),
-    ("layer: middleware", "layer: port", "component.yaml:3:1: error: a part of a platform is no component"),
+    (
+        "layer: middleware",
+        "layer: port",
+        "component.yaml:3:1: error: a part of a platform is not a component",
+    ),
     (
         "asks: [time]",
         "implies: [{publisher: /x, type: Int32}]",
-        "component.yaml:6:33: error: 'Int32' is no type",
+        "component.yaml:6:33: error: 'Int32' is not a type",
     ),
 ]
 
 
 @pytest.mark.parametrize(
-    ("good", "bad", "said"), FAULTS, ids=[said.split("error: ")[1][:30] for *_, said in FAULTS]
+    ("good", "bad", "expected"), FAULTS, ids=[expected.split("error: ")[1][:30] for *_, expected in FAULTS]
 )
 def test_a_fault_is_reported_with_its_place(
-    good: str, bad: str, said: str, folder: Path, run: Runner
+    good: str, bad: str, expected: str, folder: Path, run: Runner
 ) -> None:
     assert good in COMPONENT
     write_files(folder / "beacon", {**BEACON, "component.yaml": COMPONENT.replace(good, bad)})
     application(folder)
     done = run("generate", "-o", "out")
     assert done.status == 2
-    assert said in without_id(done.err)
+    assert expected in without_id(done.err)
     assert not (folder / "out").exists()
 
 
@@ -295,7 +299,7 @@ def test_names_of_others_are_refused(folder: Path, run: Runner) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "expected"),
     [
         (
             "{% if %}\n",
@@ -304,25 +308,27 @@ def test_names_of_others_are_refused(folder: Path, run: Runner) -> None:
         ("{{ plan.nothing }}\n", "beacon_text.c.j2:2:1: error: the template cannot be rendered: "),
     ],
 )
-def test_a_faulty_template_is_reported_with_its_line(text: str, said: str, folder: Path, run: Runner) -> None:
+def test_a_faulty_template_is_reported_with_its_line(
+    text: str, expected: str, folder: Path, run: Runner
+) -> None:
     write_files(folder / "beacon", {**BEACON, "src/beacon_text.c.j2": f"/* first */\n{text}"})
     application(folder)
     done = run("generate", "-o", "out")
     assert done.status == 2
-    assert said in done.err
+    assert expected in done.err
 
 
 @pytest.mark.parametrize(
-    ("name", "said"),
+    ("name", "expected"),
     [
         ("./none", "'./none' is not a folder"),
         ("./empty", "'./empty' brings no component, profile, platform or target"),
         ("-./beacon", "'components[0]' must be a component to add or drop"),
     ],
 )
-def test_a_folder_that_brings_nothing(name: str, said: str, folder: Path, run: Runner) -> None:
+def test_a_folder_that_brings_nothing(name: str, expected: str, folder: Path, run: Runner) -> None:
     (folder / "empty").mkdir()
     application(folder, APPLICATION.replace("./beacon", name))
     done = run("generate", "-o", "out")
     assert done.status == 2
-    assert f"microros.yaml:5:14: error: {said}" in done.err
+    assert f"microros.yaml:5:14: error: {expected}" in done.err

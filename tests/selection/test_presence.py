@@ -132,11 +132,11 @@ def test_a_call_selects_who_declares_it_or_else_who_lists_it() -> None:
 
 
 @pytest.mark.parametrize(
-    ("files", "said"),
+    ("files", "expected"),
     [
         (
             {"component.yaml": "manifest: {x: streams.mtv}\n"},
-            "a component.yaml names 'streams.mtv', and the plan has no such value",
+            "a component.yaml names 'streams.mtv', which is not a value of the plan",
         ),
         (
             {"component.yaml": "calls: ['a b']\n"},
@@ -159,10 +159,10 @@ def test_a_call_selects_who_declares_it_or_else_who_lists_it() -> None:
         ({"component.yaml": "example: {}\n"}, "missing file 'example.c.j2'"),
     ],
 )
-def test_a_mistake_is_reported(files: dict[str, str], said: str, folder: Path, run: Runner) -> None:
+def test_a_mistake_is_reported(files: dict[str, str], expected: str, folder: Path, run: Runner) -> None:
     own = {**files, "component.yaml": BEACON["component.yaml"] + files["component.yaml"]}
     write_files(folder / "beacon", {**BEACON, **own})
     (folder / "microros.yaml").write_text(BEACON_APPLICATION)
     done = run("generate", "-o", "out")
     assert done.status == 2
-    assert said in done.err
+    assert expected in done.err

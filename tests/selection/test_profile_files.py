@@ -31,9 +31,11 @@ def write(folder: Path, **files: str) -> None:
 
 def fold(folder: Path, *names: str) -> tuple[list[str], dict[str, tuple[str, ...]]]:
     """Return the messages (without the folder) and the components of each resolved profile."""
-    said = Diagnostics()
-    resolved = resolve_profiles(load_profiles([Named(n) for n in names], folder, said), said)
-    lines = [without_id(d.headline()).replace(f"{folder.as_posix()}/", "") for d in said]
+    found_diagnostics = Diagnostics()
+    resolved = resolve_profiles(
+        load_profiles([Named(n) for n in names], folder, found_diagnostics), found_diagnostics
+    )
+    lines = [without_id(d.headline()).replace(f"{folder.as_posix()}/", "") for d in found_diagnostics]
     return lines, {p.name: tuple(sorted(a.name for a in p.adds)) for p in resolved}
 
 
@@ -43,11 +45,11 @@ def test_a_profile_extends_adds_and_drops(tmp_path: Path, resolve: Resolve) -> N
         quiet="profile: quiet\nextends: [configurable_sender_with_diagnostics]\n"
         "components: [-logging, +timers, clock]\nliveliness: none\n",
     )
-    said, found = fold(tmp_path, "quiet")
-    assert said == []
+    found_diagnostics, found = fold(tmp_path, "quiet")
+    assert found_diagnostics == []
     assert found == {"quiet": ("clock", "node", "parameters", "publish", "timers")}
     outcome = resolve("quiet", folder=tmp_path)
-    assert outcome.said == ()
+    assert outcome.messages == ()
     assert "logging" not in outcome.names()
     assert outcome.selection.liveliness == "none"
     assert outcome.reasons("timers") == ("profile quiet",)
@@ -74,7 +76,7 @@ def test_the_nearest_definition_wins(tmp_path: Path, resolve: Resolve) -> None:
         near="profile: near\nextends: [far]\nentities: reference\ncomponents: [-clock]\n",
     )
     outcome = resolve("near", folder=tmp_path)
-    assert outcome.said == ()
+    assert outcome.messages == ()
     assert outcome.selection.entities == "reference"
     assert "clock" not in outcome.names()
 
@@ -88,13 +90,13 @@ BASES = {
 def test_profiles_that_disagree_about_an_axis(tmp_path: Path, resolve: Resolve) -> None:
     write(tmp_path, **BASES)
     place = f"{tmp_path.as_posix()}"
-    said = resolve("b", "a", folder=tmp_path).said
-    assert said == (
+    found_diagnostics = resolve("b", "a", folder=tmp_path).messages
+    assert found_diagnostics == (
         f"{place}/b.yaml:3:13: error: the profile 'b' has liveliness: none, and the profile 'a' has "
         f"liveliness: ping ({place}/a.yaml:3). Decide in the application with `liveliness: none`",
     )
     decided = resolve("b", "a", folder=tmp_path, text="liveliness: none\n")
-    assert decided.said == ()
+    assert decided.messages == ()
 
 
 def test_a_component_that_one_profile_drops_and_another_has(tmp_path: Path, resolve: Resolve) -> None:
@@ -103,22 +105,22 @@ def test_a_component_that_one_profile_drops_and_another_has(tmp_path: Path, reso
         less="profile: less\nextends: [configurable_sender_with_diagnostics]\ncomponents: [-logging]\n",
     )
     write(tmp_path, more="profile: more\ncomponents: [+node, +logging]\n")
-    said = resolve("less", "more", folder=tmp_path).said
+    found_diagnostics = resolve("less", "more", folder=tmp_path).messages
     place = tmp_path.as_posix()
-    assert said == (
+    assert found_diagnostics == (
         f"{place}/less.yaml:3:14: error: the profile 'less' drops 'logging' and the profile 'more' has it "
         f"({place}/more.yaml:2). Decide in the application: `components: [+logging]` or `[-logging]`",
     )
     for sign, there in (("+", True), ("-", False)):
         decided = resolve("less", "more", folder=tmp_path, text=f"components: ['{sign}logging']\n")
-        assert decided.said == ()
+        assert decided.messages == ()
         assert ("logging" in decided.names()) is there
 
 
 def test_a_profile_that_drops_what_another_component_needs(tmp_path: Path, resolve: Resolve) -> None:
     write(tmp_path, broken="profile: broken\nextends: [pure_reader]\ncomponents: [-executor]\n")
-    said = resolve("broken", folder=tmp_path).said
-    assert said[0].startswith(
+    found_diagnostics = resolve("broken", folder=tmp_path).messages
+    assert found_diagnostics[0].startswith(
         f"{tmp_path.as_posix()}/broken.yaml:3:14: error: '-executor' of the profile broken drops a component "
         "that subscribe needs (selected by profile broken"
     )
@@ -164,11 +166,11 @@ ERRORS = {
     "empty": ({"x": "# nothing\n"}, "x.yaml:1:1: error: the file is empty. Write `key: value` lines"),
     "no name": (
         {"x": "summary: y\n"},
-        "x.yaml:1:1: error: the file lacks the key 'profile'. Add `profile: …`",
+        "x.yaml:1:1: error: missing key 'profile' in the file. Add `profile: …`",
     ),
     "unknown key": (
         {"x": "profile: x\ncomponent: [+clock]\n"},
-        "x.yaml:2:1: error: the file has no key 'component'. Did you mean 'components'?",
+        "x.yaml:2:1: error: unknown key 'component' in the file. Did you mean 'components'?",
     ),
     "bad axis": (
         {"x": "profile: x\nentities: binaries\n"},
@@ -196,8 +198,8 @@ ERRORS = {
 def test_faulty_profiles_are_reported_with_their_place(case: str, tmp_path: Path) -> None:
     files, expected = ERRORS[case]
     write(tmp_path, **files)
-    said, _ = fold(tmp_path, "x")
-    assert any(line.startswith(expected) for line in said), said
+    found_diagnostics, _ = fold(tmp_path, "x")
+    assert any(line.startswith(expected) for line in found_diagnostics), found_diagnostics
 
 
 def test_a_profile_that_there_is_not(tmp_path: Path) -> None:
@@ -213,8 +215,8 @@ def test_a_profile_that_there_is_not(tmp_path: Path) -> None:
 
 def test_a_profile_that_is_no_text(tmp_path: Path) -> None:
     (tmp_path / "x.yaml").write_bytes(b"profile: \xff\n")
-    said, _ = fold(tmp_path, "x")
-    assert said == ["microros-gen: error: 'x.yaml' is not UTF-8. Save the file as UTF-8"]
+    found_diagnostics, _ = fold(tmp_path, "x")
+    assert found_diagnostics == ["microros-gen: error: 'x.yaml' is not UTF-8. Save the file as UTF-8"]
 
 
 def test_profiles_are_found_in_the_repository() -> None:
@@ -236,9 +238,11 @@ def test_profiles_are_found_in_a_wheel(tmp_path: Path, monkeypatch: pytest.Monke
 def test_built_in_profiles_fit_the_schema() -> None:
     for path in sorted(profiles_folder().glob("*.yaml")):
         if path.name != "middleware.yaml":
-            said = Diagnostics()
+            found_diagnostics = Diagnostics()
             source = Source(path.name, path.read_text(encoding="utf-8"))
-            assert parse_profile(source, said) is not None, [without_id(d.headline()) for d in said]
+            assert parse_profile(source, found_diagnostics) is not None, [
+                without_id(d.headline()) for d in found_diagnostics
+            ]
 
 
 def test_a_built_in_profile_is_named_as_its_file(tmp_path: Path) -> None:
@@ -263,8 +267,8 @@ def test_a_faulty_middleware_table_is_refused(tmp_path: Path) -> None:
         ("  complete:", "  completes:", "unknown key 'completes'. Did you mean 'complete'"),
     ):
         assert before in text
-        said = Diagnostics()
-        parse_middleware(Source("m.yaml", text.replace(before, after)), said)
-        assert any(reported in without_id(d.headline()) for d in said), [
-            without_id(d.headline()) for d in said
+        found_diagnostics = Diagnostics()
+        parse_middleware(Source("m.yaml", text.replace(before, after)), found_diagnostics)
+        assert any(reported in without_id(d.headline()) for d in found_diagnostics), [
+            without_id(d.headline()) for d in found_diagnostics
         ]

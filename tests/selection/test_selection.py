@@ -31,7 +31,7 @@ nodes:
 @pytest.mark.parametrize("name", BUILTIN_PROFILES)
 def test_every_profile_resolves(name: str, resolve: Resolve) -> None:
     outcome = resolve(name)
-    assert outcome.said == ()
+    assert outcome.messages == ()
     assert outcome.selection.profiles == (name,)
     assert all(c.reasons for c in outcome.selection.components)
 
@@ -40,7 +40,7 @@ def test_every_profile_resolves(name: str, resolve: Resolve) -> None:
 @pytest.mark.parametrize("second", BUILTIN_PROFILES)
 def test_pairs_give_the_union_in_any_order(first: str, second: str, resolve: Resolve) -> None:
     both = resolve(first, second)
-    assert both.said == ()
+    assert both.messages == ()
     union = set(resolve(first).names()) | set(resolve(second).names())
     dropped = {"entities_binary"} if "static_configured_sender" in (first, second) else set()
     assert set(both.names()) == union - dropped
@@ -119,7 +119,7 @@ def test_a_reader_needs_no_reliable_output_and_reads_reliably(resolve: Resolve) 
 def test_axes_pick_their_components(resolve: Resolve) -> None:
     text = "profiles: [pure_sender]\nentities: xml\ntransport: {type: serial}\nliveliness: acknack\n"
     outcome = resolve(text=text)
-    assert outcome.said == ()
+    assert outcome.messages == ()
     assert outcome.reasons("entities_xml") == ("entities: xml (microros.yaml:2)",)
     assert outcome.reasons("transport_serial") == ("transport: serial (microros.yaml:3)",)
     assert outcome.reasons("liveliness_acknack") == ("liveliness: acknack (microros.yaml:4)",)
@@ -150,7 +150,7 @@ def test_a_static_sender_refers_and_can_be_preconfigured(resolve: Resolve) -> No
     assert resolve("static_configured_sender").selection.entities == "reference"
     text = "profiles: [static_configured_sender]\nentities: preconfigured\n"
     outcome = resolve(text=text)
-    assert outcome.said == ()
+    assert outcome.messages == ()
     assert outcome.selection.entities == "preconfigured"
 
 
@@ -244,31 +244,33 @@ ERRORS = {
 @pytest.mark.parametrize("case", ERRORS)
 def test_contradictions_name_both_places(case: str, resolve: Resolve) -> None:
     text, expected = ERRORS[case]
-    said = resolve(text=text).said
-    assert any(line.startswith(expected) for line in said), said
+    messages = resolve(text=text).messages
+    assert any(line.startswith(expected) for line in messages), messages
 
 
 def test_all_contradictions_are_reported_in_one_run(resolve: Resolve) -> None:
     text = "profiles: [pure_sender]\ncomponents: [-node, -ping, +tymers]\nentities: xml\n"
-    assert len([line for line in resolve(text=text).said if ": error: " in line]) == 3
+    assert len([line for line in resolve(text=text).messages if ": error: " in line]) == 3
 
 
 def test_a_drop_without_effect_is_a_warning(resolve: Resolve) -> None:
-    said = resolve(text="profiles: [pure_sender]\ncomponents: [-timers]\n").said
-    assert said == ("microros.yaml:2:14: warning: '-timers' drops nothing: no selected profile has 'timers'",)
+    messages = resolve(text="profiles: [pure_sender]\ncomponents: [-timers]\n").messages
+    assert messages == (
+        "microros.yaml:2:14: warning: '-timers' drops nothing: no selected profile has 'timers'",
+    )
 
 
 def test_dropping_what_a_profile_has(resolve: Resolve) -> None:
     text = "profiles: [ad_hoc_discoverable_sender]\ncomponents: [-discovery]\n"
     outcome = resolve(text=text)
-    assert outcome.said == ()
+    assert outcome.messages == ()
     assert "discovery" not in outcome.names()
 
 
 def ready_errors(outcome: Outcome) -> list[str]:
-    said = Diagnostics()
-    check_ready(outcome.selection, said)
-    return [without_id(d.headline()) for d in said]
+    messages = Diagnostics()
+    check_ready(outcome.selection, messages)
+    return [without_id(d.headline()) for d in messages]
 
 
 def test_a_pure_sender_is_ready(resolve: Resolve) -> None:
@@ -298,7 +300,7 @@ def test_what_is_planned_is_named_with_who_asked(resolve: Resolve) -> None:
 def test_a_users_profile_far_away_is_no_problem(resolve: Resolve, tmp_path: Path) -> None:
     (tmp_path / "mine.yaml").write_text("profile: mine\nextends: [pure_sender]\ncomponents: [+clock]\n")
     outcome = resolve("mine", folder=tmp_path)
-    assert outcome.said == ()
+    assert outcome.messages == ()
     assert outcome.selection.profiles == ("mine",)
     assert outcome.reasons("publish") == ("profile mine",)
 

@@ -117,7 +117,7 @@ ResolveWith = Callable[..., Outcome]
 def forbidden(outcome: Outcome, middleware: Middleware) -> set[str]:
     """Return what a client would send or receive and its XRCE profiles do not allow."""
     selection = outcome.selection
-    assert outcome.said == ()
+    assert outcome.messages == ()
     used = {c.name for c in (*selection.sends, *selection.receives)}
     return used - allowed_submessages(selection, middleware)
 
@@ -191,11 +191,11 @@ def test_a_stream_for_creation_where_nothing_is_created(
     outcome = resolve_with(
         real_catalogue, "pure_sender", text="entities: preconfigured\ncreation: reliable\n"
     )
-    (said,) = outcome.said
-    assert said.startswith("microros.yaml:")
-    assert ": error: creation: reliable (microros.yaml:" in said
-    assert "contradicts entities: preconfigured (microros.yaml:" in said
-    assert "Remove `creation:`" in said
+    (messages,) = outcome.messages
+    assert messages.startswith("microros.yaml:")
+    assert ": error: creation: reliable (microros.yaml:" in messages
+    assert "contradicts entities: preconfigured (microros.yaml:" in messages
+    assert "Remove `creation:`" in messages
 
 
 def test_a_preconfigured_pure_sender_only_writes(resolve_with: ResolveWith, catalogue: Catalogue) -> None:

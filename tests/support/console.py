@@ -166,28 +166,28 @@ class Terminal:
             stderr=subprocess.STDOUT,
             text=True,
         )
-        said: list[str] = []
-        self._running.append((command, process, said))
-        threading.Thread(target=_collect, args=(process, said), daemon=True).start()
+        output: list[str] = []
+        self._running.append((command, process, output))
+        threading.Thread(target=_collect, args=(process, output), daemon=True).start()
         end = deadline(_WAIT_S)
-        while not shows(self._unmoved("".join(said)), shown, begun=True):
-            assert time.monotonic() < end, f"$ {command} &\n{''.join(said)}"
-            assert process.poll() is None, f"$ {command} & ended with {process.returncode}\n{''.join(said)}"
+        while not shows(self._unmoved("".join(output)), shown, begun=True):
+            assert time.monotonic() < end, f"$ {command} &\n{''.join(output)}"
+            assert process.poll() is None, f"$ {command} & ended with {process.returncode}\n{''.join(output)}"
             time.sleep(0.05)
 
     def _others(self) -> str:
-        return "".join(f"\n$ {command} &\n{''.join(said)}" for command, _, said in self._running)
+        return "".join(f"\n$ {command} &\n{''.join(output)}" for command, _, output in self._running)
 
     def close(self) -> None:
         """Press Ctrl-C for what still runs, the last one first; each has to end without complaint."""
         complaints = []
-        for command, process, said in reversed(self._running):
+        for command, process, output in reversed(self._running):
             if process.poll() is None:
                 process.send_signal(signal.SIGINT)
             with suppress(subprocess.TimeoutExpired):
                 process.wait(20)
             if process.poll() not in (0, 130):
-                complaints.append(f"$ {command} & ended with {process.poll()}\n{''.join(said)}")
+                complaints.append(f"$ {command} & ended with {process.poll()}\n{''.join(output)}")
             process.kill()
             process.wait()
         assert not complaints, complaints
@@ -198,10 +198,10 @@ def _script(path: Path, text: str) -> None:
     path.chmod(0o755)
 
 
-def _collect(process: subprocess.Popen[str], said: list[str]) -> None:
+def _collect(process: subprocess.Popen[str], output: list[str]) -> None:
     assert process.stdout is not None
     for line in process.stdout:
-        said.append(line)
+        output.append(line)
     process.stdout.close()
 
 

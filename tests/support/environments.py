@@ -34,9 +34,9 @@ def interpreters() -> dict[tuple[int, int], str]:
     found: dict[tuple[int, int], str] = {sys.version_info[:2]: sys.executable}
     for candidate in _candidates():
         query = "import sys, venv; print(*sys.version_info[:2], sys.implementation.name)"
-        said = subprocess.run([candidate, "-c", query], capture_output=True, text=True, check=False)
-        words = said.stdout.split()
-        if said.returncode == 0 and words[2] == "cpython" and (int(words[0]), int(words[1])) >= OLDEST:
+        output = subprocess.run([candidate, "-c", query], capture_output=True, text=True, check=False)
+        words = output.stdout.split()
+        if output.returncode == 0 and words[2] == "cpython" and (int(words[0]), int(words[1])) >= OLDEST:
             found.setdefault((int(words[0]), int(words[1])), candidate)
     return dict(sorted(found.items()))
 

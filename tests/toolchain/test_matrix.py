@@ -121,10 +121,10 @@ def test_the_header_of_what_is_not_selected_names_the_key(tree_of: TreeOf, tmp_p
     for header in refused:
         (tmp_path / "use.c").write_text(f"#include <{header}>\n")
         command = f"gcc -fsyntax-only -Iinclude '{tmp_path / 'use.c'}' 2>&1 && exit 1; exit 0"
-        said = check(["sh", "-c", command], tree.out)
+        output = check(["sh", "-c", command], tree.out)
         keys = ("components: [+", "transport: {type: ", "target: {name: ")
         reported = [f"is not selected: add `{key}" for key in keys] + ["is not in this version yet"]
-        assert any(text in said for text in reported), header
+        assert any(text in output for text in reported), header
 
 
 @pytest.mark.parametrize("name", VARIANTS)

@@ -182,10 +182,10 @@ def test_bounds_cap_general_rules(messages: Mapping[TypeName, Message]) -> None:
         (rule("pkg/msg/Root.middle.leaves", sequence=5), "is above its bound 4"),
         (rule("pkg/msg/Root.nmaes", sequence=5), "has no member 'nmaes'. Did you mean 'names'?"),
         (rule("pkg/msg/Root.number", sequence=5), "pkg/msg/Root.number has a fixed size"),
-        (rule("pkg/msg/Leaf.raw", string=5), "pkg/msg/Leaf.raw is no string"),
-        (rule("pkg/msg/Leaf.text", sequence=5), "pkg/msg/Leaf.text is no sequence"),
+        (rule("pkg/msg/Leaf.raw", string=5), "pkg/msg/Leaf.raw is not a string"),
+        (rule("pkg/msg/Leaf.text", sequence=5), "pkg/msg/Leaf.text is not a sequence"),
         (rule("pkg/msg/Root.names", 5, 5, single=True), "is ambiguous: it is a sequence of strings"),
-        (rule("pkg/msg/Root.names.x", string=5), "there are no members below a primitive"),
+        (rule("pkg/msg/Root.names.x", string=5), "a primitive has no members"),
         (rule("pkg/msg/Leaf.text", string=-1), "a string limit of -1 is out of range"),
     ],
 )
@@ -239,7 +239,7 @@ def test_a_default_value_above_the_limit_is_refused(tmp_path: Path) -> None:
     found = [without_id(d.headline()) for d in diagnostics]
     assert [line.split(": ")[0] for line in found] == ["D.msg:1:1", "D.msg:2:1", "D.msg:3:1"]
     assert (
-        "default value of 'greeting' needs a string limit of 5, and that of pkg/msg/D.greeting is 2"
+        "default value of 'greeting' needs a string limit of 5, but the limit of pkg/msg/D.greeting is 2"
         in found[0]
     )
 
@@ -260,8 +260,8 @@ def test_a_default_value_above_a_limit_names_the_use_and_the_topic() -> None:
     capacities = plan_capacities(messages, roots, rules, Defaults(), diagnostics)
     plan_types(messages, capacities, lambda _: "RIHS01_0", diagnostics)
     found = "\n".join(without_id(d.headline()) for d in diagnostics)
-    assert "limit of 5, and that of pkg/msg/Out.parts.word is 3" in found
-    assert "limit of 5, and that of pkg/msg/Out.one.word on /low is 4" in found
+    assert "limit of 5, but the limit of pkg/msg/Out.parts.word is 3" in found
+    assert "limit of 5, but the limit of pkg/msg/Out.one.word on /low is 4" in found
 
 
 def test_a_message_beyond_32_bits_is_refused(messages: Mapping[TypeName, Message]) -> None:

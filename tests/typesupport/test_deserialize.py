@@ -181,14 +181,14 @@ def build(folder: Path, components: str) -> Path:
 
 def symbols(out: Path) -> set[str]:
     """Return what the library defines."""
-    said = subprocess.run(
+    output = subprocess.run(
         ["nm", "-P", "--defined-only", "lib/libmicroros.a"],
         cwd=out,
         capture_output=True,
         text=True,
         check=True,
     )
-    return {line.split()[0] for line in said.stdout.splitlines() if len(line.split()) > 2}
+    return {line.split()[0] for line in output.stdout.splitlines() if len(line.split()) > 2}
 
 
 def test_messages_are_read_and_refused_with_a_reason(tmp_path: Path) -> None:

@@ -71,8 +71,8 @@ def test_a_wrong_largest_size_does_not_compile(chosen: Generated, name: str, by:
     source = chosen.folder / found.files.type_support_source
     assert compile_c(source, chosen.includes) == ""
     wrong = with_wrong_size(chosen.folder / found.files.type_support, tmp_path, found.c_name, by)
-    said = compile_c(source, wrong + chosen.includes)
-    assert f"{found.c_name}__assert_max_encoded_size" in said
+    output = compile_c(source, wrong + chosen.includes)
+    assert f"{found.c_name}__assert_max_encoded_size" in output
 
 
 def test_each_part_is_computed_by_the_compiler(chosen: Generated, tmp_path: Path) -> None:

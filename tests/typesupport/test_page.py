@@ -87,7 +87,7 @@ def test_what_the_page_names_exists() -> None:
 
 
 @pytest.mark.parametrize(
-    ("member", "rule", "said"),
+    ("member", "rule", "expected"),
     [
         ("string<=3 a", LimitRule(("a/msg/A", "a"), string=4), "above its bound 3"),
         ("int8[<=3] a", LimitRule(("a/msg/A", "a"), sequence=4), "above its bound 3"),
@@ -97,10 +97,10 @@ def test_what_the_page_names_exists() -> None:
     ],
 )
 def test_the_generator_refuses_limits_that_cannot_be(
-    member: str, rule: LimitRule, said: str, tmp_path: Path
+    member: str, rule: LimitRule, expected: str, tmp_path: Path
 ) -> None:
     (tmp_path / "a/msg").mkdir(parents=True)
     (tmp_path / "a/msg/A.msg").write_text(f"{member}\n")
     with pytest.raises(UserError) as raised:
         generate(["a"], (rule,), tmp_path / "out", [tmp_path])
-    assert any(said in str(without_id(d.headline())) for d in raised.value.diagnostics)
+    assert any(expected in str(without_id(d.headline())) for d in raised.value.diagnostics)

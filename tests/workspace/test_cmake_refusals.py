@@ -51,19 +51,22 @@ def test_what_the_tool_says_arrives_as_it_is(project: Project) -> None:
 
 
 def test_an_argument_that_it_does_not_have(project: Project) -> None:
-    said = refused(project, FIND + "microros_add_library(robot PROFILE pure_sender)\n")
-    assert "microros_add_library(robot): 'PROFILE' is no argument of it. There are: CONFIG, TARGET" in said
+    output = refused(project, FIND + "microros_add_library(robot PROFILE pure_sender)\n")
+    assert (
+        "microros_add_library(robot): 'PROFILE' is not one of its arguments. Available: CONFIG, TARGET"
+        in output
+    )
 
 
 def test_sources_for_another_machine(project: Project) -> None:
-    said = refused(project, FIND + "microros_add_library(robot PROFILES pure_sender TARGET cortex-m4)\n")
-    assert "its target is a microcontroller, and this project compiles for this machine" in said
+    output = refused(project, FIND + "microros_add_library(robot PROFILES pure_sender TARGET cortex-m4)\n")
+    assert "its target is a microcontroller, and this project compiles for this machine" in output
     add = "microros_add_library(robot PROFILES pure_sender)\n"
     text = (EXAMPLE / "qemu-mps2-an386.cmake").read_text(encoding="utf-8")
     toolchain = project.source / "vendor.cmake"  # with another name of the processor than the tool's
     toolchain.write_text(text.replace("CMAKE_SYSTEM_PROCESSOR qemu-mps2-an386", "CMAKE_SYSTEM_PROCESSOR arm"))
-    said = refused(project, FIND + add, "--fresh", f"-DCMAKE_TOOLCHAIN_FILE={toolchain}")
-    assert "and this project compiles for arm without one. Say which with TARGET" in said
+    output = refused(project, FIND + add, "--fresh", f"-DCMAKE_TOOLCHAIN_FILE={toolchain}")
+    assert "and this project compiles for arm without one. Say which with TARGET" in output
 
 
 @pytest.mark.skipif(shutil.which("arm-none-eabi-gcc") is None, reason="no arm-none-eabi-gcc")
@@ -82,11 +85,12 @@ def test_a_python_without_the_dependencies(project: Project) -> None:
     bare = project.source / "python"
     bare.write_text(f'#!/bin/sh\nexec "{sys.executable}" -S "$@"\n')
     bare.chmod(0o755)
-    said = refused(project, FIND, f"-DMICROROS_GEN_PYTHON={bare}")
+    output = refused(project, FIND, f"-DMICROROS_GEN_PYTHON={bare}")
     assert (
-        f"MICROROS_GEN_PYTHON ({bare}) cannot run microros_gen: ModuleNotFoundError: No module named" in said
+        f"MICROROS_GEN_PYTHON ({bare}) cannot run microros_gen: ModuleNotFoundError: No module named"
+        in output
     )
-    assert "-m pip install" in said
+    assert "-m pip install" in output
 
 
 def test_every_dependency_is_looked_for() -> None:

@@ -140,13 +140,13 @@ def test_a_changed_message_reaches_the_firmware_and_nothing_else_is_built_again(
     replace(
         built.folder / "src/base_interfaces/msg/Wheel.msg", "float32 speed", "float32 radius\nfloat32 speed"
     )
-    said = built.build()
+    output = built.build()
     after = hashes(manifest)
     changed = {name for name, value in after.items() if before[name] != value}
     assert changed == {"base_interfaces/msg/Wheel", "robot_interfaces/msg/Robot"}
     assert after["base_interfaces/msg/Wheel"] == rosidl_hashes(built)["base_interfaces/msg/Wheel"]
-    assert "src/rosidl_runtime/string.c" not in said
-    assert "src/robot_interfaces/robot__type_support.c" in said
+    assert "src/rosidl_runtime/string.c" not in output
+    assert "src/robot_interfaces/robot__type_support.c" in output
 
 
 @pytest.mark.skipif(shutil.which("arm-none-eabi-gcc") is None, reason="no arm-none-eabi-gcc")
@@ -169,9 +169,10 @@ def test_a_budget_is_checked_as_build_checks_it(built: Built, tmp_path: Path) ->
     source = f". {shlex.quote(str(built.folder / 'install/local_setup.sh'))}\n"
     done = shell(tmp_path, built.environment, source + BUILD)
     assert done.returncode != 0
-    said = done.stdout + done.stderr
+    output = done.stdout + done.stderr
     assert re.search(
-        r"microros\.yaml:8:22: error: static RAM in the image: \d+ bytes, and memory.ram_budget is 1024", said
+        r"microros\.yaml:8:22: error: static RAM in the image: \d+ bytes, and memory.ram_budget is 1024",
+        output,
     )
 
 

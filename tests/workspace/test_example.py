@@ -47,10 +47,10 @@ def test_for_a_board_it_becomes_its_image(board: Project) -> None:
     assert "Linking" not in again
     for suffix in ("app.elf", "app.hex", "app.bin"):
         assert (folder / suffix).stat().st_size > 0
-    said = run("arm-none-eabi-readelf", "-A", "-s", "app.elf", cwd=folder, env=environment).stdout
-    assert 'Tag_CPU_name: "7E-M"' in said or 'Tag_CPU_name: "Cortex-M4"' in said
-    assert "Tag_ABI_VFP_args: VFP registers" in said
-    assert "port_cortex_m_vectors" in said
+    output = run("arm-none-eabi-readelf", "-A", "-s", "app.elf", cwd=folder, env=environment).stdout
+    assert 'Tag_CPU_name: "7E-M"' in output or 'Tag_CPU_name: "Cortex-M4"' in output
+    assert "Tag_ABI_VFP_args: VFP registers" in output
+    assert "port_cortex_m_vectors" in output
     assert TOOLCHAIN.read_bytes() == (folder / "robot-microros/toolchain.cmake").read_bytes()
 
 

@@ -102,12 +102,12 @@ def test_the_commands_of_the_page(project: Project) -> None:
 
 
 def test_explain_names_the_way_from_its_main(project: Project) -> None:
-    said = json.loads(
+    output = json.loads(
         tool(project, "explain", project.build_folder, "rcl_publish", "--format", "json").stdout
     )
-    assert (said["of"], said["present"]) == ("publish", True)
-    assert said["chain"][0] == "main"
-    assert said["place"].startswith("src/publish/rcl_publisher.c:")
+    assert (output["of"], output["present"]) == ("publish", True)
+    assert output["chain"][0] == "main"
+    assert output["place"].startswith("src/publish/rcl_publisher.c:")
     own = json.loads(tool(project, "explain", project.build_folder, "app.c", "--format", "json").stdout)
     assert own["flash"] == owners(sized(project, project.build_folder), "application")["app.c.o"]
     assert "publish" in {part["name"] for part in own["holds"]}
@@ -170,8 +170,8 @@ def test_an_image_of_somebody_elses_archive(project: Project, tmp_path: Path) ->
     assert {"session", "support", "ping"} <= set(owners(data, "component"))
     assert set(owners(data, "other library")) == {"libdriver.a"}
     assert set(owners(data, "application")) == {"main.o"}
-    said = tool(project, "explain", project.out, "rclc_support_init", "--image", tmp_path / "robot").stdout
-    assert re.search(r"^reached +main → rclc_support_init", said, re.MULTILINE)
+    output = tool(project, "explain", project.out, "rclc_support_init", "--image", tmp_path / "robot").stdout
+    assert re.search(r"^reached +main → rclc_support_init", output, re.MULTILINE)
     assert (
         any("-fcallgraph-info=su" in text for text in data["stack"]["not_counted"])
         or not data["stack"]["known"]
@@ -316,8 +316,8 @@ def plain_image_is_checked_by_the_command_of_the_page(project: Project, firmware
         (firmware / "microros.yaml").write_text(SMALL.replace("128", budget))
         built = project.build("--target", "plain")
         assert built.returncode == 0, built.stdout
-        said = tool(project, *words, status=status).stderr
-        found = [(place, key) for place, _, key in EXCEEDED.findall(said)]
+        output = tool(project, *words, status=status).stderr
+        found = [(place, key) for place, _, key in EXCEEDED.findall(output)]
         assert found == ([(":6:22", "memory.ram_budget is 128")] if status else [])
 
 
@@ -363,14 +363,14 @@ def test_a_board_has_a_bound_for_everything(board: Project) -> None:
 
 
 def test_what_is_not_there_is_said(project: Project, tmp_path: Path) -> None:
-    said = tool(project, "size", tmp_path, status=2).stderr
-    assert "is not an output folder of microros-gen, and no CMake build folder that has one" in said
+    output = tool(project, "size", tmp_path, status=2).stderr
+    assert "is not an output folder of microros-gen, and no CMake build folder that has one" in output
     image = project.build_folder / "app"
     hidden = image.rename(image.with_suffix(".hidden"))
     try:
         for command in (("size",), ("run",)):
-            said = tool(project, *command, project.build_folder, status=2).stderr
-            assert f"{image} was not built yet. Build it: cmake --build {project.build_folder}" in said
+            output = tool(project, *command, project.build_folder, status=2).stderr
+            assert f"{image} has not been built yet. Build it: cmake --build {project.build_folder}" in output
     finally:
         hidden.rename(image)
     whole = tool(project, "size", project.build_folder, "--image", sys.executable, status=2).stderr
@@ -378,5 +378,5 @@ def test_what_is_not_there_is_said(project: Project, tmp_path: Path) -> None:
     cut = tmp_path / "cut"
     cut.write_bytes(image.read_bytes()[:3000])
     for path in (cut, Path("/dev/zero")):
-        said = tool(project, "size", project.build_folder, "--image", path, status=1).stderr
-        assert f"{path} cannot be measured: " in said
+        output = tool(project, "size", project.build_folder, "--image", path, status=1).stderr
+        assert f"{path} cannot be measured: " in output

@@ -45,12 +45,12 @@ def cmake(source: Path, prefix: Path, *options: str) -> str:
         f"-DCMAKE_INSTALL_PREFIX={prefix}",
         *options,
     ]
-    said = ""
+    output = ""
     for command in (["cmake", *configure], ["cmake", "--build", str(build), "--target", "install"]):
         done = subprocess.run(command, env=environment, text=True, capture_output=True, check=False)
         assert done.returncode == 0, done.stdout + done.stderr
-        said += done.stdout
-    return said
+        output += done.stdout
+    return output
 
 
 @pytest.mark.ros
@@ -131,8 +131,8 @@ def test_rosidl_prints_the_tools_diagnostics(tmp_path: Path, capsys: pytest.Capt
     with pytest.raises(SystemExit) as end:
         Generator("microros").generate("mine", [f"{tmp_path}:msg/Wrong.msg"], [], tmp_path / "out")
     assert end.value.code == 2
-    said = capsys.readouterr().err
-    assert said.startswith(f"{tmp_path}/msg/Wrong.msg:2:1: error: unknown interface package 'other_msgs'")
-    assert "-I adds a place" in said
+    output = capsys.readouterr().err
+    assert output.startswith(f"{tmp_path}/msg/Wrong.msg:2:1: error: unknown interface package 'other_msgs'")
+    assert "-I adds a place" in output
     with pytest.raises(SystemExit, match=r"cannot read the interface file 'msg/None\.msg'"):
         Generator("microros").generate("mine", ["msg/None.msg"], [], tmp_path / "out")

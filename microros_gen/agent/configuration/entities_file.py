@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Text of an entities file (`microros-gen agent … --entities`) → clients and their objects.
 
-The file is JSON, which YAML includes; every fault is told at its place in one run.
+The file is JSON, which YAML includes; every fault is reported at its place in one run.
 
     {"version": 1, "clients": [{"key": "0xAABBCCDD", "objects": [
       {"id": "0x0001", "kind": "participant", "name": "imu_node", "domain": 0},
@@ -106,9 +106,7 @@ def _clients(source: Source, diagnostics: Diagnostics) -> list[PreconfiguredClie
     check_keys(root, ("version", "clients"), ("version", "clients"), diagnostics)
     version = root.get("version")
     if version is not None and not (isinstance(version, ScalarNode) and version.value == VERSION):
-        diagnostics.error(
-            "this version of the file is not known", version.span, f"Write {VERSION}", id="MG-9402"
-        )
+        diagnostics.error("unknown version of the file", version.span, f"Write {VERSION}", id="MG-9402")
     clients = [_client(node, diagnostics) for node in _items(root, "clients", diagnostics)]
     return [client for client in clients if client]
 
@@ -166,7 +164,7 @@ def _check_distinct(clients: list[PreconfiguredClient], diagnostics: Diagnostics
         if other is not client:
             name = "*" if client.key is None else f"0x{client.key.hex().upper()}"
             diagnostics.error(
-                f"client {name} is there twice; first in {other.span}",
+                f"duplicate client {name}; first in {other.span}",
                 client.span,
                 "Join the two",
                 id="MG-9407",
@@ -236,7 +234,7 @@ class _Objects:
             )
         elif identifier in self.found:
             self._diagnostics.error(
-                f"the id {identifier:#06x} is there twice; first in line {self._line_of(identifier)}",
+                f"duplicate id {identifier:#06x}; first in line {self._line_of(identifier)}",
                 entry.span,
                 "Give each object a different id",
                 id="MG-9410",
@@ -270,7 +268,10 @@ class _Objects:
             known = [f"{o.id:#06x}" for o in self.found.values() if o.kind == kind]
             hint = nearest(f"{identifier:#06x}", known) or f"Put the {kind} before what names it"
             self._diagnostics.error(
-                f"no {kind} {identifier:#06x} is among the objects before", value.span, hint, id="MG-9412"
+                f"unknown {kind} {identifier:#06x}: no earlier object has this id",
+                value.span,
+                hint,
+                id="MG-9412",
             )
         return identifier
 

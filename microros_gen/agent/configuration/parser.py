@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Text of a configuration file (`microros-gen agent --config`) → what it says. Every fault is told at its place.
+"""Text of a configuration file (`microros-gen agent --config`) → what it says. Every fault is reported at its place.
 
 The structure is that of agent.schema.json, which editors use as well.
 """

@@ -94,7 +94,7 @@ class _Tree:
             return None
         for place in self._doctypes:
             hint = "Remove the <!DOCTYPE …>"
-            diagnostics.error("document types and entities are not taken", place, hint, id="MG-9418")
+            diagnostics.error("document types and entities are not supported", place, hint, id="MG-9418")
         return None if self._doctypes else self._builder.close()
 
     def place(self, element: Element) -> Span:
@@ -127,7 +127,7 @@ class _Gathered:
         place = tree.place(element)
         if element.tag not in _SERVED:
             if element.tag not in _OTHERS:
-                hint = nearest(element.tag, _SERVED) or f"There are {', '.join(_SERVED)}"
+                hint = nearest(element.tag, _SERVED) or f"Available: {', '.join(_SERVED)}"
                 self._diagnostics.error(f"unknown kind of profile '{element.tag}'", place, hint, id="MG-9419")
             return
         name = element.get("profile_name", "")
@@ -173,7 +173,7 @@ class _Gathered:
         first = self._places.setdefault((kind, name), place)
         if self.known.setdefault((kind, name), description) != description:
             self._diagnostics.error(
-                f"'{name}' is another one already, in {first}",
+                f"duplicate name '{name}'; first in {first}",
                 place,
                 "Give one of them another profile_name",
                 id="MG-9424",
@@ -187,7 +187,7 @@ def _profiles(root: Element, tree: _Tree, diagnostics: Diagnostics) -> list[Elem
         return []
     if root.tag != "dds":
         hint = "The root of a file of references is <profiles>, or <dds> with <profiles> in it"
-        diagnostics.error(f"<{root.tag}> holds no references", tree.place(root), hint, id="MG-9425")
+        diagnostics.error(f"<{root.tag}> contains no references", tree.place(root), hint, id="MG-9425")
         return []
     for child in root:
         if child.tag not in ("profiles", *_BESIDE_PROFILES):

@@ -113,7 +113,7 @@ class RawSource(Entity):
         self._libraries = ros.libraries
         self._wakeups = ros.wakeups
         self._descriptor = ros.wakeups.add(self)
-        # What came before is told at once, unless it comes between the two steps of rmw_fastrtps: so look once.
+        # What came before is reported at once, unless it comes between the two steps of rmw_fastrtps: so look once.
         if notify(self._pointer, ros.libraries.eventfd_write, self._descriptor) != OK:
             ros.wakeups.remove(self._descriptor)
             raise BridgeError(self._libraries.error())

@@ -170,10 +170,10 @@ class Comparison(Watcher):
                 nameless = True
             elif any(_differs(type_name, type_hash, found) for type_name, type_hash in alike):
                 for endpoint in due:
-                    self._tell(endpoint, _difference(endpoint, found))
+                    self._report_once(endpoint, _difference(endpoint, found))
         return nameless
 
-    def _tell(self, endpoint: Endpoint, report: GraphReport | None) -> None:
+    def _report_once(self, endpoint: Endpoint, report: GraphReport | None) -> None:
         reported = self._reported[endpoint]
         if report is not None and report not in reported and len(reported) < MOST_REPORTED:
             reported.add(report)

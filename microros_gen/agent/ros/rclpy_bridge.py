@@ -43,7 +43,7 @@ MAXIMUM_DOMAIN = 232
 DOMAIN_OF_AGENT = 255
 """Clients that ask for this domain (a convention of the public client) get the agent's own, ROS_DOMAIN_ID."""
 OWN_NODE = "_microros_agent"
-"""Begin of the name of the agent's own node in a domain; `ros2 node list` leaves out names with an underscore."""
+"""Start of the name of the agent's own node in a domain; `ros2 node list` leaves out names with an underscore."""
 TRIM_AFTER, TRIM_EVERY_S = 64, 30.0
 """Nodes that have left since free memory was returned to the system, and the least time in between: it takes some
 milliseconds. What Fast DDS frees lies between what it has in use, and glibc keeps it."""
@@ -97,7 +97,7 @@ class RclpyBridge:
         self._maximum_domains = maximum_domains
         self._contexts: dict[int, _Context] = {}
         self._without_hash: set[str] = set()
-        self._told_domains: set[int] = set()
+        self._reported_domains: set[int] = set()
         self._left = 0
         self._trimmed_at = time.monotonic()
 
@@ -112,7 +112,7 @@ class RclpyBridge:
         except FAILURES as error:
             raise BridgeError(f"node '{name}': {first_line(error)}") from error
         context.nodes += 1
-        self._tell_domain(handle.get_fully_qualified_name(), context.domain)
+        self._report_domain(handle.get_fully_qualified_name(), context.domain)
 
         def known_hash(type_name: str) -> str | None:
             return self._known_hash(type_name, hash_of)
@@ -129,12 +129,12 @@ class RclpyBridge:
             partial(self._leave, context),
         )
 
-    def _tell_domain(self, node: str, domain: int) -> None:
+    def _report_domain(self, node: str, domain: int) -> None:
         """Tell once of each domain that is not the one of this shell, unless somebody chose it for all clients."""
         own = _own_domain()
         set_here = bool(os.environ.get("ROS_DOMAIN_ID", "").strip())
-        if self._domain is None and set_here and domain != own and domain not in self._told_domains:
-            self._told_domains.add(domain)
+        if self._domain is None and set_here and domain != own and domain not in self._reported_domains:
+            self._reported_domains.add(domain)
             self._ros.report(OtherDomain(node, domain, own))
 
     def fileno(self) -> int:

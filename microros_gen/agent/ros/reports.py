@@ -39,12 +39,12 @@ def graph_reporter(log: EventLog) -> Callable[[GraphReport], None]:
     Of requests and replies that are dropped the first one of each endpoint is told; all are counted.
     """
 
-    def report(reported: GraphReport) -> None:
-        level, event = _EVENTS[type(reported)]
-        if isinstance(reported, NoServer | NoClient):
+    def report(graph_report: GraphReport) -> None:
+        level, event = _EVENTS[type(graph_report)]
+        if isinstance(graph_report, NoServer | NoClient):
             log.counters[event] += 1
-            if reported.lost > 1:
+            if graph_report.lost > 1:
                 return
-        log.emit(level, event, "{told}", told=str(reported), **asdict(reported))
+        log.emit(level, event, "{told}", told=str(graph_report), **asdict(graph_report))
 
     return report

@@ -78,7 +78,7 @@ class RawRequester(RawService):
         if now < self._found + SETTLE_S:
             return False
         self._there = True
-        self._tell_found()
+        self._report_found()
         while self._held:
             _, number, serialized = self._held.pop()
             self._send_held(number, serialized)
@@ -119,7 +119,7 @@ class RawRequester(RawService):
         self._lost += 1
         self._report(NoServer(self._endpoints[0].node, self.label, reason, self._lost))
 
-    def _tell_found(self) -> None:
+    def _report_found(self) -> None:
         if self._lost:
             self._report(ServerFound(self._endpoints[0].node, self.label, self._lost))
             self._lost = 0

@@ -57,7 +57,7 @@ class Discovery:
         if not transports:
             reason = "discovery needs a UDP or TCP transport"
             raise UserError(
-                [Diagnostic(reason, hint="Add one, as `udp4`, or leave --discovery out", id="MG-9428")]
+                [Diagnostic(reason, hint="Add one, such as `udp4`, or leave --discovery out", id="MG-9428")]
             )
         self._transports = sorted(transports, key=lambda t: t.protocol.stream)
         self._log = log
@@ -170,7 +170,7 @@ class Discovery:
             return
         self._answers += 1
         locators = self.locators(parse_address(asker[0]))
-        text = "discovery: {peer} asked and was told {count} places"
+        text = "discovery: sent {count} addresses to {peer}"
         self._log.emit(Level.DEBUG, "discovery", text, peer=place_name(asker), count=len(locators))
         if locators:
             activity = AgentActivity(locators=locators)

@@ -119,7 +119,7 @@ class Line:
     def wait(self) -> None:
         """Tell that a line which could not be opened is waited for."""
         text = "serial {device} cannot be opened ({why}); waiting for it"
-        self._tell("device_waiting", text, why=self._reported)
+        self._report("device_waiting", text, why=self._reported)
 
     def tick(self, now: float) -> None:
         """See Transport."""
@@ -152,16 +152,16 @@ class Line:
             return
         self._reported = ""
         text = "serial {device} is back" if known else "serial {device} is there now"
-        self._tell("device_back", text)
+        self._report("device_back", text)
 
     def _lose(self, why: str) -> None:
         self._give_back()
         self._outbox.clear()
         self._decoder.reset()
         self._reported = os.strerror(errno.ENOENT)  # the ordinary reason needs no separate line
-        self._tell("device_lost", "serial {device} is gone ({why}); waiting for it", why=why)
+        self._report("device_lost", "serial {device} is gone ({why}); waiting for it", why=why)
 
-    def _tell(self, event: str, text: str, **fields: str) -> None:
+    def _report(self, event: str, text: str, **fields: str) -> None:
         self._log.emit(Level.INFO, event, text, device=self._name, **fields)
 
     def _write(self) -> None:

@@ -88,7 +88,7 @@ class Pty(Line):
                 os.close(self._master)
                 os.close(self._slave)
                 raise UserError(
-                    [Diagnostic(f"the link {link} cannot be made: {error.strerror}", id="MG-9430")]
+                    [Diagnostic(f"cannot create the link {link}: {error.strerror}", id="MG-9430")]
                 ) from error
         self.device = device
         super().__init__(str(link or device), lambda: os.dup(self._master), log)
@@ -136,7 +136,7 @@ def _no_such_speed(baud: int) -> Diagnostic:
 def _explain(error: OSError, device: str) -> Diagnostic:
     if error.errno in (errno.EACCES, errno.EPERM):
         return Diagnostic(
-            f"{device}: this user may not open it",
+            f"{device}: permission denied",
             hint="Join the group that owns it (`ls -l` shows it, often dialout), then log in again",
             id="MG-9432",
         )
@@ -149,7 +149,7 @@ def _explain(error: OSError, device: str) -> Diagnostic:
     if error.errno in (errno.ENOTTY, errno.EISDIR):
         return Diagnostic(
             f"{device} is not a serial device",
-            hint="Give a terminal device, as /dev/ttyUSB0 or /dev/pts/3",
+            hint="Give a terminal device such as /dev/ttyUSB0 or /dev/pts/3",
             id="MG-9434",
         )
     return Diagnostic(f"{device} cannot be opened: {error.strerror or error}", id="MG-9435")

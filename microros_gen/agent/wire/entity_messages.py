@@ -219,7 +219,7 @@ class Fragment:
     """FRAGMENT: a piece of submessages too large for one message; reliable streams only."""
 
     ID: ClassVar = SubmessageId.FRAGMENT
-    piece: bytes
+    data: bytes
     last: bool
 
     @staticmethod
@@ -229,5 +229,5 @@ class Fragment:
 
     def encode(self, writer: Writer) -> int:
         """Write the payload; return the flags besides the byte order."""
-        writer.raw(self.piece)
+        writer.raw(self.data)
         return FLAG_LAST_FRAGMENT if self.last else 0

@@ -36,7 +36,7 @@ class _Transports(click.Group):
                 name for name in self.commands if name.rstrip("46") == args[0].rstrip("0123456789").lower()
             ]
             found = f"Choose {' or '.join(both)}" if len(both) > 1 else nearest(args[0], self.commands)
-            hint = found or f"There are {', '.join(self.commands)}"
+            hint = found or f"Available: {', '.join(self.commands)}"
             raise click.UsageError(f"unknown transport '{args[0]}'. {hint}", ctx)
         return super().resolve_command(ctx, args)
 

@@ -95,7 +95,7 @@ _COMMON = (
         multiple=True,
         metavar="[KEY=]FILE",
         help="OUT/manifest.json of a client (of the nodes in it, or of the client with this key, as 0xA1B2C3D4): ROS 2"
-        " is told its type hashes, and a difference is reported by name. May be repeated.",
+        " receives its type hashes, and a difference is reported by name. May be repeated.",
     ),
     _file_option(
         "--interface-path",
@@ -257,7 +257,7 @@ def _limit(name: str, value: str, diagnostics: Diagnostics) -> float | None:
     """Return the value of `--limit NAME=VALUE`, checked as in a file; an error for an unknown name."""
     names = [field.name for field in fields(Limits)]
     if name not in names:
-        hint = nearest(name, names) or f"Known are {', '.join(names)}"
+        hint = nearest(name, names) or f"Known: {', '.join(names)}"
         diagnostics.error(f"unknown limit '{name}'", hint=hint, id="MG-9705")
         return None
     if not _VALUE.fullmatch(value):

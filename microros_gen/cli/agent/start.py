@@ -79,8 +79,8 @@ def serve(options: AgentOptions) -> None:
         memory=MemoryGuard(limits.memory_bytes, trim=bridge.trim),
         budgets=budgets,
     )
-    _tell_memory(log, limits)
-    _tell_descriptors(log, limits, streams)
+    _report_memory(log, limits)
+    _report_descriptors(log, limits, streams)
     if options.verbose:
         transports = [TracedTransport(transport, log) for transport in transports]
     reported = ", ".join(f"{name} {value:.10g}" for name, value in asdict(limits).items())
@@ -98,14 +98,14 @@ def check_memory(limits: Limits) -> None:
     """Raise UserError when the pools do not fit the memory that the agent may take."""
     wanted = most_bytes(limits)
     if wanted > limits.memory_bytes:
-        message = f"the limits allow {wanted} bytes together, and memory_bytes {limits.memory_bytes}"
+        message = f"the limits allow {wanted} bytes together, but memory_bytes is {limits.memory_bytes}"
         pools = "history_bytes, object_bytes, input_bytes, output_bytes or call_bytes"
         raise UserError(
             [Diagnostic(message, hint=f"Lower {pools}, or set memory_bytes: {wanted}", id="MG-9708")]
         )
 
 
-def _tell_memory(log: EventLog, limits: Limits) -> None:
+def _report_memory(log: EventLog, limits: Limits) -> None:
     text = (
         "memory: at most {limit} MiB, of them for clients {history} of histories, {objects} of objects, {input} of"
         " input, {output} of output, {calls} of open requests (limits: memory_bytes, …)"
@@ -121,7 +121,7 @@ def _tell_memory(log: EventLog, limits: Limits) -> None:
     log.emit(Level.INFO, "memory", text, **{name: round(size / (1 << 20), 1) for name, size in mib.items()})
 
 
-def _tell_descriptors(log: EventLog, limits: Limits, connections: int) -> None:
+def _report_descriptors(log: EventLog, limits: Limits, connections: int) -> None:
     most, allowed = most_descriptors(limits, connections), resource.getrlimit(resource.RLIMIT_NOFILE)[0]
     text = "descriptors: at most {most} by the limits, and the system allows {allowed} (ulimit -n)"
     if 0 <= allowed < most:  # RLIM_INFINITY is negative

@@ -67,7 +67,7 @@ class TypeHashes:
     def differences(self, clients: ClientTypes) -> list[str]:
         """Return the types whose definition on this machine is another one than that of a client."""
         return sorted(
-            {name for name, reported in clients.all() if self._of_files(name) not in (None, reported)}
+            {name for name, type_hash in clients.all() if self._of_files(name) not in (None, type_hash)}
         )
 
 
@@ -84,8 +84,8 @@ def read_manifests(manifests: Sequence[ManifestOf], diagnostics: Diagnostics) ->
         clients = [manifest.key] if manifest.key else content.nodes
         for client in clients or [""]:
             known = by_client.setdefault(client, {}) if client else common
-            for name, reported in content.types.items():
-                if known.setdefault(name, reported) != reported:
+            for name, type_hash in content.types.items():
+                if known.setdefault(name, type_hash) != type_hash:
                     before = first[client, name]
                     message = f"{manifest.path} and {before} have different definitions of {name}"
                     hint = f"Say which client each is of: --manifest 0xKEY={manifest.path}"
@@ -106,7 +106,7 @@ def _read(manifest: ManifestOf, diagnostics: Diagnostics) -> _Content:
         data: Any = read_json(path)
         types = {str(name): str(about["hash"]) for name, about in data["types"].items()}
         nodes = [f"{n['namespace'].rstrip('/')}/{n['name']}" for n in data["entities"]["nodes"]]
-        if all(_HASH.fullmatch(reported) for reported in types.values()):
+        if all(_HASH.fullmatch(type_hash) for type_hash in types.values()):
             return _Content(types, nodes)
     except OSError as error:
         diagnostics.error(f"{path} cannot be read: {error.strerror}", span, id="MG-9711")

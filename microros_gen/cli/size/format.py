@@ -9,7 +9,7 @@ from dataclasses import asdict
 from typing import Any
 
 from microros_gen.cli.tables import format_table
-from microros_gen.image.attribution import GROUPS, Piece
+from microros_gen.image.attribution import GROUPS, Chunk
 from microros_gen.image.budget import BudgetLine
 from microros_gen.image.entities import Entity
 from microros_gen.image.report import SizeReport
@@ -23,13 +23,13 @@ UNMAPPED_NOTE = (
 Row = tuple[str | tuple[str, ...], ...]
 
 
-def owner_sizes(pieces: Iterable[Piece]) -> list[tuple[str, str, int, int]]:
+def owner_sizes(chunks: Iterable[Chunk]) -> list[tuple[str, str, int, int]]:
     """Return group, name, flash and RAM of each owner: by group, the largest first."""
     found: dict[tuple[str, str], list[int]] = {}
-    for piece in pieces:
-        sizes = found.setdefault((piece.owner.group, piece.owner.name), [0, 0])
-        sizes[0] += piece.flash
-        sizes[1] += piece.ram
+    for chunk in chunks:
+        sizes = found.setdefault((chunk.owner.group, chunk.owner.name), [0, 0])
+        sizes[0] += chunk.flash
+        sizes[1] += chunk.ram
     rows = [(group, name, flash, ram) for (group, name), (flash, ram) in found.items()]
     return sorted(rows, key=lambda r: (GROUPS.index(r[0]), -r[2] - r[3], r[1]))
 
@@ -46,22 +46,22 @@ def ram_uses(report: SizeReport) -> list[tuple[str, str, int]]:
 def symbol_rows(report: SizeReport) -> list[tuple[int, int, str, str, str, str]]:
     """Return flash, RAM, symbol, group, owner and place of every piece, the largest first; equal ones joined."""
     found: dict[tuple[str, str, str, str], list[int]] = {}
-    for piece in report.pieces:
-        name = shown_name(piece.symbol) if piece.symbol else f"({piece.input or piece.section})"
-        place = piece_place(report, piece)
-        sizes = found.setdefault((name, piece.owner.group, piece.owner.name, place), [0, 0])
-        sizes[0] += piece.flash
-        sizes[1] += piece.ram
+    for chunk in report.chunks:
+        name = shown_name(chunk.symbol) if chunk.symbol else f"({chunk.input or chunk.section})"
+        place = chunk_place(report, chunk)
+        sizes = found.setdefault((name, chunk.owner.group, chunk.owner.name, place), [0, 0])
+        sizes[0] += chunk.flash
+        sizes[1] += chunk.ram
     rows = [(flash, ram, *key) for key, (flash, ram) in found.items()]
     return sorted(rows, key=lambda r: (-r[0] - r[1], r[2:]))
 
 
-def piece_place(report: SizeReport, piece: Piece) -> str:
+def chunk_place(report: SizeReport, chunk: Chunk) -> str:
     """Return `src/session/xrce_session.c:31`, without the line where nobody knows it."""
-    place = report.facts.places.get(piece.address) if piece.symbol else None
+    place = report.facts.places.get(chunk.address) if chunk.symbol else None
     if place and place.line and place.file:
         return f"{report.folder.shown_file(place.file)}:{place.line}"
-    return piece.source or ""
+    return chunk.source or ""
 
 
 def size_table(report: SizeReport, every: bool) -> str:
@@ -97,7 +97,7 @@ def size_data(report: SizeReport) -> dict[str, Any]:
         "plan": manifest["plan"],
         "totals": {**totals, "flash": totals["text"] + totals["data"], "ram": totals["data"] + totals["bss"]},
         "owners": [
-            {"group": g, "name": n, "flash": f, "ram": r} for g, n, f, r in owner_sizes(report.pieces)
+            {"group": g, "name": n, "flash": f, "ram": r} for g, n, f, r in owner_sizes(report.chunks)
         ],
         "symbols": [
             {"flash": f, "ram": r, "name": n, "group": g, "owner": o, "place": p}
@@ -140,8 +140,8 @@ def _headline(report: SizeReport) -> str:
 
 
 def _owner_rows(report: SizeReport) -> list[tuple[str, str, str, str]]:
-    rows = [(g, n, str(f), str(r)) for g, n, f, r in owner_sizes(report.pieces)]
-    flash, ram = sum(p.flash for p in report.pieces), sum(p.ram for p in report.pieces)
+    rows = [(g, n, str(f), str(r)) for g, n, f, r in owner_sizes(report.chunks)]
+    flash, ram = sum(p.flash for p in report.chunks), sum(p.ram for p in report.chunks)
     return [*rows, ("total", "", str(flash), str(ram))]
 
 

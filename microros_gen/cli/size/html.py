@@ -48,7 +48,7 @@ def size_html(report: SizeReport) -> str:
         groups=GROUPS,
         flash=flash,
         ram=ram,
-        owners=owner_sizes(report.pieces),
+        owners=owner_sizes(report.chunks),
         uses=ram_uses(report),
         symbols=rows,
         width=WIDTH,

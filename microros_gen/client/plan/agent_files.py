@@ -204,7 +204,7 @@ def _check_references(application: Application, diagnostics: Diagnostics) -> Non
         else:
             continue
         diagnostics.error(
-            f"two {what} of {topic} differ in type or QoS and would get one reference name, "
+            f"two {what} of {topic} differ in type or QoS and would get the same reference name, "
             f"'{reference}' (the other: {other.span or other.topic})",
             endpoint.topic_span or endpoint.span,
             "Make them alike, or write `entities: binary`",

@@ -190,7 +190,7 @@ def _check_vectors(
         diagnostics.error(
             f"the {fixed} of {target.name} has no vector table offset register: 'flash.offset' has no effect",
             application.target.span,
-            "Let the bootloader hand interrupts on, or remove it",
+            "Let the bootloader forward interrupts, or remove it",
             id="MG-7005",
         )
     elif flash.first % alignment:

@@ -46,8 +46,8 @@ def plan_provisions(
     )
     for clash in found.clashes:
         diagnostics.error(
-            f"{clash.file} of {clash.part} has '{clash.kept}' and '{clash.taken}', and only '{clash.taken}' comes from "
-            "elsewhere",
+            f"{clash.file} of {clash.part} implements '{clash.kept}' and '{clash.taken}', "
+            f"but only '{clash.taken}' is provided elsewhere",
             application.target.span,
             f"Provide both, or neither: `provides: [{clash.taken}, {clash.kept}]`",
             id="MG-7014",

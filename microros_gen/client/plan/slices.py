@@ -305,7 +305,7 @@ class MemoryPlan:
     @property
     def refusal(self) -> str:
         """`told` or `never`: whether an encoder can refuse a message."""
-        return "never" if self.fixed_messages else "told"
+        return "never" if self.fixed_messages else "reported"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -37,8 +37,8 @@ _SESSION_MESSAGE = 24
 _SESSION_MESSAGE_HARD = 54
 # A sample that waits alone in its queue comes in so many pieces: the input buffer holds one. A board has a ring of
 # twice that in front of a serial line (client/plan/board.py). Smaller ones would save little, and each is acknowledged.
-PIECES = {"udp": 3, "tcp": 3, "serial": 8, "custom": 8}
-LEAST_PIECE = 256
+FRAGMENTS_PER_SAMPLE = {"udp": 3, "tcp": 3, "serial": 8, "custom": 8}
+LEAST_FRAGMENT = 256
 # A slot in the input buffer has to save so many bytes: it costs some hundred of flash.
 LEAST_LENT = 256
 # A message that the line's interrupt takes from its stream has to save so many bytes, for the same reason.
@@ -80,10 +80,10 @@ class Received:
         """Bytes of the message that has all of it."""
         return _align4(WRITE_DATA_OVERHEAD + self.max_size)
 
-    def piece(self, ceiling: int, pieces: int) -> int:
+    def largest_message(self, ceiling: int, fragments: int) -> int:
         """Return the bytes of the largest message that contains it or, where fragments are allowed, of one fragment."""
         if self.alone and self.reliable and not self.best_effort:
-            ceiling = min(ceiling, max(LEAST_PIECE, _align4(-(-self.whole // pieces))))
+            ceiling = min(ceiling, max(LEAST_FRAGMENT, _align4(-(-self.whole // fragments))))
         return min(ceiling, self.whole)
 
 
@@ -159,8 +159,8 @@ def plan_streams(
     stuffs. With `creation: reliable` it has its own storage, and the reliable stream is there for it. A
     reliable message above the MTU goes in fragments, a best-effort one and a CREATE cannot. `reliable_input`:
     the agent's reliable stream is selected; a reliable DATA above the input buffer comes in fragments,
-    for the agent is told the size of that buffer. `lends_input`: a best-effort sample may wait in the input buffer.
-    `keeps_output`: the line can take a message from its stream.
+    since the client announces the size of that buffer to the agent. `lends_input`: a best-effort sample may wait in the
+    input buffer. `keeps_output`: the line can take a message from its stream.
     `pools.slot_size` makes each buffer at least so large.
     """
     messages, samples = tuple(written), tuple(received)
@@ -191,9 +191,15 @@ def plan_streams(
         slots, reliable = 1, WRITE_DATA_OVERHEAD
     best_effort = max(best_effort, least) if best_effort else 0
     input_size = max(
-        WRITE_SIDE_INPUT, least, *(sample.piece(ceiling, PIECES[transport]) for sample in samples)
+        WRITE_SIDE_INPUT,
+        least,
+        *(sample.largest_message(ceiling, FRAGMENTS_PER_SAMPLE[transport]) for sample in samples),
     )
-    must = [sample.piece(ceiling, PIECES[transport]) for sample in samples if sample.reliable]
+    must = [
+        sample.largest_message(ceiling, FRAGMENTS_PER_SAMPLE[transport])
+        for sample in samples
+        if sample.reliable
+    ]
     line = _Line(
         _send_frames(application, (m for m in messages if not m.reliable), ceiling, (create, create_text)),
         _send_frames(application, messages, ceiling, (create, create_text)),
@@ -201,7 +207,11 @@ def plan_streams(
     # What is dropped on its way would be broken off: where more is written than the line carries, nothing arrived.
     kept = keeps_output and not fragments and application.on_full != "drop_oldest"
     kept = kept and line.saves(application.transport.send_buffer)
-    lent = _lent(samples, max(WRITE_SIDE_INPUT, least), ceiling, PIECES[transport]) if lends_input else None
+    lent = (
+        _lent(samples, max(WRITE_SIDE_INPUT, least), ceiling, FRAGMENTS_PER_SAMPLE[transport])
+        if lends_input
+        else None
+    )
     return StreamSizes(
         mtu=ceiling if fragments else max(best_effort, reliable, create),
         best_effort_size=best_effort,
@@ -266,7 +276,7 @@ def usual_frame(size: int) -> int:
     return _FRAME_FLAG + _FRAME_REST + size + size // _STUFFED_SHARE
 
 
-def _lent(samples: tuple[Received, ...], least: int, ceiling: int, pieces: int) -> tuple[int, int] | None:
+def _lent(samples: tuple[Received, ...], least: int, ceiling: int, fragments: int) -> tuple[int, int] | None:
     """Return which sample waits in the input buffer, and the bytes in front of it; None: that would save too little.
 
     It is the largest of those that are best effort and wait alone: a message that does not fit in front of it takes its
@@ -276,7 +286,9 @@ def _lent(samples: tuple[Received, ...], least: int, ceiling: int, pieces: int) 
     if not alone:
         return None
     chosen = max(alone, key=lambda i: samples[i].whole)
-    free = max([least, *(s.piece(ceiling, pieces) for i, s in enumerate(samples) if i != chosen)])
+    free = max(
+        [least, *(s.largest_message(ceiling, fragments) for i, s in enumerate(samples) if i != chosen)]
+    )
     return (chosen, free) if samples[chosen].whole >= free + LEAST_LENT else None
 
 
@@ -291,7 +303,7 @@ def _input_slots(application: Application, reliable_input: bool, diagnostics: Di
         return asked or DEFAULT_INPUT_HISTORY
     if asked is not None:
         diagnostics.warning(
-            "'pools.input_history' has no effect: nothing that is selected comes on a reliable stream",
+            "'pools.input_history' has no effect: nothing that is selected is received on a reliable stream",
             application.spans.get("pools.input_history"),
             "Remove it",
             id="MG-7025",
@@ -322,7 +334,7 @@ def _check_fits(
     span = message.span or application.transport.mtu_span or application.transport.span
     if message.max_encoded_size > LARGEST_BODY:
         diagnostics.too_large(
-            f"{message.label} takes up to {message.max_encoded_size} bytes, and a message holds {LARGEST_BODY} at most",
+            f"{message.label} takes up to {message.max_encoded_size} bytes, but a message holds at most {LARGEST_BODY}",
             span,
             f"Lower its limits{message.hint}",
             id="MG-7027",
@@ -346,7 +358,7 @@ def _check_received(
     span = sample.span or application.transport.mtu_span or application.transport.span
     if sample.max_size > LARGEST_BODY:
         diagnostics.too_large(
-            f"{sample.label} takes up to {sample.max_size} bytes, and a message holds {LARGEST_BODY} at most",
+            f"{sample.label} takes up to {sample.max_size} bytes, but a message holds at most {LARGEST_BODY}",
             span,
             "Lower its limits",
             id="MG-7029",

@@ -32,7 +32,7 @@ class Values:
     def value(self, path: str) -> object:
         """Return the value at `path`: `streams.on_full`, `board.stdio`, `component.executor`.
 
-        UserError: there is no such value.
+        Raises UserError if the plan has no such value.
         """
         first, _, rest = path.partition(".")
         if first == "component":
@@ -46,7 +46,7 @@ class Values:
             return attrgetter(path)(self.runtime)
         except AttributeError as error:
             hint = "Write a path such as `streams.mtu`; docs/architecture.md says where paths begin"
-            what = f"a component.yaml names '{path}', and the plan has no such value"
+            what = f"a component.yaml names '{path}', which is not a value of the plan"
             raise UserError([Diagnostic(what, hint=hint, id="MG-7031")]) from error
 
     def holds(self, when: Conditions) -> bool:

@@ -208,17 +208,17 @@ def _summary(
     every = "with each call of its timers" if has_timers else "every EXAMPLE_PERIOD_MS milliseconds"
     if shows_time:
         return f"looks {every} what time it is on /clock"
-    said = []
+    clauses = []
     if publishers or not (subscriptions or services):
         written = ", ".join(f"{p.package}/msg/{p.type} on {p.topic}" for p in publishers) or "nothing"
-        said.append(f"publishes {written}" + ("" if subscriptions else f" {every}"))
+        clauses.append(f"publishes {written}" + ("" if subscriptions else f" {every}"))
     if subscriptions:
         read = ", ".join(f"{s.package}/msg/{s.type} on {s.topic}" for s in subscriptions)
-        said.append(f"looks {every} for {read}" if running is None else f"has an executor take {read}")
+        clauses.append(f"looks {every} for {read}" if running is None else f"has an executor take {read}")
     for kind, does in (("service", "answers what it is asked as"), ("client", f"asks {every}")):
         named = ", ".join(f"{s.name} ({s.package}/srv/{s.type})" for s in services if s.kind == kind)
-        said += [f"{does} {named}"] if named else []
-    return " and ".join(said)
+        clauses += [f"{does} {named}"] if named else []
+    return " and ".join(clauses)
 
 
 def _subscriptions(

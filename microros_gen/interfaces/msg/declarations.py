@@ -187,7 +187,10 @@ def _constant_type(node: Node, line: Line) -> Primitive | StringType:
         )
     if node.data == "string" and len(node.children) > 1:
         raise _DeclarationError(
-            line.span_of(start), "the type of a constant has no bound", f"Write '{start}'", id="MG-2108"
+            line.span_of(start),
+            "the type of a constant cannot have a bound",
+            f"Write '{start}'",
+            id="MG-2108",
         )
     element = _element_type(node, line, "")
     if isinstance(element, NamedType):
@@ -262,7 +265,7 @@ def _default(field_type: FieldType, node: Node | Word, line: Line, diagnostics: 
     if isinstance(field_type, NamedType) or isinstance(field_type.element, NamedType):
         assert isinstance(node, Word)
         raise _DeclarationError(
-            line.span_of(node), "a field of a message's type has no default", "Remove it", id="MG-2116"
+            line.span_of(node), "a field of a message type cannot have a default", "Remove it", id="MG-2116"
         )
     assert isinstance(node, Node)  # the grammar has no other default for these arrays
     values = _elements(field_type.element, node.children, line)
@@ -292,7 +295,7 @@ def _scalar(
         raise _DeclarationError(
             line.span(len(line.text) + 1, 0),
             "the constant has no value",
-            "Write it behind the '='",
+            "Write it after the '='",
             id="MG-2118",
         )
     text = str(node)
@@ -301,7 +304,7 @@ def _scalar(
     except InvalidValueError as fault:
         raise _DeclarationError(line.span_of(node), fault.message, fault.hint, id=fault.id) from None
     if isinstance(kind, StringType) and text[0] in "\"'" and (text[-1] != text[0] or text in "\"'"):
-        reason = "The '#' begins a comment, inside of quotes too" if line.commented else "Close it"
+        reason = "The '#' begins a comment, even in quotes" if line.commented else "Close it"
         diagnostics.warning(
             f"the quote is not closed: the text is {value!r}", line.span_of(node), reason, id="MG-2017"
         )
@@ -334,11 +337,13 @@ def _check_count(field_type: ArrayType | SequenceType, count: int, line: Line) -
     if isinstance(field_type, ArrayType):
         if count != field_type.size:
             raise _DeclarationError(
-                span, f"the default has {count} elements and the array {field_type.size}", id="MG-2122"
+                span, f"the default has {count} elements, but the array has {field_type.size}", id="MG-2122"
             )
     elif field_type.bound is not None and count > field_type.bound:
         raise _DeclarationError(
-            span, f"the default has {count} elements and the sequence takes {field_type.bound}", id="MG-2123"
+            span,
+            f"the default has {count} elements, but the sequence takes at most {field_type.bound}",
+            id="MG-2123",
         )
 
 

@@ -106,7 +106,7 @@ def field_name_warning(name: str) -> Caveat | None:
 def constant_name_warning(name: str) -> Caveat | None:
     """Return a warning and its hint for a constant whose name C++ takes for a macro, or None."""
     if name in CONSTANT_MACROS or _LARGEST.fullmatch(name) is not None:
-        message = f"'{name}' is a macro of C: the C++ that ROS 2 Jazzy makes does not compile"
+        message = f"'{name}' is a macro of C: the C++ code that ROS 2 Jazzy generates does not compile"
         return Caveat(message, hint="Take another name", id="MG-2013")
     return None
 
@@ -114,7 +114,7 @@ def constant_name_warning(name: str) -> Caveat | None:
 def interface_name_warning(name: str, parts: Collection[str]) -> Caveat | None:
     """Return a warning and its hint for a service or action that has the name of one of its parts, or None."""
     if name in {*parts, "Event"} and parts:
-        message = f"the C++ that ROS 2 Jazzy makes of an interface named '{name}' does not compile"
+        message = f"the C++ code that ROS 2 Jazzy generates for an interface named '{name}' does not compile"
         return Caveat(message, hint="Rename it", id="MG-2025")
     return None
 
@@ -125,14 +125,14 @@ def value_warning(kind: FieldType, value: Value) -> Caveat | None:
     C and C++ come out of it; Python, which a package has unless it leaves it out, does not.
     """
     if kind is Primitive.WCHAR:
-        message = "ROS 2 Jazzy makes no Python of a value of type wchar"
+        message = "ROS 2 Jazzy generates no Python code for a value of type wchar"
         return Caveat(message, hint="Take uint16, which has the same bytes", id="MG-2015")
     if kind is Primitive.IDL_CHAR and isinstance(value, int) and value < 0:
-        message = "ROS 2 Jazzy makes no Python of a char below 0"
+        message = "ROS 2 Jazzy generates no Python code for a char below 0"
         return Caveat(message, hint="Take int8, which has the same bytes", id="MG-2133")
     element = element_of(kind)
     if value == () and isinstance(element, Primitive) and element not in _PYTHON_LISTS:
-        message = "the Python that ROS 2 Jazzy makes of an empty default is none"
+        message = "ROS 2 Jazzy ignores an empty default in Python"
         return Caveat(message, hint="Remove it: it says nothing", id="MG-2134")
     return None
 

@@ -136,7 +136,7 @@ def _check_comment(source: Source, number: int, line: str, diagnostics: Diagnost
     if not re.search(r"[\r\n]|(?<!\\)\\(\\\\)*$", text):
         return
     diagnostics.warning(
-        "ROS 2 Jazzy cannot read this comment: it takes the backslash for the begin of an escape",
+        "ROS 2 Jazzy cannot read this comment: it takes the backslash for the start of an escape",
         Span(source, number, len(before) + 1, len(line.rstrip()) + 1),
         "Write it without: ROS 2 makes no interface of the file, this tool reads it",
         id="MG-2021",

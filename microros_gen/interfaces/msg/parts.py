@@ -54,8 +54,8 @@ def _check_equal_constants(messages: Sequence[Message], diagnostics: Diagnostics
             earlier = first.setdefault(key, message.name)
             if earlier != message.name:
                 diagnostics.error(
-                    f"ROS 2 Jazzy takes '{constant.name}' for a constant of {earlier.name} too, since both are "
-                    "declared alike, and its C does not compile",
+                    f"ROS 2 Jazzy takes '{constant.name}' for a constant of {earlier.name} too, because both are "
+                    "declared in the same way; its C code does not compile",
                     constant.span,
                     "Give one of them another name or comment",
                     id="MG-2026",

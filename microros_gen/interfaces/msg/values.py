@@ -162,7 +162,7 @@ def _checked_string(kind: StringType, text: str) -> str:
     value = _unquoted(text)
     if kind.bound is not None and len(value) > kind.bound:
         raise InvalidValueError(
-            f"the string has {len(value)} characters and its type takes {kind.bound}",
+            f"the string has {len(value)} characters, but its type takes at most {kind.bound}",
             f"Shorten it, or raise the bound to <={len(value)}",
             id="MG-2149",
         )
@@ -205,7 +205,7 @@ def _through_idl(value: str, kind: StringType) -> str:
             "a string cannot hold a line end here", "ROS 2 Jazzy takes \\\\n for a line feed", id="MG-2152"
         )
     if not _closes(literal):
-        raise InvalidValueError("a backslash stands where it would end the string", _FOUR, id="MG-2153")
+        raise InvalidValueError("a backslash at the end of the string", _FOUR, id="MG-2153")
     result = _resolve_idl_escapes(literal)
     _check_characters(result, kind)
     return result
@@ -253,7 +253,7 @@ def _check_characters(value: str, kind: StringType) -> None:
     octets = len(value) if kind.wide else len(value.encode("utf-8", "surrogatepass"))
     if kind.bound is not None and octets > kind.bound:
         raise InvalidValueError(
-            f"the string takes {octets} bytes in UTF-8 and its type takes {kind.bound}",
+            f"the string takes {octets} bytes in UTF-8, but its type takes at most {kind.bound}",
             f"Shorten it, or raise the bound to <={octets}",
             id="MG-2158",
         )

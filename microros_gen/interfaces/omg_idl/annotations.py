@@ -61,7 +61,7 @@ def read_annotations(
     if len(defaults) > 1:
         raise IdlError(
             defaults[1].span,
-            "there are two defaults: ROS 2 Jazzy takes none of them",
+            "two defaults: ROS 2 Jazzy uses neither of them",
             "Remove one",
             id="MG-2033",
         )
@@ -121,7 +121,7 @@ def _default_value(values: Mapping[str, ScalarValue | None], span: Span) -> Scal
     value = values["value"]
     if value is None:
         raise IdlError(
-            span, "ROS 2 Jazzy cannot take a name for a default", "Write the value itself", id="MG-2063"
+            span, "ROS 2 Jazzy does not accept a name as a default", "Write the value itself", id="MG-2063"
         )
     return value
 

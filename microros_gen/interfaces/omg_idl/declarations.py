@@ -116,7 +116,7 @@ def scope_of(contents: Contents, syntax: Syntax, source: Source, scope: Scope) -
         if scope.typedefs.setdefault(name, written) != written:
             span = span_of(placed.node.children[1], source)
             scope.diagnostics.error(
-                f"'{name}' is another type above",
+                f"'{name}' is already declared as another type",
                 span,
                 "ROS 2 knows typedefs by their name alone: rename one",
                 id="MG-2031",
@@ -238,7 +238,7 @@ def _warn_of_value(kind: FieldType, value: Value, span: Span, scope: Scope) -> N
 def _warn_of_size(declarator: SyntaxNode, size: int, scope: Scope) -> None:
     """Say what rosidl_parser does: after a declarator with a size, all others of the line have it too."""
     scope.diagnostics.warning(
-        f"ROS 2 Jazzy makes an array of {size} of '{declarator.children[0]}' too",
+        f"ROS 2 Jazzy also makes '{declarator.children[0]}' an array of {size}",
         span_of(declarator, scope.source),
         "Write it as a separate member",
         id="MG-2035",
@@ -274,7 +274,7 @@ def _constant_type(node: SyntaxNode, scope: Scope) -> Primitive | StringType:
     raise IdlError(
         span_of(node, scope.source),
         "a constant has a basic type or is a string",
-        "ROS 2 Jazzy looks up no typedef here: write the type itself",
+        "ROS 2 Jazzy does not resolve typedefs here: write the type itself",
         id="MG-2066",
     )
 

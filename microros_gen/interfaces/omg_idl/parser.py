@@ -90,7 +90,7 @@ def _checked_source(source: Source, package: str, kind: str, diagnostics: Diagno
         source = Source(source.name, text)
     fault = package_name_fault(package)
     if fault is not None:
-        hint = "ROS 2 takes no other names for folders of interfaces"
+        hint = "ROS 2 accepts no other names for folders of interfaces"
         diagnostics.error(fault.message, Span(source, 1, 1), hint, id=fault.id)
     if kind not in KINDS:
         diagnostics.error(
@@ -148,9 +148,9 @@ def _check_surroundings(contents: Contents, scope: Scope) -> None:
     for forward in contents.forwards:
         if forward.node.children[0].children:
             diagnostics.error(
-                "a declaration of a struct ahead takes no annotation",
+                "a forward declaration of a struct takes no annotation",
                 span_of(forward.name, source),
-                "Put it at the struct itself",
+                "Put it on the struct itself",
                 id="MG-2046",
             )
     for module in contents.modules:
@@ -215,7 +215,7 @@ def _constants_by_struct(contents: Contents, scope: Scope) -> dict[str, list[Pla
             scope.diagnostics.warning(
                 f"ROS 2 Jazzy ignores the constant '{constant.name}': it belongs to no struct",
                 span,
-                f"Those of a struct Name stand in module Name{CONSTANTS_SUFFIX}",
+                f"Constants of a struct Name belong in module Name{CONSTANTS_SUFFIX}",
                 id="MG-2053",
             )
         found.setdefault(owner, []).append(constant)
@@ -231,7 +231,7 @@ def _check_equal_constants(constants: Sequence[Placed], scope: Scope) -> None:
             if earlier.modules != constant.modules and tokens_of(earlier.node) == tokens_of(constant.node):
                 scope.diagnostics.error(
                     f"ROS 2 Jazzy takes '{constant.name}' for a constant of '{earlier.modules[-1]}' too, since "
-                    "both are declared alike, and its C does not compile",
+                    "both are declared in the same way; its C code does not compile",
                     span_of(constant.name, scope.source),
                     "Give one of them another name or comment",
                     id="MG-2054",

@@ -204,7 +204,7 @@ def _report(source: Source, text: str, error: _Error, diagnostics: Diagnostics) 
     found = text[start:end]
     words = sorted({_WORDS[name] for name in error.expected if name in _WORDS})
     what = f"'{found}'" if found.strip() else "the end of the file"
-    message = f"expected {' or '.join(words)}, found {what}" if words else f"{what} cannot stand here"
+    message = f"expected {' or '.join(words)}, found {what}" if words else f"{what} is not allowed here"
     diagnostics.error(
         message, _span(source, text, start, end), _hint(text, start, found, error.expected), id="MG-2056"
     )

@@ -152,7 +152,7 @@ def resolved(written: Written, scope: Scope) -> FieldType | None:
     if written.nested and target.nested:
         raise IdlError(
             alias.span,
-            f"'{alias.name}' is an array or a sequence itself: ROS 2 Jazzy makes no C of this",
+            f"'{alias.name}' is an array or a sequence itself: ROS 2 Jazzy generates no C code for this",
             "Put it into a separate struct",
             id="MG-2070",
         )
@@ -160,7 +160,7 @@ def resolved(written: Written, scope: Scope) -> FieldType | None:
         if not target.nested:
             raise IdlError(
                 alias.span,
-                f"'{alias.name}' is a typedef of a typedef: ROS 2 Jazzy makes no C of this",
+                f"'{alias.name}' is a typedef of a typedef: ROS 2 Jazzy generates no C code for this",
                 f"Write '{target.element.name}'",
                 id="MG-2071",
             )
@@ -176,7 +176,8 @@ def _second(alias: Alias, inner: Alias, scope: Scope) -> ElementType | None:
     if target.nested or isinstance(target.element, Alias):
         raise IdlError(
             alias.span,
-            f"behind '{alias.name}' stands '{inner.name}', which is not a single element: ROS 2 Jazzy makes no C",
+            f"'{alias.name}' is a typedef of '{inner.name}', which is not a single element: ROS 2 Jazzy generates"
+            " no C code for it",
             "Put it into a separate struct",
             id="MG-2072",
         )
@@ -191,13 +192,13 @@ def _target(alias: Alias, scope: Scope) -> Written | None:
     if alias.name in scope.enumerations:
         raise IdlError(
             alias.span,
-            f"'{alias.name}' is an enumeration: ROS 2 reads them and makes no type of them",
+            f"'{alias.name}' is an enumeration: ROS 2 reads enumerations but generates no type for them",
             "Take uint8 and constants in a module that ends with '_Constants'",
             id="MG-2073",
         )
     raise IdlError(
         alias.span,
-        f"'{alias.name}' is not a type and no typedef of this file",
+        f"'{alias.name}' is neither a type nor a typedef of this file",
         _type_hint(alias.name, scope),
         id="MG-2074",
     )

@@ -136,7 +136,7 @@ def positive_bound(node: SyntaxNode, what: str, constants: Mapping[str, SyntaxNo
     if inner.data != "literal" or inner.children[0].type != "DECIMAL":
         value = computed(node, constants)
         hint = f"Write {value}" if value is not None and value > 0 else "Write a number above zero"
-        reason = "ROS 2 Jazzy computes nothing here" if value is not None else "this is none"
+        reason = "ROS 2 Jazzy evaluates no expressions here" if value is not None else "this is none"
         raise IdlError(span, f"{what} is a decimal number: {reason}", hint, id="MG-2080")
     number = _decimal(inner.children[0], source)
     if not 0 < number <= LARGEST_BOUND:
@@ -174,13 +174,20 @@ def checked_scalar(kind: Primitive | StringType, value: ScalarValue, span: Span)
     if isinstance(kind, StringType):
         return _checked_string(kind, value, span)
     if isinstance(value, str):
-        raise IdlError(span, f"a string is no {_idl_name(kind)}", "Write it without quotes", id="MG-2084")
+        raise IdlError(
+            span,
+            f"a string is not a value of type {_idl_name(kind)}",
+            "Write it without quotes",
+            id="MG-2084",
+        )
     if kind is Primitive.BOOL:
         if value not in (0, 1):
-            raise IdlError(span, f"{value} is no boolean", "Write TRUE or FALSE", id="MG-2085")
+            raise IdlError(span, f"{value} is not a boolean", "Write TRUE or FALSE", id="MG-2085")
         return bool(value)
     if isinstance(value, bool):
-        raise IdlError(span, f"a boolean is no {_idl_name(kind)}", "Write a number", id="MG-2086")
+        raise IdlError(
+            span, f"a boolean is not a value of type {_idl_name(kind)}", "Write a number", id="MG-2086"
+        )
     if kind in _FLOATS:
         return _checked_float(kind, value, span)
     return _checked_integer(kind, value, span)
@@ -193,7 +200,7 @@ def checked_default(field_type: FieldType, value: ScalarValue, span: Span) -> Va
     if not isinstance(field_type, (ArrayType, SequenceType)) or not isinstance(
         field_type.element, (Primitive, StringType)
     ):
-        raise IdlError(span, "a member of a struct's type has no default", "Remove it", id="MG-2087")
+        raise IdlError(span, "a member of a struct type cannot have a default", "Remove it", id="MG-2087")
     elements = _elements(value, span)
     _check_count(field_type, len(elements), span)
     return tuple(checked_scalar(field_type.element, element, span) for element in elements)
@@ -227,7 +234,9 @@ def _no_literal(node: SyntaxNode, constants: Mapping[str, SyntaxNode], source: S
     value = computed(node, constants)
     what = "the name of a constant" if node.data == "name" else "an expression"
     hint = "Write its value" if value is None else f"Write {value}"
-    return IdlError(span_of(node, source), f"ROS 2 Jazzy cannot take {what} for a value", hint, id="MG-2089")
+    return IdlError(
+        span_of(node, source), f"ROS 2 Jazzy does not accept {what} as a value", hint, id="MG-2089"
+    )
 
 
 def _number(
@@ -240,14 +249,16 @@ def _number(
     if token.type == "CHARACTER":
         raise IdlError(
             span_of(token, source),
-            "ROS 2 Jazzy cannot take a character for a value",
+            "ROS 2 Jazzy does not accept a character as a value",
             "Write its number, such as 65 for 'A'",
             id="MG-2090",
         )
     base = "octal" if token.type == "OCTAL" else "hexadecimal"
     value = computed(node, constants)
     hint = "Write it in decimal" if value is None else f"Write {value}"
-    raise IdlError(span_of(token, source), f"ROS 2 Jazzy cannot take a number in {base}", hint, id="MG-2091")
+    raise IdlError(
+        span_of(token, source), f"ROS 2 Jazzy does not accept a number in {base}", hint, id="MG-2091"
+    )
 
 
 def _string(token: Token, source: Source) -> str:
@@ -276,7 +287,7 @@ def _string(token: Token, source: Source) -> str:
 def _checked_string(kind: StringType, value: ScalarValue, span: Span) -> str:
     if not isinstance(value, str):
         written = str(value).upper() if isinstance(value, bool) else value
-        raise IdlError(span, f"{written} is no string", "Write it in quotes", id="MG-2093")
+        raise IdlError(span, f"{written} is not a string", "Write it in quotes", id="MG-2093")
     if "\0" in value:
         raise IdlError(
             span, "a string cannot hold the character NUL", "It ends the string in C", id="MG-2094"
@@ -290,7 +301,7 @@ def _checked_string(kind: StringType, value: ScalarValue, span: Span) -> str:
         unit = "characters" if kind.wide else "bytes in UTF-8"
         raise IdlError(
             span,
-            f"the string takes {length} {unit} and its type takes {kind.bound}",
+            f"the string takes {length} {unit}, but its type takes at most {kind.bound}",
             "Shorten it",
             id="MG-2096",
         )
@@ -301,7 +312,7 @@ def _checked_float(kind: Primitive, value: int | float, span: Span) -> float:
     if isinstance(value, int) and kind is Primitive.FLOAT32:
         raise IdlError(
             span,
-            "ROS 2 Jazzy makes C of a whole number that does not compile",
+            "for a whole number here, ROS 2 Jazzy generates C code that does not compile",
             f"Write {value}.0",
             id="MG-2097",
         )
@@ -343,7 +354,7 @@ def _elements(value: ScalarValue, span: Span) -> tuple[ScalarValue, ...]:
     if not isinstance(found, (tuple, list)):
         raise IdlError(span, "the default of an array or sequence is a list in a string", hint, id="MG-2102")
     if not all(isinstance(element, (bool, int, float, str)) for element in found):
-        raise IdlError(span, "an element of the default is no literal", hint, id="MG-2103")
+        raise IdlError(span, "an element of the default is not a literal", hint, id="MG-2103")
     if any(isinstance(element, int) and abs(element) >= 10**_MOST_DIGITS for element in found):
         raise IdlError(span, "a number of the default is too long", "Write a smaller one", id="MG-2104")
     return tuple(found)
@@ -353,11 +364,13 @@ def _check_count(field_type: ArrayType | SequenceType, count: int, span: Span) -
     if isinstance(field_type, ArrayType):
         if count != field_type.size:
             raise IdlError(
-                span, f"the default has {count} elements and the array {field_type.size}", id="MG-2105"
+                span, f"the default has {count} elements, but the array has {field_type.size}", id="MG-2105"
             )
     elif field_type.bound is not None and count > field_type.bound:
         raise IdlError(
-            span, f"the default has {count} elements and the sequence takes {field_type.bound}", id="MG-2106"
+            span,
+            f"the default has {count} elements, but the sequence takes at most {field_type.bound}",
+            id="MG-2106",
         )
 
 

@@ -68,7 +68,7 @@ class RuleChecker:
                 element = element_of(found)
                 if not isinstance(element, NamedType):
                     self._diagnostics.error(
-                        f"'{'.'.join(path)}': there are no members below a primitive", rule.span, id="MG-5003"
+                        f"'{'.'.join(path)}': a primitive has no members", rule.span, id="MG-5003"
                     )
                     return None
                 message = self._messages[str(element.name)]
@@ -109,7 +109,7 @@ class RuleChecker:
         if value is None or (rule.single and not fits):
             return
         if not fits:
-            self._diagnostics.error(f"{where} is no {kind}", rule.span, f"Leave '{kind}' away", id="MG-5007")
+            self._diagnostics.error(f"{where} is not a {kind}", rule.span, f"Remove '{kind}'", id="MG-5007")
         elif bound is not None and value > bound:
             self._diagnostics.error(
                 f"the limit {value} for {where} is above its bound {bound}",

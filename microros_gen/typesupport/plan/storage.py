@@ -279,7 +279,8 @@ class _UnitBuilder:
     def _too_small(self, field: Field, member: str, kind: str, needed: int, limit: int) -> None:
         place = self._planner.place(f"{self._path}.{member}" if self._path else member)
         self._diagnostics.error(
-            f"the default value of '{field.name}' needs a {kind} limit of {needed}, and that of {place} is {limit}",
+            f"the default value of '{field.name}' needs a {kind} limit of {needed}, but the limit of {place}"
+            f" is {limit}",
             field.span,
             f"Set its {kind} limit to {needed}",
             id="MG-5010",

@@ -182,7 +182,7 @@ def _check_files(plans: Iterable[TypePlan], diagnostics: Diagnostics) -> None:
         if other != name and name not in reported:
             reported.add(name)
             diagnostics.error(
-                f"{name} and {other} are both {include_path(plan.files.header)} in C",
+                f"{name} and {other} have the same header in C, {include_path(plan.files.header)}",
                 plan.message.span,
                 "Rename one of them, or leave it out",
                 id="MG-5012",

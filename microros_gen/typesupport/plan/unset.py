@@ -84,21 +84,21 @@ def _block(
     for root in roots:
         if root.type not in members:
             known = [rule for rule in rules if rule.path[0] == str(root.type)]
-            members[root.type] = _said(known)
+            members[root.type] = _tree_of(known)
             places[root.type] = _instead(known)
         for unset in root.unset:
             put_limit(members[root.type], unset.path, unset.kind, values[unset.kind])
     lines += [
-        f"  {name}: {limit_text(said)}{places[name] and f'  # {places[name]}'}"
-        for name, said in members.items()
+        f"  {name}: {limit_text(own_rules)}{places[name] and f'  # {places[name]}'}"
+        for name, own_rules in members.items()
     ]
     return tuple(lines)
 
 
 def type_line(name: str, before: Iterable[LimitRule], after: Iterable[LimitRule]) -> tuple[str, str]:
     """Return the line of a type below `limits:` that says what `after` says, and which line of `before` it replaces."""
-    said, known = ([rule for rule in rules if rule.path[0] == name] for rules in (after, before))
-    return f"  {name}: {limit_text(_said(said))}", _instead(known)
+    own_rules, known = ([rule for rule in rules if rule.path[0] == name] for rules in (after, before))
+    return f"  {name}: {limit_text(_tree_of(own_rules))}", _instead(known)
 
 
 def _instead(rules: Sequence[LimitRule]) -> str:
@@ -106,7 +106,7 @@ def _instead(rules: Sequence[LimitRule]) -> str:
     return f"instead of line {lines[0]}" if lines else ""
 
 
-def _said(rules: Iterable[LimitRule]) -> LimitTree:
+def _tree_of(rules: Iterable[LimitRule]) -> LimitTree:
     """Return what rules of one type say, as a tree of members."""
     members: LimitTree = {}
     for rule in rules:

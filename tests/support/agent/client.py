@@ -160,9 +160,9 @@ class XrceClient:
             self.send(stream, submessage)
             return
         size = (room - 4) & ~3
-        pieces = [submessage[at : at + size] for at in range(0, len(submessage), size)]
-        for i, piece in enumerate(pieces):
-            self.send(stream, encode(Fragment(piece, i == len(pieces) - 1)))
+        chunks = [submessage[at : at + size] for at in range(0, len(submessage), size)]
+        for i, chunk in enumerate(chunks):
+            self.send(stream, encode(Fragment(chunk, i == len(chunks) - 1)))
 
     def send(self, stream: int, submessage: bytes) -> None:
         """Send a submessage on a stream; waits for room in the window of a reliable one."""

@@ -317,10 +317,10 @@ class World:
             if now >= rss_at:
                 rss_at = now + 2
                 self.rss.append((now - self.began, self.agent.rss_kib))
-                self._tell_minute()
+                self._report_minute()
         self._line.close()
 
-    def _tell_minute(self) -> None:
+    def _report_minute(self) -> None:
         """Print a summary of the last minute, for an observer (`pytest -s`)."""
         minute = int(self.rss[-1][0]) // 60
         if minute > self._minute:

@@ -103,7 +103,7 @@ class SoakClient:
         if isinstance(submessage, Data):
             self.on_data(submessage)
         elif isinstance(submessage, Fragment):
-            self._pieces += submessage.piece
+            self._pieces += submessage.data
             if submessage.last:
                 whole, self._pieces = self._pieces, b""
                 self._take(whole, 0)
@@ -142,8 +142,8 @@ class SoakClient:
             self._queue.append(submessage)
         else:
             size = (room - 4) & ~3
-            pieces = [submessage[at : at + size] for at in range(0, len(submessage), size)]
-            self._queue.extend(encode(Fragment(p, p is pieces[-1])) for p in pieces)
+            chunks = [submessage[at : at + size] for at in range(0, len(submessage), size)]
+            self._queue.extend(encode(Fragment(p, p is chunks[-1])) for p in chunks)
         self._release()
 
     def _release(self) -> None:

@@ -26,10 +26,10 @@ class TcpLink:
     def recv(self, _size: int) -> bytes:
         """Return the next message; raise TimeoutError if none arrives in time, ConnectionError at its end."""
         while len(self._bytes) < 2 or len(self._bytes) < 2 + int.from_bytes(self._bytes[:2], "little"):
-            piece = self.socket.recv(65536)
-            if not piece:
+            chunk = self.socket.recv(65536)
+            if not chunk:
                 raise ConnectionError
-            self._bytes += piece
+            self._bytes += chunk
         size = int.from_bytes(self._bytes[:2], "little")
         message, self._bytes = self._bytes[2 : 2 + size], self._bytes[2 + size :]
         return message

@@ -403,7 +403,7 @@ _TOP = {
         "freertos",
         "target: {name: m4, rtos: no rtos at all, port: 3}",
         "1:42",
-        "'target' has no key 'port'",
+        "unknown key 'port' in 'target'",
     ),
     "interfaces": KeyCase(
         "interfaces: [std_msgs, std_msgs/msg/Int32, std_msgs/Bool]",
@@ -499,7 +499,7 @@ _TOP = {
         ],
         "endpoints: {/diagnostics: {length: 2}}",
         "1:28",
-        "'endpoints[\"/diagnostics\"]' has no key 'length'. Known are depth, queue, limits",
+        "unknown key 'length' in 'endpoints[\"/diagnostics\"]'. Known: depth, queue, limits",
     ),
     "memory": KeyCase(
         "memory: {}",
@@ -703,7 +703,7 @@ _NODES = {
         (1, 5, 2),
         _in_node("parameters: [{name: a, type: integer, range: {min: 1}}]"),
         "3:50",
-        "'nodes[0].parameters[0].range' lacks the key 'max'. Add `max: …`",
+        "missing key 'max' in 'nodes[0].parameters[0].range'. Add `max: …`",
     ),
     "nodes[].parameters[].range.min": KeyCase(
         _in_node("parameters: [{name: a, type: double, range: {min: -1.5, max: 5}}]"),
@@ -761,7 +761,7 @@ _NODES = {
         ["t"],
         _in_node("executors: [{name: e, handles: [t, t]}]\n    timers: [{name: t, period: 1 s}]"),
         "3:40",
-        "'nodes[0].executors[0].handles' has 't' twice; first in line 3. Remove one of them",
+        "'nodes[0].executors[0].handles' contains 't' twice; first in line 3. Remove one of them",
     ),
     "nodes[].executors[].timeout": KeyCase(
         _in_node("executors: [{name: e, timeout: 2 s}]"),

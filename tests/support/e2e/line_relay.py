@@ -63,18 +63,18 @@ class LineRelay:
             if not select.select([source], [], [], 0.05)[0]:
                 continue
             with contextlib.suppress(OSError):
-                piece = os.read(source, 16)
-                free = max(free, time.monotonic()) + len(piece) * self._byte_s
+                chunk = os.read(source, 16)
+                free = max(free, time.monotonic()) + len(chunk) * self._byte_s
                 time.sleep(max(0.0, free - time.monotonic()))
-                os.write(target, self._spoil(piece))
+                os.write(target, self._spoil(chunk))
 
-    def _spoil(self, piece: bytes) -> bytes:
+    def _spoil(self, chunk: bytes) -> bytes:
         fate = self._chance.random()
-        at = self._chance.randrange(len(piece))
+        at = self._chance.randrange(len(chunk))
         if fate < self._noise:
             self.changed += 1
-            return piece[:at] + bytes([piece[at] ^ (1 << self._chance.randrange(8))]) + piece[at + 1 :]
+            return chunk[:at] + bytes([chunk[at] ^ (1 << self._chance.randrange(8))]) + chunk[at + 1 :]
         if fate < 2 * self._noise:
             self.missing += 1
-            return piece[:at] + piece[at + self._chance.randrange(1, 8) :]
-        return piece
+            return chunk[:at] + chunk[at + self._chance.randrange(1, 8) :]
+        return chunk

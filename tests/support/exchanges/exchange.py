@@ -48,14 +48,14 @@ class Peer:
     def passed(self, start: int, end: int) -> tuple[int, list[bytes]]:
         """Let time pass up to `end` or the first thing that the agent has to say; return when, and what."""
         while (due := min(self._next.values())) <= end:
-            said = []
+            datagrams = []
             for period, at in list(self._next.items()):
                 if at == due:
                     self._next[period] = at + period
-                    said += self._offers() if period == OFFER_MS else self.agent.tick()
-            if said:
+                    datagrams += self._offers() if period == OFFER_MS else self.agent.tick()
+            if datagrams:
                 now = max(due, start)
-                return now, self._carried(now, said)
+                return now, self._carried(now, datagrams)
         return end, []
 
     def _carried(self, now: int, messages: list[bytes]) -> list[bytes]:
@@ -63,18 +63,18 @@ class Peer:
         return [self._wire.carried(message) for message in messages]
 
     def _offers(self) -> list[bytes]:
-        said: list[bytes] = []
+        datagrams: list[bytes] = []
         for target in sorted(self.agent.reading):
             kind = target[1] & 15
             if kind == READER:
-                said += self.agent.give(target, SAMPLE)
+                datagrams += self.agent.give(target, SAMPLE)
             elif kind == REPLIER:
                 self._requests += 1
-                said += self.agent.give(target, identity(self._requests) + SAMPLE)
+                datagrams += self.agent.give(target, identity(self._requests) + SAMPLE)
         asked, self.agent.asked = self.agent.asked, []
         for target, request, _ in asked:
-            said += self.agent.give(target, request + target + SAMPLE)
-        return said
+            datagrams += self.agent.give(target, request + target + SAMPLE)
+        return datagrams
 
 
 def record(image: Path, still_time: Path, transport: str, duration_ms: int, agent: ServingAgent) -> list[str]:

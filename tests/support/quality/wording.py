@@ -78,12 +78,12 @@ def prose_of_python(text: str) -> str:
                 (start if number == first else 0),
                 (end if number == last else len(source[number - 1])),
             )
-            piece = re.sub(
+            chunk = re.sub(
                 r"""^[rbfRBF]*(?:\"{1,3}|')|(?:\"{1,3}|')$|^#+""",
                 lambda m: " " * len(m[0]),
                 source[number - 1][left:right],
             )
-            lines[number - 1] = lines[number - 1][:left] + piece + lines[number - 1][right:]
+            lines[number - 1] = lines[number - 1][:left] + chunk + lines[number - 1][right:]
     return "\n".join(lines)
 
 

@@ -21,7 +21,7 @@ class FakeAgent:
     """State of one agent; `receive` returns the datagrams that it answers with.
 
     `drop` is asked for each datagram that comes in: true loses it. `refuse` maps an object kind to the status
-    that its creation gets. `pieces` of fragments outlive a gap and a session, as in the public agent; `spoiled` counts
+    that its creation gets. `chunks` of fragments outlive a gap and a session, as in the public agent; `spoiled` counts
     wholes that are none, `discarded` messages beyond the window.
     """
 
@@ -37,7 +37,7 @@ class FakeAgent:
     last_handled: int = 0xFFFF
     last_announced: int = 0xFFFF
     waiting: dict[int, bytes] = field(default_factory=dict)
-    pieces: bytes = b""
+    chunks: bytes = b""
     unacknowledged: dict[int, bytes] = field(default_factory=dict)
     statuses: int = 0
     discarded: int = 0
@@ -142,9 +142,9 @@ class FakeAgent:
 
     def _join(self, datagram: bytes) -> None:
         ((_, payload),) = _split(datagram)
-        self.pieces += payload
+        self.chunks += payload
         if datagram[5] & 2:
-            whole, self.pieces = b"\x81\x80\0\0" + self.pieces, b""
+            whole, self.chunks = b"\x81\x80\0\0" + self.chunks, b""
             if len(whole) > 4 and len(whole) < 8 + struct.unpack_from("<H", whole, 6)[0]:
                 self.spoiled += 1
             else:

@@ -123,8 +123,8 @@ class ReadingAgent(FakeAgent):
         if len(submessage) + 4 <= self.mtu:
             return [self._reliably(bytes(4) + submessage)]
         room = self.mtu - 8
-        pieces = [submessage[i : i + room] for i in range(0, len(submessage), room)]
+        chunks = [submessage[i : i + room] for i in range(0, len(submessage), room)]
         return [
-            self._reliably(bytes(4) + struct.pack("<BBH", FRAGMENT, 3 if p is pieces[-1] else 1, len(p)) + p)
-            for p in pieces
+            self._reliably(bytes(4) + struct.pack("<BBH", FRAGMENT, 3 if p is chunks[-1] else 1, len(p)) + p)
+            for p in chunks
         ]

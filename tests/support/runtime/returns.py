@@ -22,7 +22,7 @@ FLAGS = (
 )
 
 
-def said(folder: Path, *command: str | Path, **environment: str) -> list[tuple[str, int]]:
+def results_of(folder: Path, *command: str | Path, **environment: str) -> list[tuple[str, int]]:
     """Return what a program of c/ tells, in its order."""
     reported = folder / "told.txt"
     known = {**os.environ, **environment, "TELL": str(reported)}

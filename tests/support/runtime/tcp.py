@@ -59,13 +59,13 @@ class TcpAgent(threading.Thread):
         stream = b""
         while True:
             try:
-                piece = peer.recv(self._read)
+                chunk = peer.recv(self._read)
                 time.sleep(self._pause_s)
             except OSError:
                 return
-            if not piece:
+            if not chunk:
                 return
-            stream += piece
+            stream += chunk
             while len(stream) >= 2 and len(stream) >= 2 + struct.unpack_from("<H", stream)[0]:
                 size = struct.unpack_from("<H", stream)[0]
                 message, stream = stream[2 : 2 + size], stream[2 + size :]

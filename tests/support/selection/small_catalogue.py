@@ -104,7 +104,7 @@ class Outcome:
     """A selection and its messages."""
 
     selection: Selection
-    said: tuple[str, ...]
+    messages: tuple[str, ...]
 
     def names(self) -> tuple[str, ...]:
         return tuple(c.component.name for c in self.selection.components)

@@ -123,8 +123,8 @@ class Project:
     def reads(self) -> list[tuple[str, set[str]]]:
         """Return each object with the files that the compiler read for it."""
         if self.generator == "ninja":
-            said = run("ninja", "-t", "deps", cwd=self.build_folder, env=self.environment).stdout
-            blocks = [block.splitlines() for block in said.split("\n\n") if block.strip()]
+            output = run("ninja", "-t", "deps", cwd=self.build_folder, env=self.environment).stdout
+            blocks = [block.splitlines() for block in output.split("\n\n") if block.strip()]
             return [
                 (self._name(self.build_folder / block[0].partition(":")[0]), self._real(block[1:]))
                 for block in blocks
