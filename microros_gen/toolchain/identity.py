@@ -40,17 +40,17 @@ def identify(compiler: str, environ: Mapping[str, str]) -> Identity:
     """Ask a compiler what it is."""
     probe = ["-v", "-E", "-x", "c", os.devnull, "-o", os.devnull]
     folder = Path(Path.cwd().anchor)  # clang says in which folder it runs
-    said = run([compiler, CALL_GRAPH, *probe], folder)
-    call_graph = said.returncode == 0
+    probed = run([compiler, CALL_GRAPH, *probe], folder)
+    call_graph = probed.returncode == 0
     if not call_graph:
-        said = run([compiler, *probe], folder)
+        probed = run([compiler, *probe], folder)
     variables = (f"{name}={environ.get(name, '')}" for name in _ENVIRONMENT)
-    return Identity(joined([said.stdout, *_states(compiler, said.stdout), *variables]), call_graph)
+    return Identity(joined([probed.stdout, *_states(compiler, probed.stdout), *variables]), call_graph)
 
 
-def _states(compiler: str, said: str) -> Iterator[str]:
+def _states(compiler: str, probed: str) -> Iterator[str]:
     """Yield the states of the driver and of the programs that it says to run."""
-    for name in (compiler, *_PROGRAM.findall(said)):
+    for name in (compiler, *_PROGRAM.findall(probed)):
         try:
             found = Path(name).stat()
         except OSError:

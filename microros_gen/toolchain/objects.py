@@ -69,8 +69,8 @@ class Objects:
             if result.returncode == 0:
                 self._keep(unit)
             else:
-                said = f"{unit.source} does not compile:\n{result.stdout.rstrip()}"
-                failed.append(Diagnostic(said, id="MG-8201"))
+                message = f"{unit.source} does not compile:\n{result.stdout.rstrip()}"
+                failed.append(Diagnostic(message, id="MG-8201"))
         if failed:
             raise UserError(failed, status=1)
 

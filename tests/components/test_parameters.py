@@ -171,7 +171,7 @@ def test_without_strings_nothing_of_them_is_in_the_output(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "expected"),
     [
         (
             BARE + 'endpoints: {"~/get_parameters": {limits: {names: {sequence: 9, string: 9}}}}\n',
@@ -184,7 +184,7 @@ def test_without_strings_nothing_of_them_is_in_the_output(tmp_path: Path) -> Non
     ],
     ids=["limits of one", "no node"],
 )
-def test_what_cannot_be_served_is_refused(tmp_path: Path, text: str, told: str) -> None:
+def test_what_cannot_be_served_is_refused(tmp_path: Path, text: str, expected: str) -> None:
     with pytest.raises(UserError) as caught:
         planned(tmp_path, text)
-    assert any(told in without_id(d.headline()) for d in caught.value.diagnostics)
+    assert any(expected in without_id(d.headline()) for d in caught.value.diagnostics)

@@ -38,13 +38,13 @@ class Simulation:
 
     def __init__(self, observer: Observer, process: subprocess.Popen[str]) -> None:
         self._observer = observer
-        self._said: queue.Queue[str] = queue.Queue()
+        self._output: queue.Queue[str] = queue.Queue()
         assert process.stdout is not None
         threading.Thread(target=self._listen, args=(process.stdout,), daemon=True).start()
 
     def _listen(self, lines: Iterator[str]) -> None:
         for line in lines:
-            self._said.put(line.rstrip("\n"))
+            self._output.put(line.rstrip("\n"))
 
     def publish(self, now_ms: int) -> None:
         time_of_day = {"sec": now_ms // 1000, "nanosec": now_ms % 1000 * 1_000_000}
@@ -57,7 +57,7 @@ class Simulation:
         found: list[str] = []
         for _ in range(30):
             try:
-                while (line := self._said.get(timeout=0.5)) != until:
+                while (line := self._output.get(timeout=0.5)) != until:
                     found.append(line)
                 return found
             except queue.Empty:
@@ -74,7 +74,7 @@ class Simulation:
     def quiet(self, duration_s: float) -> bool:
         """Whether the application says nothing for a while."""
         time.sleep(duration_s)
-        return self._said.empty()
+        return self._output.empty()
 
 
 @contextmanager

@@ -159,8 +159,8 @@ def test_cut_requests_are_answered(program: Path, codec: Codec) -> None:
                 assert set(body) == {0}, "an empty reply"
             whole = server.raw("set_parameters_atomically", cut)
             assert whole is not REFUSED
-            told = server.reply("set_parameters_atomically", whole)["result"]
-            assert told == {"successful": False, "reason": reason}
+            result = server.reply("set_parameters_atomically", whole)["result"]
+            assert result == {"successful": False, "reason": reason}
             each = server.raw("set_parameters", cut)
             assert each is not REFUSED
             results = server.reply("set_parameters", each)["results"]

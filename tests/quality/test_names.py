@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,7 +15,12 @@ from tests.support.paths import ROOT
 
 _ENTRIES = yaml.safe_load(Path(__file__).with_name("names.yaml").read_text(encoding="utf-8"))
 REFUSED: dict[str, str] = {entry["word"]: entry["write"] for entry in _ENTRIES if "in" not in entry}
-REFUSED_IN_C: dict[str, str] = {entry["word"]: entry["write"] for entry in _ENTRIES}
+REFUSED_IN_C: dict[str, str] = {
+    entry["word"]: entry["write"] for entry in _ENTRIES if entry.get("in") != "variables"
+}
+REFUSED_VARIABLES: dict[str, str] = {
+    entry["word"]: entry["write"] for entry in _ENTRIES if entry.get("in") == "variables"
+}
 C_NAMES_THAT_STAY = {
     "given_up": "a member of rmw_uros_client_statistics_t, which applications read",
     "microros_memory_give_back": "called by generated type support, which stays byte for byte",
@@ -31,6 +37,7 @@ def _pattern(words: dict[str, str]) -> re.Pattern[str]:
 
 _WORDS = _pattern(REFUSED)
 _C_WORDS = _pattern(REFUSED_IN_C)
+_VARIABLE_WORDS = _pattern(REFUSED_VARIABLES)
 
 
 def refused(text: str) -> Iterator[str]:
@@ -49,6 +56,46 @@ def test_no_name_has_a_refused_word(folder: str) -> None:
         for hit in refused(path.read_text(encoding="utf-8"))
     ]
     assert found == []
+
+
+def variables(text: str) -> Iterator[str]:
+    """Yield the name of each variable, parameter and attribute that a Python file assigns."""
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.arg):
+            yield node.arg
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.id
+        elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
+            yield node.attr
+
+
+def refused_variables(text: str) -> Iterator[str]:
+    """Yield each variable of a Python file that has a refused word, with what to write instead."""
+    if _VARIABLE_WORDS.search(text.lower()) is None:
+        return
+    for name in sorted(set(variables(text))):
+        found = _VARIABLE_WORDS.search(name.lower())
+        if found:
+            yield f"{name}: write {REFUSED_VARIABLES[found[0]]} for {found[0]}"
+
+
+@pytest.mark.parametrize("folder", ["microros_gen", "tests", "docs", "cmake"])
+def test_no_variable_has_a_refused_word(folder: str) -> None:
+    found = [
+        f"{path.relative_to(ROOT)}: {hit}"
+        for path in sorted((ROOT / folder).rglob("*.py"))
+        for hit in refused_variables(path.read_text(encoding="utf-8"))
+    ]
+    assert found == []
+
+
+@pytest.mark.parametrize("text", ["said = 1", "def f(piece): ...", "self._pieces = []", "f = lambda told: 0"])
+def test_a_refused_variable_is_found(text: str) -> None:
+    assert len(list(refused_variables(text))) == 1
+
+
+def test_words_in_texts_are_no_variables() -> None:
+    assert list(refused_variables('x = "said"  # told\ny = x.pieces')) == []
 
 
 def refused_in_c(text: str) -> Iterator[str]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A Python process beside the test that answers each line, one JSON object, with one of its own."""
+"""A Python process next to the test that answers each line, a JSON object, with another one."""
 
 from __future__ import annotations
 

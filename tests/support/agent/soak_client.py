@@ -41,7 +41,7 @@ class SoakClient:
         self._beat_at = 0.0
         self._next_in = 0
         self._held: dict[int, bytes] = {}
-        self._pieces = b""
+        self._fragments = b""
 
     @property
     def acknowledged(self) -> bool:
@@ -103,9 +103,9 @@ class SoakClient:
         if isinstance(submessage, Data):
             self.on_data(submessage)
         elif isinstance(submessage, Fragment):
-            self._pieces += submessage.data
+            self._fragments += submessage.data
             if submessage.last:
-                whole, self._pieces = self._pieces, b""
+                whole, self._fragments = self._fragments, b""
                 self._take(whole, 0)
         elif isinstance(submessage, Heartbeat):
             ahead = (submessage.first - self._next_in) & 0xFFFF

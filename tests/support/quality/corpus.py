@@ -39,7 +39,7 @@ _ALONE = (
     "      - {topic: heard, type: std_msgs/msg/String, qos: {reliability: best_effort}, queue: 1}\n"
     "limits: {'*': {string: 400}}\n"
 )
-_SAID = (
+_QUEUED = (
     "      - {topic: said, type: std_msgs/msg/String, limits: {string: 3000}, queue: 2}\n"
     "      - {topic: word, type: std_msgs/msg/String, limits: {string: 8}}\n"
 )
@@ -85,7 +85,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "reliable_creation": _BOTH + "creation: reliable\npools: {input_history: 2}\n",
         "ordered_input": _BOTH + "creation: reliable\n",
         "large": _NODES + _LARGE,
-        "reader": _READER + _HEARD + _SAID + "pools: {input_history: 2}\n",
+        "reader": _READER + _HEARD + _QUEUED + "pools: {input_history: 2}\n",
         "reader_shared": _READER
         + "      - {topic: said, type: std_msgs/msg/String, limits: {string: 3000}, queue: 8, queue_bytes: 3100}\n"
         + "target: {name: qemu-mps2-an386}\n",
@@ -94,7 +94,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "limits: {'*': {string: 20}}\n"
         + "target: {name: qemu-mps2-an386}\n",
         "reader_pool": "version: 1\nprofiles: [pure_reader]\ninterfaces: [std_msgs/msg/Int32]\n",
-        "reader_xml": _READER + _SAID + "entities: xml\nerrors: code\nlimits: {'*': {string: 12}}\n",
+        "reader_xml": _READER + _QUEUED + "entities: xml\nerrors: code\nlimits: {'*': {string: 12}}\n",
         "reader_reference": _READER + _HEARD + "entities: reference\n",
         "reader_preconfigured": _READER + _HEARD + "entities: preconfigured\nliveliness: none\n",
         "reader_and_sender": _BOTH + "    subscriptions:\n" + _HEARD + "components: [+subscribe]\n",
