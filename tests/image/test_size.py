@@ -461,5 +461,5 @@ def test_what_was_not_built_is_refused(probe_tree: Path, tmp_path: Path) -> None
     out = tmp_path / "out"
     shutil.copytree(probe_tree, out)
     shutil.rmtree(out / "lib")
-    with pytest.raises(UserError, match="was not built"):
+    with pytest.raises(UserError, match="has not been built"):
         measure(out)
