@@ -2,8 +2,9 @@
 """Frozen data classes that are cheap to define: one run of `generate` defines two hundred of them.
 
 `dataclasses.dataclass(frozen=True)` compiles six methods for each class when its module is imported, which is half
-of all that importing the tool takes. Here only `__init__` is compiled, when the first instance is made; all classes
-share the other methods. What the classes do does not differ, for type checkers neither.
+of all that importing the tool takes. Here only `__init__` is compiled, and only for a class with many instances: most
+have one or two in a run. All classes share the other methods. What the classes do does not differ, for type checkers
+neither.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ else:
         cls.__doc__ = cls.__doc__ or cls.__name__
         dataclasses.dataclass(init=False, repr=False, eq=False, kw_only=kw_only)(cls)
         fields = dataclasses.fields(cls)
-        cls.__init__ = _init_at_first_use(cls, fields)
+        cls.__init__ = _init_of_first(cls, fields)
         cls._record_values = _values_of([field.name for field in fields if field.compare])
         for name, method in _SHARED.items():
             if cls.__dict__.get(name) is None:  # a class with __eq__ alone has None for __hash__
@@ -42,12 +43,48 @@ else:
         values = attrgetter(*names)
         return values if len(names) > 1 else staticmethod(lambda record: (values(record),))
 
-    def _init_at_first_use(cls, fields):
+    # Compiling a method takes as long as filling this many instances without it.
+    _FIRST = 12
+
+    def _init_of_first(cls, fields):
+        """Return the method for the first instances; it then replaces itself by one that is compiled."""
+        known = {field.name: field for field in fields}
+        positional = [field.name for field in fields if not field.kw_only]
+        left = _FIRST
+
         def init(self, *arguments, **named):
+            nonlocal left
+            left -= 1
+            given = dict(zip(positional, arguments, strict=False), **named)
+            if left >= 0 and len(given) == len(arguments) + len(named) and _fill(self, known, given):
+                if after := getattr(self, "__post_init__", None):
+                    after()
+                return
+            # Of the compiled one are the messages about wrong arguments, too.
             cls.__init__ = _init(cls, fields)
             cls.__init__(self, *arguments, **named)
 
         return init
+
+    def _fill(self, known, given):
+        """Set all fields from `given` or to their defaults; False if one is missing or unknown."""
+        values = []
+        for name, field in known.items():
+            if name in given:
+                values.append((name, given.pop(name)))
+            elif field.default is not dataclasses.MISSING:
+                values.append((name, field.default))
+            elif field.default_factory is not dataclasses.MISSING:
+                values.append((name, field.default_factory()))
+            else:
+                return False
+        if given:
+            return False
+        for name, value in values:
+            _set(self, name, value)
+        return True
+
+    _set = object.__setattr__
 
     def _init(cls, fields):
         """Return the method that sets each field to its argument or its default."""

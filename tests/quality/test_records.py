@@ -76,10 +76,14 @@ CALLS = [
 ]
 
 
+@pytest.mark.parametrize("before", [0, 100])
 @pytest.mark.parametrize(("name", "arguments", "named"), CALLS)
 def test_instances_are_as_those_of_the_standard_library(
-    name: str, arguments: tuple[Any, ...], named: dict[str, Any]
+    name: str, arguments: tuple[Any, ...], named: dict[str, Any], before: int
 ) -> None:
+    """The first ones of a class, and those after them: `__init__` is compiled for a class with many instances."""
+    for _ in range(before):
+        OURS[name](*arguments, **named)
     ours, theirs = OURS[name](*arguments, **named), THEIRS[name](*arguments, **named)
     assert repr(ours) == repr(theirs)
     assert dataclasses.asdict(ours) == dataclasses.asdict(theirs)
@@ -124,7 +128,9 @@ def test_nothing_is_set_or_deleted(name: str) -> None:
         delattr(point, name)
 
 
-@pytest.mark.parametrize(("arguments", "named"), [((), {}), ((1, 2, [], "h", 5), {}), ((1,), {"other": 1})])
+@pytest.mark.parametrize(
+    ("arguments", "named"), [((), {}), ((1, 2, [], "h", 5), {}), ((1,), {"other": 1}), ((1,), {"x": 1})]
+)
 def test_wrong_arguments_are_refused_in_the_same_words(
     arguments: tuple[Any, ...], named: dict[str, Any]
 ) -> None:

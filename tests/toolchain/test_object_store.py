@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -16,6 +17,7 @@ from microros_gen.diagnostics import UserError
 from microros_gen.toolchain.compile import BuildReport, compile_tree, object_name
 from microros_gen.toolchain.object_store import Found, ObjectStore
 from microros_gen.toolchain.toolchain import Toolchain
+from tests.support.command_line import Runner
 
 pytestmark = pytest.mark.builds
 
@@ -254,3 +256,28 @@ def test_the_environment_names_another_folder(tmp_path: Path) -> None:
     store.keep("00", "".join, Found(["x"], {".o": b"o"}))
     assert list((tmp_path / "ci").glob("*/*.bin"))
     assert not (tmp_path / "microros-gen").exists()
+
+
+APPLICATION = "version: 1\ncomponents: [cdr]\ninterfaces: [std_msgs/msg/Int32]\n"
+
+
+def test_build_uses_the_store_of_the_user(run: Runner, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MICROROS_GEN_OBJECTS", "")
+    monkeypatch.setenv("CFLAGS", "-O0")
+    (folder / "microros.yaml").write_text(APPLICATION)
+    first = run("build", "-o", "out")
+    assert re.search(r"^compiled +\d+ objects, 0 were up to date$", first.out, re.MULTILINE)
+    shutil.rmtree(folder / "out")
+    again = run("build", "-o", "out")
+    text = r"^compiled +0 objects, \d+ were copied from earlier builds, 0 were up to date$"
+    assert re.search(text, again.out, re.MULTILINE)
+
+
+def test_build_does_without_the_store_where_that_is_off(
+    run: Runner, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("MICROROS_GEN_OBJECTS", "off")
+    monkeypatch.setenv("CFLAGS", "-O0")
+    (folder / "microros.yaml").write_text(APPLICATION)
+    assert run("build", "-o", "out").status == 0
+    assert not list((folder.parent / "cache").rglob("objects"))
