@@ -132,7 +132,7 @@ def _measure_library(folder: Folder) -> SizeReport:
     chunks = attribute_library(folder)
     facts = _library_facts(folder, chunks)
     parts = ram_parts(folder, chunks, facts)
-    stack = StackReport(False, "there is no image: calls are not linked yet", 0, None, (), (), 0)
+    stack = StackReport(False, "without an image, calls are not linked yet", 0, None, (), (), 0)
     budgets = budget_lines(folder, chunks, parts, stack)
     return SizeReport(folder, chunks, facts, parts, entities(folder, chunks, parts), None, stack, budgets)
 

@@ -302,6 +302,6 @@ def _path_fault(path: Path) -> tuple[str, str] | None:
     if _packages_below(path, Origin.PATH):
         return None
     return (
-        "holds no interface package",
+        "contains no interface package",
         "A package has a folder msg/, srv/ or action/; itself, a folder of packages or a workspace can be named",
     )

@@ -217,7 +217,7 @@ class _Reader:
     def _within(self, setting: MetaSetting, least: int, most: int) -> int | None:
         """Return the whole number of a setting; None and a remark where it is none, or out of range here."""
         if not re.fullmatch(r"-?[0-9]{1,18}", setting.value):
-            self._without(setting, f"'{setting.value}' is no whole number", undecided=True)
+            self._without(setting, f"'{setting.value}' is not a whole number", undecided=True)
         elif not least <= int(setting.value) <= most:
             self._without(setting, f"here it can be {least} to {most}", undecided=True)
         else:

@@ -181,7 +181,7 @@ class _Several:
 
     def _elements(self, value: Any) -> Sequence[Any]:
         if isinstance(value, (str, Mapping)) or not hasattr(value, "__len__"):
-            raise CodecError(f"{value!r:.60} is no list")
+            raise CodecError(f"{value!r:.60} is not a list")
         return value if isinstance(value, (list, tuple)) else list(value)
 
     def _write(self, elements: Sequence[Any], out: bytearray) -> None:
@@ -307,13 +307,14 @@ def unfit(kind: Primitive, value: Any) -> str:
     if kind is Primitive.BOOL:
         wanted = "True or False"
     elif kind in _FLOATS:
-        wanted = f"{kind.value}"
+        wanted = f"a {kind.value}"
     else:
         bits = 8 * kind.size
         signed = CODES[kind].islower()
         low, high = (-(1 << bits - 1), (1 << bits - 1) - 1) if signed else (0, (1 << bits) - 1)
-        wanted = f"{kind.value} ({low} to {high})"
-    return f"{value!r:.60} is no {wanted}"
+        article = "an" if kind.value.startswith("int") else "a"
+        wanted = f"{article} {kind.value} ({low} to {high})"
+    return f"{value!r:.60} is not {wanted}"
 
 
 def _refused_element(kind: Primitive, elements: Sequence[Any]) -> CodecError:

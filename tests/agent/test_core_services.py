@@ -202,4 +202,4 @@ def test_a_service_that_ros_does_not_have() -> None:
     (answer,) = listener.say(Create(5, 0x28, 8, Format.BINARY, blob, NODE))
     assert isinstance(answer, StatusReply)
     assert answer.status == 0x85
-    assert "is no ROS service" in bench.text.getvalue()
+    assert "is not a ROS service" in bench.text.getvalue()

@@ -119,7 +119,7 @@ def test_services_of_actions() -> None:
         (Service("a", RESPONSE, REQUEST), "SetBool_Response is not that of a ROS service"),
         (Service("a", REQUEST, "std_srvs::srv::dds_::Trigger_Response_"), "are not of one service"),
         (Service("a", "p::msg::dds_::A_Request_", "p::msg::dds_::A_Response_"), "not that of a ROS service"),
-        (Service("a", "p::srv::dds_::A_Request", RESPONSE), "is no ROS message"),
+        (Service("a", "p::srv::dds_::A_Request", RESPONSE), "is not a ROS message"),
         (Service("a" * 239, REQUEST, RESPONSE), "too long"),
     ],
 )

@@ -370,7 +370,7 @@ def test_an_id_or_a_key_twice() -> None:
 def test_names_that_ros_does_not_have() -> None:
     made = content()
     made["clients"][0]["objects"][1]["name"] = "count"
-    with pytest.raises(UserError, match=r"e0.json:\d+:\d+: error: topic 'count' is no ROS topic"):
+    with pytest.raises(UserError, match=r"e0.json:\d+:\d+: error: topic 'count' is not a ROS topic"):
         load(made)
 
 

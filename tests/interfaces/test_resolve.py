@@ -111,7 +111,7 @@ def test_paths_that_hold_nothing_are_errors(tmp_path: Path) -> None:
     assert "'" + str(tmp_path / "none") + "' does not exist" in messages[0]
     assert "file' is not a folder" in messages[1]
     assert (
-        "empty' holds no interface package. A package has a folder msg/, srv/ or action/; itself"
+        "empty' contains no interface package. A package has a folder msg/, srv/ or action/; itself"
         in messages[2]
     )
 

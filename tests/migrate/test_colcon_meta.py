@@ -133,7 +133,7 @@ def test_what_is_not_needed_is_named_with_its_reason_and_line(init: Init, tmp_pa
     ("setting", "expected"),
     [
         ("RMW_UXRCE_STREAM_HISTORY=32", "here it can be 1 to 16"),
-        ("RMW_UXRCE_MAX_NODES=many", "'many' is no whole number"),
+        ("RMW_UXRCE_MAX_NODES=many", "'many' is not a whole number"),
         ("RMW_UXRCE_MAX_PUBLISHERS=-1", "here it can be 0 to 250"),
         ("RMW_UXRCE_GRAPH=ON", "questions about the ROS graph are not in this version"),
         ("RMW_UXRCE_ALLOW_DYNAMIC_ALLOCATIONS=ON", "pools do not grow: the library has no heap"),

@@ -181,7 +181,7 @@ def test_a_call_waits_for_its_response(peer: Peer) -> None:
 
 def test_what_is_refused(peer: Peer) -> None:
     publisher = peer.publisher("/state", "own_msgs/msg/Report")
-    with pytest.raises(CodecError, match="own_msgs/msg/Report: count: -1 is no uint16"):
+    with pytest.raises(CodecError, match="own_msgs/msg/Report: count: -1 is not a uint16"):
         publisher.publish({"count": -1})
     with pytest.raises(RosError, match="own_msgs/srv/Add is not a message"):
         peer.publisher("/state", "own_msgs/srv/Add")

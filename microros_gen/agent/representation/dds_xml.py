@@ -188,7 +188,7 @@ def _milliseconds(element: Element, path: str, default: int = 0) -> int:
     if any("INFINIT" in number for number in numbers):
         return 0
     if not all(n.isascii() and n.isdigit() and len(n) < 11 for n in numbers):
-        raise MalformedError("xml", f"'{path}' is no time")
+        raise MalformedError("xml", f"'{path}' is not a time")
     total = int(numbers[0]) * 1000 + int(numbers[1]) // 1_000_000
     return total if total <= _LONGEST else 0
 

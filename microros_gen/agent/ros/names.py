@@ -37,7 +37,7 @@ def ros_topic(dds_name: str) -> str:
     match = _TOPIC.fullmatch(dds_name)
     if not match:
         raise BridgeError(
-            f"topic '{_short(dds_name)}' is no ROS topic: 'rt/' and a ROS name is expected",
+            f"topic '{_short(dds_name)}' is not a ROS topic: 'rt/' and a ROS name is expected",
             Status.INVALID_DATA,
         )
     return _bounded(match[1], "topic")
@@ -48,7 +48,7 @@ def ros_type(dds_name: str) -> TypeName:
     match = _TYPE.fullmatch(dds_name)
     if not match:
         raise BridgeError(
-            f"type '{_short(dds_name)}' is no ROS message: 'package::msg::dds_::Type_' is expected",
+            f"type '{_short(dds_name)}' is not a ROS message: 'package::msg::dds_::Type_' is expected",
             Status.INVALID_DATA,
         )
     if len(match[1]) + len(match[3]) > MAXIMUM_TYPE:

@@ -221,7 +221,9 @@ def _python_escape(match: re.Match[str]) -> str:
     if digits is not None:
         code = int(digits, 16)
         if code > 0x10FFFF:
-            raise InvalidValueError(f"'\\U{digits}' is no character", "Unicode ends at 10FFFF", id="MG-2154")
+            raise InvalidValueError(
+                f"'\\U{digits}' is not a character", "Unicode ends at 10FFFF", id="MG-2154"
+            )
         return chr(code)
     if not other:
         raise InvalidValueError("the string ends with a single backslash", _FOUR, id="MG-2155")

@@ -140,7 +140,7 @@ class FakeNode:
     def _service(self, service: Service) -> str:
         match = SERVICE_TYPE.fullmatch(service.request_type)
         if not match:
-            raise BridgeError(f"'{service.request_type}' is no ROS service", Status.INVALID_DATA)
+            raise BridgeError(f"'{service.request_type}' is not a ROS service", Status.INVALID_DATA)
         label = f"{service.name} [{match[1]}/srv/{match[2]}]"
         self.bridge.graph.append(label)
         return label
