@@ -164,12 +164,6 @@ def test_strings_take_what_is_declared(tmp_path: Path) -> None:
     assert largest(more, "srv/SetParameters_Request") > first + 2 * 48
 
 
-def test_without_strings_nothing_of_them_is_in_the_output(tmp_path: Path) -> None:
-    files = compiler.render(planned(tmp_path, DECLARED))
-    assert slice_of(planned(tmp_path, DECLARED)).string_size == 0
-    assert "src/parameters/rclc_parameter_string.c" not in files
-
-
 @pytest.mark.parametrize(
     ("text", "expected"),
     [

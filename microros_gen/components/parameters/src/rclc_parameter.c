@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-rcl_ret_t rclc_parameter_refuse(rcl_ret_t result, const char * name, const char * why)
+static rcl_ret_t parameter_refuse(rcl_ret_t result, const char * name, const char * why)
 {
   microros_error_set(microros_error_parameter, name, why, 0, 0);
   return result;
@@ -25,7 +25,8 @@ static parameter_text_t parameter_text(const char * text)
   return result;
 }
 
-rclc_parameter_place_t * rclc_parameter_look(
+/* Returns the place of a parameter; NULL: *result says why. */
+static rclc_parameter_place_t * parameter_look(
   rclc_parameter_server_t * server, const char * name, rcl_ret_t * result)
 {
   const rclc_parameter_place_t * found;
@@ -38,22 +39,23 @@ rclc_parameter_place_t * rclc_parameter_look(
   text = parameter_text(name);
   found = rclc_parameter_find(server, &text);
   if (found == NULL) {
-    *result = rclc_parameter_refuse(RCL_RET_ERROR, name, MICROROS_ERROR_WORDS("unknown"));
+    *result = parameter_refuse(RCL_RET_ERROR, name, MICROROS_ERROR_WORDS("unknown"));
     return NULL;
   }
   *result = RCL_RET_OK;
   return &server->places[found - server->places];
 }
 
-rclc_parameter_place_t * rclc_parameter_look_to_change(
+/* The same where the parameter is to be changed, which its callback must not. */
+static rclc_parameter_place_t * parameter_look_to_change(
   rclc_parameter_server_t * server, const char * name, rcl_ret_t * result)
 {
   if (server != NULL && server->on_callback) {
-    *result = rclc_parameter_refuse(
+    *result = parameter_refuse(
       RCLC_PARAMETER_DISABLED_ON_CALLBACK, name, MICROROS_ERROR_WORDS("not to be changed by the callback"));
     return NULL;
   }
-  return rclc_parameter_look(server, name, result);
+  return parameter_look(server, name, result);
 }
 
 rcl_ret_t rclc_add_parameter(
@@ -66,20 +68,19 @@ rcl_ret_t rclc_add_parameter(
     return parameter_refuse_argument();
   }
   if (parameter_server->on_callback) {
-    return rclc_parameter_refuse(
+    return parameter_refuse(
       RCLC_PARAMETER_DISABLED_ON_CALLBACK, parameter_name,
       MICROROS_ERROR_WORDS("not to be added by the callback"));
   }
   name = parameter_text(parameter_name);
   if (name.size == 0u || name.size >= (uint32_t)MICROROS_PARAMETER_NAME_SIZE) {
-    return rclc_parameter_refuse(
-      RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("empty or too long a name"));
+    return parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("empty or too long a name"));
   }
   if (type < RCLC_PARAMETER_BOOL || (uint32_t)type > PARAMETER_TYPE_LAST) {
-    return rclc_parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("no type of a value"));
+    return parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("no type of a value"));
   }
   if (rclc_parameter_find(parameter_server, &name) != NULL) {
-    return rclc_parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("added already"));
+    return parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("added already"));
   }
   if (parameter_server->count == parameter_server->max_params) {
     const uint32_t count = (uint32_t)parameter_server->count;
@@ -97,7 +98,7 @@ rcl_ret_t rclc_add_parameter(
 rcl_ret_t rclc_delete_parameter(rclc_parameter_server_t * parameter_server, const char * parameter_name)
 {
   rcl_ret_t result;
-  rclc_parameter_place_t * place = rclc_parameter_look_to_change(parameter_server, parameter_name, &result);
+  rclc_parameter_place_t * place = parameter_look_to_change(parameter_server, parameter_name, &result);
 
   if (place != NULL) {
     place->event = (uint8_t)PARAMETER_EVENT_DELETED;
@@ -111,7 +112,7 @@ static rcl_ret_t parameter_set(
   const rclc_parameter_scalar_t * value)
 {
   rcl_ret_t result;
-  rclc_parameter_place_t * place = rclc_parameter_look_to_change(server, name, &result);
+  rclc_parameter_place_t * place = parameter_look_to_change(server, name, &result);
   parameter_state_t old_state;
   parameter_state_t new_state;
 
@@ -119,8 +120,7 @@ static rcl_ret_t parameter_set(
     return result;
   }
   if (place->type != (uint8_t)type) {
-    return rclc_parameter_refuse(
-      RCLC_PARAMETER_TYPE_MISMATCH, name, MICROROS_ERROR_WORDS("it has another type"));
+    return parameter_refuse(RCLC_PARAMETER_TYPE_MISMATCH, name, MICROROS_ERROR_WORDS("it has another type"));
   }
   old_state.name = place->name;
   old_state.type = place->type;
@@ -129,7 +129,7 @@ static rcl_ret_t parameter_set(
   new_state = old_state;
   new_state.value = *value;
   if (!rclc_parameter_accepts(server, &old_state, &new_state)) {
-    return rclc_parameter_refuse(
+    return parameter_refuse(
       RCLC_PARAMETER_MODIFICATION_REJECTED, name, MICROROS_ERROR_WORDS("the callback refused the value"));
   }
   place->value = *value;
@@ -173,12 +173,12 @@ static rcl_ret_t parameter_get(
   if (output == NULL) {
     return parameter_refuse_argument();
   }
-  place = rclc_parameter_look(server, name, &result);
+  place = parameter_look(server, name, &result);
   if (place == NULL) {
     return result;
   }
   if (place->type != (uint8_t)type) {
-    return rclc_parameter_refuse(RCL_RET_INVALID_ARGUMENT, name, MICROROS_ERROR_WORDS("it has another type"));
+    return parameter_refuse(RCL_RET_INVALID_ARGUMENT, name, MICROROS_ERROR_WORDS("it has another type"));
   }
   *value = place->value;
   return RCL_RET_OK;
@@ -222,3 +222,89 @@ rcl_ret_t rclc_parameter_get_double(
   }
   return result;
 }
+
+#if MICROROS_PARAMETER_STRING_SIZE > 0u
+/* Notes an error where a place is no string. */
+static bool string_is(
+  const rclc_parameter_place_t * place, const char * name, rcl_ret_t * result, rcl_ret_t error)
+{
+  if (place != NULL && place->type != (uint8_t)RCLC_PARAMETER_STRING) {
+    *result = parameter_refuse(error, name, MICROROS_ERROR_WORDS("it has another type"));
+  }
+  return *result == RCL_RET_OK;
+}
+
+rcl_ret_t rclc_parameter_set_string(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, const char * value)
+{
+  rcl_ret_t result;
+  rclc_parameter_place_t * place;
+  parameter_state_t old_state;
+  parameter_state_t new_state;
+  parameter_text_t text = {value, 0};
+
+  if (value == NULL) {
+    return parameter_refuse_argument();
+  }
+  place = parameter_look_to_change(parameter_server, parameter_name, &result);
+  if (place == NULL || !string_is(place, parameter_name, &result, RCLC_PARAMETER_TYPE_MISMATCH)) {
+    return result;
+  }
+  text.size = (uint32_t)microros_text_size(value);
+  if (text.size > place->string_most) {
+    return parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("the string is too long"));
+  }
+  rclc_parameter_string_copy(parameter_server->string_new, &text);
+  old_state.name = place->name;
+  old_state.type = place->type;
+  old_state.value = place->value;
+  old_state.string = place->string;
+  new_state = old_state;
+  new_state.string = parameter_server->string_new;
+  if (!rclc_parameter_accepts(parameter_server, &old_state, &new_state)) {
+    return parameter_refuse(
+      RCLC_PARAMETER_MODIFICATION_REJECTED, parameter_name,
+      MICROROS_ERROR_WORDS("the callback refused the value"));
+  }
+  rclc_parameter_string_copy(place->string, &text);
+  place->event = (uint8_t)PARAMETER_EVENT_CHANGED;
+  rclc_parameter_publish(parameter_server);
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rclc_parameter_get_string(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, const char ** output)
+{
+  rcl_ret_t result;
+  const rclc_parameter_place_t * place;
+
+  if (output == NULL) {
+    return parameter_refuse_argument();
+  }
+  place = parameter_look(parameter_server, parameter_name, &result);
+  if (place != NULL && string_is(place, parameter_name, &result, RCL_RET_INVALID_ARGUMENT)) {
+    *output = place->string;
+  }
+  return result;
+}
+
+rcl_ret_t rclc_add_parameter_constraint_string(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, size_t size)
+{
+  rcl_ret_t result;
+  rclc_parameter_place_t * place;
+
+  if (size >= MICROROS_PARAMETER_STRING_SIZE) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "size");
+  }
+  place = parameter_look(parameter_server, parameter_name, &result);
+  if (place == NULL || !string_is(place, parameter_name, &result, RCL_RET_ERROR)) {
+    return result;
+  }
+  if (microros_text_size(place->string) > size) {
+    return parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("its string is longer"));
+  }
+  place->string_most = (uint32_t)size;
+  return RCL_RET_OK;
+}
+#endif

@@ -37,8 +37,10 @@ static const char * reason_words(uint8_t outcome)
       return "no place for parameter '%n'";
     case PARAMETER_CUT:
       return "the request is too large, none of it was set";
+#if MICROROS_PARAMETER_STRING_SIZE > 0u
     case PARAMETER_STRING_LONG:
       return "the string for parameter '%n' is too long";
+#endif
     case PARAMETER_UNSUPPORTED:
     default:
       return "parameter '%n' cannot have a value of type {%t}";

@@ -110,17 +110,6 @@ void rclc_parameter_remove(rclc_parameter_server_t * server, const rclc_paramete
 bool rclc_parameter_accepts(
   rclc_parameter_server_t * server, const parameter_state_t * old_state, const parameter_state_t * new_state);
 
-/* --- what the application does: rclc_parameter.c --- */
-
-/* Sets an error of that parameter; returns `result`. */
-rcl_ret_t rclc_parameter_refuse(rcl_ret_t result, const char * name, const char * why);
-
-/* Return the place of a parameter; NULL: *result says why. The second one is for changes, which the callback must not make. */
-rclc_parameter_place_t * rclc_parameter_look(
-  rclc_parameter_server_t * server, const char * name, rcl_ret_t * result);
-rclc_parameter_place_t * rclc_parameter_look_to_change(
-  rclc_parameter_server_t * server, const char * name, rcl_ret_t * result);
-
 /* --- set requests: rclc_parameter_set.c --- */
 
 /* Applies each parameter of the request by itself; fills the outcomes. */
