@@ -8,7 +8,7 @@
 
 enum { NANOSECOND_DIGITS = 9 };
 
-static uint32_t console_untold; /* dropped since the last line that was written */
+static uint32_t console_unreported; /* dropped since the last line that was written */
 
 /* Shorter than g_rcutils_log_severity_names, which has a place for each number. */
 static const char * console_level(int severity)
@@ -57,19 +57,19 @@ static bool console_end(microros_format_t * out)
 }
 
 /* Says once how many messages the console did not take. */
-static void console_tell_dropped(char * text, size_t size, rcutils_time_point_value_t timestamp)
+static void console_report_dropped(char * text, size_t size, rcutils_time_point_value_t timestamp)
 {
   const microros_conversion_t number = {false, false, false, false, false, 0, -1, '\0', 'u'};
   microros_format_t out = {text, size, 0, false};
 
-  if (console_untold == 0u) {
+  if (console_unreported == 0u) {
     return;
   }
   console_begin(&out, RCUTILS_LOG_SEVERITY_WARN, "rcutils", timestamp);
-  microros_format_integer(&out, &number, console_untold, false);
+  microros_format_integer(&out, &number, console_unreported, false);
   microros_format_string(&out, " messages dropped");
   if (console_end(&out)) {
-    console_untold = 0;
+    console_unreported = 0;
   }
 }
 
@@ -79,12 +79,12 @@ static void console_write(
   char text[MICROROS_LOG_TEXT_SIZE];
   microros_format_t out = {text, sizeof(text) - 1u, 0, false};
 
-  console_tell_dropped(text, sizeof(text) - 1u, timestamp);
+  console_report_dropped(text, sizeof(text) - 1u, timestamp);
   console_begin(&out, severity, name, timestamp);
   microros_format_arguments(&out, format, args);
-  if (console_untold != 0u || !console_end(&out)) {
+  if (console_unreported != 0u || !console_end(&out)) {
     microros_format_dropped();
-    ++console_untold;
+    ++console_unreported;
   }
 }
 

@@ -24,7 +24,7 @@ typedef struct rosout_line_t {
   uint32_t position;
 } rosout_line_t;
 
-static uint32_t rosout_untold; /* dropped since the last line that had room */
+static uint32_t rosout_unreported; /* dropped since the last line that had room */
 
 static void rosout_align(rosout_line_t * line)
 {
@@ -102,23 +102,23 @@ static bool rosout_end(rosout_line_t * line, const rcutils_log_location_t * loca
   return xrce_rosout_put(line->body, line->position);
 }
 
-static void rosout_tell_dropped(rcutils_time_point_value_t timestamp)
+static void rosout_report_dropped(rcutils_time_point_value_t timestamp)
 {
   const microros_conversion_t number = {false, false, false, false, false, 0, -1, '\0', 'u'};
   rosout_line_t line;
   microros_format_t out;
 
   /* Said once: there is room for a line after it. */
-  if (rosout_untold == 0u || !xrce_rosout_has_room((uint32_t)sizeof(line.body))) {
+  if (rosout_unreported == 0u || !xrce_rosout_has_room((uint32_t)sizeof(line.body))) {
     return;
   }
   rosout_begin(&line, RCUTILS_LOG_SEVERITY_WARN, "rcutils", timestamp);
   out = rosout_text_begin(&line, MICROROS_LOG_ROSOUT_TEXT);
-  microros_format_integer(&out, &number, rosout_untold, false);
+  microros_format_integer(&out, &number, rosout_unreported, false);
   microros_format_string(&out, " messages dropped");
   rosout_text_end(&line, &out);
   if (rosout_end(&line, NULL)) {
-    rosout_untold = 0;
+    rosout_unreported = 0;
   }
 }
 
@@ -133,9 +133,9 @@ static void rosout_keep(
   out = rosout_text_begin(&line, MICROROS_LOG_ROSOUT_TEXT);
   microros_format_arguments(&out, format, args);
   rosout_text_end(&line, &out);
-  if (rosout_untold != 0u || !rosout_end(&line, location)) {
+  if (rosout_unreported != 0u || !rosout_end(&line, location)) {
     microros_format_dropped();
-    ++rosout_untold;
+    ++rosout_unreported;
   }
 }
 
@@ -144,7 +144,7 @@ void rcl_logging_rosout_output_handler(
   rcutils_time_point_value_t timestamp, const char * format, va_list * args)
 {
   microros_lock();
-  rosout_tell_dropped(timestamp);
+  rosout_report_dropped(timestamp);
   rosout_keep(location, severity, name == NULL ? "" : name, timestamp, format, args);
   microros_unlock();
 }
@@ -160,8 +160,8 @@ void microros_rosout_log(
 
 void microros_rosout_step(const xrce_client_t * client)
 {
-  if (rosout_untold != 0u) {
-    rosout_tell_dropped(port_time_epoch_ns());
+  if (rosout_unreported != 0u) {
+    rosout_report_dropped(port_time_epoch_ns());
   }
   xrce_rosout_send(client);
 }

@@ -23,10 +23,10 @@ static void event_out_node(parameter_out_t * out, const rcl_node_t * node)
   const char * namespace_ = rcl_node_get_namespace(node);
   const char * name = rcl_node_get_name(node);
   const uint32_t size = (uint32_t)microros_text_size(namespace_);
-  const parameter_text_t pieces[3] = {
+  const parameter_text_t parts[3] = {
     {namespace_, size}, {"/", size > 1u ? 1u : 0u}, {name, (uint32_t)microros_text_size(name)}};
 
-  rclc_parameter_out_pieces(out, pieces, 3u);
+  rclc_parameter_out_parts(out, parts, 3u);
 }
 
 /* Writes the parameters of which the event says `what`. */

@@ -51,13 +51,13 @@ void rclc_parameter_out_8(parameter_out_t * out, const void * value)
   }
 }
 
-void rclc_parameter_out_pieces(parameter_out_t * out, const parameter_text_t * pieces, uint32_t count)
+void rclc_parameter_out_parts(parameter_out_t * out, const parameter_text_t * parts, uint32_t count)
 {
   uint32_t size = 1; /* the NUL */
   uint8_t * to;
 
   for (uint32_t i = 0; i < count; ++i) {
-    size += pieces[i].size;
+    size += parts[i].size;
   }
   to = out_take(out, 4u, 4u + size);
   if (to == NULL) {
@@ -66,17 +66,17 @@ void rclc_parameter_out_pieces(parameter_out_t * out, const parameter_text_t * p
   cdr_put_4(to, &size);
   to = &to[4];
   for (uint32_t i = 0; i < count; ++i) {
-    cdr_copy(to, pieces[i].data, pieces[i].size);
-    to = &to[pieces[i].size];
+    cdr_copy(to, parts[i].data, parts[i].size);
+    to = &to[parts[i].size];
   }
   *to = 0;
 }
 
 void rclc_parameter_out_text(parameter_out_t * out, const char * text)
 {
-  const parameter_text_t piece = {text, (uint32_t)microros_text_size(text)};
+  const parameter_text_t part = {text, (uint32_t)microros_text_size(text)};
 
-  rclc_parameter_out_pieces(out, &piece, 1u);
+  rclc_parameter_out_parts(out, &part, 1u);
 }
 
 void rclc_parameter_out_value(parameter_out_t * out, const rclc_parameter_place_t * place)

@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-enum { PIECES_MAX = 7 };
+enum { PARTS_MAX = 7 };
 
 /* The words of an outcome: %n becomes the name, %o the type that the parameter has, %t the type that was asked for. */
 static const char * reason_words(uint8_t outcome)
@@ -78,29 +78,29 @@ static parameter_text_t reason_name(const parameter_text_t * name)
 }
 
 static parameter_text_t reason_insertion(
-  char letter, const rclc_parameter_place_t * place, const parameter_asked_t * asked)
+  char letter, const rclc_parameter_place_t * place, const parameter_requested_t * requested)
 {
   if (letter == 'n') {
-    return reason_name(&asked->name);
+    return reason_name(&requested->name);
   }
   if (letter == 't') {
-    return reason_text(reason_type(asked->type));
+    return reason_text(reason_type(requested->type));
   }
   return reason_text(reason_type(place != NULL ? place->type : (uint8_t)RCLC_PARAMETER_NOT_SET));
 }
 
 void rclc_parameter_out_reason(
-  parameter_out_t * out, const rclc_parameter_server_t * server, const parameter_asked_t * asked,
+  parameter_out_t * out, const rclc_parameter_server_t * server, const parameter_requested_t * requested,
   uint8_t outcome)
 {
-  const rclc_parameter_place_t * place = rclc_parameter_find(server, &asked->name);
+  const rclc_parameter_place_t * place = rclc_parameter_find(server, &requested->name);
   const char * words = reason_words(outcome);
-  parameter_text_t pieces[PIECES_MAX];
+  parameter_text_t parts[PARTS_MAX];
   uint32_t count = 0;
 
-  while (*words != '\0' && count < (uint32_t)PIECES_MAX) {
+  while (*words != '\0' && count < (uint32_t)PARTS_MAX) {
     if (*words == '%') {
-      pieces[count] = reason_insertion(words[1], place, asked);
+      parts[count] = reason_insertion(words[1], place, requested);
       words = &words[2];
     } else {
       uint32_t size = 0;
@@ -108,11 +108,11 @@ void rclc_parameter_out_reason(
       while (words[size] != '\0' && words[size] != '%') {
         ++size;
       }
-      pieces[count].data = words;
-      pieces[count].size = size;
+      parts[count].data = words;
+      parts[count].size = size;
       words = &words[size];
     }
     ++count;
   }
-  rclc_parameter_out_pieces(out, pieces, count);
+  rclc_parameter_out_parts(out, parts, count);
 }

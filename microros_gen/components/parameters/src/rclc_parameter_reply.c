@@ -50,7 +50,7 @@ static void reply_out_ranges(parameter_out_t * out, const rclc_parameter_place_t
 static void reply_out_descriptor(
   parameter_out_t * out, const parameter_text_t * name, const rclc_parameter_place_t * place)
 {
-  rclc_parameter_out_pieces(out, name, 1u);
+  rclc_parameter_out_parts(out, name, 1u);
   rclc_parameter_out_1(out, place != NULL ? place->type : (uint8_t)RCLC_PARAMETER_NOT_SET);
   rclc_parameter_out_text(out, place != NULL ? place->description : "");
   rclc_parameter_out_text(out, place != NULL ? place->additional_constraints : "");
@@ -111,14 +111,14 @@ uint32_t rclc_parameter_reply_descriptors(const void * message, uint8_t * body, 
 
 /* Writes a result; its reason stays out where it would take the room of those that follow. */
 static void reply_out_result(
-  parameter_out_t * out, const rclc_parameter_server_t * server, const parameter_asked_t * asked,
+  parameter_out_t * out, const rclc_parameter_server_t * server, const parameter_requested_t * requested,
   uint8_t outcome, uint32_t following)
 {
   const uint32_t room = out->room;
 
   rclc_parameter_out_1(out, outcome == (uint8_t)PARAMETER_SET ? 1u : 0u);
   out->room -= following * (uint32_t)SHORTEST_RESULT;
-  rclc_parameter_out_reason(out, server, asked, outcome);
+  rclc_parameter_out_reason(out, server, requested, outcome);
   if (out->full) {
     out->full = false;
     rclc_parameter_out_text(out, "");
@@ -129,7 +129,7 @@ static void reply_out_result(
 /* Each entry of a request that did not arrive has the same result; more than there is room for have none. */
 static uint32_t reply_cut(parameter_out_t * out, const rclc_parameter_server_t * server)
 {
-  static const parameter_asked_t nothing = {.name = {"", 0}, .type = (uint8_t)RCLC_PARAMETER_NOT_SET};
+  static const parameter_requested_t nothing = {.name = {"", 0}, .type = (uint8_t)RCLC_PARAMETER_NOT_SET};
   const uint32_t count = server->request_cut;
 
   if (count > out->room / (uint32_t)SHORTEST_RESULT) {
@@ -154,9 +154,9 @@ uint32_t rclc_parameter_reply_results(const void * message, uint8_t * body, cdr_
   }
   rclc_parameter_out_4(&out, count);
   for (uint32_t i = 0; i < count; ++i) {
-    const parameter_asked_t asked = rclc_parameter_request_parameter(&in);
+    const parameter_requested_t requested = rclc_parameter_request_parameter(&in);
 
-    reply_out_result(&out, server, &asked, server->outcomes[i], count - i - 1u);
+    reply_out_result(&out, server, &requested, server->outcomes[i], count - i - 1u);
   }
   return reply_end(&out, true);
 }
@@ -168,17 +168,17 @@ uint32_t rclc_parameter_reply_result(const void * message, uint8_t * body, cdr_f
   const uint32_t count = rclc_parameter_request_length(&in);
   parameter_out_t out =
     reply_begin(body, rcl_interfaces__srv__SetParametersAtomically_Response__MAX_ENCODED_SIZE);
-  parameter_asked_t asked = {.name = {"", 0}, .type = (uint8_t)RCLC_PARAMETER_NOT_SET};
+  parameter_requested_t requested = {.name = {"", 0}, .type = (uint8_t)RCLC_PARAMETER_NOT_SET};
   uint8_t outcome = (uint8_t)(count == 0u ? PARAMETER_NONE : PARAMETER_SET);
 
   if (server->request_cut != 0u) {
     outcome = (uint8_t)PARAMETER_CUT;
   }
   for (uint32_t i = 0; i < count && outcome == (uint8_t)PARAMETER_SET; ++i) {
-    asked = rclc_parameter_request_parameter(&in);
+    requested = rclc_parameter_request_parameter(&in);
     outcome = server->outcomes[i];
   }
-  reply_out_result(&out, server, &asked, outcome, 0u);
+  reply_out_result(&out, server, &requested, outcome, 0u);
   return out.position;
 }
 
@@ -278,7 +278,7 @@ static uint32_t reply_out_list(parameter_out_t * out, const rclc_parameter_serve
     }
     ++count;
     if (out != NULL && prefixes) {
-      rclc_parameter_out_pieces(out, &prefix, 1u);
+      rclc_parameter_out_parts(out, &prefix, 1u);
     } else if (out != NULL) {
       rclc_parameter_out_text(out, name);
     } else {

@@ -63,20 +63,20 @@ static void request_skip_texts(cdr_in_t * in)
   }
 }
 
-parameter_asked_t rclc_parameter_request_parameter(cdr_in_t * in)
+parameter_requested_t rclc_parameter_request_parameter(cdr_in_t * in)
 {
-  parameter_asked_t asked = {.name = {"", 0}, .type = (uint8_t)RCLC_PARAMETER_NOT_SET};
+  parameter_requested_t requested = {.name = {"", 0}, .type = (uint8_t)RCLC_PARAMETER_NOT_SET};
   bool truth = false;
   int64_t integer = 0;
   double number = 0.0;
 
-  asked.name = rclc_parameter_request_text(in);
-  cdr_get_1(in, &asked.type, 1u, "request");
+  requested.name = rclc_parameter_request_text(in);
+  cdr_get_1(in, &requested.type, 1u, "request");
   cdr_get_bool(in, &truth, 1u, "request");
   cdr_get_8(in, &integer, 1u, "request");
   cdr_get_8(in, &number, 1u, "request");
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
-  asked.string = rclc_parameter_request_text(in);
+  requested.string = rclc_parameter_request_text(in);
 #else
   (void)rclc_parameter_request_text(in);
 #endif
@@ -85,14 +85,14 @@ parameter_asked_t rclc_parameter_request_parameter(cdr_in_t * in)
   request_skip(in, 8u);
   request_skip(in, 8u);
   request_skip_texts(in);
-  if (asked.type == (uint8_t)RCLC_PARAMETER_BOOL) {
-    asked.value.bool_value = truth;
-  } else if (asked.type == (uint8_t)RCLC_PARAMETER_DOUBLE) {
-    asked.value.double_value = number;
+  if (requested.type == (uint8_t)RCLC_PARAMETER_BOOL) {
+    requested.value.bool_value = truth;
+  } else if (requested.type == (uint8_t)RCLC_PARAMETER_DOUBLE) {
+    requested.value.double_value = number;
   } else {
-    asked.value.integer_value = integer;
+    requested.value.integer_value = integer;
   }
-  return asked;
+  return requested;
 }
 
 cdr_in_t rclc_parameter_request_begin(const rclc_parameter_server_t * server, cdr_fault_t * fault)

@@ -22,81 +22,81 @@ static bool integer_holds(const rclc_parameter_range_t * range, int64_t value)
 
 static parameter_outcome_t set_check_range(
   const rclc_parameter_server_t * server, const rclc_parameter_place_t * place,
-  const parameter_asked_t * asked)
+  const parameter_requested_t * requested)
 {
-  if (!place->has_range || asked->type != place->type) {
+  if (!place->has_range || requested->type != place->type) {
     return PARAMETER_SET;
   }
-  if (asked->type == (uint8_t)RCLC_PARAMETER_INT) {
-    return integer_holds(&place->range, asked->value.integer_value) ? PARAMETER_SET
-                                                                    : PARAMETER_OUTSIDE_INTEGER;
+  if (requested->type == (uint8_t)RCLC_PARAMETER_INT) {
+    return integer_holds(&place->range, requested->value.integer_value) ? PARAMETER_SET
+                                                                        : PARAMETER_OUTSIDE_INTEGER;
   }
-  return server->floating_point_holds(&place->range, asked->value.double_value)
+  return server->floating_point_holds(&place->range, requested->value.double_value)
            ? PARAMETER_SET
            : PARAMETER_OUTSIDE_FLOATING_POINT;
 }
 
 /* Of a parameter that does not exist, after `fresh` others that the same request creates. */
 static parameter_outcome_t set_check_new(
-  const rclc_parameter_server_t * server, const parameter_asked_t * asked, size_t fresh)
+  const rclc_parameter_server_t * server, const parameter_requested_t * requested, size_t fresh)
 {
-  if (!server->allow_undeclared_parameters || asked->type == (uint8_t)RCLC_PARAMETER_NOT_SET) {
+  if (!server->allow_undeclared_parameters || requested->type == (uint8_t)RCLC_PARAMETER_NOT_SET) {
     return PARAMETER_UNDECLARED;
   }
-  if (asked->name.size >= (uint32_t)MICROROS_PARAMETER_NAME_SIZE) {
+  if (requested->name.size >= (uint32_t)MICROROS_PARAMETER_NAME_SIZE) {
     return PARAMETER_NAME_LONG;
   }
-  if (asked->type > PARAMETER_TYPE_LAST) {
+  if (requested->type > PARAMETER_TYPE_LAST) {
     return PARAMETER_UNSUPPORTED;
   }
-  if (!rclc_parameter_string_fits(NULL, asked)) {
+  if (!rclc_parameter_string_fits(NULL, requested)) {
     return PARAMETER_STRING_LONG;
   }
   return server->count + fresh < server->max_params ? PARAMETER_SET : PARAMETER_FULL;
 }
 
 static parameter_outcome_t set_check(
-  const rclc_parameter_server_t * server, const parameter_asked_t * asked, size_t fresh)
+  const rclc_parameter_server_t * server, const parameter_requested_t * requested, size_t fresh)
 {
-  const rclc_parameter_place_t * place = rclc_parameter_find(server, &asked->name);
+  const rclc_parameter_place_t * place = rclc_parameter_find(server, &requested->name);
 
-  if (asked->name.size == 0u) {
+  if (requested->name.size == 0u) {
     return PARAMETER_UNNAMED;
   }
   if (place == NULL) {
-    return set_check_new(server, asked, fresh);
+    return set_check_new(server, requested, fresh);
   }
   if (place->read_only) {
     return PARAMETER_READ_ONLY;
   }
-  if (asked->type == (uint8_t)RCLC_PARAMETER_NOT_SET) {
+  if (requested->type == (uint8_t)RCLC_PARAMETER_NOT_SET) {
     return place->dynamic_typing ? PARAMETER_SET : PARAMETER_STATIC;
   }
-  if (asked->type != place->type && !place->dynamic_typing) {
+  if (requested->type != place->type && !place->dynamic_typing) {
     return PARAMETER_OTHER_TYPE;
   }
-  if (asked->type > PARAMETER_TYPE_LAST) {
+  if (requested->type > PARAMETER_TYPE_LAST) {
     return PARAMETER_UNSUPPORTED;
   }
-  if (!rclc_parameter_string_fits(place, asked)) {
+  if (!rclc_parameter_string_fits(place, requested)) {
     return PARAMETER_STRING_LONG;
   }
-  return set_check_range(server, place, asked);
+  return set_check_range(server, place, requested);
 }
 
 /* Whether the callback accepts what was checked. A name that does not exist yet is shown from a free place. */
-static bool set_accepts(rclc_parameter_server_t * server, const parameter_asked_t * asked)
+static bool set_accepts(rclc_parameter_server_t * server, const parameter_requested_t * requested)
 {
-  const rclc_parameter_place_t * found = rclc_parameter_find(server, &asked->name);
+  const rclc_parameter_place_t * found = rclc_parameter_find(server, &requested->name);
   rclc_parameter_place_t * place;
   parameter_state_t old_state;
   parameter_state_t new_state;
 
-  new_state.type = asked->type;
-  new_state.value = asked->value;
-  rclc_parameter_string_new(server, asked, &new_state);
+  new_state.type = requested->type;
+  new_state.value = requested->value;
+  rclc_parameter_string_new(server, requested, &new_state);
   if (found == NULL) {
-    new_state.name = rclc_parameter_place(server, &asked->name, asked->type)->name;
+    new_state.name = rclc_parameter_place(server, &requested->name, requested->type)->name;
     return rclc_parameter_accepts(server, NULL, &new_state);
   }
   place = &server->places[found - server->places];
@@ -106,29 +106,29 @@ static bool set_accepts(rclc_parameter_server_t * server, const parameter_asked_
   rclc_parameter_string_old(place, &old_state);
   new_state.name = place->name;
   return rclc_parameter_accepts(
-    server, &old_state, asked->type != (uint8_t)RCLC_PARAMETER_NOT_SET ? &new_state : NULL);
+    server, &old_state, requested->type != (uint8_t)RCLC_PARAMETER_NOT_SET ? &new_state : NULL);
 }
 
-static void set_make(rclc_parameter_server_t * server, const parameter_asked_t * asked)
+static void set_make(rclc_parameter_server_t * server, const parameter_requested_t * requested)
 {
-  const rclc_parameter_place_t * found = rclc_parameter_find(server, &asked->name);
+  const rclc_parameter_place_t * found = rclc_parameter_find(server, &requested->name);
   rclc_parameter_place_t * place;
 
   if (found == NULL) {
-    place = rclc_parameter_place(server, &asked->name, asked->type);
+    place = rclc_parameter_place(server, &requested->name, requested->type);
     place->dynamic_typing = true;
     place->event = (uint8_t)PARAMETER_EVENT_NEW;
     ++server->count;
   } else {
     place = &server->places[found - server->places];
   }
-  if (asked->type == (uint8_t)RCLC_PARAMETER_NOT_SET) {
+  if (requested->type == (uint8_t)RCLC_PARAMETER_NOT_SET) {
     place->event = (uint8_t)PARAMETER_EVENT_DELETED;
     return;
   }
-  place->type = asked->type;
-  place->value = asked->value;
-  rclc_parameter_string_set(place, asked);
+  place->type = requested->type;
+  place->value = requested->value;
+  rclc_parameter_string_set(place, requested);
   if (place->event != (uint8_t)PARAMETER_EVENT_NEW) {
     place->event = (uint8_t)PARAMETER_EVENT_CHANGED;
   }
@@ -141,14 +141,14 @@ void rclc_parameter_set_each(rclc_parameter_server_t * server)
   const uint32_t count = rclc_parameter_request_length(&in);
 
   for (uint32_t i = 0; i < count; ++i) {
-    const parameter_asked_t asked = rclc_parameter_request_parameter(&in);
-    parameter_outcome_t outcome = set_check(server, &asked, 0);
+    const parameter_requested_t requested = rclc_parameter_request_parameter(&in);
+    parameter_outcome_t outcome = set_check(server, &requested, 0);
 
-    if (outcome == PARAMETER_SET && !set_accepts(server, &asked)) {
+    if (outcome == PARAMETER_SET && !set_accepts(server, &requested)) {
       outcome = PARAMETER_REJECTED;
     }
     if (outcome == PARAMETER_SET) {
-      set_make(server, &asked);
+      set_make(server, &requested);
       rclc_parameter_publish(server);
     }
     server->outcomes[i] = (uint8_t)outcome;
@@ -168,15 +168,15 @@ static bool set_pass(rclc_parameter_server_t * server, set_pass_t pass)
   parameter_outcome_t outcome = PARAMETER_SET;
 
   for (uint32_t i = 0; i < count && outcome == PARAMETER_SET; ++i) {
-    const parameter_asked_t asked = rclc_parameter_request_parameter(&in);
+    const parameter_requested_t requested = rclc_parameter_request_parameter(&in);
 
     if (pass == SET_PASS_CHECK) {
-      outcome = set_check(server, &asked, fresh);
-      fresh += rclc_parameter_find(server, &asked.name) == NULL ? 1u : 0u;
+      outcome = set_check(server, &requested, fresh);
+      fresh += rclc_parameter_find(server, &requested.name) == NULL ? 1u : 0u;
     } else if (pass == SET_PASS_ACCEPT) {
-      outcome = set_accepts(server, &asked) ? PARAMETER_SET : PARAMETER_REJECTED;
+      outcome = set_accepts(server, &requested) ? PARAMETER_SET : PARAMETER_REJECTED;
     } else {
-      set_make(server, &asked);
+      set_make(server, &requested);
     }
     server->outcomes[i] = (uint8_t)outcome;
   }

@@ -27,7 +27,7 @@ void rclc_parameter_out_4(parameter_out_t * out, uint32_t value);
 void rclc_parameter_out_8(parameter_out_t * out, const void * value);
 
 /* Writes a string of several pieces, one after the other. */
-void rclc_parameter_out_pieces(parameter_out_t * out, const parameter_text_t * pieces, uint32_t count);
+void rclc_parameter_out_parts(parameter_out_t * out, const parameter_text_t * parts, uint32_t count);
 void rclc_parameter_out_text(parameter_out_t * out, const char * text);
 
 /* Writes an rcl_interfaces/msg/ParameterValue; without a value for a NULL place. */

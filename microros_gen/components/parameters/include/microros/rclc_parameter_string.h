@@ -15,10 +15,10 @@ extern "C" {
 
 /* Returns whether the string that was asked for has room in a place; NULL: a free one. */
 static inline bool rclc_parameter_string_fits(
-  const rclc_parameter_place_t * place, const parameter_asked_t * asked)
+  const rclc_parameter_place_t * place, const parameter_requested_t * requested)
 {
-  return asked->type != (uint8_t)RCLC_PARAMETER_STRING ||
-         asked->string.size <= (place != NULL ? place->string_most : MICROROS_PARAMETER_STRING_SIZE - 1u);
+  return requested->type != (uint8_t)RCLC_PARAMETER_STRING ||
+         requested->string.size <= (place != NULL ? place->string_most : MICROROS_PARAMETER_STRING_SIZE - 1u);
 }
 
 /* Copies a string that fits. */
@@ -30,10 +30,10 @@ static inline void rclc_parameter_string_copy(char * to, const parameter_text_t 
 
 /* Makes the string that was asked for the one of a state; it belongs to the server. */
 static inline void rclc_parameter_string_new(
-  rclc_parameter_server_t * server, const parameter_asked_t * asked, parameter_state_t * state)
+  rclc_parameter_server_t * server, const parameter_requested_t * requested, parameter_state_t * state)
 {
-  if (asked->type == (uint8_t)RCLC_PARAMETER_STRING) {
-    rclc_parameter_string_copy(server->string_new, &asked->string);
+  if (requested->type == (uint8_t)RCLC_PARAMETER_STRING) {
+    rclc_parameter_string_copy(server->string_new, &requested->string);
   }
   state->string = server->string_new;
 }
@@ -43,10 +43,11 @@ static inline void rclc_parameter_string_old(rclc_parameter_place_t * place, par
   state->string = place->string;
 }
 
-static inline void rclc_parameter_string_set(rclc_parameter_place_t * place, const parameter_asked_t * asked)
+static inline void rclc_parameter_string_set(
+  rclc_parameter_place_t * place, const parameter_requested_t * requested)
 {
-  if (asked->type == (uint8_t)RCLC_PARAMETER_STRING) {
-    rclc_parameter_string_copy(place->string, &asked->string);
+  if (requested->type == (uint8_t)RCLC_PARAMETER_STRING) {
+    rclc_parameter_string_copy(place->string, &requested->string);
   }
 }
 
@@ -58,18 +59,19 @@ static inline const char * rclc_parameter_string_of(const rclc_parameter_place_t
 #else
 
 static inline bool rclc_parameter_string_fits(
-  const rclc_parameter_place_t * place, const parameter_asked_t * asked)
+  const rclc_parameter_place_t * place, const parameter_requested_t * requested)
 {
   (void)place;
-  (void)asked;
+  (void)requested;
   return true;
 }
 
 static inline void rclc_parameter_string_new(
-  const rclc_parameter_server_t * server, const parameter_asked_t * asked, const parameter_state_t * state)
+  const rclc_parameter_server_t * server, const parameter_requested_t * requested,
+  const parameter_state_t * state)
 {
   (void)server;
-  (void)asked;
+  (void)requested;
   (void)state;
 }
 
@@ -81,10 +83,10 @@ static inline void rclc_parameter_string_old(
 }
 
 static inline void rclc_parameter_string_set(
-  const rclc_parameter_place_t * place, const parameter_asked_t * asked)
+  const rclc_parameter_place_t * place, const parameter_requested_t * requested)
 {
   (void)place;
-  (void)asked;
+  (void)requested;
 }
 
 static inline const char * rclc_parameter_string_of(const rclc_parameter_place_t * place)

@@ -52,14 +52,14 @@ typedef struct parameter_text_t {
 } parameter_text_t;
 
 /* A parameter of a request. `type` may be any number; `value` has one for the types that a server holds. */
-typedef struct parameter_asked_t {
+typedef struct parameter_requested_t {
   parameter_text_t name;
   uint8_t type;
   rclc_parameter_scalar_t value;
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
   parameter_text_t string;
 #endif
-} parameter_asked_t;
+} parameter_requested_t;
 
 /* A parameter as the callback sees it; the name belongs to a place. */
 typedef struct parameter_state_t {
@@ -79,7 +79,7 @@ cdr_in_t rclc_parameter_request_begin(const rclc_parameter_server_t * server, cd
 /* Read one member and move on. */
 uint32_t rclc_parameter_request_length(cdr_in_t * in);
 parameter_text_t rclc_parameter_request_text(cdr_in_t * in);
-parameter_asked_t rclc_parameter_request_parameter(cdr_in_t * in);
+parameter_requested_t rclc_parameter_request_parameter(cdr_in_t * in);
 
 /* Decoders of message types whose message is the server: they check the request and keep it there. Of one that was too
  * large to arrive they only note the number of its entries, in `request_cut`: it is read as an empty one. */
