@@ -13,8 +13,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from tests.support.paths import ROOT, TESTS
+from tests.tools.concerned import changed, concerned, imports
 
-# Units in Python: what a developer runs after each change.
+# Units in Python: of these, a developer runs after each change those that it concerns.
 UNITS = (
     *("diagnostics", "documents", "interfaces", "application", "selection", "typesupport", "platform"),
     *("client", "output", "toolchain", "image", "compiler", "migrate", "agent", "cli", "ros", "quality"),
@@ -28,11 +29,13 @@ class Run:
     markers: str
     folders: tuple[str, ...] = ()
     more_processes: int = 1
+    of_change: bool = False
+    """Of the folders, those that the change in the working tree concerns."""
 
 
 RUNS: Mapping[str, Run] = {
     "test": Run("not long and not lint and not system"),
-    "quick": Run("not long and not lint and not system and not ros and not builds", UNITS, more_processes=0),
+    "quick": Run("not long and not lint and not system and not ros and not builds", UNITS, 0, of_change=True),
     "system": Run("system and not long"),
     "lint": Run("lint and not long"),
 }
@@ -45,7 +48,11 @@ def command(name: str, options: Sequence[str]) -> list[str]:
     run = RUNS[name]
     workers = str(max(1, os.cpu_count() or 1) + run.more_processes)
     call = [sys.executable, "-m", "pytest", "-n", workers, "--dist", "worksteal", "-q", "--durations=10"]
-    folders = [f"tests/{folder}" for folder in run.folders if (TESTS / folder).is_dir()]
+    chosen = run.folders
+    if run.of_change and (paths := changed()):
+        chosen = concerned(paths, imports(), run.folders)
+        print(f"{len(paths)} files changed: unit tests of {', '.join(chosen)}", flush=True)
+    folders = [f"tests/{folder}" for folder in chosen if (TESTS / folder).is_dir()]
     return [*call, "-m", run.markers, *folders, *options]
 
 
