@@ -8,6 +8,8 @@ from typing import Any
 
 import pytest
 
+from tests.components.test_profile_with_diagnostics import APPLICATION as PROFILE
+from tests.components.test_profile_with_diagnostics import ENTITIES
 from tests.support.agent.observer import Observer
 from tests.support.firmware.board import Board, Builds, board, need
 from tests.support.firmware.running import started
@@ -63,3 +65,14 @@ def test_rclpy_receives_what_the_board_logs(builds: Builds, domain: int, observe
     assert len(burst) + dropped == MANY
     assert found[-1]["msg"] == f"{dropped} messages dropped"
     assert 0 < dropped < MANY
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["host", NAME, "qemu-riscv32-virt"])
+@pytest.mark.parametrize("entities", ENTITIES)
+def test_the_profile_with_diagnostics_builds(builds: Builds, name: str, entities: str) -> None:
+    """With XML, types of services take more than the 512 bytes that a serial line has by default."""
+    need(name)
+    wide = "transport: {type: serial, mtu: 640}\n" if entities == "xml" and name != "host" else ""
+    built = builds.build(name, PROFILE.format(entities=entities) + wide)
+    assert built.image.is_file()

@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Levels are set and read as rclpy's nodes do it. Requests and replies of all nodes share their memory. */
+#include "microros/rcl_logger_services.h"
+
+#include "microros/rmw_node.h"
+#include "microros/rmw_service.h"
+#include "microros_config.h"
+#include "rcl/error_handling.h"
+#include "rcl/service.h"
+#include "rcl_interfaces/srv/get_logger_levels.h"
+#include "rcl_interfaces/srv/set_logger_levels.h"
+#include "rcutils/logging.h"
+
+#include <string.h>
+
+typedef struct logger_services_t {
+  rcl_service_t get;
+  rcl_service_t set;
+} logger_services_t;
+
+static logger_services_t logger_services[MICROROS_NODES_MAX];
+static char logger_reasons[MICROROS_LOGGER_REQUEST_MAX][MICROROS_LOGGER_REASON_SIZE];
+
+static rcl_ret_t services_open(
+  rcl_service_t * service, const rcl_node_t * node, const rosidl_service_type_support_t * type,
+  const char * name)
+{
+  const rcl_service_options_t options = rcl_service_get_default_options();
+
+  *service = rcl_get_zero_initialized_service();
+  return rcl_service_init(service, node, type, name, &options);
+}
+
+rcl_ret_t rcl_logger_services_open(rcl_node_t * node)
+{
+  logger_services_t * const services = &logger_services[rmw_node_index(node->impl)];
+  rcl_ret_t result = services_open(
+    &services->get, node, ROSIDL_GET_SRV_TYPE_SUPPORT(rcl_interfaces, srv, GetLoggerLevels),
+    "~/get_logger_levels");
+
+  if (result == RCL_RET_OK) {
+    result = services_open(
+      &services->set, node, ROSIDL_GET_SRV_TYPE_SUPPORT(rcl_interfaces, srv, SetLoggerLevels),
+      "~/set_logger_levels");
+  }
+  return result;
+}
+
+void rcl_logger_services_close(rcl_node_t * node)
+{
+  logger_services_t * const services = &logger_services[rmw_node_index(node->impl)];
+
+  /* Cannot fail: the node is open. */
+  (void)rcl_service_fini(&services->get, node);
+  (void)rcl_service_fini(&services->set, node);
+}
+
+static bool services_has_request(const rcl_service_t * service)
+{
+  return rcl_service_is_valid(service) && rmw_replier_is_ready(service->impl);
+}
+
+static void services_answer_get(const rcl_service_t * service)
+{
+  static rcl_interfaces__msg__LoggerLevel levels[MICROROS_LOGGER_REQUEST_MAX];
+  rcl_interfaces__srv__GetLoggerLevels_Request request;
+  rcl_interfaces__srv__GetLoggerLevels_Response response;
+  rmw_request_id_t header;
+
+  (void)memset(&request, 0, sizeof(request)); /* its strings come from the storage of the service */
+  if (rcl_take_request(service, &header, &request) != RCL_RET_OK) {
+    return; /* a request above the limits: counted, and its text is set */
+  }
+  for (size_t i = 0; i < request.names.size; ++i) {
+    const int level = rcutils_logging_get_logger_level(request.names.data[i].data);
+
+    levels[i].name = request.names.data[i];
+    levels[i].level = level > 0 ? (uint32_t)level : 0u;
+  }
+  response.levels.data = levels;
+  response.levels.size = request.names.size;
+  response.levels.capacity = MICROROS_LOGGER_REQUEST_MAX;
+  (void)rcl_send_response(
+    service, &header, &response); /* there is room for what was taken; else it is counted */
+}
+
+/* Returns the reason for a level that was not set; empty: it was. */
+static size_t services_set(const rcl_interfaces__msg__LoggerLevel * asked, char * reason)
+{
+  const char * words = "Failed reason: Invalid logger level.";
+  rcutils_ret_t result = RCUTILS_RET_INVALID_ARGUMENT;
+  rcutils_error_string_t text;
+  size_t size = 0;
+
+  if (asked->level <= (uint32_t)RCUTILS_LOG_SEVERITY_FATAL) {
+    result = rcutils_logging_set_logger_level(asked->name.data, (int)asked->level);
+  }
+  if (result != RCUTILS_RET_INVALID_ARGUMENT) {
+    text = rcutils_get_error_string();
+    words = result == RCUTILS_RET_OK ? "" : text.str;
+  }
+  while (words[size] != '\0' && size + 1u < MICROROS_LOGGER_REASON_SIZE) {
+    reason[size] = words[size];
+    ++size;
+  }
+  reason[size] = '\0';
+  if (result != RCUTILS_RET_OK) {
+    rcutils_reset_error(); /* it was told to who asked */
+  }
+  return size;
+}
+
+static void services_answer_set(const rcl_service_t * service)
+{
+  static rcl_interfaces__msg__SetLoggerLevelsResult results[MICROROS_LOGGER_REQUEST_MAX];
+  rcl_interfaces__srv__SetLoggerLevels_Request request;
+  rcl_interfaces__srv__SetLoggerLevels_Response response;
+  rmw_request_id_t header;
+
+  (void)memset(&request, 0, sizeof(request));
+  if (rcl_take_request(service, &header, &request) != RCL_RET_OK) {
+    return;
+  }
+  for (size_t i = 0; i < request.levels.size; ++i) {
+    results[i].reason.data = logger_reasons[i];
+    results[i].reason.size = services_set(&request.levels.data[i], logger_reasons[i]);
+    results[i].reason.capacity = MICROROS_LOGGER_REASON_SIZE;
+    results[i].successful = results[i].reason.size == 0u;
+  }
+  response.results.data = results;
+  response.results.size = request.levels.size;
+  response.results.capacity = MICROROS_LOGGER_REQUEST_MAX;
+  (void)rcl_send_response(service, &header, &response);
+}
+
+void rcl_logger_services_answer(void)
+{
+  for (size_t i = 0; i < MICROROS_NODES_MAX; ++i) {
+    if (services_has_request(&logger_services[i].get)) {
+      services_answer_get(&logger_services[i].get);
+    }
+    if (services_has_request(&logger_services[i].set)) {
+      services_answer_set(&logger_services[i].set);
+    }
+  }
+}

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The profile configurable_sender_with_diagnostics with each setting of `entities`; tests/firmware builds it."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from microros_gen import compiler
+from microros_gen.interfaces.find import shipped_folder
+from microros_gen.toolchain.toolchain import WARNINGS
+from tests.support.patience import seconds
+
+ENTITIES = ("binary", "xml", "reference", "preconfigured")
+APPLICATION = """\
+version: 1
+profiles: [configurable_sender_with_diagnostics]
+entities: {entities}
+logging: [rosout, console]
+limits: {{"*": {{string: 8, sequence: 1}}}}
+nodes:
+  - name: device
+    publishers: [{{topic: diagnostics, type: diagnostic_msgs/msg/DiagnosticArray}}]
+    parameters: [{{name: gain, type: double, default: 0.5}}, {{name: label, type: string, size: 8}}]
+"""
+
+
+def compile_example(out: Path) -> None:
+    (example,) = (out / "examples").rglob("main.c")
+    command = ["gcc", "-std=c99", *WARNINGS, "-Werror", f"-I{out / 'include'}", "-fsyntax-only", str(example)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=seconds(60))
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("entities", ENTITIES)
+def test_the_example_has_parameters_log_messages_and_diagnostics(tmp_path: Path, entities: str) -> None:
+    config = tmp_path / "microros.yaml"
+    config.write_text(APPLICATION.format(entities=entities))
+    options = compiler.Options(config=config, interface_paths=(shipped_folder(),))
+    out = compiler.generate(options, tmp_path / "out").out
+    example = next((out / "examples").rglob("main.c")).read_text()
+    assert 'rclc_add_parameter(&node_parameters, "label", RCLC_PARAMETER_STRING)' in example
+    assert 'RCUTILS_LOG_INFO_NAMED("example", "all entities are open");' in example
+    assert "diagnostic_msgs__msg__DiagnosticArray" in example
+    compile_example(out)
