@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`make bench`: generate and build, encode and decode besides Fast CDR, instructions, flash of types, firmware,
-whole images, the client, the agent, the agent under attack.
+"""`make bench`: generate and build, encode and decode besides Fast CDR, instructions, parameters, flash of types,
+firmware, whole images, the client, the agent, the agent under attack.
 
 Times depend on the machine; so each stands besides a peer that ran in the same minutes. Instruction counts come
 from callgrind and repeat exactly with one compiler.
@@ -23,12 +23,14 @@ from tests.bench.footprint import bench_footprint
 from tests.bench.generation import Seconds, bench_generate, median, row, timed, tool
 from tests.bench.images import bench_images
 from tests.bench.instructions import bench_instructions
+from tests.bench.parameters import bench_parameters
 from tests.bench.type_flash import bench_type_flash
 
 PARTS = (
     "generate",
     "build",
     "instructions",
+    "parameters",
     "codec",
     "types",
     "footprint",
@@ -59,6 +61,8 @@ def main() -> int:
             bench_build(work)
         if "instructions" in options.parts:
             bench_instructions(work)
+        if "parameters" in options.parts:
+            bench_parameters(work / "parameters")
         if "codec" in options.parts:
             bench_codec(work / "codec")
         if "types" in options.parts:

@@ -259,3 +259,16 @@ def test_limits_of_the_type_are_those_of_lines(tmp_path: Path) -> None:
 def test_without_rosout_nothing_of_it_is_in_the_output(tmp_path: Path) -> None:
     files = compiler.render(planned(tmp_path, NODE + "logging: console\n"))
     assert not [name for name in files if "rcl_interfaces" in name or name.startswith("src/logging_rosout")]
+
+
+@pytest.mark.parametrize(
+    ("limits", "most"), [("", 4), ("{rcl_interfaces/srv/SetLoggerLevels_Request: {levels: 7}}", 7)]
+)
+def test_a_request_of_the_logger_services_fits_their_memory(tmp_path: Path, limits: str, most: int) -> None:
+    text = (
+        NODE
+        + "components: [+logger_services]\nlogging: callback\n"
+        + (f"limits: {limits}\n" if limits else "")
+    )
+    config = (generate(tmp_path, text) / "include" / "microros_config.h").read_text()
+    assert f"MICROROS_LOGGER_REQUEST_MAX {most}u" in config

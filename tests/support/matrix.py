@@ -137,6 +137,8 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "profiles: [pure_sender]\ncomponents: [+parameters]\n",
         "logging": _POOL + "logging: [{to: console, level: debug}, callback]\n",
         "rosout": _BUSY + "profiles: [pure_sender]\nlogging: [rosout, console]\n",
+        "logger-services": _BUSY
+        + "profiles: [pure_sender]\ncomponents: [+logger_services]\nlogging: callback\nerrors: code\n",
         "logging-callback-codes": _POOL + "logging: callback\nerrors: code\n",
         "custom-packets-threads": _BUSY
         + _ASKS

@@ -7,6 +7,7 @@ from microros_gen.application.model import Application, LimitRule
 from microros_gen.client.plan.features import Given, refuse_own_limits
 from microros_gen.components.logging.plan import LOGGERS, NAME_SIZE
 from microros_gen.diagnostics import Diagnostics
+from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
 
 REASON_SIZE = 64
@@ -22,9 +23,17 @@ class LoggerServicesPlan:
 
 
 def plan(given: Given, diagnostics: Diagnostics) -> LoggerServicesPlan:
-    """Return the sizes: as many as can have a level."""
+    """Return the sizes: as many as can have a level, or what the application's limits say."""
     refuse_own_limits(given, "logger_services", diagnostics)
-    return LoggerServicesPlan()
+    lists = [given.types[TypeName(_PACKAGE, "srv", name)].limits for name in _REQUESTS]
+    found = [
+        field.sequence or 0
+        for part in lists
+        if part is not None
+        for field in part.fields
+        if field is not None
+    ]
+    return LoggerServicesPlan(most=max(found))
 
 
 def record(part: LoggerServicesPlan) -> object:
@@ -33,21 +42,22 @@ def record(part: LoggerServicesPlan) -> object:
 
 
 def limits(application: Application) -> tuple[LimitRule, ...]:
-    """Return the bounds of requests and responses; those of the application would not fit the library's memory."""
-    return (
-        *(_rule(f"srv/{name}", part) for name, part in _LISTS),
-        LimitRule(("rcl_interfaces/srv/GetLoggerLevels_Request", "names"), NAME_SIZE - 1, LOGGERS),
-        LimitRule(("rcl_interfaces/msg/LoggerLevel", "name"), NAME_SIZE - 1, None),
-        LimitRule(("rcl_interfaces/msg/SetLoggerLevelsResult", "reason"), REASON_SIZE - 1, None),
+    """Return the bounds of requests and responses."""
+    rules = (
+        _rule("srv/GetLoggerLevels_Request", "names", NAME_SIZE - 1, LOGGERS),
+        _rule("srv/GetLoggerLevels_Response", "levels", None, LOGGERS),
+        _rule("srv/SetLoggerLevels_Request", "levels", None, LOGGERS),
+        _rule("srv/SetLoggerLevels_Response", "results", None, LOGGERS),
+        _rule("msg/LoggerLevel", "name", NAME_SIZE - 1),
+        _rule("msg/SetLoggerLevelsResult", "reason", REASON_SIZE - 1),
     )
+    given = {rule.path for rule in application.limits}
+    return tuple(rule for rule in rules if rule.path not in given)
 
 
-_LISTS = (
-    ("GetLoggerLevels_Response", "levels"),
-    ("SetLoggerLevels_Request", "levels"),
-    ("SetLoggerLevels_Response", "results"),
-)
+_PACKAGE = "rcl_interfaces"
+_REQUESTS = ("GetLoggerLevels_Request", "SetLoggerLevels_Request")
 
 
-def _rule(name: str, member: str) -> LimitRule:
-    return LimitRule((f"rcl_interfaces/{name}", member), None, LOGGERS)
+def _rule(name: str, member: str, string: int | None, sequence: int | None = None) -> LimitRule:
+    return LimitRule((f"{_PACKAGE}/{name}", member), string, sequence)

@@ -147,6 +147,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "lent_custom_packets": _READER + _ALONE + "transport: {type: custom, framing: false}\n",
         "logging": _INT32 + "components: [+multithread]\nlogging: [{to: console, level: debug}, callback]\n",
         "rosout": _BOTH + "components: [+multithread]\nlogging: rosout\n",
+        "logger_services": _BOTH + "components: [+logger_services, +multithread]\nlogging: callback\n",
         "rosout_board": _BOTH
         + "target: {name: qemu-mps2-an386}\nlogging: [rosout, {to: callback, level: warn}]\n",
         "parameters": _NODES.replace("    publishers:\n", "") + "components: [+parameters]\n",

@@ -15,7 +15,7 @@ rcl_ret_t rcl_logger_services_open(rcl_node_t * node);
 /* Called before a node is closed. */
 void rcl_logger_services_close(rcl_node_t * node);
 
-/* Called when the executor has received: answers what was asked. */
+/* Called when the executor has received: answers requests. */
 void rcl_logger_services_answer(void);
 
 #ifdef __cplusplus
