@@ -11,7 +11,8 @@
 #include "rcl_interfaces/srv/set_logger_levels.h"
 #include "rcutils/logging.h"
 
-#include <string.h>
+#include <stdbool.h>
+#include <stddef.h>
 
 typedef struct logger_services_t {
   rcl_service_t get;
@@ -19,6 +20,8 @@ typedef struct logger_services_t {
 } logger_services_t;
 
 static logger_services_t logger_services[MICROROS_NODES_MAX];
+static rcl_interfaces__msg__LoggerLevel logger_levels[MICROROS_LOGGER_REQUEST_MAX];
+static char logger_names[MICROROS_LOGGER_REQUEST_MAX][MICROROS_LOGGER_NAME_SIZE];
 static char logger_reasons[MICROROS_LOGGER_REQUEST_MAX][MICROROS_LOGGER_REASON_SIZE];
 
 static rcl_ret_t services_open(
@@ -60,24 +63,37 @@ static bool services_has_request(const rcl_service_t * service)
   return rcl_service_is_valid(service) && rmw_replier_is_ready(service->impl);
 }
 
+/* Gives the name of a request its memory. */
+static void services_bind(rosidl_runtime_c__String * name, size_t index)
+{
+  name->data = logger_names[index];
+  name->size = 0;
+  name->capacity = MICROROS_LOGGER_NAME_SIZE;
+}
+
 static void services_answer_get(const rcl_service_t * service)
 {
-  static rcl_interfaces__msg__LoggerLevel levels[MICROROS_LOGGER_REQUEST_MAX];
+  static rosidl_runtime_c__String names[MICROROS_LOGGER_REQUEST_MAX];
   rcl_interfaces__srv__GetLoggerLevels_Request request;
   rcl_interfaces__srv__GetLoggerLevels_Response response;
   rmw_request_id_t header;
 
-  (void)memset(&request, 0, sizeof(request)); /* its strings come from the storage of the service */
+  for (size_t i = 0; i < MICROROS_LOGGER_REQUEST_MAX; ++i) {
+    services_bind(&names[i], i);
+  }
+  request.names.data = names;
+  request.names.size = 0;
+  request.names.capacity = MICROROS_LOGGER_REQUEST_MAX;
   if (rcl_take_request(service, &header, &request) != RCL_RET_OK) {
     return; /* a request above the limits: counted, and its text is set */
   }
   for (size_t i = 0; i < request.names.size; ++i) {
     const int level = rcutils_logging_get_logger_level(request.names.data[i].data);
 
-    levels[i].name = request.names.data[i];
-    levels[i].level = level > 0 ? (uint32_t)level : 0u;
+    logger_levels[i].name = request.names.data[i];
+    logger_levels[i].level = level > 0 ? (uint32_t)level : 0u;
   }
-  response.levels.data = levels;
+  response.levels.data = logger_levels;
   response.levels.size = request.names.size;
   response.levels.capacity = MICROROS_LOGGER_REQUEST_MAX;
   (void)rcl_send_response(
@@ -117,7 +133,12 @@ static void services_answer_set(const rcl_service_t * service)
   rcl_interfaces__srv__SetLoggerLevels_Response response;
   rmw_request_id_t header;
 
-  (void)memset(&request, 0, sizeof(request));
+  for (size_t i = 0; i < MICROROS_LOGGER_REQUEST_MAX; ++i) {
+    services_bind(&logger_levels[i].name, i);
+  }
+  request.levels.data = logger_levels;
+  request.levels.size = 0;
+  request.levels.capacity = MICROROS_LOGGER_REQUEST_MAX;
   if (rcl_take_request(service, &header, &request) != RCL_RET_OK) {
     return;
   }
