@@ -4,6 +4,7 @@
 
 #include "microros/rmw_node.h"
 #include "microros/rmw_service.h"
+#include "microros/text.h"
 #include "microros_config.h"
 #include "rcl/error_handling.h"
 #include "rcl/service.h"
@@ -13,6 +14,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <string.h>
 
 typedef struct logger_services_t {
   rcl_service_t get;
@@ -100,28 +102,39 @@ static void services_answer_get(const rcl_service_t * service)
     service, &header, &response); /* there is room for what was taken; else it is counted */
 }
 
-/* Returns the reason for a level that was not set; empty: it was. */
+/* Copies as much as has room; returns the length. */
+static size_t services_copy(char * reason, const char * words)
+{
+  size_t size = microros_text_size(words);
+
+  if (size >= MICROROS_LOGGER_REASON_SIZE) {
+    size = MICROROS_LOGGER_REASON_SIZE - 1u;
+  }
+  (void)memcpy(reason, words, size);
+  reason[size] = '\0';
+  return size;
+}
+
+/* Sets a level. Returns the length of the reason why not; 0: it was set. */
 static size_t services_set(const rcl_interfaces__msg__LoggerLevel * asked, char * reason)
 {
-  const char * words = "Failed reason: Invalid logger level.";
   rcutils_ret_t result = RCUTILS_RET_INVALID_ARGUMENT;
-  rcutils_error_string_t text;
   size_t size = 0;
 
   if (asked->level <= (uint32_t)RCUTILS_LOG_SEVERITY_FATAL) {
     result = rcutils_logging_set_logger_level(asked->name.data, (int)asked->level);
   }
-  if (result != RCUTILS_RET_INVALID_ARGUMENT) {
-    text = rcutils_get_error_string();
-    words = result == RCUTILS_RET_OK ? "" : text.str;
+  if (result == RCUTILS_RET_INVALID_ARGUMENT) {
+    size = services_copy(reason, "Failed reason: Invalid logger level.");
+  } else if (result != RCUTILS_RET_OK) {
+    const rcutils_error_string_t text = rcutils_get_error_string();
+
+    size = services_copy(reason, text.str);
+  } else {
+    reason[0] = '\0';
   }
-  while (words[size] != '\0' && size + 1u < MICROROS_LOGGER_REASON_SIZE) {
-    reason[size] = words[size];
-    ++size;
-  }
-  reason[size] = '\0';
   if (result != RCUTILS_RET_OK) {
-    rcutils_reset_error(); /* it was told to who asked */
+    rcutils_reset_error(); /* whoever asked has the reason */
   }
   return size;
 }
