@@ -32,6 +32,7 @@ def test_the_example_is_the_demos_application() -> None:
     assert shown == "".join(line for line in lines if not line.startswith("#"))
 
 
+@pytest.mark.builds
 def test_the_console_example_prints_what_it_shows(tmp_path: Path) -> None:
     (block,) = texts("console")
     command, _, shown = block.partition("\n")
@@ -58,6 +59,7 @@ def test_the_figures_are_those_of_the_footprint() -> None:
     assert row[0] == readme_row(row, load())
 
 
+@pytest.mark.builds
 def test_the_firmware_of_the_example_is_built_and_measured(tmp_path: Path) -> None:
     """The lines of the microcontroller; what `run` does with the same image is in tests/firmware/test_run.py."""
     if shutil.which("arm-none-eabi-gcc") is None:

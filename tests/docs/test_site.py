@@ -11,6 +11,8 @@ from urllib.parse import unquote, urlsplit
 
 import pytest
 
+pytestmark = pytest.mark.builds
+
 _TAGS = """
 html head meta title link script body nav div section article main header footer form label input button a p span ul ol
 li h1 h2 h3 h4 h5 table thead tbody tr th td pre code em strong br hr img blockquote noscript dl dt dd i
