@@ -116,13 +116,13 @@ static size_t services_copy(char * reason, const char * words)
 }
 
 /* Sets a level. Returns the length of the reason why not; 0: it was set. */
-static size_t services_set(const rcl_interfaces__msg__LoggerLevel * asked, char * reason)
+static size_t services_set(const rcl_interfaces__msg__LoggerLevel * requested, char * reason)
 {
   rcutils_ret_t result = RCUTILS_RET_INVALID_ARGUMENT;
   size_t size = 0;
 
-  if (asked->level <= (uint32_t)RCUTILS_LOG_SEVERITY_FATAL) {
-    result = rcutils_logging_set_logger_level(asked->name.data, (int)asked->level);
+  if (requested->level <= (uint32_t)RCUTILS_LOG_SEVERITY_FATAL) {
+    result = rcutils_logging_set_logger_level(requested->name.data, (int)requested->level);
   }
   if (result == RCUTILS_RET_INVALID_ARGUMENT) {
     size = services_copy(reason, "Failed reason: Invalid logger level.");
@@ -134,7 +134,7 @@ static size_t services_set(const rcl_interfaces__msg__LoggerLevel * asked, char 
     reason[0] = '\0';
   }
   if (result != RCUTILS_RET_OK) {
-    rcutils_reset_error(); /* whoever asked has the reason */
+    rcutils_reset_error(); /* the reply contains the reason */
   }
   return size;
 }
