@@ -130,7 +130,7 @@ def test_every_event_is_there_with_its_fields() -> None:
     table = rows("event")
     seen = set()
     for name, node in calls():
-        if name not in ("emit", "_tell") or not texts(node) or not re.fullmatch(r"[a-z_]+", texts(node)[0]):
+        if name not in ("emit", "_report") or not texts(node) or not re.fullmatch(r"[a-z_]+", texts(node)[0]):
             continue
         event = texts(node)[0]
         seen.add(event)
