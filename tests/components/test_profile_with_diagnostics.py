@@ -12,19 +12,7 @@ from microros_gen import compiler
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.toolchain.toolchain import WARNINGS
 from tests.support.patience import seconds
-
-ENTITIES = ("binary", "xml", "reference", "preconfigured")
-APPLICATION = """\
-version: 1
-profiles: [configurable_sender_with_diagnostics]
-entities: {entities}
-logging: [rosout, console]
-limits: {{"*": {{string: 8, sequence: 1}}}}
-nodes:
-  - name: device
-    publishers: [{{topic: diagnostics, type: diagnostic_msgs/msg/DiagnosticArray}}]
-    parameters: [{{name: gain, type: double, default: 0.5}}, {{name: label, type: string, size: 8}}]
-"""
+from tests.support.profile_with_diagnostics import APPLICATION, ENTITIES
 
 
 def compile_example(out: Path) -> None:

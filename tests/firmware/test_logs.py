@@ -8,12 +8,12 @@ from typing import Any
 
 import pytest
 
-from tests.components.test_profile_with_diagnostics import APPLICATION as PROFILE
-from tests.components.test_profile_with_diagnostics import ENTITIES
 from tests.support.agent.observer import Observer
 from tests.support.firmware.board import Board, Builds, board, need
 from tests.support.firmware.running import started
 from tests.support.patience import deadline
+from tests.support.profile_with_diagnostics import APPLICATION as PROFILE
+from tests.support.profile_with_diagnostics import ENTITIES
 
 NAME = "qemu-mps2-an386"
 APPLICATION = """\
