@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from types import FrameType
+from typing import Protocol
 
 from microros_gen.agent.core import Agent
 from microros_gen.agent.log import EventLog, Level
@@ -117,8 +118,15 @@ class Server:
         )
 
 
+class Stoppable(Protocol):
+    """What a signal stops."""
+
+    def stop(self) -> None:
+        """Let what runs end soon; called from a signal handler."""
+
+
 @contextmanager
-def stopped_by_signals(server: Server) -> Iterator[None]:
+def stopped_by_signals(server: Stoppable) -> Iterator[None]:
     """Let SIGINT and SIGTERM stop `server` while this lasts."""
 
     def stop(_number: int, _frame: FrameType | None) -> None:

@@ -15,7 +15,8 @@ import click
 from microros_gen import __version__
 from microros_gen.diagnostics import TRACEBACK, UserError, internal_error, nearest
 
-# Command → one line of help; each is the object `command` of the module of the same name, imported when used.
+# Command → one line of help; each is the object `command` of the module of the same name (`_` for `-`), imported when
+# used.
 _COMMANDS = {
     "build": "Generate, compile to lib/libmicroros.a and link the profile's example.",
     "generate": "Write the C sources of a selection, without compiling.",
@@ -29,6 +30,7 @@ _COMMANDS = {
     "init": "Write a new application folder, from a profile or from existing sources.",
     "run": "Start a built image together with an agent.",
     "agent": "Connect XRCE clients to ROS 2.",
+    "graph-server": "Answer queries of the ROS graph for firmware.",
 }
 
 
@@ -45,7 +47,7 @@ class _LazyGroup(click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in _COMMANDS:
             return None
-        module = importlib.import_module(f"microros_gen.cli.{cmd_name}")
+        module = importlib.import_module(f"microros_gen.cli.{cmd_name.replace('-', '_')}")
         command: click.Command = module.command
         return command
 

@@ -43,7 +43,18 @@ class Publisher:
         return int(self._handle.get_subscription_count())
 
 
-class Subscription:
+class _Waited:
+    """What a wait set of rclpy takes."""
+
+    kind: str
+    handle: Any
+
+    def add(self, waits: Any) -> int:
+        """Add it to an rclpy wait set; return its index there."""
+        return int(getattr(waits, f"add_{self.kind}")(self.handle))
+
+
+class Subscription(_Waited):
     """Passes received messages to a callback as dicts."""
 
     kind = "subscription"
@@ -64,7 +75,7 @@ class Subscription:
             self._callback(self._known.codec.decode(self._known.name, taken[0]))
 
 
-class _ServiceEnd:
+class _ServiceEnd(_Waited):
     """Common part of service clients and servers: takes and sends messages."""
 
     def __init__(self, handle: Any, known: KnownType, name: ServiceName, types: RawTypes) -> None:
@@ -181,10 +192,6 @@ class Server(_ServiceEnd):
         self._check(
             self._libraries.send_response(self.handle.pointer, byref(request), byref(sent)), "response"
         )
-
-
-Waited = Subscription | Client | Server
-"""Entities that a peer waits for."""
 
 
 def _raw(data: bytes) -> RawMessage:

@@ -112,6 +112,10 @@ class Libraries:
         self.notify_subscription = _function(rcl, "rcl_subscription_set_on_new_message_callback", *notify)
         self.notify_service = _function(rcl, "rcl_service_set_on_new_request_callback", *notify)
         self.notify_client = _function(rcl, "rcl_client_set_on_new_response_callback", *notify)
+        self.graph_guard_condition = _function(rcl, "rcl_node_get_graph_guard_condition", c_void_p, c_void_p)
+        self.add_guard_condition = _function(
+            rcl, "rcl_wait_set_add_guard_condition", c_int, c_void_p, c_void_p, POINTER(c_size_t)
+        )
         self.notify_event = _function(rcl, "rcl_event_set_callback", *notify)
         self.trim_heap = _function(ctypes.PyDLL(None), "malloc_trim", c_int, c_size_t)
         self._buffer_offset = 0

@@ -20,8 +20,9 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from microros_gen.ros.endpoints import Client, Publisher, Server, Subscription, Value, Waited
+from microros_gen.ros.endpoints import Client, Publisher, Server, Subscription, Value
 from microros_gen.ros.errors import RosError
+from microros_gen.ros.graph import Graph, GraphChanges
 from microros_gen.ros.known_types import KnownType, KnownTypes
 from microros_gen.ros.libraries import FAILURES, first_line
 from microros_gen.ros.loading import load_rclpy
@@ -29,6 +30,10 @@ from microros_gen.ros.names import ServiceName
 from microros_gen.ros.qos import Qos, c_profile
 from microros_gen.ros.raw_types import raw_types
 
+_Waited = Subscription | Client | Server | GraphChanges
+"""What a peer waits for."""
+_WAITED_KINDS = ("subscription", "guard_condition", "timer", "client", "service", "event")
+"""In the order of the arguments of rclpy's wait set."""
 _SLICE_S = 0.1
 """Longest single wait in seconds: Python handles signals (Ctrl-C) after it."""
 
@@ -53,7 +58,7 @@ class Peer:
         self._raw = raw_types()
         self._context = importlib.import_module("rclpy.context").Context()
         self._entities: list[Any] = []
-        self._waited: list[Waited] = []
+        self._waited: list[_Waited] = []
         self._spinning = self._closed = False
         self._node: Any = None
         try:
@@ -110,6 +115,14 @@ class Peer:
         self._waited.append(made)
         return made
 
+    def graph(self) -> Graph:
+        """Return what queries the ROS graph; it works until the peer is closed."""
+        return Graph(self._handles, self._node)
+
+    def on_graph_change(self, callback: Callable[[], object]) -> None:
+        """Let `spin_once` call `callback` after changes of the ROS graph, once for several that came together."""
+        self._waited.append(GraphChanges(self._node, self._raw.libraries, callback))
+
     def spin_once(self, timeout_s: float = 0.0) -> bool:
         """Wait for data for at most `timeout_s` seconds and run callbacks; return whether any entity was ready.
 
@@ -150,16 +163,16 @@ class Peer:
             self._context.try_shutdown()
             self._context.destroy()
 
-    def _ready(self, timeout_s: float) -> list[Waited]:
+    def _ready(self, timeout_s: float) -> list[_Waited]:
         """Return the entities with data, after at most `timeout_s` seconds."""
         end = time.monotonic() + timeout_s
         kinds = [one.kind for one in self._waited]
-        counts = (kinds.count("subscription"), 0, 0, kinds.count("client"), kinds.count("service"), 0)
+        counts = tuple(map(kinds.count, _WAITED_KINDS))
         waits = self._handles.WaitSet(*counts, self._context.handle)
         try:
             while True:
                 waits.clear_entities()
-                places = [getattr(waits, f"add_{one.kind}")(one.handle) for one in self._waited]
+                places = [one.add(waits) for one in self._waited]
                 left = max(0.0, min(_SLICE_S, end - time.monotonic()))
                 if places:
                     waits.wait(int(left * 1e9))

@@ -22,8 +22,8 @@ from microros_gen.interfaces.msg.text import declaration_text, message_text
 from microros_gen.interfaces.types import Constant, Field, Message, TypeName
 
 SHARE = Path(sys.prefix) / "share"
-# Not in the wheels of ROS 2 on PyPI: written from what is publicly known of them.
-ELSEWHERE = {"example_interfaces", "tf2_msgs"}
+# Not in the wheels of ROS 2 on PyPI: written from what is publicly known of them, or of this project.
+ELSEWHERE = {"example_interfaces", "microros_graph_msgs", "tf2_msgs"}
 # For ROS 2's own tests, not for users.
 TESTS_OF_ROS = {"test_msgs", "test_interface_files"}
 FINDER = InterfaceFinder(shipped=shipped_folder())

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`microros-gen graph-server`: answers the graph queries of firmware."""
+
+from __future__ import annotations
+
+import click
+
+from microros_gen.agent.server import stopped_by_signals
+from microros_gen.diagnostics import Diagnostic, UserError
+from microros_gen.graph_server.server import NODE, GraphServer
+from microros_gen.ros.errors import RosUnusableError
+from microros_gen.ros.peer import Peer
+
+
+def _peer(domain: int | None) -> Peer:
+    try:
+        return Peer(NODE, domain=domain)
+    except RosUnusableError as error:
+        raise UserError(
+            [Diagnostic(f"the graph server {error.reason}", hint=error.hint, id="MG-9724")]
+        ) from error
+
+
+@click.command()
+@click.option(
+    "--domain", type=click.IntRange(0, 232), metavar="ID", help="ROS domain. Default: ROS_DOMAIN_ID, else 0."
+)
+def command(domain: int | None) -> None:
+    """Answer queries of the ROS graph by service, and publish when it changes.
+
+    The node /microros_graph has the services list_names and list_endpoints and the topic changes, with the types of
+    microros_graph_msgs (`microros-gen interfaces microros_graph_msgs/srv/ListNames`). A request states how many names
+    it has room for and how long they are: a board with 2 KB of memory can ask about one topic in a system of 500
+    nodes. Run it on any machine of the domain; one in a domain is enough. Needs ROS 2 Jazzy, as the agent does.
+
+    \b
+    microros-gen graph-server
+    microros-gen graph-server --domain 5
+
+    Prints 'graph server ready: /microros_graph' on stdout. SIGINT and SIGTERM end it with status 0.
+    """
+    with _peer(domain) as peer:
+        server = GraphServer(peer, lambda line: click.echo(f"warning: {line}", err=True))
+        with stopped_by_signals(server):
+            click.echo(f"graph server ready: {peer.name}")
+            server.run()

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Responses to requests of microros_graph_msgs, from a graph."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from typing import Any, TypeVar
+
+from microros_gen.ros.endpoints import Value
+from microros_gen.ros.errors import RosError
+from microros_gen.ros.graph import Graph, GraphEndpoint, Names
+
+OK, UNKNOWN_NODE, INVALID = 0, 1, 2
+"""`status` of both services."""
+NODES, TOPICS, SERVICES, PUBLISHERS_OF, SUBSCRIPTIONS_OF, SERVICES_OF, CLIENTS_OF = range(7)
+"""`what` of microros_graph_msgs/srv/ListNames."""
+PUBLISHERS, SUBSCRIPTIONS, SERVERS, CLIENTS = range(4)
+"""`what` of microros_graph_msgs/srv/ListEndpoints."""
+_RELIABLE, _BEST_EFFORT = 1, 2
+_TRANSIENT_LOCAL, _VOLATILE = 1, 2
+"""Values of rmw/types.h."""
+_NAME = re.compile("(?:/[A-Za-z_][A-Za-z0-9_]*)+", re.ASCII)
+_Item = TypeVar("_Item")
+
+
+def list_names(graph: Graph, request: Value, version: int) -> Value:
+    """Return the response of ListNames; `version` (0 to 2^32 - 1) is that of the graph."""
+    found = _names(graph, request["what"], request["node"])
+    if isinstance(found, int):
+        return {"status": found, "version": version}
+    chosen = [entry for entry in found if _passes(entry[0], request["filter"])]
+    size, types_max = request["name_size"], request["types_max"]
+
+    def item(entry: tuple[str, tuple[str, ...]]) -> tuple[Value | None, bool]:
+        name, types = entry
+        fitting = [text for text in types if _fits(text, size)][:types_max]
+        complete = not types_max or len(fitting) == len(types)
+        return ({"name": name, "types": fitting} if _fits(name, size) else None), complete
+
+    return _page(chosen, request["first"], request["names_max"], item, "names", version)
+
+
+def list_endpoints(graph: Graph, request: Value, version: int) -> Value:
+    """Return the response of ListEndpoints; `version` (0 to 2^32 - 1) is that of the graph."""
+    what, name, node = request["what"], request["name"], request["matched_by"]
+    if not _NAME.fullmatch(name):
+        return {"status": INVALID, "version": version}
+    try:
+        if what in (SERVERS, CLIENTS):
+            total = graph.count_servers(name) if what == SERVERS else graph.count_clients(name)
+            return {"status": OK, "version": version, "total": total, "next": total}
+        if what not in (PUBLISHERS, SUBSCRIPTIONS):
+            return {"status": INVALID, "version": version}
+        found: Sequence[GraphEndpoint] | None
+        found = graph.publishers(name) if what == PUBLISHERS else graph.subscriptions(name)
+        if node:
+            others = graph.subscriptions(name) if what == PUBLISHERS else graph.publishers(name)
+            found = _matched(what, found, [other for other in others if other.node == node])
+    except RosError:  # a name too long
+        return {"status": INVALID, "version": version}
+    if found is None:
+        return {"status": UNKNOWN_NODE, "version": version}
+    size = request["name_size"]
+
+    def item(endpoint: GraphEndpoint) -> tuple[Value | None, bool]:
+        fits = _fits(endpoint.node, size) and _fits(endpoint.type, size)
+        return (_endpoint(endpoint) if fits else None), True
+
+    return _page(found, request["first"], request["endpoints_max"], item, "endpoints", version)
+
+
+def match(publisher: GraphEndpoint, subscription: GraphEndpoint) -> bool:
+    """Return whether DDS connects them: the same type, and QoS that offers what is requested (DDS 1.4, 2.2.3)."""
+    return (
+        publisher.type == subscription.type
+        and not (publisher.reliability == _BEST_EFFORT and subscription.reliability == _RELIABLE)
+        and not (publisher.durability == _VOLATILE and subscription.durability == _TRANSIENT_LOCAL)
+        and publisher.deadline <= subscription.deadline
+        and publisher.liveliness >= subscription.liveliness
+        and publisher.lease <= subscription.lease
+    )
+
+
+def _names(graph: Graph, what: int, node: str) -> Names | int:
+    """Return what is listed, or the status of a request that cannot be answered."""
+    of_node = {
+        PUBLISHERS_OF: graph.publishers_of,
+        SUBSCRIPTIONS_OF: graph.subscriptions_of,
+        SERVICES_OF: graph.services_of,
+        CLIENTS_OF: graph.clients_of,
+    }
+    if what in of_node:
+        found = of_node[what](node)
+        return UNKNOWN_NODE if found is None else found
+    if what == NODES:
+        return tuple((name, ()) for name in graph.nodes())
+    if what == TOPICS:
+        return graph.topics()
+    return graph.services() if what == SERVICES else INVALID
+
+
+def _matched(
+    what: int, found: Sequence[GraphEndpoint], own: Sequence[GraphEndpoint]
+) -> Sequence[GraphEndpoint] | None:
+    """Return those of `found` that match one of `own`, which are of the other kind; None: there is none."""
+    if not own:
+        return None
+    if what == PUBLISHERS:
+        return [one for one in found if any(match(one, other) for other in own)]
+    return [one for one in found if any(match(other, one) for other in own)]
+
+
+def _page(
+    found: Sequence[_Item],
+    first: int,
+    most: int,
+    item: Callable[[_Item], tuple[Value | None, bool]],
+    key: str,
+    version: int,
+) -> Value:
+    """Return at most `most` items from index `first`; `item` gives None for what does not fit, and whether all did.
+
+    Items that do not fit do not count, so a page with room for any is empty only after the last one.
+    """
+    items: list[Value] = []
+    truncated, at = False, min(first, len(found))
+    while at < len(found) and len(items) < most:
+        value, complete = item(found[at])
+        if value is not None:
+            items.append(value)
+        truncated = truncated or value is None or not complete
+        at += 1
+    return {
+        "status": OK,
+        "version": version,
+        "total": len(found),
+        "next": at,
+        "truncated": truncated,
+        key: items,
+    }
+
+
+def _passes(name: str, wanted: str) -> bool:
+    return name.startswith(wanted) if wanted.endswith("/") else wanted in ("", name)
+
+
+def _fits(text: str, size: int) -> bool:
+    return size == 0 or len(text.encode()) < size
+
+
+def _endpoint(endpoint: GraphEndpoint) -> Value:
+    values: dict[str, Any] = {name: getattr(endpoint, name) for name in GraphEndpoint.__dataclass_fields__}
+    return {**values, "hash": list(endpoint.hash), "gid": list(endpoint.gid)}

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A ROS node that answers queries of the graph and publishes a notice when it changes."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+from microros_gen.graph_server.answers import list_endpoints, list_names
+from microros_gen.ros.errors import CodecError, RosError
+from microros_gen.ros.peer import Peer
+from microros_gen.ros.qos import Qos
+
+NODE = "microros_graph"
+NAMES_SERVICE = f"/{NODE}/list_names"
+ENDPOINTS_SERVICE = f"/{NODE}/list_endpoints"
+CHANGE_TOPIC = f"/{NODE}/changes"
+CHANGE_QOS = Qos(transient_local=True, depth=1)
+BETWEEN_CHANGES_S = 0.2
+"""Shortest time between two notices: a system that starts changes a hundred times a second."""
+_VERSIONS = 1 << 32
+_WAIT_S = 0.5
+
+
+class GraphServer:
+    """Serves on the node of a peer, in the thread that calls `turn`."""
+
+    def __init__(
+        self, peer: Peer, report: Callable[[str], object], clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        """Create services and publisher; `report` gets a line about each request that could not be answered.
+
+        Raises RosError if the node cannot have them.
+        """
+        self._peer = peer
+        self._report = report
+        self._clock = clock
+        self._graph = peer.graph()
+        self._version = 0
+        self._announced = 0
+        self._next_s = clock()
+        self._stop = False
+        peer.serve(
+            NAMES_SERVICE,
+            "microros_graph_msgs/srv/ListNames",
+            lambda r: list_names(self._graph, r, self._version),
+        )
+        peer.serve(
+            ENDPOINTS_SERVICE,
+            "microros_graph_msgs/srv/ListEndpoints",
+            lambda r: list_endpoints(self._graph, r, self._version),
+        )
+        self._changes = peer.publisher(CHANGE_TOPIC, "microros_graph_msgs/msg/Change", CHANGE_QOS)
+        peer.on_graph_change(self._changed)
+
+    def run(self) -> None:
+        """Serve until `stop`."""
+        while not self._stop:
+            self.turn()
+
+    def stop(self) -> None:
+        """Let `run` end within a second."""
+        self._stop = True
+
+    def turn(self) -> None:
+        """Wait for requests and changes, at most half a second, and serve them."""
+        wait_s = _WAIT_S
+        if self._announced != self._version:
+            wait_s = max(0.0, self._next_s - self._clock())
+        try:
+            self._peer.spin_once(wait_s)
+        except (CodecError, RosError) as error:  # one request; the others are answered
+            self._report(str(error))
+        if self._announced != self._version and self._clock() >= self._next_s:
+            self._announced = self._version
+            self._next_s = self._clock() + BETWEEN_CHANGES_S
+            self._changes.publish({"version": self._version})
+
+    def _changed(self) -> None:
+        self._version = (self._version + 1) % _VERSIONS

@@ -1,0 +1,279 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The graph server as a process, asked by a peer, besides what rclpy sees."""
+
+from __future__ import annotations
+
+import select
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from functools import partial
+from itertools import product
+from typing import Any
+
+import pytest
+
+from microros_gen.graph_server import answers
+from microros_gen.graph_server.server import (
+    CHANGE_QOS,
+    CHANGE_TOPIC,
+    ENDPOINTS_SERVICE,
+    NAMES_SERVICE,
+    GraphServer,
+)
+from microros_gen.ros.peer import Peer
+from microros_gen.ros.qos import Qos
+from tests.support.agent.process import environment, own_domain
+from tests.support.patience import seconds
+
+pytestmark = pytest.mark.ros
+PATIENCE_S = seconds(15)
+INT32 = "std_msgs/msg/Int32"
+READY = "graph server ready: /microros_graph\n"
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[subprocess.Popen[str]]:
+    with pytest.MonkeyPatch.context() as patch:
+        for name, value in environment(own_domain()).items():
+            patch.setenv(name, value)
+        process = subprocess.Popen(
+            [sys.executable, "-m", "microros_gen", "graph-server"], stdout=subprocess.PIPE, text=True
+        )
+        assert process.stdout is not None
+        try:
+            assert select.select([process.stdout], [], [], PATIENCE_S)[0]
+            assert process.stdout.readline() == READY
+            yield process
+        finally:
+            process.kill()
+            process.wait()
+            process.stdout.close()
+
+
+@pytest.fixture
+def peer(server: subprocess.Popen[str]) -> Iterator[Peer]:
+    with Peer("asking") as made:
+        yield made
+
+
+class Asked:
+    """Both services, by the peer's clients."""
+
+    def __init__(self, peer: Peer) -> None:
+        self._names = peer.client(NAMES_SERVICE, "microros_graph_msgs/srv/ListNames")
+        self._endpoints = peer.client(ENDPOINTS_SERVICE, "microros_graph_msgs/srv/ListEndpoints")
+
+    def names(self, what: int, **request: Any) -> dict[str, Any]:
+        response = self._names.call({"what": what, "names_max": 999, "types_max": 9, **request}, PATIENCE_S)
+        assert response is not None
+        return response
+
+    def listed(self, what: int, **request: Any) -> tuple[Any, ...]:
+        response = self.names(what, **request)
+        assert response["status"] == answers.OK
+        return tuple((item["name"], tuple(item["types"])) for item in response["names"])
+
+    def endpoints(self, what: int, name: str, **request: Any) -> dict[str, Any]:
+        whole = {"what": what, "name": name, "endpoints_max": 99, **request}
+        response = self._endpoints.call(whole, PATIENCE_S)
+        assert response is not None
+        return response
+
+
+def agree(peer: Peer, here: Callable[[], Any], there: Callable[[], Any]) -> Any:
+    """Wait until both sides have discovered the same; return it."""
+    assert peer.spin(lambda: here() == there(), PATIENCE_S), (here(), there())
+    return here()
+
+
+def test_names_are_those_that_rclpy_sees(peer: Peer) -> None:
+    asked, graph = Asked(peer), peer.graph()
+    with Peer("arm", "/left") as arm:
+        arm.publisher("state", INT32)
+        arm.subscribe("/goal", "std_msgs/msg/String", print)
+        arm.serve("enable", "std_srvs/srv/SetBool", lambda _: {})
+        arm.client("/left/home", "std_srvs/srv/Trigger")
+        node = arm.name
+        sides: list[tuple[Callable[[], Any], Callable[[], Any]]] = [
+            (lambda: tuple((n, ()) for n in graph.nodes()), lambda: asked.listed(answers.NODES)),
+            (graph.topics, lambda: asked.listed(answers.TOPICS)),
+            (graph.services, lambda: asked.listed(answers.SERVICES)),
+            (lambda: graph.publishers_of(node), lambda: asked.listed(answers.PUBLISHERS_OF, node=node)),
+            (lambda: graph.subscriptions_of(node), lambda: asked.listed(answers.SUBSCRIPTIONS_OF, node=node)),
+            (lambda: graph.services_of(node), lambda: asked.listed(answers.SERVICES_OF, node=node)),
+            (lambda: graph.clients_of(node), lambda: asked.listed(answers.CLIENTS_OF, node=node)),
+        ]
+        assert peer.spin(lambda: graph.clients_of(node), PATIENCE_S)
+        found = [agree(peer, here, there) for here, there in sides]
+        assert {("/left/arm", ()), ("/microros_graph", ()), ("/asking", ())} <= set(found[0])
+        assert found[3:] == [
+            (("/left/state", (INT32,)),),
+            (("/goal", ("std_msgs/msg/String",)),),
+            (("/left/enable", ("std_srvs/srv/SetBool",)),),
+            (("/left/home", ("std_srvs/srv/Trigger",)),),
+        ]
+    agree(peer, graph.topics, lambda: asked.listed(answers.TOPICS))
+    assert peer.spin(
+        lambda: asked.names(answers.CLIENTS_OF, node=node)["status"] == answers.UNKNOWN_NODE, PATIENCE_S
+    )
+
+
+def test_endpoints_and_counts_are_those_that_rclpy_sees(peer: Peer) -> None:
+    asked, graph = Asked(peer), peer.graph()
+    with Peer("pair", "/right") as pair:
+        pair.publisher("/data", INT32, Qos(reliable=False, deadline_ms=20))
+        pair.publisher("/data", INT32, Qos(transient_local=True, lifespan_ms=1500))
+        pair.subscribe("/data", INT32, print)
+        pair.serve("/enable", "std_srvs/srv/SetBool", lambda _: {})
+
+        def complete() -> bool:
+            found = (*graph.publishers("/data"), *graph.subscriptions("/data"))
+            return [endpoint.node for endpoint in found] == [pair.name] * 3
+
+        assert peer.spin(complete, PATIENCE_S)
+        for what, here in (
+            (answers.PUBLISHERS, graph.publishers),
+            (answers.SUBSCRIPTIONS, graph.subscriptions),
+        ):
+            expected = here("/data")
+            total = partial(asked.endpoints, what, "/data")
+            agree(peer, lambda: len(here("/data")), lambda: total()["total"])  # noqa: B023
+            response = asked.endpoints(what, "/data")
+            assert not response["truncated"]
+            for item, endpoint in zip(response["endpoints"], expected, strict=True):
+                for name in type(endpoint).__dataclass_fields__:
+                    value = getattr(endpoint, name)
+                    same = bytes(item[name]) if isinstance(value, bytes) else item[name]
+                    assert same == value, name
+        servers = lambda: asked.endpoints(answers.SERVERS, "/enable")["total"]  # noqa: E731
+        assert agree(peer, lambda: graph.count_servers("/enable"), servers) == 1
+        assert asked.endpoints(answers.CLIENTS, "/enable")["total"] == 0
+    assert asked.endpoints(answers.PUBLISHERS, "no name")["status"] == answers.INVALID
+
+
+KINDS = [
+    Qos(),
+    Qos(reliable=False),
+    Qos(transient_local=True),
+    Qos(deadline_ms=50),
+    Qos(deadline_ms=100),
+    Qos(reliable=False, transient_local=True, deadline_ms=50),
+]
+
+
+def test_matched_counts_are_those_of_dds(peer: Peer) -> None:
+    """Every pair of QoS, and another type: what publishers and subscriptions say themselves."""
+    asked, graph = Asked(peer), peer.graph()
+    with Peer("writing") as writing, Peer("reading") as reading:
+        pairs = list(product(KINDS, KINDS))
+        writers = [writing.publisher(f"/pair_{i}", INT32, offered) for i, (offered, _) in enumerate(pairs)]
+        for i, (_, requested) in enumerate(pairs):
+            reading.subscribe(f"/pair_{i}", INT32, print, requested)
+        complete = lambda: all(  # noqa: E731
+            graph.publishers(f"/pair_{i}") and graph.subscriptions(f"/pair_{i}") for i in range(len(pairs))
+        )
+        assert peer.spin(complete, PATIENCE_S)
+        matched = [
+            asked.endpoints(answers.SUBSCRIPTIONS, f"/pair_{i}", matched_by="/writing")["total"]
+            for i in range(len(pairs))
+        ]
+        others = [
+            asked.endpoints(answers.PUBLISHERS, f"/pair_{i}", matched_by="/reading")["total"]
+            for i in range(len(pairs))
+        ]
+        peer.spin(lambda: [w.subscriptions() for w in writers] == matched, PATIENCE_S)
+        assert [w.subscriptions() for w in writers] == matched == others
+        assert 0 < sum(matched) < len(pairs)
+        nobody = asked.endpoints(answers.SUBSCRIPTIONS, "/pair_0", matched_by="/reading")
+        assert nobody["status"] == answers.UNKNOWN_NODE, "it has no publisher there"
+
+
+def test_a_change_is_announced_and_makes_another_version(peer: Peer) -> None:
+    versions: list[int] = []
+    asked = Asked(peer)
+    peer.subscribe(
+        CHANGE_TOPIC, "microros_graph_msgs/msg/Change", lambda m: versions.append(m["version"]), CHANGE_QOS
+    )
+    assert peer.spin(lambda: versions, PATIENCE_S), "the last notice is kept for those that come later"
+    settled = lambda: asked.names(answers.NODES, names_max=0)["version"] == versions[-1]  # noqa: E731
+    assert peer.spin(settled, PATIENCE_S)
+    with Peer("passing"):
+        seen = lambda: ("/passing", ()) in asked.listed(answers.NODES)  # noqa: E731
+        assert peer.spin(seen, PATIENCE_S)
+        assert peer.spin(settled, PATIENCE_S)
+        with_it = versions[-1]
+    gone = lambda: ("/passing", ()) not in asked.listed(answers.NODES)  # noqa: E731
+    assert peer.spin(gone, PATIENCE_S)
+    assert peer.spin(settled, PATIENCE_S)
+    assert versions[-1] > with_it
+    assert versions == sorted(set(versions)), "each notice has a new version"
+
+
+def test_many_changes_are_few_notices_and_the_last_is_announced(server: object) -> None:
+    """With the test's clock: what happens until the pause is over is one notice more."""
+    now, heard = [100.0], list[int]()
+    domain = own_domain() + 100
+    with Peer("storm", domain=domain) as peer, Peer("listening", domain=domain) as listening:
+        serving = GraphServer(peer, print, clock=lambda: now[0])
+        change = "microros_graph_msgs/msg/Change"
+        listening.subscribe(CHANGE_TOPIC, change, lambda m: heard.append(m["version"]), CHANGE_QOS)
+
+        def turns() -> bool:
+            serving.turn()
+            return bool(heard)
+
+        assert listening.spin(turns, PATIENCE_S)
+        for _ in range(2):
+            now[0] += 0.25
+            settle(listening, serving)
+        before = len(heard)
+        for index in range(10):
+            listening.publisher(f"/burst_{index}", INT32)
+            settle(listening, serving)
+        assert len(heard) == before + 1, "one at once, the others wait"
+        now[0] += 0.25
+        settle(listening, serving)
+        assert len(heard) == before + 2
+        now[0] += 0.25
+        settle(listening, serving)
+        assert len(heard) == before + 2, "nothing has changed"
+
+
+def settle(listening: Peer, serving: GraphServer) -> None:
+    """Let both sides work until what happened has come to both."""
+    for _ in range(5):
+        serving.turn()
+        listening.spin(lambda: False, 0.02)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it(number: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, value in environment(own_domain()).items():
+        monkeypatch.setenv(name, value)
+    process = subprocess.Popen(
+        [sys.executable, "-m", "microros_gen", "graph-server", "--domain", str(own_domain())],
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stdout is not None
+    assert process.stdout.readline() == READY
+    process.send_signal(number)
+    assert process.wait(PATIENCE_S) == 0
+    assert process.stdout.read() == ""
+    process.stdout.close()
+
+
+HIDDEN = """import sys
+sys.modules["rclpy"] = None
+from microros_gen.cli.main import main
+main(["graph-server"])
+"""
+
+
+def test_without_ros_it_says_what_to_install() -> None:
+    done = subprocess.run([sys.executable, "-c", HIDDEN], capture_output=True, text=True)
+    assert done.returncode == 2
+    assert "the graph server needs ROS 2: rclpy (ROS 2) is not installed" in done.stderr
+    assert "[MG-9724]" in done.stderr
