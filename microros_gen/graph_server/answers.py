@@ -103,7 +103,7 @@ def _names(graph: Graph, what: int, node: str) -> Names | int:
 def _matched(
     what: int, found: Sequence[GraphEndpoint], own: Sequence[GraphEndpoint]
 ) -> Sequence[GraphEndpoint] | None:
-    """Return those of `found` that match one of `own`, which are of the other kind; None: there is none."""
+    """Return those of `found` that match one of `own`, which are of the other kind; None without any."""
     if not own:
         return None
     if what == PUBLISHERS:

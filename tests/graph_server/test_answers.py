@@ -86,7 +86,7 @@ def test_pages_have_every_node_once(page: int) -> None:
     assert turns == -(-500 // page)
 
 
-def test_a_page_behind_the_end_is_empty() -> None:
+def test_a_page_after_the_end_is_empty() -> None:
     response = names(Fixed(), first=4_000_000_000)
     assert (response["names"], response["next"], response["total"]) == ([], 40, 40)
 

@@ -242,7 +242,7 @@ def test_many_changes_are_few_notices_and_the_last_is_announced(server: object) 
 
 
 def settle(listening: Peer, serving: GraphServer) -> None:
-    """Let both sides work until what happened has come to both."""
+    """Let both sides work until both know what happened."""
     for _ in range(5):
         serving.turn()
         listening.spin(lambda: False, 0.02)
