@@ -68,5 +68,6 @@ def test_a_command_is_a_module_and_a_line() -> None:
     from microros_gen.cli.main import _COMMANDS
 
     for name in _COMMANDS:
-        modules = (PACKAGE / "cli" / f"{name}.py", PACKAGE / "cli" / name)
+        module = PACKAGE / "cli" / name.replace("-", "_")
+        modules = (module.with_suffix(".py"), module)
         assert any(path.exists() for path in modules), name
