@@ -17,7 +17,7 @@ extern "C" {
  * closes it. Returns whether an answer arrived. The caller holds the lock; it is released while this
  * function waits, unless no session exists, which could then be opened over the same line.
  */
-bool rmw_inquiry_ask(xrce_transport_t * transport, uint32_t timeout_ms, uint8_t attempts);
+bool rmw_inquiry_run(xrce_transport_t * transport, uint32_t timeout_ms, uint8_t attempts);
 
 /* Single-task variant: no other task can be asking over a line with shared memory. */
 static inline void rmw_inquiry_await(void)

@@ -96,7 +96,7 @@ void xrce_session_step(xrce_client_t * client, uint32_t now)
   session->due_ms = now + xrce_session_pause(now - session->since_ms);
 }
 
-void xrce_session_lose(xrce_client_t * client, uint32_t now)
+void xrce_session_mark_lost(xrce_client_t * client, uint32_t now)
 {
   xrce_session_t * session = &client->session;
 
@@ -125,7 +125,7 @@ void xrce_session_on_status_agent(
   }
   session->refusal = 0;
   session->state = XRCE_READY;
-  session->heard_ms = now;
+  session->received_ms = now;
   if (session->was_ready) {
     ++session->statistics.reconnects;
   }
@@ -161,7 +161,7 @@ static bool session_take_message(xrce_client_t * client, const uint8_t * message
     return false;
   }
   if (message[0] == XRCE_SESSION_ID) {
-    client->session.heard_ms = now;
+    client->session.received_ms = now;
   }
   return xrce_route_message(client, message, size, now);
 }

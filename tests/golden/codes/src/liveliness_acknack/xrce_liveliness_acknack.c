@@ -21,7 +21,8 @@ static bool liveliness_is_fine(const xrce_client_t * client)
   if (client->session.state != XRCE_READY || !waits) {
     return true;
   }
-  return stream->first != client->liveliness.first && client->session.heard_ms != client->liveliness.heard_ms;
+  return stream->first != client->liveliness.first &&
+         client->session.received_ms != client->liveliness.received_ms;
 }
 
 void xrce_liveliness_acknack_step(xrce_client_t * client, uint32_t now)
@@ -31,8 +32,8 @@ void xrce_liveliness_acknack_step(xrce_client_t * client, uint32_t now)
   if (liveliness_is_fine(client)) {
     liveliness->since_ms = now;
     liveliness->first = client->reliable.first;
-    liveliness->heard_ms = client->session.heard_ms;
+    liveliness->received_ms = client->session.received_ms;
   } else if (xrce_is_due(now, xrce_liveliness_acknack_due(liveliness))) {
-    xrce_session_lose(client, now);
+    xrce_session_mark_lost(client, now);
   }
 }

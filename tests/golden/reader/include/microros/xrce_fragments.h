@@ -30,7 +30,8 @@ typedef struct xrce_fragments_t {
 void xrce_fragments_reset(xrce_fragments_t * fragments);
 
 /* Handles the payload of a FRAGMENT in sequence; dispatches the completed submessage. */
-void xrce_fragments_on_piece(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
+void xrce_fragments_on_fragment(
+  xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
 #ifdef __cplusplus
 }

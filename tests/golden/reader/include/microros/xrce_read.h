@@ -68,7 +68,7 @@ typedef struct xrce_receiver_t {
 /* The READ_DATA that is not yet acknowledged. */
 typedef struct xrce_reading_t {
   uint32_t due_ms;   /* when to repeat it */
-  uint32_t asked_ms; /* when it was first sent */
+  uint32_t requested_ms; /* when it was first sent */
   uint16_t sequence; /* its number, or the next one's */
   uint16_t request;
   uint16_t samples;
@@ -166,7 +166,7 @@ xrce_receiver_t * xrce_read_find(xrce_client_t * client, uint16_t object);
 /*
  * Returns the receiver whose current READ_DATA requested a sample of this object; NULL for one of a former
  * owner. */
-xrce_receiver_t * xrce_read_asked(xrce_client_t * client, uint16_t request, uint16_t object);
+xrce_receiver_t * xrce_read_requested(xrce_client_t * client, uint16_t request, uint16_t object);
 
 /* Counts the arrival of a requested sample. */
 void xrce_read_count(xrce_client_t * client, xrce_receiver_t * receiver, uint16_t request);

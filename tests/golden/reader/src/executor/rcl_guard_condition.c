@@ -27,12 +27,12 @@ bool rcl_guard_condition_is_valid(const rcl_guard_condition_t * guard_condition)
 
 bool rcl_guard_condition_is_ready(const rcl_guard_condition_t * guard_condition)
 {
-  return guard_condition->impl->came != guard_condition->impl->seen;
+  return guard_condition->impl->triggered != guard_condition->impl->seen;
 }
 
-void rcl_guard_condition_see(const rcl_guard_condition_t * guard_condition)
+void rcl_guard_condition_acknowledge(const rcl_guard_condition_t * guard_condition)
 {
-  guard_condition->impl->seen = guard_condition->impl->came;
+  guard_condition->impl->seen = guard_condition->impl->triggered;
 }
 
 static rcl_guard_condition_impl_t * guard_condition_take(void)
@@ -82,7 +82,7 @@ rcl_ret_t rcl_trigger_guard_condition(rcl_guard_condition_t * guard_condition)
   if (!rcl_guard_condition_is_valid(guard_condition)) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "guard_condition");
   }
-  guard_condition->impl->came = guard_condition->impl->came + 1u;
+  guard_condition->impl->triggered = guard_condition->impl->triggered + 1u;
   port_wake();
   return RCL_RET_OK;
 }

@@ -33,7 +33,7 @@ static void look_at_guard_conditions(const rcl_wait_set_t * wait_set, wait_look_
     if (rcl_guard_condition_is_valid(*guard_condition) && rcl_guard_condition_is_ready(*guard_condition)) {
       look->any = true;
       if (look->settle) {
-        rcl_guard_condition_see(*guard_condition);
+        rcl_guard_condition_acknowledge(*guard_condition);
       }
     } else if (look->settle) {
       *guard_condition = NULL;

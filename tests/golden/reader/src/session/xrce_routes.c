@@ -22,7 +22,7 @@ bool xrce_route_message(xrce_client_t * client, const uint8_t * message, size_t 
   if (!xrce_session_take_submessages(client, message, size, now)) {
     return false;
   }
-  xrce_stream_reliable_input_go_on(client, now);
+  xrce_stream_reliable_input_continue(client, now);
   return true;
 }
 
@@ -50,7 +50,7 @@ void xrce_route_submessage(xrce_client_t * client, const uint8_t * submessage, s
       xrce_stream_reliable_input_take_heartbeat(client, submessage, size, now);
       break;
     case XRCE_FRAGMENT:
-      xrce_fragments_on_piece(client, submessage, size, now);
+      xrce_fragments_on_fragment(client, submessage, size, now);
       break;
     default:
       break;

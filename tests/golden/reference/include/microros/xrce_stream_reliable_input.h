@@ -28,7 +28,7 @@ extern "C" {
 typedef struct xrce_stream_reliable_input_t {
   uint16_t next;      /* sequence number of the next message */
   uint16_t announced; /* bit i: message next + i is known to exist */
-  uint16_t asked;     /* bit i: it was requested since the last HEARTBEAT */
+  uint16_t requested;     /* bit i: it was requested since the last HEARTBEAT */
   uint16_t refused;   /* bit i: received early without a free slot: not yet worth requesting */
 } xrce_stream_reliable_input_t;
 
@@ -41,14 +41,14 @@ bool xrce_stream_reliable_input_take(
   xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now);
 
 /* Handles a HEARTBEAT: messages before its first number are no longer available. Stored messages after
- * that are not delivered from within a message: xrce_stream_reliable_input_go_on does that. Returns false
+ * that are not delivered from within a message: xrce_stream_reliable_input_continue does that. Returns false
  * for a malformed payload. */
 bool xrce_stream_reliable_input_on_heartbeat(
   xrce_client_t * client, const uint8_t * payload, size_t size, uint8_t flags);
 
 /* Delivers stored messages that a HEARTBEAT has put in sequence, and acknowledges. Called after a message
  * of another stream; does nothing if that contained no such HEARTBEAT. */
-void xrce_stream_reliable_input_go_on(xrce_client_t * client, uint32_t now);
+void xrce_stream_reliable_input_continue(xrce_client_t * client, uint32_t now);
 
 /* --- for this component only: one of xrce_stream_reliable_input_*.c --- */
 

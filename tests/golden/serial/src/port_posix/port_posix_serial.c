@@ -113,7 +113,7 @@ void port_serial_close(port_serial_t * serial)
 }
 
 /* Hands over what the system has room for, and returns how much that is. */
-static size_t serial_hand_over(int handle, const uint8_t * data, size_t size)
+static size_t serial_write_some(int handle, const uint8_t * data, size_t size)
 {
   const ssize_t taken = size != 0u ? write(handle, data, size) : 0;
 
@@ -122,7 +122,7 @@ static size_t serial_hand_over(int handle, const uint8_t * data, size_t size)
 
 static void line_flush(serial_line_t * line)
 {
-  const size_t taken = serial_hand_over(line->handle, line->bytes, line->size);
+  const size_t taken = serial_write_some(line->handle, line->bytes, line->size);
 
   if (taken != 0u) {
     line->size -= taken;
@@ -131,7 +131,7 @@ static void line_flush(serial_line_t * line)
 }
 
 /* Returns the line, with what the system takes of it handed over; NULL: it is not open. */
-static serial_line_t * line_at_work(const port_serial_t * serial)
+static serial_line_t * line_flushed(const port_serial_t * serial)
 {
   serial_line_t * line = serial->handle >= 0 ? line_of((int)serial->handle) : NULL;
 
@@ -150,21 +150,21 @@ bool port_posix_serial_waits(int handle)
 
 size_t port_serial_room(port_serial_t * serial)
 {
-  const serial_line_t * line = line_at_work(serial);
+  const serial_line_t * line = line_flushed(serial);
 
   return line != NULL ? sizeof(line->bytes) - line->size : 0u;
 }
 
 bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size)
 {
-  serial_line_t * line = line_at_work(serial);
+  serial_line_t * line = line_flushed(serial);
   size_t taken = 0;
 
   if (line == NULL || size > sizeof(line->bytes) - line->size) {
     return false;
   }
   if (line->size == 0u) {
-    taken = serial_hand_over(line->handle, data, size);
+    taken = serial_write_some(line->handle, data, size);
   }
   (void)memcpy(&line->bytes[line->size], &data[taken], size - taken);
   line->size += size - taken;
@@ -173,7 +173,7 @@ bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size
 
 bool port_serial_is_idle(port_serial_t * serial)
 {
-  const serial_line_t * line = line_at_work(serial);
+  const serial_line_t * line = line_flushed(serial);
 
   return line == NULL || line->size == 0u;
 }
@@ -182,7 +182,7 @@ size_t port_serial_read(port_serial_t * serial, uint8_t * buffer, size_t capacit
 {
   ssize_t size;
 
-  (void)line_at_work(serial);
+  (void)line_flushed(serial);
   size = read((int)serial->handle, buffer, capacity);
   return size > 0 ? (size_t)size : 0u; /* nothing there, or nobody at the other end */
 }

@@ -49,7 +49,7 @@ void xrce_route_step(xrce_client_t * client, uint32_t now)
 
 void xrce_route_connected(xrce_client_t * client, uint32_t now)
 {
-  xrce_sleep_forget(client);
+  xrce_sleep_clear(client);
   xrce_stream_best_effort_reset(&client->best_effort);
   xrce_stream_reliable_hold(&client->reliable, now);
   xrce_entities_renew(client);

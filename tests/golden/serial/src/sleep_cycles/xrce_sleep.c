@@ -88,9 +88,9 @@ bool xrce_sleep_is_over(xrce_client_t * client, uint32_t key)
 static void sleep_shift(xrce_client_t * client, uint32_t passed_ms)
 {
   client->session.now_ms += passed_ms;
-  client->session.heard_ms += passed_ms;
+  client->session.received_ms += passed_ms;
   client->entities.due_ms += passed_ms;
-  client->entities.asked_ms += passed_ms;
+  client->entities.requested_ms += passed_ms;
   client->reliable.due_ms += passed_ms;
   client->reliable.since_ms += passed_ms;
 }
@@ -105,7 +105,7 @@ void xrce_sleep_resume(xrce_client_t * client)
   session->state = (uint8_t)XRCE_READY;
   session->transport_open = xrce_sleep_open(&session->transport, client->sleep.local);
   if (!session->transport_open) {
-    xrce_session_lose(client, now);
+    xrce_session_mark_lost(client, now);
   }
 }
 
@@ -114,7 +114,7 @@ bool xrce_sleep_keeps(const xrce_client_t * client, uint16_t place)
   return client->states[place].kept && client->sleep.identity[place] == sleep_identity(client, place);
 }
 
-bool xrce_sleep_take_up(xrce_client_t * client, uint16_t place)
+bool xrce_sleep_restore(xrce_client_t * client, uint16_t place)
 {
   const bool keeps = xrce_sleep_keeps(client, place);
 
@@ -123,12 +123,12 @@ bool xrce_sleep_take_up(xrce_client_t * client, uint16_t place)
   return keeps;
 }
 
-bool xrce_sleep_took_up(const xrce_client_t * client, uint16_t place)
+bool xrce_sleep_was_restored(const xrce_client_t * client, uint16_t place)
 {
   return client->sleep.taken == place + 1u;
 }
 
-void xrce_sleep_forget(xrce_client_t * client)
+void xrce_sleep_clear(xrce_client_t * client)
 {
   for (uint16_t place = 0; place < (uint16_t)XRCE_PLACES; ++place) {
     xrce_object_state_t * state = &client->states[place];

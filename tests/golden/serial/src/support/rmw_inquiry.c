@@ -14,7 +14,7 @@ enum { INPUT_SIZE = 40 };
 static uint8_t inquiry_input[INPUT_SIZE];
 
 /* Without a session other tasks could only open one, maybe over this line: they have to wait. */
-static void inquiry_rest(void)
+static void inquiry_wait(void)
 {
   if (rmw_client_instance()->session.state == (uint8_t)XRCE_CLOSED) {
     port_sleep_ms(1);
@@ -37,7 +37,7 @@ static void inquiry_send(xrce_transport_t * transport)
   (void)xrce_transport_send(transport, message, sizeof(message)); /* a lost message just remains unanswered */
 }
 
-static bool inquiry_once(xrce_transport_t * transport, uint32_t timeout_ms)
+static bool inquiry_attempt(xrce_transport_t * transport, uint32_t timeout_ms)
 {
   const uint32_t start = port_time_ms();
   uint8_t * input = inquiry_input;
@@ -53,24 +53,24 @@ static bool inquiry_once(xrce_transport_t * transport, uint32_t timeout_ms)
       return false;
     }
     if (size == 0) {
-      inquiry_rest();
+      inquiry_wait();
     }
   }
 }
 
 /* Asks over an open transport. */
-static bool inquiry_try(xrce_transport_t * transport, uint32_t timeout_ms, uint8_t attempts)
+static bool inquiry_run_attempts(xrce_transport_t * transport, uint32_t timeout_ms, uint8_t attempts)
 {
   bool answered = false;
 
   for (uint8_t i = 0; i < attempts && !answered; ++i) {
-    answered = inquiry_once(transport, timeout_ms);
+    answered = inquiry_attempt(transport, timeout_ms);
   }
   xrce_transport_close(transport);
   return answered;
 }
 
-bool rmw_inquiry_ask(xrce_transport_t * transport, uint32_t timeout_ms, uint8_t attempts)
+bool rmw_inquiry_run(xrce_transport_t * transport, uint32_t timeout_ms, uint8_t attempts)
 {
-  return xrce_transport_open(transport) && inquiry_try(transport, timeout_ms, attempts);
+  return xrce_transport_open(transport) && inquiry_run_attempts(transport, timeout_ms, attempts);
 }

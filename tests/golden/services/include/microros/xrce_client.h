@@ -28,7 +28,7 @@ struct xrce_client_t {
   xrce_fragments_t fragments;
   xrce_entities_t entities;
   xrce_ping_t ping;
-  uint8_t owed; /* slots of the reliable stream reserved for replies */
+  uint8_t replies_due; /* slots of the reliable stream reserved for replies */
   uint32_t create_timeout_ms;
   uint32_t close_timeout_ms;
   xrce_object_state_t states[XRCE_PLACES];

@@ -26,7 +26,7 @@ typedef struct xrce_transport_t {
   port_tcp_t tcp;
   const char * host; /* the caller's, or the plan's */
   uint16_t port;
-  bool gone;              /* the connection was closed or refused; the port has no socket */
+  bool closed;              /* the connection was closed or refused; the port has no socket */
   uint16_t unsent;        /* bytes of `output` that wait for room, from `sent` on */
   uint16_t sent;
   uint16_t size;          /* of the message being received, once its length is known */
@@ -84,7 +84,7 @@ static inline bool xrce_transport_may_skip_reading(const xrce_transport_t * tran
 /* Returns whether all data was sent. */
 static inline bool xrce_transport_is_idle(xrce_transport_t * transport)
 {
-  return transport->gone || transport->unsent == 0u;
+  return transport->closed || transport->unsent == 0u;
 }
 
 /* Starts to connect, without blocking. Returns false without a network or for an invalid address. */
@@ -112,9 +112,9 @@ uint32_t xrce_transport_arrived(const xrce_transport_t * transport);
 /*
  * Returns whether the connection is closed, and with it the agent's session. xrce_transport_open opens a
  * new one. */
-static inline bool xrce_transport_is_gone(const xrce_transport_t * transport)
+static inline bool xrce_transport_is_broken(const xrce_transport_t * transport)
 {
-  return transport->gone;
+  return transport->closed;
 }
 
 #ifdef __cplusplus

@@ -101,7 +101,7 @@ rcl_ret_t rcl_ros_clock_fini(rcl_clock_t * clock)
   return result;
 }
 
-static void ros_tell(const rcl_clock_t * clock, const rcl_time_jump_t * jump, bool before_jump)
+static void ros_notify(const rcl_clock_t * clock, const rcl_time_jump_t * jump, bool before_jump)
 {
   rcl_clock_call_callbacks(clock, jump, before_jump);
 }
@@ -113,9 +113,9 @@ static rcl_ret_t ros_switch(const rcl_clock_t * clock, bool active)
   rcl_ros_time_t * time = ros_of(clock, &result);
 
   if (time != NULL && time->active != active) {
-    ros_tell(clock, &jump, true);
+    ros_notify(clock, &jump, true);
     time->active = active;
-    ros_tell(clock, &jump, false);
+    ros_notify(clock, &jump, false);
   }
   return result;
 }
@@ -152,9 +152,9 @@ rcl_ret_t rcl_set_ros_time_override(rcl_clock_t * clock, rcl_time_point_value_t 
   if (time != NULL && time->active) {
     const rcl_time_jump_t jump = {RCL_ROS_TIME_NO_CHANGE, {microros_time_between(time->now, time_value)}};
 
-    ros_tell(clock, &jump, true);
+    ros_notify(clock, &jump, true);
     time->now = time_value;
-    ros_tell(clock, &jump, false);
+    ros_notify(clock, &jump, false);
   } else if (time != NULL) {
     time->now = time_value;
   }

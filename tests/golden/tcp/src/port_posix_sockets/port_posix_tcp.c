@@ -35,7 +35,7 @@ static bool tcp_needs_time(int error)
 }
 
 /* ENOTCONN is what some systems say of a connection that is being made; one that failed has its error as well. */
-static bool tcp_is_being_made(int handle)
+static bool tcp_is_connecting(int handle)
 {
   int error = 0;
   socklen_t size = sizeof(error);
@@ -50,7 +50,7 @@ int32_t port_tcp_send(port_tcp_t * tcp, const uint8_t * data, size_t size)
   if (taken >= 0) {
     return (int32_t)taken;
   }
-  return tcp_needs_time(errno) || tcp_is_being_made((int)tcp->handle) ? 0 : -1;
+  return tcp_needs_time(errno) || tcp_is_connecting((int)tcp->handle) ? 0 : -1;
 }
 
 int32_t port_tcp_receive(port_tcp_t * tcp, uint8_t * buffer, size_t capacity)
@@ -63,5 +63,5 @@ int32_t port_tcp_receive(port_tcp_t * tcp, uint8_t * buffer, size_t capacity)
   if (size == 0) {
     return -1; /* the peer has closed it */
   }
-  return tcp_needs_time(errno) || tcp_is_being_made((int)tcp->handle) ? 0 : -1;
+  return tcp_needs_time(errno) || tcp_is_connecting((int)tcp->handle) ? 0 : -1;
 }

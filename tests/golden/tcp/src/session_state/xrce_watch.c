@@ -7,21 +7,21 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-static xrce_watch_listener_t told; /* outlives the client, which is zeroed by each rcl_init */
+static xrce_watch_listener_t watch_listener; /* outlives the client, which is zeroed by each rcl_init */
 
 void xrce_watch_set_listener(xrce_watch_listener_t listener)
 {
-  told = listener;
+  watch_listener = listener;
 }
 
 /* Returns why a session that was ready was lost. */
 static xrce_watch_reason_t watch_reason(const xrce_client_t * client)
 {
-  if (xrce_transport_is_gone(&client->session.transport)) {
+  if (xrce_transport_is_broken(&client->session.transport)) {
     return XRCE_WATCH_BROKEN;
   }
   /* Lost right after a message: the agent said so; otherwise it was silent. */
-  return client->session.heard_ms == client->session.now_ms ? XRCE_WATCH_FORGOTTEN : XRCE_WATCH_SILENT;
+  return client->session.received_ms == client->session.now_ms ? XRCE_WATCH_FORGOTTEN : XRCE_WATCH_SILENT;
 }
 
 /* Returns the state to report, given the last reported one. */
@@ -65,7 +65,7 @@ void xrce_watch_step(xrce_client_t * client)
   }
   watch->state = state;
   watch->reason = (uint8_t)reason;
-  if (told != NULL) {
-    told(client);
+  if (watch_listener != NULL) {
+    watch_listener(client);
   }
 }

@@ -41,14 +41,14 @@ static rcl_wait_set_impl_t * set_take(void)
   return NULL;
 }
 
-static bool set_fits(const char * what, size_t asked, size_t most)
+static bool set_fits(const char * what, size_t requested, size_t most)
 {
-  if (asked <= most) {
+  if (requested <= most) {
     return true;
   }
   microros_error_set(
-    microros_error_of_pool(microros_error_pool_full, (uint32_t)asked - 1u), what, NULL, (uint32_t)most,
-    (uint32_t)asked);
+    microros_error_of_pool(microros_error_pool_full, (uint32_t)requested - 1u), what, NULL, (uint32_t)most,
+    (uint32_t)requested);
   return false;
 }
 

@@ -10,9 +10,9 @@
  * for answers; and the number of answers processed in one look. */
 enum {
   TRY_MS = 3 * MICROROS_RETRY_FIRST_MS,
-  ANSWERS_MS = 2 * MICROROS_RETRY_FIRST_MS,
+  REPLIES_MS = 2 * MICROROS_RETRY_FIRST_MS,
   LOOK_MS = 20,
-  ANSWERS_PER_LOOK = 8
+  REPLIES_PER_POLL = 8
 };
 
 /* Part of an answer that is read: the first three locators. */
@@ -57,7 +57,7 @@ void xrce_discovery_end(xrce_discovery_t * discovery)
   discovery->next = 0;
 }
 
-static void discovery_ask(xrce_discovery_t * discovery, uint32_t now)
+static void discovery_request(xrce_discovery_t * discovery, uint32_t now)
 {
   if (!discovery->searching) {
     discovery->searching = true;
@@ -67,13 +67,13 @@ static void discovery_ask(xrce_discovery_t * discovery, uint32_t now)
   }
   discovery->open = discovery->open || port_multicast_open(&discovery->group);
   if (discovery->open) {
-    uint8_t question[XRCE_DISCOVERY_QUESTION];
+    uint8_t request[XRCE_DISCOVERY_REQUEST];
 
-    xrce_discovery_write_question(question);
+    xrce_discovery_write_request(request);
     (void)port_multicast_send(
-      &discovery->group, XRCE_DISCOVERY_GROUP, MICROROS_DISCOVERY_PORT, question, sizeof(question));
+      &discovery->group, XRCE_DISCOVERY_GROUP, MICROROS_DISCOVERY_PORT, request, sizeof(request));
   }
-  discovery->asked_ms = now;
+  discovery->requested_ms = now;
   discovery->due_ms = now + xrce_session_pause(now - discovery->since_ms);
 }
 
@@ -85,9 +85,9 @@ bool xrce_discovery_search(xrce_client_t * client, xrce_discovery_t * discovery,
   if (discovery->next == discovery->count) {
     discovery->next = 0;
     discovery->count = 0;
-    discovery_ask(discovery, now);
+    discovery_request(discovery, now);
   }
-  for (uint8_t i = 0; i < ANSWERS_PER_LOOK && discovery->open; ++i) {
+  for (uint8_t i = 0; i < REPLIES_PER_POLL && discovery->open; ++i) {
     const size_t size = port_multicast_receive(&discovery->group, answer, ANSWER_SIZE, sender);
 
     if (size == 0u) {
@@ -104,7 +104,7 @@ static void discovery_try(xrce_client_t * client, uint32_t now)
   xrce_discovery_t * discovery = &client->discovery;
   xrce_transport_t * transport = &client->session.transport;
 
-  xrce_session_lose(client, now); /* connects again */
+  xrce_session_mark_lost(client, now); /* connects again */
   transport->port = xrce_discovery_take(discovery);
   transport->host = discovery->host;
   discovery->trying = true;
@@ -138,6 +138,6 @@ bool xrce_discovery_step(xrce_client_t * client, uint32_t now)
     discovery_try(client, now);
     return true;
   }
-  session->due_ms = now - discovery->asked_ms < (uint32_t)ANSWERS_MS ? now + LOOK_MS : discovery->due_ms;
+  session->due_ms = now - discovery->requested_ms < (uint32_t)REPLIES_MS ? now + LOOK_MS : discovery->due_ms;
   return false;
 }
