@@ -47,6 +47,9 @@ rcl_ret_t rcl_logger_services_open(rcl_node_t * node)
     result = services_open(
       &services->set, node, ROSIDL_GET_SRV_TYPE_SUPPORT(rcl_interfaces, srv, SetLoggerLevels),
       "~/set_logger_levels");
+    if (result != RCL_RET_OK) {
+      (void)rcl_service_fini(&services->get, node); /* cannot fail: it was opened above */
+    }
   }
   return result;
 }

@@ -31,31 +31,43 @@ static uint32_t library_growth(uint32_t * seen, uint32_t count)
   return growth;
 }
 
-static void library_log_state(const xrce_session_t * session)
+static void library_log_refusal(uint8_t refusal)
 {
-  const uint8_t before = library_seen.state;
-
-  if (session->refusal != library_seen.refusal) {
-    library_seen.refusal = session->refusal;
-    if (session->refusal != 0u) {
-      RCUTILS_LOG_ERROR_NAMED(
-        "microros", "the agent refuses the session: status 0x%02x", (unsigned)session->refusal);
-    }
-  }
-  if (session->state == before || session->state == (uint8_t)XRCE_CLOSING) {
+  if (refusal == library_seen.refusal) {
     return;
   }
-  library_seen.state = session->state;
-  if (session->state == (uint8_t)XRCE_READY) {
-    RCUTILS_LOG_INFO_NAMED(
-      "microros", "%s", session->statistics.reconnects == 0u ? "session open" : "session open again");
-  } else if (session->state == (uint8_t)XRCE_CLOSED) {
+  library_seen.refusal = refusal;
+  if (refusal != 0u) {
+    RCUTILS_LOG_ERROR_NAMED("microros", "the agent refuses the session: status 0x%02x", (unsigned)refusal);
+  }
+}
+
+/* Logs that the session is not ready any more, or not yet. */
+static void library_log_not_ready(uint8_t before, uint8_t state)
+{
+  if (state == (uint8_t)XRCE_CLOSED) {
     RCUTILS_LOG_INFO_NAMED("microros", "session closed");
   } else if (before == (uint8_t)XRCE_READY) {
     RCUTILS_LOG_WARN_NAMED("microros", "session lost");
   } else {
     RCUTILS_LOG_DEBUG_NAMED("microros", "connecting");
   }
+}
+
+static void library_log_state(const xrce_session_t * session)
+{
+  const uint8_t before = library_seen.state;
+
+  if (session->state == before || session->state == (uint8_t)XRCE_CLOSING) {
+    return;
+  }
+  library_seen.state = session->state;
+  if (session->state != (uint8_t)XRCE_READY) {
+    library_log_not_ready(before, session->state);
+    return;
+  }
+  RCUTILS_LOG_INFO_NAMED(
+    "microros", "%s", session->statistics.reconnects == 0u ? "session open" : "session open again");
 }
 
 static void library_log_counters(const xrce_session_t * session)
@@ -79,6 +91,7 @@ void microros_library_log(const xrce_client_t * client)
 {
   const xrce_session_t * const session = &client->session;
 
+  library_log_refusal(session->refusal);
   library_log_state(session);
   if (session->now_ms - library_seen.since_ms >= (uint32_t)LIBRARY_PERIOD_MS) {
     library_seen.since_ms = session->now_ms;
