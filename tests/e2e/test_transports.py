@@ -30,7 +30,9 @@ pools: {{history: 16}}
 on_full: block 2 s
 """
 LAST = 199
-"""The last value of both programs; they take some seconds, which discovery needs."""
+"""The last value that the first of two agents must forward."""
+SAMPLES = 3 * LAST
+"""Samples of a program with one session: nine seconds, since DDS discovery takes some on a busy machine."""
 
 
 @pytest.mark.parametrize("way", ["udp", "line"])
@@ -43,7 +45,7 @@ def test_functions_of_an_application(
     source = tmp_path / "custom.c"
     slower = (
         CUSTOM.read_text()
-        .replace("VALUES = 100", f"VALUES = {LAST + 1}")
+        .replace("VALUES = 100", f"VALUES = {SAMPLES}")
         .replace("sleep_ms(2)", "sleep_ms(15)")
     )
     source.write_text(slower.replace('"chatter"', f'"custom_{way}"'))
@@ -53,10 +55,10 @@ def test_functions_of_an_application(
     with running_agent(domain, "--domain", str(domain), transport=transport) as agent:
         observer.subscribe(f"/custom_{way}", "std_msgs/msg/Int32")
         with started(program, way, str(agent.port) if way == "udp" else agent.device) as running:
-            samples = until(observer, [f"/custom_{way}"], LAST)
+            samples = until(observer, [f"/custom_{way}"], SAMPLES - 1)
             running.communicate(timeout=seconds(15))
             assert running.returncode == 0
-    run_to(LAST, [sample["data"] for sample in samples[f"/custom_{way}"]])
+    run_to(SAMPLES - 1, [sample["data"] for sample in samples[f"/custom_{way}"]])
 
 
 def _free_port() -> int:
@@ -115,12 +117,12 @@ def test_a_serial_line(images: Images, observer: Observer, domain: int, tmp_path
     """The profile's example over a pseudo-terminal whose name the application file has."""
     line = tmp_path / "line"
     text = APPLICATION.format(transport=f'serial, device: "{line}"', key=13, topic="serial")
-    flags = (*QUICK, f"-DEXAMPLE_SAMPLES={LAST + 1}", "-DEXAMPLE_PERIOD_MS=15")
+    flags = (*QUICK, f"-DEXAMPLE_SAMPLES={SAMPLES}", "-DEXAMPLE_PERIOD_MS=15")
     image = images.build(0, text, "gcc", flags)
     with running_agent(domain, "--domain", str(domain), transport=("pty", "--link", str(line))):
         observer.subscribe("/serial", "std_msgs/msg/Int32")
         with started(image.program) as running:
-            samples = until(observer, ["/serial"], LAST)
+            samples = until(observer, ["/serial"], SAMPLES - 1)
             ends_well(running)
-    run_to(LAST, [sample["data"] for sample in samples["/serial"]])
+    run_to(SAMPLES - 1, [sample["data"] for sample in samples["/serial"]])
     shutil.rmtree(image.out.parent)  # its line is this test's

@@ -175,17 +175,13 @@ def test_matched_counts_are_those_of_dds(peer: Peer) -> None:
             graph.publishers(f"/pair_{i}") and graph.subscriptions(f"/pair_{i}") for i in range(len(pairs))
         )
         assert peer.spin(complete, PATIENCE_S)
-        matched = [
-            asked.endpoints(answers.SUBSCRIPTIONS, f"/pair_{i}", matched_by="/writing")["total"]
-            for i in range(len(pairs))
+        matched = lambda what, node: [  # noqa: E731
+            asked.endpoints(what, f"/pair_{i}", matched_by=node)["total"] for i in range(len(pairs))
         ]
-        others = [
-            asked.endpoints(answers.PUBLISHERS, f"/pair_{i}", matched_by="/reading")["total"]
-            for i in range(len(pairs))
-        ]
-        peer.spin(lambda: [w.subscriptions() for w in writers] == matched, PATIENCE_S)
-        assert [w.subscriptions() for w in writers] == matched == others
-        assert 0 < sum(matched) < len(pairs)
+        written = lambda: [w.subscriptions() for w in writers]  # noqa: E731
+        found = agree(peer, written, lambda: matched(answers.SUBSCRIPTIONS, "/writing"))
+        assert agree(peer, written, lambda: matched(answers.PUBLISHERS, "/reading")) == found
+        assert 0 < sum(found) < len(pairs)
         nobody = asked.endpoints(answers.SUBSCRIPTIONS, "/pair_0", matched_by="/reading")
         assert nobody["status"] == answers.UNKNOWN_NODE, "it has no publisher there"
 

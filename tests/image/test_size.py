@@ -157,7 +157,7 @@ def test_a_target_without_an_image_is_measured_by_its_library(tmp_path: Path) ->
     last = tool("arm-none-eabi-size", "-t", report.folder.path / "lib/libmicroros.a").splitlines()[-1].split()
     assert list(report.totals.values()) == [int(n) for n in last[:3]]
     assert not report.stack.known
-    assert "no image" in report.stack.why
+    assert "without an image" in report.stack.why
     assert [(b.key, b.exceeded) for b in report.budgets] == [("ram_budget", False)]
     assert all(e.ram for e in report.entities), "the objects' own DWARF splits the pools"
     check_message_storage(report)

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from tests.support.paths import ROOT
@@ -70,7 +70,7 @@ def test_the_list_finds_a_phrase_across_lines(text: str) -> None:
     assert refused(text)
 
 
-@settings(max_examples=300)
+@settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.data())
 def test_the_quick_patterns_find_every_match(data: st.DataObject) -> None:
     number = data.draw(st.integers(0, len(phrases()) - 1))

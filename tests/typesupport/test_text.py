@@ -248,6 +248,7 @@ def test_two_types_of_one_file_name_are_refused(tmp_path: Path) -> None:
     found = [without_id(d.headline()) for d in raised.value.diagnostics]
     assert len(found) == 2
     assert re.search(
-        r"HttpServer\.msg:1:1: error: twice/msg/HttpServer and twice/msg/HTTPServer are", found[0]
+        r"HttpServer\.msg:1:1: error: twice/msg/HttpServer and twice/msg/HTTPServer have the same header",
+        found[0],
     )
-    assert "are both twice/srv/do_it.h in C. Rename one of them" in found[1]
+    assert "have the same header in C, twice/srv/do_it.h. Rename one of them" in found[1]

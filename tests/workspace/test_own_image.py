@@ -245,7 +245,7 @@ def test_run_starts_an_image_for_a_board_with_its_agent(board: Project) -> None:
 def started(*words: str | Path) -> Iterator[None]:
     """Start a command of the tool; end it afterwards."""
     command = [sys.executable, "-m", "microros_gen", *map(str, words)]
-    with subprocess.Popen(command, stdout=subprocess.DEVNULL) as process:
+    with subprocess.Popen(command) as process:
         try:
             yield
         finally:
