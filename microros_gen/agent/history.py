@@ -43,7 +43,7 @@ class ReaderHistory:
         self.bytes = depth_of(qos) * UNREAD_BYTES
         if not shares.history.take(self.bytes):
             self.bytes = 0
-            raise HistoryFullError("its history would take what the histories of all clients may not")
+            raise HistoryFullError("its history does not fit into history_bytes, which all clients share")
 
     def give_back(self) -> None:
         """It is gone."""

@@ -52,7 +52,7 @@ class KeyConflicts:
         self._log.emit(
             Level.WARNING,
             "same_key_twice",
-            "two clients use the key {client}: one at {peer}, one at {other}; they take the session from each other."
+            "two clients use the key {client}: one at {peer}, one at {other}; each takes over the session of the other."
             " Give each its own, in its application file: `session: {{key: …}}`",
             client=key.hex().upper(),
             peer=place,

@@ -317,7 +317,7 @@ class ObjectTree:
             raise RefusedError(Status.RESOURCES, "the agent's memory is nearly all taken")
         cost = cost_of(entity.id, representation)
         if not self._home.shares.objects.take(cost):
-            raise RefusedError(Status.RESOURCES, "the objects of all clients take what they may")
+            raise RefusedError(Status.RESOURCES, "the objects of all clients have reached object_bytes")
         entity.cost = cost
 
     def _discharge(self, entity: Entity) -> None:

@@ -175,12 +175,12 @@ def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
     host, port = address or (Transport().host, Transport().port)
     if agent is not None and type_name in _WITHOUT_ADDRESS:
         message = f"transport: {type_name} has no agent address"
-        diagnostics.error(message, agent.span, "Remove `agent`, or take type: udp or tcp", id="MG-3013")
+        diagnostics.error(message, agent.span, "Remove `agent`, or use type: udp or tcp", id="MG-3013")
     for key, only in _ONLY_FOR.items():
         if child(node, key) is not None and type_name != only:
             message = f"transport: {type_name} has no `{key}`"
             diagnostics.error(
-                message, span_of(child(node, key)), f"Remove `{key}`, or take type: {only}", id="MG-3014"
+                message, span_of(child(node, key)), f"Remove `{key}`, or use type: {only}", id="MG-3014"
             )
     framing, read_polls = child(node, "framing"), child(node, "read_polls")
     if bool_of(framing) and read_polls is not None:

@@ -225,7 +225,7 @@ def _example_of(located: Located, name: str | None, target: str) -> Path:
     if name is None:
         what = f"target {target} has no image, or the application must provide a part"
         message = f"{located.output} contains only a library: {what}"
-        hint = "`microros-gen build` says which; --image FILE starts one of yours"
+        hint = "`microros-gen build` says which; --image FILE starts your own"
         raise UserError([Diagnostic(message, hint=hint, id="MG-9717")])
     path = located.output / "bin" / name
     if not path.is_file():
@@ -249,9 +249,7 @@ def _agent_of_host(image: _Image) -> list[str]:
         return ["pty", "--link", device]
     what = f"opens {device} itself" if kind == "serial" else "has a custom transport"
     hint = "Start an agent at the other end (microros-gen agent --help), then run with --no-agent"
-    raise UserError(
-        [Diagnostic(f"the image {what}: no agent supports this transport", hint=hint, id="MG-9719")]
-    )
+    raise UserError([Diagnostic(f"cannot start an agent for this image: it {what}", hint=hint, id="MG-9719")])
 
 
 def _start_agent(parts: _Parts, options: list[str]) -> None:

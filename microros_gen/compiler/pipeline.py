@@ -131,7 +131,7 @@ def _check_interfaces_have_a_use(
         return
     for named in application.interfaces:
         diagnostics.error(
-            f"nothing that is selected sends or receives messages such as '{named.name}'",
+            f"no selected component sends or receives messages such as '{named.name}'",
             named.span,
             "Select a profile or component that does (publish, subscribe, services), or `cdr` for encoders alone",
             id="MG-8604",

@@ -115,7 +115,7 @@ def attribute(folder: Folder, image: Elf) -> tuple[Chunk, ...]:
 
 
 def _no_map(folder: Folder) -> UserError:
-    what, hint = f"{folder.path} holds no map of its image", "Build it again: microros-gen build"
+    what, hint = f"{folder.path} has no map of its image", "Build it again: microros-gen build"
     if folder.linked is not None:
         what = f"{folder.linked.image} has neither a map nor symbols"
         hint = f"Link it without -s and with -Wl,-Map={folder.linked.map}, or give its map with --map"

@@ -114,7 +114,7 @@ class Explainer:
         if not found:
             return None
         if len(found) > 1:
-            hint = f"Say which: {', '.join(found)}"
+            hint = f"Choose one: {', '.join(found)}"
             raise UserError([Diagnostic(f"{len(found)} files are named {query}", hint=hint, id="MG-8404")])
         name = found[0]
         text = (self._folder.path / name).read_text(encoding="utf-8", errors="replace")

@@ -135,13 +135,13 @@ def _chosen(path: Path, libraries: tuple[LibraryRecord, ...], images: tuple[Imag
     if built:
         options = ", ".join(f"--image {record.image}" for record in built)
         raise UserError(
-            [Diagnostic(f"{path} has {len(built)} images", hint=f"Say which: {options}", id="MG-8408")]
+            [Diagnostic(f"{path} has {len(built)} images", hint=f"Choose one: {options}", id="MG-8408")]
         )
     if images:
         raise _not_built(path, images[0].image)
     if len({r.output for r in libraries}) > 1:
         message = f"{path} has several libraries and no image"
-        raise UserError([Diagnostic(message, hint=f"Say which: {_outputs(libraries)}", id="MG-8409")])
+        raise UserError([Diagnostic(message, hint=f"Choose one: {_outputs(libraries)}", id="MG-8409")])
     made = [r for r in libraries if r.archive.is_file()]
     if not made:
         raise _not_built(path, libraries[0].archive)

@@ -202,7 +202,7 @@ class _Resolver:
         self._diagnostics.error(
             f"package '{place.name}' ({place.folder}) has no .msg, .srv, .action or .idl file",
             span,
-            "They lie in its folders msg/, srv/ and action/",
+            "They are in its folders msg/, srv/ and action/",
             id="MG-2006",
         )
 

@@ -98,7 +98,7 @@ def _made(folder: Path) -> Iterator[None]:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         hint = "Name a new folder" if folder.is_file() else "Name a folder that can be written"
-        message = f"cannot make the folder {folder}: {error.strerror}"
+        message = f"cannot create the folder {folder}: {error.strerror}"
         raise UserError([Diagnostic(message, hint=hint, id="MG-9001")]) from error
     try:
         yield
@@ -203,7 +203,7 @@ def _refuse_to_overwrite(folder: Path, files: Mapping[str, bytes]) -> None:
     there = sorted(name for name in files if (folder / name).exists())
     if there:
         shown = ", ".join(there[:3]) + (f" and {len(there) - 3} more" if len(there) > 3 else "")
-        message = f"{folder} holds files that would be written: {shown}"
+        message = f"{folder} already has files that would be written: {shown}"
         raise UserError(
             [
                 Diagnostic(

@@ -90,7 +90,10 @@ class _Reader:
         path = brought or (TARGETS / f"{name}.yaml" if builtin else near / name)
         if path.resolve() in self._way:
             self._diagnostics.error(
-                f"'{name}' extends itself", span, "Extend a built-in target at the end", id="MG-6002"
+                f"'{name}' extends itself",
+                span,
+                "Let the last one extend a built-in target or none",
+                id="MG-6002",
             )
             return None
         self._way.append(path.resolve())

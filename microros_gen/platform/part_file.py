@@ -130,7 +130,7 @@ def _digest(folder: Path, span: Span | None, diagnostics: Diagnostics) -> str:
         return digest_of(folder)
     except OSError as error:
         what = f"cannot read '{error.filename}': {error.strerror}"
-        diagnostics.error(what, span, "Leave in the folder what belongs to the part", id="MG-6060")
+        diagnostics.error(what, span, "Keep only the files of the part in its folder", id="MG-6060")
         return ""
 
 

@@ -292,7 +292,7 @@ def _check_memory(node: MappingNode, diagnostics: Diagnostics) -> None:
     if flash is None or ram is None:
         return
     if node.get("clock_hz") is None:
-        hint = "Add `clock_hz: …`: what the system timer counts in a second"
+        hint = "Add `clock_hz: …`, the frequency of the system timer"
         diagnostics.error("an image needs the key 'clock_hz'", node.span, hint, id="MG-6020")
     _check_regions(node, diagnostics)
 
@@ -305,7 +305,7 @@ def _check_regions(node: MappingNode, diagnostics: Diagnostics) -> None:
     for region, name, value in regions:
         if region.origin + region.size > _ADDRESS_SPACE:
             diagnostics.error(
-                f"'{name}' ends beyond 32 bits of address", value.span, "Lower its size", id="MG-6021"
+                f"'{name}' ends beyond the 32-bit address space", value.span, "Lower its size", id="MG-6021"
             )
         if region.offset >= region.size:
             diagnostics.error(
@@ -350,7 +350,7 @@ def _check_stdio(node: MappingNode, target: Target, diagnostics: Diagnostics) ->
         found = child(stdio, key)
         if found is not None and to != "uart":
             diagnostics.error(
-                f"stdio: {to} has no `{key}`", found.span, f"Remove `{key}`, or take to: uart", id="MG-6026"
+                f"stdio: {to} has no `{key}`", found.span, f"Remove `{key}`, or use to: uart", id="MG-6026"
             )
         if found is None and to == "uart" and key != "baud":
             diagnostics.error(

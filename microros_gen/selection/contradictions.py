@@ -104,7 +104,7 @@ def _check_liveliness(picker: Picker, choice: AxisChoice) -> None:
     streams = [r for r in picker.causes.get(STREAM_RELIABLE, ()) if r.needed_by != by_itself]
     if choice.value == "acknack" and not streams:
         picker.diagnostics.error(
-            f"{choice.text} needs a reliable stream, and nothing that is selected has one",
+            f"{choice.text} needs a reliable stream, and no selected component has one",
             choice.span,
             "Make a publisher reliable, or write `liveliness: ping`",
             id="MG-4038",
@@ -150,8 +150,8 @@ def _check_sleep(picker: Picker, choice: AxisChoice) -> None:
         found = picker.roots("discovery")[0]
         picker.diagnostics.error(
             f"the component 'discovery' ({placed(found)}) contradicts 'sleep_cycles' ({placed(root)}): an agent is"
-            " searched for with each start",
+            " searched for at each start",
             found.span or root.span,
-            'Say where the agent is: `transport: {agent: "192.168.1.10:8888"}`',
+            'Give its address: `transport: {agent: "192.168.1.10:8888"}`',
             id="MG-4042",
         )

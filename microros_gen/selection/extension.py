@@ -155,7 +155,7 @@ def take_extensions(
                 f"Add {change.name.rstrip('/')}/{COMPONENT_FILE}; a path is relative to the application file"
             )
             if is_folder(folder):
-                message = f"'{change.name}' brings no component, profile, platform or target"
+                message = f"'{change.name}' contains no component, profile, platform or target"
                 diagnostics.error(message, change.span, hint, id="MG-4061")
             else:
                 diagnostics.error(f"'{change.name}' is not a folder", change.span, hint, id="MG-4089")

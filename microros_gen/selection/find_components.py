@@ -105,7 +105,10 @@ def _read(path: Path, root: Path, diagnostics: Diagnostics, prefix: str = "") ->
     component = parse_component(source, diagnostics)
     if component is not None and component.name != f"{prefix}{path.parent.name}":
         diagnostics.error(
-            f"'{shown}' describes '{component.name}'", None, "Name the folder as the component", id="MG-4012"
+            f"'{shown}' describes '{component.name}'",
+            None,
+            "Give the folder the name of the component",
+            id="MG-4012",
         )
         return None
     return component and replace(component, folder=path.parent)

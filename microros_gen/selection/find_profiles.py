@@ -153,7 +153,7 @@ class _Reader:
             return
         hint = (
             hint
-            or f"Built in are {', '.join(self._builtin)}; a file {name.name}.yaml next to the application too"
+            or f"Built-in: {', '.join(self._builtin)}; a file {name.name}.yaml next to the application is found, too"
         )
         self._diagnostics.error(f"unknown profile '{name.name}'", name.span, hint, id="MG-4018")
 

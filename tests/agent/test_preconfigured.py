@@ -353,7 +353,7 @@ def test_adopting_a_client_that_reads_is_a_warning() -> None:
     assert not diagnostics.has_errors()
     assert warning.span is not None
     assert text[warning.span.column - 1 :].startswith("true")
-    assert "after a restart of the agent nothing comes from ROS 2 to this client: 1 of" in warning.message
+    assert "after a restart of the agent this client receives nothing from ROS 2: 1 of" in warning.message
     assert "liveliness: ping" in str(warning.hint)
 
 

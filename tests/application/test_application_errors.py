@@ -54,7 +54,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "a promise about the read function of no application": (
         "transport: {type: udp, read_polls: true}\n",
-        "f:1:36: error: transport: udp has no `read_polls`. Remove `read_polls`, or take type: custom",
+        "f:1:36: error: transport: udp has no `read_polls`. Remove `read_polls`, or use type: custom",
     ),
     "unknown key": (
         "profles: [a]\n",
@@ -275,7 +275,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "agent of a serial line": (
         'transport: {type: serial, agent: "10.0.0.1:8888"}\n',
-        "f:1:34: error: transport: serial has no agent address. Remove `agent`, or take type: udp or tcp",
+        "f:1:34: error: transport: serial has no agent address. Remove `agent`, or use type: udp or tcp",
     ),
     "mtu above a datagram": (
         "transport: {mtu: 65508}\n",

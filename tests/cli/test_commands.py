@@ -199,4 +199,4 @@ def test_a_message_that_is_never_sent_is_refused(run: Runner, folder: Path) -> N
     (folder / "microros.yaml").write_text(text, encoding="utf-8")
     outcome = run("generate")
     assert outcome.status == 2
-    assert "microros.yaml:3:14: error: nothing that is selected sends or receives messages" in outcome.err
+    assert "microros.yaml:3:14: error: no selected component sends or receives messages" in outcome.err

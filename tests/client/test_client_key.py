@@ -52,7 +52,7 @@ def test_who_supplies_the_key(tmp_path: Path, text: str, device: bool) -> None:
 def test_a_target_without_a_unique_id_is_reported_with_the_key_to_write(tmp_path: Path) -> None:
     board = "target: {name: cortex-m4}\ntransport: {type: serial}\n"
     found_warnings = warnings(planned(tmp_path, board))
-    assert "the target cortex-m4 names no unique id" in found_warnings
+    assert "the target cortex-m4 has no unique id" in found_warnings
     (key,) = re.findall(r"`(session: \{key: 0x[0-9A-F]{8}\})`", found_warnings)
     assert "unique id" not in warnings(planned(tmp_path, f"{board}{key}\n"))
     assert "unique id" not in warnings(planned(tmp_path, board + "entities: preconfigured\n"))

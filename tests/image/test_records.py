@@ -87,7 +87,7 @@ def test_of_several_images_one_is_named(folder: BuildFolder) -> None:
     for name in ("app", "other"):
         folder.image(name, "robot")
         folder.file(name)
-    assert f"Say which: --image {folder.path / 'app'}, --image {folder.path / 'other'}" in refused(
+    assert f"Choose one: --image {folder.path / 'app'}, --image {folder.path / 'other'}" in refused(
         folder.path
     )
     found = locate(folder.path, folder.path / "other")

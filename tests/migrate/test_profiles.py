@@ -112,7 +112,8 @@ def test_nothing_is_overwritten(init: Init, tmp_path: Path) -> None:
     status, _, err = init("app")
     assert status == 2
     assert (
-        "error: app holds files that would be written: README.md. Name a new folder, or move them away" in err
+        "error: app already has files that would be written: README.md. Name a new folder, or move them away"
+        in err
     )
     assert own_files(tmp_path / "app") == {"README.md", "notes.txt"}
     (tmp_path / "app/README.md").unlink()
@@ -120,12 +121,12 @@ def test_nothing_is_overwritten(init: Init, tmp_path: Path) -> None:
     assert (tmp_path / "app/notes.txt").read_text() == "mine too"
     status, _, err = init("app")
     assert status == 2
-    assert "app holds files that would be written: .gitignore, CMakeLists.txt," in err
+    assert "app already has files that would be written: .gitignore, CMakeLists.txt," in err
 
 
 def test_a_file_is_no_folder(init: Init, tmp_path: Path) -> None:
     (tmp_path / "app").write_text("")
-    warnings = "microros-gen: error: cannot make the folder app: File exists. Name a new folder\n"
+    warnings = "microros-gen: error: cannot create the folder app: File exists. Name a new folder\n"
     assert without_id(init("app")[2]) == warnings
 
 

@@ -115,7 +115,10 @@ def test_extends_is_relative_to_the_file_that_says_it(tmp_path: Path) -> None:
             "mine.yaml:4:8: error: 'flash' without 'ram' is not enough for an image",
         ),
         (BOARD.replace("0x20000000", "0x08000000"), "mine.yaml:5:6: error: 'flash' and 'ram' overlap"),
-        (BOARD.replace("0x20000000", "0xFFFFF000"), "mine.yaml:5:6: error: 'ram' ends beyond 32 bits"),
+        (
+            BOARD.replace("0x20000000", "0xFFFFF000"),
+            "mine.yaml:5:6: error: 'ram' ends beyond the 32-bit address space",
+        ),
         (
             BOARD + "uart: {driver: cmsdk, base: 0x40004000}\n",
             "error: missing key 'irq' in 'uart'. Add `irq: …`",

@@ -323,7 +323,7 @@ def test_a_faulty_template_is_reported_with_its_line(
     ("name", "expected"),
     [
         ("./none", "'./none' is not a folder"),
-        ("./empty", "'./empty' brings no component, profile, platform or target"),
+        ("./empty", "'./empty' contains no component, profile, platform or target"),
         ("-./beacon", "'components[0]' must be a component to add or drop"),
     ],
 )

@@ -210,7 +210,7 @@ def test_a_profile_that_there_is_not(tmp_path: Path) -> None:
     assert fold(tmp_path, "my_sendr")[0] == [
         "microros-gen: error: unknown profile 'my_sendr'. Did you mean 'my_sender'?"
     ]
-    assert "Built in are pure_sender, pure_reader," in fold(tmp_path, "qqq")[0][0]
+    assert "Built-in: pure_sender, pure_reader," in fold(tmp_path, "qqq")[0][0]
 
 
 def test_a_profile_that_is_no_text(tmp_path: Path) -> None:

@@ -214,8 +214,8 @@ ERRORS = {
     "acknack without a reliable stream": (
         TWO_PUBLISHERS.rsplit("\n", 2)[0] + "\nliveliness: acknack\n",
         "microros.yaml:6:13: error: liveliness: acknack (microros.yaml:6) needs a reliable stream, "
-        "and nothing "
-        "that is selected has one. Make a publisher reliable, or write `liveliness: ping`",
+        "and no selected component "
+        "has one. Make a publisher reliable, or write `liveliness: ping`",
     ),
     "agent search over a serial line": (
         "profiles: [ad_hoc_discoverable_sender]\ntransport: {type: serial}\n",
@@ -235,8 +235,8 @@ ERRORS = {
         "profiles: [ad_hoc_discoverable_sender]\ncomponents: [+sleep_cycles]\n",
         "microros.yaml:1:12: error: the component 'discovery' (profile ad_hoc_discoverable_sender "
         "(microros.yaml:1)) contradicts 'sleep_cycles' (components: +sleep_cycles (microros.yaml:2)): an agent is "
-        "searched for with each start. "
-        'Say where the agent is: `transport: {agent: "192.168.1.10:8888"}`',
+        "searched for at each start. "
+        'Give its address: `transport: {agent: "192.168.1.10:8888"}`',
     ),
 }
 

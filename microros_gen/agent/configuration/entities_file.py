@@ -131,7 +131,7 @@ def _client(node: YamlNode, diagnostics: Diagnostics) -> PreconfiguredClient | N
     reads = [item for item in reader.found.values() if item.kind in _READ]
     if adopted and adopt is not None and reads:
         diagnostics.warning(
-            f"after a restart of the agent nothing comes from ROS 2 to this client: {len(reads)} of its objects read,"
+            f"after a restart of the agent this client receives nothing from ROS 2: {len(reads)} of its objects read,"
             " and without liveliness it does not ask again",
             adopt.span,
             "Give it `liveliness: ping` or `acknack` in its application file; then it needs no 'adopt'",
@@ -166,7 +166,7 @@ def _check_distinct(clients: list[PreconfiguredClient], diagnostics: Diagnostics
             diagnostics.error(
                 f"duplicate client {name}; first in {other.span}",
                 client.span,
-                "Join the two",
+                "Merge them",
                 id="MG-9407",
             )
 

@@ -90,7 +90,7 @@ class RawWriter(Entity):
         self._full_s = 0.0
 
     def _busy(self) -> BusyError:
-        return BusyError(f"{self.label}: a reader does not take what it was sent, and DDS is full")
+        return BusyError(f"{self.label}: a reader does not read its samples, and the history of DDS is full")
 
     def settled(self) -> bool:
         """See Writer."""

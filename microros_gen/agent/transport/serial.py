@@ -128,7 +128,7 @@ def _no_such_speed(baud: int) -> Diagnostic:
     known = ", ".join(str(speed) for speed in speeds() if speed >= 9600)
     return Diagnostic(
         f"this system has no serial speed of {baud} bit/s",
-        hint=f"The nearest is {near}; there are {known}",
+        hint=f"The nearest is {near}; available: {known}",
         id="MG-9431",
     )
 

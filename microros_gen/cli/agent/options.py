@@ -186,7 +186,7 @@ def _one_each(given: Sequence[dict[str, Any]]) -> dict[str, Any]:
                 joined[name] = value
             else:
                 option = "--" + name.replace("_", "-")
-                reason = f"{option} has two values, {before} and {value}: it holds for the whole agent"
+                reason = f"{option} has two values, {before} and {value}: it applies to the whole agent"
                 raise UserError([Diagnostic(reason, hint="Give it once", id="MG-9702")])
     return joined
 

@@ -98,7 +98,7 @@ def check_memory(limits: Limits) -> None:
     """Raise UserError when the pools do not fit the memory that the agent may take."""
     wanted = most_bytes(limits)
     if wanted > limits.memory_bytes:
-        message = f"the limits allow {wanted} bytes together, but memory_bytes is {limits.memory_bytes}"
+        message = f"the limits allow {wanted} bytes in total, but memory_bytes is {limits.memory_bytes}"
         pools = "history_bytes, object_bytes, input_bytes, output_bytes or call_bytes"
         raise UserError(
             [Diagnostic(message, hint=f"Lower {pools}, or set memory_bytes: {wanted}", id="MG-9708")]

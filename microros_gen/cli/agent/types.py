@@ -88,7 +88,7 @@ def read_manifests(manifests: Sequence[ManifestOf], diagnostics: Diagnostics) ->
                 if known.setdefault(name, type_hash) != type_hash:
                     before = first[client, name]
                     message = f"{manifest.path} and {before} have different definitions of {name}"
-                    hint = f"Say which client each is of: --manifest 0xKEY={manifest.path}"
+                    hint = f"Name the client of each: --manifest 0xKEY={manifest.path}"
                     diagnostics.error(message, manifest.span, hint, id="MG-9710")
                 first.setdefault((client, name), manifest.path)
     return ClientTypes(common, by_client)

@@ -158,8 +158,8 @@ def _check_unique_id(
         and runtime.creation.entities != "preconfigured"
     ):
         diagnostics.warning(
-            "all boards with this image have the same client key, and two of them take each other's session: the "
-            f"target {target.name} names no unique id",
+            "all boards with this image have the same client key and would take over each other's session: the "
+            f"target {target.name} has no unique id",
             application.target.span,
             "Write where it is into the target file: `unique_id: {address: 0x1FFF7A10, words: 3}`, or give each "
             f"board its own key: `session: {{key: 0x{runtime.session.client_key or 0:08X}}}`",
@@ -167,7 +167,7 @@ def _check_unique_id(
         )
     if isinstance(application.session_key, str) and not target.has_unique_id:
         diagnostics.error(
-            f"session.key: device needs a number that no other device has, and the target {target.name} names none",
+            f"session.key: device needs a number that no other device has, and the target {target.name} has none",
             application.spans.get("session") or application.target.span,
             "Write where it is into the target file: `unique_id: {address: 0x1FFF7A10, words: 3}`, or give each "
             "device its own `session: {key: N}`",
@@ -190,7 +190,7 @@ def _check_vectors(
         diagnostics.error(
             f"the {fixed} of {target.name} has no vector table offset register: 'flash.offset' has no effect",
             application.target.span,
-            "Let the bootloader forward interrupts, or remove it",
+            "Let the bootloader forward interrupts, or remove the offset",
             id="MG-7005",
         )
     elif flash.first % alignment:
@@ -218,7 +218,7 @@ def _stdio_divisor(
         diagnostics.error(
             f"'stdio' of {target.name} prints to the UART of the agent",
             application.target.span,
-            "Give it another base, or take `stdio: {to: semihosting}`",
+            "Give it another base, or use `stdio: {to: semihosting}`",
             id="MG-7007",
         )
     clock_hz = target.uart.clock_hz if target.uart else 0

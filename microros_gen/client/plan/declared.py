@@ -49,7 +49,7 @@ def timed_qos(application: Application, entities: str, diagnostics: Diagnostics)
         diagnostics.error(
             f"'entities: {entities}' carries neither deadline nor lifespan: '{endpoint.topic}' has one",
             endpoint.qos.span,
-            "Take `entities: binary`, or remove it",
+            "Use `entities: binary`, or remove it",
             id="MG-7011",
         )
     return bool(timed)
@@ -68,7 +68,7 @@ def check_types(application: Application, diagnostics: Diagnostics) -> None:
                 span = endpoint.type_span or endpoint.span
                 line = f" in line {other.span.line}" if other.span else ""
                 message = f"{name} has the type {kind} here and {known}{line}"
-                diagnostics.error(message, span, "Give both the same type, or one another name", id="MG-7012")
+                diagnostics.error(message, span, "Give both the same type, or rename one", id="MG-7012")
 
 
 def full_name(node: NodeDecl, endpoint: EndpointDecl) -> str:

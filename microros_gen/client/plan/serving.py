@@ -119,7 +119,7 @@ def _check_names(application: Application, diagnostics: Diagnostics) -> None:
             diagnostics.error(
                 f"{name} is a {endpoint.type} here and a {other.type} elsewhere ({other.span})",
                 endpoint.type_span or endpoint.span,
-                "Give both the same type, or one of them another name",
+                "Give both the same type, or rename one",
                 id="MG-7020",
             )
         elif same is not endpoint:

@@ -303,7 +303,7 @@ def _input_slots(application: Application, reliable_input: bool, diagnostics: Di
         return asked or DEFAULT_INPUT_HISTORY
     if asked is not None:
         diagnostics.warning(
-            "'pools.input_history' has no effect: nothing that is selected is received on a reliable stream",
+            "'pools.input_history' has no effect: no selected component receives on a reliable stream",
             application.spans.get("pools.input_history"),
             "Remove it",
             id="MG-7025",

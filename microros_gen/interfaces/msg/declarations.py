@@ -197,7 +197,7 @@ def _constant_type(node: Node, line: Line) -> Primitive | StringType:
         raise _DeclarationError(
             line.span_of(start),
             "a constant has a primitive type or is a string",
-            "Take another type",
+            "Use another type",
             id="MG-2109",
         )
     return element

@@ -96,10 +96,10 @@ def field_name_fault(name: str) -> Fault | None:
 def field_name_warning(name: str) -> Caveat | None:
     """Return a warning and its hint for a name that some nodes of ROS 2 cannot use, or None."""
     if name in _MACROS:
-        return Caveat(f"'{name}' is {_MACROS[name]}", hint="Take another name", id="MG-2014")
+        return Caveat(f"'{name}' is {_MACROS[name]}", hint="Choose another name", id="MG-2014")
     if keyword.iskeyword(name):
         message = f"'{name}' is a keyword of Python: rclpy cannot use this message"
-        return Caveat(message, hint="Take another name", id="MG-2132")
+        return Caveat(message, hint="Choose another name", id="MG-2132")
     return None
 
 
@@ -107,7 +107,7 @@ def constant_name_warning(name: str) -> Caveat | None:
     """Return a warning and its hint for a constant whose name C++ takes for a macro, or None."""
     if name in CONSTANT_MACROS or _LARGEST.fullmatch(name) is not None:
         message = f"'{name}' is a macro of C: the C++ code that ROS 2 Jazzy generates does not compile"
-        return Caveat(message, hint="Take another name", id="MG-2013")
+        return Caveat(message, hint="Choose another name", id="MG-2013")
     return None
 
 
@@ -126,14 +126,14 @@ def value_warning(kind: FieldType, value: Value) -> Caveat | None:
     """
     if kind is Primitive.WCHAR:
         message = "ROS 2 Jazzy generates no Python code for a value of type wchar"
-        return Caveat(message, hint="Take uint16, which has the same bytes", id="MG-2015")
+        return Caveat(message, hint="Use uint16, which has the same bytes", id="MG-2015")
     if kind is Primitive.IDL_CHAR and isinstance(value, int) and value < 0:
         message = "ROS 2 Jazzy generates no Python code for a char below 0"
-        return Caveat(message, hint="Take int8, which has the same bytes", id="MG-2133")
+        return Caveat(message, hint="Use int8, which has the same bytes", id="MG-2133")
     element = element_of(kind)
     if value == () and isinstance(element, Primitive) and element not in _PYTHON_LISTS:
         message = "ROS 2 Jazzy ignores an empty default in Python"
-        return Caveat(message, hint="Remove it: it says nothing", id="MG-2134")
+        return Caveat(message, hint="Remove it: it has no effect", id="MG-2134")
     return None
 
 

@@ -138,7 +138,7 @@ def _check_comment(source: Source, number: int, line: str, diagnostics: Diagnost
     diagnostics.warning(
         "ROS 2 Jazzy cannot read this comment: it takes the backslash for the start of an escape",
         Span(source, number, len(before) + 1, len(line.rstrip()) + 1),
-        "Write it without: ROS 2 makes no interface of the file, this tool reads it",
+        "Remove the backslash: ROS 2 generates nothing from the file, microros-gen reads it",
         id="MG-2021",
     )
 

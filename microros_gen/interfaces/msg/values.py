@@ -85,7 +85,7 @@ def string_elements(kind: StringType, texts: list[str]) -> tuple[str, ...]:
         literal = literal.encode("latin-1").decode("utf-8")
     except UnicodeError:
         raise InvalidValueError(
-            "letters beyond ASCII is not allowed in the default of a string array",
+            "letters beyond ASCII are not allowed in the default of a string array",
             "ROS 2 Jazzy refuses it too; set the value in the program",
             id="MG-2142",
         ) from None
@@ -151,7 +151,7 @@ def _float_value(kind: Primitive, text: str) -> float:
         except OverflowError:
             raise InvalidValueError(
                 f"{text} does not fit float32",
-                "Its largest value is 3.4028235e38; take float64",
+                "Its largest value is 3.4028235e38; use float64",
                 id="MG-2148",
             ) from None
     return number

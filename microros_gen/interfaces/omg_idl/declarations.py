@@ -224,7 +224,7 @@ def _check_type_support(field_type: FieldType, span: Span) -> None:
             span,
             "ROS 2 Jazzy has single members of type wchar only: its type support for C stops at an array or a "
             "sequence of them",
-            "Take uint16, which has the same bytes, or wstring for text",
+            "Use uint16, which has the same bytes, or wstring for text",
             id="MG-2065",
         )
 

@@ -54,10 +54,10 @@ _NOT_IN_ROS = {
     "union": "ROS 2 has no unions: declare a struct with a member for each case",
     "interface": "ROS 2 has no interfaces of IDL: declare a service (.srv)",
     "valuetype": "ROS 2 has no value types: declare a struct",
-    "bitset": "ROS 2 has no bit sets: take an integer and constants",
-    "bitmask": "ROS 2 has no bit masks: take an integer and constants",
+    "bitset": "ROS 2 has no bit sets: use an integer and constants",
+    "bitmask": "ROS 2 has no bit masks: use an integer and constants",
     "native": "ROS 2 has no native types",
-    "map": "ROS 2 has no maps: take a sequence of a struct with key and value",
+    "map": "ROS 2 has no maps: use a sequence of a struct with key and value",
 }
 _LEXEME = re.compile(
     r"//[^\n]*|/\*.*?\*/|L?\"(?:[^\"\\\n]|\\.)*\"|L?'(?:[^'\\\n]|\\.)[^'\n]*'|[ \t]*#[^\n]*|[;{}]|\w+|\s+|.",
@@ -216,7 +216,7 @@ def _hint(text: str, start: int, found: str, expected: frozenset[str]) -> str | 
     if found == "#":
         return 'Of the preprocessor ROS 2 has #include "package/msg/Name.idl" alone'
     if found == ":" and "_OPEN" in expected:
-        return "ROS 2 has no inheritance: repeat the members, or take a member of the other type"
+        return "ROS 2 has no inheritance: repeat the members, or use a member of the other type"
     if found in ('"', "'"):
         return "The quote is not closed in its line" if "STRING" in expected else None
     if "IDENTIFIER" in expected and (found[:1] == "_" or not found.isascii()):

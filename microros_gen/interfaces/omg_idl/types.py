@@ -193,7 +193,7 @@ def _target(alias: Alias, scope: Scope) -> Written | None:
         raise IdlError(
             alias.span,
             f"'{alias.name}' is an enumeration: ROS 2 reads enumerations but generates no type for them",
-            "Take uint8 and constants in a module that ends with '_Constants'",
+            "Use uint8 and constants in a module that ends with '_Constants'",
             id="MG-2073",
         )
     raise IdlError(
@@ -236,7 +236,7 @@ def _element(node: SyntaxNode, scope: Scope) -> ElementType | Alias:
     raise IdlError(
         span_of(node, scope.source),
         "ROS 2 has no fixed-point type",
-        "Take double, or an integer and a scale",
+        "Use double, or an integer and a scale",
         id="MG-2075",
     )
 
@@ -247,7 +247,7 @@ def _base(node: SyntaxNode, source: Source) -> Primitive:
         raise IdlError(
             span_of(node, source),
             "ROS 2 Jazzy cannot describe a long double: its type description has no name for it",
-            "Take double",
+            "Use double",
             id="MG-2076",
         )
     return _BASES[words]
@@ -267,7 +267,7 @@ def _name(node: SyntaxNode, scope: Scope) -> NamedType | Alias:
         raise IdlError(
             span,
             f"'{written}' is not a struct, and ROS 2 Jazzy finds no file for it",
-            f"Write '{parts[2]}'" if parts[2] in scope.typedef_names else "Take an integer and constants",
+            f"Write '{parts[2]}'" if parts[2] in scope.typedef_names else "Use an integer and constants",
             id="MG-2078",
         )
     fault = package_name_fault(parts[0])

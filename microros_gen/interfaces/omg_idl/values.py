@@ -136,7 +136,7 @@ def positive_bound(node: SyntaxNode, what: str, constants: Mapping[str, SyntaxNo
     if inner.data != "literal" or inner.children[0].type != "DECIMAL":
         value = computed(node, constants)
         hint = f"Write {value}" if value is not None and value > 0 else "Write a number above zero"
-        reason = "ROS 2 Jazzy evaluates no expressions here" if value is not None else "this is none"
+        reason = "ROS 2 Jazzy evaluates no expressions here" if value is not None else "this is not one"
         raise IdlError(span, f"{what} is a decimal number: {reason}", hint, id="MG-2080")
     number = _decimal(inner.children[0], source)
     if not 0 < number <= LARGEST_BOUND:
@@ -321,11 +321,11 @@ def _checked_float(kind: Primitive, value: int | float, span: Span) -> float:
         struct.pack("<f" if kind is Primitive.FLOAT32 else "<d", number)
     except OverflowError:
         raise IdlError(
-            span, f"{value} does not fit {_idl_name(kind)}", "Take a smaller value", id="MG-2098"
+            span, f"{value} does not fit {_idl_name(kind)}", "Use a smaller value", id="MG-2098"
         ) from None
     if not math.isfinite(number):
         raise IdlError(
-            span, f"the value is too large for {_idl_name(kind)}", "Take a smaller value", id="MG-2099"
+            span, f"the value is too large for {_idl_name(kind)}", "Use a smaller value", id="MG-2099"
         )
     return number
 
