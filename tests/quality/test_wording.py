@@ -110,3 +110,15 @@ def test_each_term_is_explained_once_and_in_order() -> None:
     terms = [row[0].lower() for row in re.findall(r"(?m)^\| ([^|]+) \| ([^|]+) \|$", text)][1:]
     assert len(terms) > 40
     assert terms == sorted(set(terms), key=lambda term: re.sub(r"[^a-z ]", "", term))
+
+
+def test_every_item_of_a_list_is_on_its_own_line() -> None:
+    """A hyphen that a reflow moved into a paragraph is printed as a hyphen, and the item is lost."""
+    item = re.compile(r"[.:;)] - [\w`*]")
+    lost = [
+        f"{name}: {found.group()}"
+        for name, path in files().items()
+        if name.endswith(".md")
+        for found in item.finditer(re.sub(r"`[^`\n]*`", "``", prose(path, path.read_text(encoding="utf-8"))))
+    ]
+    assert lost == []
