@@ -185,16 +185,15 @@ def _planned(resolved: Resolved, diagnostics: Diagnostics) -> Planned:
 def render_request(planned: Planned) -> dict[str, bytes]:
     """Return every file of the output folder, the manifest among them."""
     from microros_gen.client.views.project import render_project
-    from microros_gen.documents.templates import keep_compiled, make_environment
+    from microros_gen.documents.templates import compiled_before
     from microros_gen.output.manifest import manifest
     from microros_gen.output.runs import compiled_templates
     from microros_gen.output.tree import MANIFEST
 
     chosen = {c.component.name for c in planned.project.selection.components}
     unselected = [c for c in planned.resolved.catalogue.values() if c.name not in chosen]
-    environment = make_environment(compiled=compiled_templates(os.environ))
-    files = render_project(planned.project, _component_files(planned.project), unselected, environment)
-    keep_compiled(environment)
+    with compiled_before(compiled_templates(os.environ)) as environment:
+        files = render_project(planned.project, _component_files(planned.project), unselected, environment)
     inputs = dict(planned.resolved.request.inputs)
     own = planned.resolved.own_profiles
     inputs |= {f"profile {p.name}": p.span.source.text.encode() for p in own if p.span}

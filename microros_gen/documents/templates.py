@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import marshal
 import os
-from collections.abc import Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
 
@@ -18,12 +18,11 @@ TEMPLATE_FOLDERS = (_PACKAGE / "templates", _PACKAGE / "components", _PACKAGE / 
 """Where templates are found: `types/struct.h.j2`, `publish/src/rcl_publisher.c.j2`, `os/NAME/src/image.ld.j2`."""
 
 
-def make_environment(folders: Sequence[Path] = TEMPLATE_FOLDERS, compiled: Path | None = None) -> Environment:
+def make_environment(folders: Sequence[Path] = TEMPLATE_FOLDERS) -> Environment:
     """Return a new environment that finds templates below `folders`.
 
-    `compiled` is a file with what earlier runs have compiled; `keep_compiled` writes it. A name that a template uses
-    and its view lacks is an error. The files of an installed package do not change during a run, so they are not
-    looked at again once compiled.
+    A name that a template uses and its view lacks is an error. The files of an installed package do not change during
+    a run, so they are not looked at again once compiled.
     """
     return Environment(
         loader=FileSystemLoader([str(folder) for folder in folders]),
@@ -34,25 +33,36 @@ def make_environment(folders: Sequence[Path] = TEMPLATE_FOLDERS, compiled: Path 
         autoescape=False,
         optimized=False,  # folding constants takes longer than it saves: most templates are printed once
         auto_reload=False,
-        bytecode_cache=_CompiledTemplates(compiled) if compiled else None,
     )
 
 
-def keep_compiled(environment: Environment) -> None:
-    """Write what `environment` has compiled to the file that it was made with. A failure loses only time."""
-    if isinstance(environment.bytecode_cache, _CompiledTemplates):
-        environment.bytecode_cache.save()
+@cache
+def shared_environment() -> Environment:
+    """Return the environment over TEMPLATE_FOLDERS, made once: compiled templates are kept in it."""
+    environment = make_environment()
+    environment.bytecode_cache = _CompiledTemplates()
+    return environment
+
+
+@contextmanager
+def compiled_before(path: Path) -> Iterator[Environment]:
+    """Yield the shared environment, which takes from the file `path` what earlier runs have compiled.
+
+    What the file lacks is added to it afterwards; a failure loses only time.
+    """
+    environment = shared_environment()
+    compiled = environment.bytecode_cache
+    assert isinstance(compiled, _CompiledTemplates)
+    names = compiled.read(path)
+    yield environment
+    compiled.write(path, names)
 
 
 class _CompiledTemplates(BytecodeCache):
-    """All compiled templates in one file: Jinja's own cache writes one for each, which takes as long as compiling."""
+    """Compiled templates by name, all in one file: Jinja's own cache writes one for each, as slow as compiling."""
 
-    def __init__(self, path: Path) -> None:
-        self._path = path
+    def __init__(self) -> None:
         self._known: dict[str, bytes] = {}
-        self._has_more = False
-        with suppress(OSError, ValueError, EOFError, TypeError):
-            self._known = dict(marshal.loads(path.read_bytes()))
 
     def load_bytecode(self, bucket: Bucket) -> None:
         """Give `bucket` what is known; it checks the text of the template and the version of Python itself."""
@@ -64,20 +74,21 @@ class _CompiledTemplates(BytecodeCache):
     def dump_bytecode(self, bucket: Bucket) -> None:
         """Take over what was compiled now."""
         self._known[bucket.key] = bucket.bytecode_to_string()
-        self._has_more = True
 
-    def save(self) -> None:
-        """Replace the file where there is more than it has."""
-        if not self._has_more:
+    def read(self, path: Path) -> dict[str, bytes]:
+        """Take over what a file has, and return it; what this process has compiled is newer."""
+        found: dict[str, bytes] = {}
+        with suppress(OSError, ValueError, EOFError, TypeError):
+            found = dict(marshal.loads(path.read_bytes()))
+        self._known = found | self._known
+        return found
+
+    def write(self, path: Path, found: Mapping[str, bytes]) -> None:
+        """Replace a file that had `found` where there is more than that."""
+        if found == self._known:
             return
-        temporary = self._path.with_suffix(f".{os.getpid()}.tmp")
+        temporary = path.with_suffix(f".{os.getpid()}.tmp")
         with suppress(OSError):
-            self._path.parent.mkdir(parents=True, exist_ok=True)
+            path.parent.mkdir(parents=True, exist_ok=True)
             temporary.write_bytes(marshal.dumps(self._known))
-            temporary.replace(self._path)
-
-
-@cache
-def shared_environment() -> Environment:
-    """Return the environment over TEMPLATE_FOLDERS, made once: compiled templates are kept in it."""
-    return make_environment()
+            temporary.replace(path)

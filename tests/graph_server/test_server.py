@@ -175,10 +175,13 @@ def test_matched_counts_are_those_of_dds(peer: Peer) -> None:
             graph.publishers(f"/pair_{i}") and graph.subscriptions(f"/pair_{i}") for i in range(len(pairs))
         )
         assert peer.spin(complete, PATIENCE_S)
-        matched = lambda what, node: [  # noqa: E731
-            asked.endpoints(what, f"/pair_{i}", matched_by=node)["total"] for i in range(len(pairs))
-        ]
-        written = lambda: [w.subscriptions() for w in writers]  # noqa: E731
+
+        def matched(what: int, node: str) -> list[int]:
+            return [asked.endpoints(what, f"/pair_{i}", matched_by=node)["total"] for i in range(len(pairs))]
+
+        def written() -> list[int]:
+            return [writer.subscriptions() for writer in writers]
+
         found = agree(peer, written, lambda: matched(answers.SUBSCRIPTIONS, "/writing"))
         assert agree(peer, written, lambda: matched(answers.PUBLISHERS, "/reading")) == found
         assert 0 < sum(found) < len(pairs)

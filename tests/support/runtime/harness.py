@@ -13,7 +13,7 @@ from pathlib import Path
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.values import Values
 from microros_gen.client.views.components import render_components
-from microros_gen.documents.templates import make_environment
+from microros_gen.documents.templates import shared_environment
 from microros_gen.interfaces.types import TypeName
 from microros_gen.platform.provide import provide
 from microros_gen.selection.component_sources import component_files
@@ -102,7 +102,7 @@ def render(out: Path, plan: RuntimePlan, names: Sequence[str]) -> Tree:
     provisions = provide((c.component for c in chosen), PORTS, (), values.holds)
     files = component_files((c.component for c in chosen), values.holds, provisions.files)
     sources = []
-    for place, content in render_components(files, values, make_environment()).items():
+    for place, content in render_components(files, values, shared_environment()).items():
         target = out / place
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_bytes(content)
