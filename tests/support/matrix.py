@@ -133,7 +133,8 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "    clients: [{name: ask, type: std_srvs/srv/SetBool, limits: {message: 20}}]\n"
         + "profiles: [pure_reader]\ncomponents: [-subscribe, +services, +executor]\ntransport: {type: custom}\n",
         "parameters": _BUSY
-        + "    parameters: [{name: gain, type: double, default: 0.5, range: {min: 0, max: 1}}]\n"
+        + "    parameters:\n      - {name: gain, type: double, default: 0.5, range: {min: 0, max: 1}}\n"
+        + "      - {name: label, type: string, default: left, size: 8}\n"
         + "profiles: [pure_sender]\ncomponents: [+parameters]\n",
         "logging": _POOL + "logging: [{to: console, level: debug}, callback]\n",
         "rosout": _BUSY + "profiles: [pure_sender]\nlogging: [rosout, console]\n",
