@@ -165,15 +165,16 @@ class TimerDecl:
 
 @dataclass(frozen=True)
 class ParameterDecl:
-    """A parameter of a node. `type` is bool, integer, double or string.
+    """A parameter of a node. `type` is bool, integer, double or string, or `T[]` of one of them or of byte.
 
-    `size` bounds a string, bytes without its terminator. `minimum`, `maximum` and `step` are the range of
-    rcl_interfaces/msg/ParameterDescriptor; None: no range.
+    `size` bounds a string, bytes without its terminator, or the elements of an array. `one_of` has the values that
+    are accepted, where not all are. `unit` is shown behind the description. `minimum`, `maximum` and `step` are
+    the range of rcl_interfaces/msg/ParameterDescriptor; None: no range.
     """
 
     name: str
     type: str
-    default: bool | int | float | str | None = None
+    default: bool | int | float | str | tuple[bool | int | float | str, ...] | None = None
     description: str = ""
     read_only: bool = False
     minimum: int | float | None = None
@@ -181,6 +182,18 @@ class ParameterDecl:
     step: int | float | None = None
     span: Span | None = None
     size: int | None = None
+    one_of: tuple[int | float | str, ...] = ()
+    unit: str = ""
+
+    @property
+    def is_array(self) -> bool:
+        """Return whether a value has elements."""
+        return self.type.endswith("[]")
+
+    @property
+    def shown(self) -> str:
+        """Return the description that other nodes read: with the unit, in brackets as ROS users write it."""
+        return f"{self.description} [{self.unit}]".strip() if self.unit else self.description
 
 
 @dataclass(frozen=True)

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 
 from microros_gen.application.kinds import KIND, KINDS
 from microros_gen.application.limits import endpoint_limits
-from microros_gen.application.model import EndpointDecl, ExecutorDecl, NodeDecl, ParameterDecl, TimerDecl
+from microros_gen.application.model import EndpointDecl, ExecutorDecl, NodeDecl, TimerDecl
 from microros_gen.application.names import (
     absolute,
     expand_topic_name,
@@ -18,30 +18,21 @@ from microros_gen.application.names import (
     substitute,
     topic_fault,
 )
+from microros_gen.application.parameters import parse_declarations
 from microros_gen.application.qos import endpoint_qos
 from microros_gen.application.remap import rename_endpoints, rename_node
 from microros_gen.diagnostics import Diagnostics, Span, nearest
 from microros_gen.documents.tree_values import (
-    bool_of,
     child,
     int_of,
     items,
     named_of,
-    number_of,
     report_name,
-    size_of,
     span_of,
     text_of,
     time_of,
 )
-from microros_gen.documents.yaml_tree import ScalarNode, YamlNode
-
-_VALUE_TYPES: Mapping[str, tuple[type, ...]] = {
-    "bool": (bool,),
-    "integer": (int,),
-    "double": (int, float),
-    "string": (str,),
-}
+from microros_gen.documents.yaml_tree import YamlNode
 
 
 def parse_nodes(tree: YamlNode | None, diagnostics: Diagnostics) -> tuple[NodeDecl, ...]:
@@ -69,7 +60,7 @@ def _node(item: YamlNode, diagnostics: Diagnostics) -> NodeDecl:
         domain_id=int_of(child(item, "domain_id")) or 0,
         span=item.span,
         timers=tuple(_timer(t, diagnostics) for t in items(child(item, "timers"))),
-        parameters=tuple(_parameter(p, diagnostics) for p in items(child(item, "parameters"))),
+        parameters=parse_declarations(child(item, "parameters"), diagnostics),
         name_span=span_of(name) or item.span,
     )
     remap = child(item, "remap")
@@ -136,61 +127,6 @@ def positive_time(item: YamlNode, key: str, diagnostics: Diagnostics) -> int | N
             id="MG-3004",
         )
     return time
-
-
-def _parameter(item: YamlNode, diagnostics: Diagnostics) -> ParameterDecl:
-    bounds, default = child(item, "range"), child(item, "default")
-    value = default.value if isinstance(default, ScalarNode) else None
-    parameter = ParameterDecl(
-        name=text_of(child(item, "name")) or "",
-        type=text_of(child(item, "type")) or "",
-        default=value,
-        description=text_of(child(item, "description")) or "",
-        read_only=bool_of(child(item, "read_only")) or False,
-        minimum=number_of(child(bounds, "min")),
-        maximum=number_of(child(bounds, "max")),
-        step=number_of(child(bounds, "step")),
-        size=size_of(child(item, "size")),
-        span=item.span,
-    )
-    _check_default(parameter, default, diagnostics)
-    _check_range(parameter, bounds, diagnostics)
-    return parameter
-
-
-def _check_default(parameter: ParameterDecl, node: YamlNode | None, diagnostics: Diagnostics) -> None:
-    wanted = _VALUE_TYPES.get(parameter.type)
-    value = parameter.default
-    if wanted is None or value is None or node is None:
-        return
-    if not isinstance(value, wanted) or (isinstance(value, bool) and parameter.type != "bool"):
-        message = f"the default of the parameter '{parameter.name}' is not of type {parameter.type}"
-        hint = "Write true or false" if parameter.type == "bool" else "Change it, or the type"
-        diagnostics.error(message, node.span, hint, id="MG-3005")
-    elif isinstance(value, (int, float)) and parameter.minimum is not None and parameter.maximum is not None:
-        if not parameter.minimum <= value <= parameter.maximum:
-            message = f"the default of the parameter '{parameter.name}' is not in its range"
-            diagnostics.error(
-                message, node.span, f"It goes from {parameter.minimum} to {parameter.maximum}", id="MG-3006"
-            )
-    elif isinstance(value, str) and parameter.size is not None and len(value.encode()) > parameter.size:
-        message = f"the default of the parameter '{parameter.name}' is longer than its size"
-        diagnostics.error(message, node.span, f"Set size: {len(value.encode())}", id="MG-3007")
-
-
-def _check_range(parameter: ParameterDecl, node: YamlNode | None, diagnostics: Diagnostics) -> None:
-    if node is None:
-        return
-    if parameter.type in ("bool", "string"):
-        message = f"the parameter '{parameter.name}' is a {parameter.type}, which has no range"
-        diagnostics.error(message, node.span, "Remove `range`", id="MG-3008")
-    elif (
-        parameter.minimum is not None
-        and parameter.maximum is not None
-        and parameter.minimum > parameter.maximum
-    ):
-        message = f"the range of the parameter '{parameter.name}' is empty: min is above max"
-        diagnostics.error(message, node.span, "Swap them", id="MG-3009")
 
 
 def _executor(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> ExecutorDecl:

@@ -212,6 +212,69 @@ ERRORS: dict[str, tuple[str, str]] = {
         f"{NODE}    parameters: [{{name: p, type: string, range: {{min: 1, max: 5}}}}]\n",
         "f:3:49: error: the parameter 'p' is a string, which has no range. Remove `range`",
     ),
+    "array without a size": (
+        f"{NODE}    parameters: [{{name: p, type: 'byte[]', default: [1, 2]}}]\n",
+        "f:3:18: error: the array 'p' has no size: how many elements it has at most. Write size: 2",
+    ),
+    "size of a number": (
+        f"{NODE}    parameters: [{{name: p, type: integer, size: 2}}]\n",
+        "f:3:18: error: the parameter 'p' is of type integer, which has no size. Remove `size`",
+    ),
+    "too many elements": (
+        f"{NODE}    parameters: [{{name: p, type: 'bool[]', size: 1, default: [true, false]}}]\n",
+        "f:3:62: error: the default of the parameter 'p' is longer than its size. Set size: 2",
+    ),
+    "byte above 255": (
+        f"{NODE}    parameters: [{{name: p, type: 'byte[]', size: 2, default: [256]}}]\n",
+        "f:3:62: error: the default of the parameter 'p' is not of type byte[]. Write a list of values of type byte",
+    ),
+    "scalar for an array": (
+        f"{NODE}    parameters: [{{name: p, type: 'string[]', size: 2, default: a}}]\n",
+        "f:3:64: error: the default of the parameter 'p' is not of type string[]. "
+        "Write a list of values of type string",
+    ),
+    "list for a number": (
+        f"{NODE}    parameters: [{{name: p, type: integer, default: [1]}}]\n",
+        "f:3:52: error: the default of the parameter 'p' is not of type integer. Change it, or the type",
+    ),
+    "integer above 64 bits": (
+        f"{NODE}    parameters: [{{name: p, type: integer, default: 9223372036854775808}}]\n",
+        "f:3:52: error: the default of the parameter 'p' is not of type integer. Change it, or the type",
+    ),
+    "infinite default": (
+        f"{NODE}    parameters: [{{name: p, type: double, default: .inf}}]\n",
+        "f:3:51: error: the default of the parameter 'p' is no finite number. Set it in the program",
+    ),
+    "default between steps": (
+        f"{NODE}    parameters: [{{name: p, type: double, default: 0.35, range: {{min: 0, max: 1, step: 0.1}}}}]\n",
+        "f:3:51: error: the default of the parameter 'p' is between two steps of its range. "
+        "Its values are 0.1 apart, from 0",
+    ),
+    "range with a part": (
+        f"{NODE}    parameters: [{{name: p, type: integer, range: {{min: 0.5, max: 5}}}}]\n",
+        "f:3:50: error: the range of the parameter 'p' has a number that is no integer of 64 bits. "
+        "Write whole numbers, or type: double",
+    ),
+    "range and choice": (
+        f"{NODE}    parameters: [{{name: p, type: integer, range: {{min: 0, max: 5}}, one_of: [1]}}]\n",
+        "f:3:76: error: the parameter 'p' has both `range` and `one_of`. Remove one of them",
+    ),
+    "choice of a bool": (
+        f"{NODE}    parameters: [{{name: p, type: bool, one_of: [1]}}]\n",
+        "f:3:48: error: the parameter 'p' is of type bool, which has no `one_of`. Remove `one_of`",
+    ),
+    "choice of another type": (
+        f"{NODE}    parameters: [{{name: p, type: integer, one_of: [1, a]}}]\n",
+        "f:3:55: error: a value of `one_of` is not of type integer. Change it, or the type",
+    ),
+    "choice above the size": (
+        f"{NODE}    parameters: [{{name: p, type: string, size: 2, one_of: [abc]}}]\n",
+        "f:3:60: error: 'abc' is longer than the size of the parameter 'p'. Set size: 3",
+    ),
+    "default that is no choice": (
+        f"{NODE}    parameters: [{{name: p, type: integer, default: 2, one_of: [1, 3]}}]\n",
+        "f:3:52: error: the default of the parameter 'p' is none of its values. Available: 1, 3",
+    ),
     "empty range": (
         f"{NODE}    parameters: [{{name: p, type: integer, range: {{min: 5, max: 1}}}}]\n",
         "f:3:50: error: the range of the parameter 'p' is empty: min is above max. Swap them",

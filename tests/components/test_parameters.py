@@ -134,6 +134,44 @@ def test_the_example_adds_what_is_declared(tmp_path: Path) -> None:
         assert line in example
 
 
+EVERY = """\
+version: 1
+profiles: [pure_sender]
+components: [+parameters]
+nodes:
+  - name: arm
+    parameters:
+      - {name: side, type: string, default: left, one_of: [left, right]}
+      - {name: mode, type: integer, one_of: [0, -9223372036854775808], unit: mm, description: Way}
+      - {name: bytes, type: "byte[]", size: 5, default: [1, 255]}
+      - {name: names, type: "string[]", size: 3, default: [a, "ö"]}
+      - {name: none, type: "double[]", size: 2, default: []}
+"""
+
+
+def test_arrays_and_lists_of_values_take_what_is_declared(tmp_path: Path) -> None:
+    found = planned(tmp_path, EVERY)
+    part = slice_of(found)
+    assert (part.array_size, part.strings_max, part.array_string_size) == (3 * 50, 3, 50)
+    assert part.text_size == len("one of: 0, -9223372036854775808") + 1
+    example = compiler.render(found)["examples/pure_sender/main.c"].decode()
+    for line in (
+        "static const char * const parameter_values_0[] = {",
+        "static const int64_t parameter_values_1[] = {0, INT64_MIN};",
+        'rclc_add_parameter_constraint_one_of_string(&node_parameters, "side", parameter_values_0, 2)',
+        'rclc_add_parameter_description(&node_parameters, "mode", "Way [mm]", "one of: 0, -9223372036854775808")',
+        'rclc_add_parameter_constraint_array(&node_parameters, "bytes", 5)',
+        'rclc_parameter_set_byte_array(&node_parameters, "bytes", (const uint8_t[]){1u, 255u}, 2)',
+        'rclc_parameter_set_string_array(&node_parameters, "names", (const char *[]){"a", "ö"}, 2)',
+        'rclc_add_parameter_constraint_array(&node_parameters, "none", 2)',
+    ):
+        assert line in example
+    limits = "limits: {rcl_interfaces/msg/ParameterValue: {string_array_value: {sequence: 3, string: 9}}}\n"
+    assert slice_of(planned(tmp_path, EVERY + limits)).array_size == 3 * 10
+    plain = slice_of(planned(tmp_path, DECLARED))
+    assert (plain.array_size, plain.strings_max, plain.one_of) == (0, 0, False)
+
+
 LABELED = """\
 version: 1
 profiles: [pure_sender]

@@ -25,14 +25,32 @@ profiles: [pure_sender]
 components: [+parameters]
 nodes: [{name: device, namespace: /arm}]
 """
+WITH_ARRAYS = """\
+version: 1
+profiles: [pure_sender]
+components: [+parameters]
+pools: {parameters: 12}
+nodes:
+  - name: device
+    namespace: /arm
+    parameters:
+      - {name: bytes, type: "byte[]", size: 4}
+      - {name: bools, type: "bool[]", size: 4}
+      - {name: integers, type: "integer[]", size: 4}
+      - {name: doubles, type: "double[]", size: 2}
+      - {name: strings, type: "string[]", size: 3}
+      - {name: mode, type: integer, one_of: [0, 5]}
+      - {name: rate, type: double, one_of: [0, 0.1]}
+      - {name: side, type: string, size: 5, one_of: ["", left]}
+"""
 DEVICE = "/arm/device"
 NAMES = ["enabled", "motor.steps", "motor.limits.gain", "version"]
 STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror")
 BOTH = (DEVICE, MODEL)
 
 
-def program_of(images: Images, port: int, folder: Path, *flags: str) -> Path:
-    image = images.build(port, APPLICATION, "gcc", (*SANITIZE, *flags))
+def program_of(images: Images, port: int, folder: Path, *flags: str, application: str = APPLICATION) -> Path:
+    image = images.build(port, application, "gcc", (*SANITIZE, *flags))
     return image.application(C_FILES / "parameters.c", folder / "parameters", *STRICT)
 
 
@@ -196,6 +214,93 @@ def test_as_an_rclpy_node(
         sets_atomically(peer)
         events(peer)
         large_requests(peer)
+        peer.call(DEVICE, "set_parameters", [("motor.steps", 120)])
+        ends_well(process)
+
+
+ARRAYS: dict[str, tuple[str, list[Any], list[Any]]] = {
+    "bytes": ("BYTE_ARRAY", [0, 255], [1, 2, 3, 128]),
+    "bools": ("BOOL_ARRAY", [True, False, True], [False]),
+    "integers": ("INTEGER_ARRAY", [-(2**63), -1, 2**63 - 1], [7, -8]),
+    "doubles": ("DOUBLE_ARRAY", [0.5], [-0.25, 5e-324]),
+    "strings": ("STRING_ARRAY", ["left", "", "right"], ["größer", "x" * 49]),
+}
+"""Name → type, value at the start, another value."""
+
+
+def typed(kind: str, value: list[Any]) -> dict[str, Any]:
+    return {"type": kind, "value": value}
+
+
+def test_arrays_as_of_an_rclpy_node(
+    images: Images, image_port: Relay, agent: AgentProcess, domain: int, tmp_path: Path
+) -> None:
+    """Each type: its value at the start, another one, an empty one, too many elements, another type."""
+    program = program_of(images, image_port.port, tmp_path, application=WITH_ARRAYS)
+    names = list(ARRAYS)
+    with parameter_peer(domain) as peer, started(program) as process:
+        await_line(process, "ready")
+        for node in BOTH:
+            peer.wait(node)
+        for name, (kind, value, _) in ARRAYS.items():
+            assert peer.ask(declare=name, value=typed(kind, value))
+        assert [v for _, v in same(peer, "get_parameters", names)["values"]] == [
+            v[1] for v in ARRAYS.values()
+        ]
+        assert same(peer, "get_parameter_types", names)["types"] == [5, 6, 7, 8, 9]
+        same(peer, "describe_parameters", names)
+        events_of(peer, MODEL, len(names))
+        for node in BOTH:
+            peer.events(node)
+        values = [(name, typed(kind, value)) for name, (kind, _, value) in ARRAYS.items()]
+        assert same(peer, "set_parameters_atomically", values)["result"]["successful"]
+        assert [v for _, v in same(peer, "get_parameters", names)["values"]] == [
+            v[2] for v in ARRAYS.values()
+        ]
+        found, wanted = (events_of(peer, node, 1) for node in BOTH)
+        assert found == wanted
+        for name, (kind, value, _) in ARRAYS.items():
+            many = peer.call(
+                DEVICE, "set_parameters", [(name, typed(kind, value * 5)), (name, typed(kind, []))]
+            )
+            assert [r["reason"] for r in many["results"]] == [
+                f"the array for parameter '{name}' is too long",
+                "",
+            ]
+            peer.call(MODEL, "set_parameters", [(name, typed(kind, []))])
+        empty = same(peer, "get_parameters", names)["values"]
+        assert [v for _, v in empty] == [[]] * 5
+        long = [("strings", ["x" * 50]), ("doubles", [1.0, 2.0, 3.0])]
+        reasons = [r["reason"] for r in peer.call(DEVICE, "set_parameters", long)["results"]]
+        assert reasons == [f"the array for parameter '{name}' is too long" for name, _ in long]
+        whole = peer.call(DEVICE, "set_parameters_atomically", [("bools", [True]), long[0]])["result"]
+        assert whole["reason"] == "the array for parameter 'strings' is too long"
+        wrong = (
+            "Wrong parameter type, parameter {bools} is of type {bool_array}, setting it to {integer_array}"
+        )
+        assert results(peer, ("bools", [1]))[0].startswith(wrong)
+        assert same(peer, "get_parameters", names)["values"] == empty
+        peer.call(DEVICE, "set_parameters", [("motor.steps", 120)])
+        ends_well(process)
+
+
+def test_values_that_are_not_listed(
+    images: Images, image_port: Relay, agent: AgentProcess, domain: int, tmp_path: Path
+) -> None:
+    program = program_of(images, image_port.port, tmp_path, application=WITH_ARRAYS)
+    with parameter_peer(domain) as peer, started(program) as process:
+        await_line(process, "ready")
+        peer.wait(DEVICE)
+        sets = [("mode", 5), ("rate", 0.1), ("side", "left"), ("side", ""), ("side", "left")]
+        found = peer.call(DEVICE, "set_parameters", sets)["results"]
+        assert [r["reason"] for r in found] == [""] * 5
+        wrong = [("mode", 1), ("rate", 0.2), ("side", "lef"), ("side", "lefty"), ("side", "l\0")]
+        found = peer.call(DEVICE, "set_parameters", wrong)["results"]
+        assert [r["reason"] for r in found] == [
+            f"Parameter {{{name}}} doesn't comply with its list of values." for name, _ in wrong
+        ]
+        values = peer.call(DEVICE, "get_parameters", ["mode", "rate", "side"])["values"]
+        assert [v for _, v in values] == [5, 0.1, "left"]
         peer.call(DEVICE, "set_parameters", [("motor.steps", 120)])
         ends_well(process)
 

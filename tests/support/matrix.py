@@ -14,6 +14,7 @@ from microros_gen import compiler
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.toolchain.toolchain import WARNINGS
 from tests.support.paths import ROOT
+from tests.support.quality.corpus import EVERY_PARAMETER
 
 DEMO = ROOT / "examples" / "demo" / "microros.yaml"
 
@@ -136,6 +137,7 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "    parameters:\n      - {name: gain, type: double, default: 0.5, range: {min: 0, max: 1}}\n"
         + "      - {name: label, type: string, default: left, size: 8}\n"
         + "profiles: [pure_sender]\ncomponents: [+parameters]\n",
+        "parameters-every": _BUSY + EVERY_PARAMETER + "profiles: [pure_sender]\ncomponents: [+parameters]\n",
         "logging": _POOL + "logging: [{to: console, level: debug}, callback]\n",
         "rosout": _BUSY + "profiles: [pure_sender]\nlogging: [rosout, console]\n",
         "logger-services": _BUSY

@@ -3,20 +3,16 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator
-
-from microros_gen.application.model import Application, LimitRule, ParameterDecl
+from microros_gen.application.model import Application, LimitRule, NodeDecl
 from microros_gen.client.plan.declared import pool
 from microros_gen.client.plan.features import Given, refuse_own_limits
+from microros_gen.components.parameters.calls import LONGEST_TEXT, calls, string_limit, tables, texts_of
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
 
 DEFAULT_PARAMETERS = 4
 """What rclc_parameter_server_init_default of rclc has."""
-LONGEST_TEXT = 49
-"""Bytes of a name or description without its NUL, as in rclc."""
 _REASON = 104
 """Bytes of the longest words of rclc_parameter_reason.c, the types of two values included."""
 _SHORTEST_PARAMETER = 48
@@ -26,23 +22,33 @@ _NAMES = {"GetParameters": "values", "GetParameterTypes": "types", "DescribePara
 """Services that are asked for names, and the list of their response."""
 _SETS = ("SetParameters", "SetParametersAtomically")
 _STRING_VALUE = (f"{_PACKAGE}/msg/ParameterValue", "string_value")
-_KINDS = {"bool": "bool", "integer": "int", "double": "double", "string": "string"}
-"""Type in the application file → as functions and constants of rclc call it."""
-_ARRAYS = ("byte_array_value", "bool_array_value", "integer_array_value", "double_array_value")
+_STRINGS = (f"{_PACKAGE}/msg/ParameterValue", "string_array_value")
+_ARRAYS = {
+    "byte[]": ("byte_array_value", 1),
+    "bool[]": ("bool_array_value", 1),
+    "integer[]": ("integer_array_value", 8),
+    "double[]": ("double_array_value", 8),
+}
+"""Type of an array → its member of a ParameterValue, and the bytes of an element."""
 
 
 @dataclass(frozen=True)
 class ServerPlan:
-    """The parameter server of a node in the example: the calls that follow its initialization, as C; `{}` is it."""
+    """The parameter server of a node in the example: the calls that follow its initialization, as C; `{}` is it.
+
+    `tables` are constants that the calls need.
+    """
 
     calls: tuple[str, ...]
+    tables: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
 class ParametersPlan:
     """`max` parameters of a server; sizes are bytes, those of texts with the NUL.
 
-    `string_size`: a value; 0 where none is a string.
+    `string_size`: a value; 0 where none is a string. `array_size`: the elements of a value; 0 where none is an array.
+    `strings_max`, `array_string_size`: of an array of strings.
     `request_size`: the largest request of all services; `outcomes_max`: how many parameters one can have at most.
     `servers` has one entry for each node.
     """
@@ -51,14 +57,19 @@ class ParametersPlan:
     name_size: int
     text_size: int
     string_size: int
+    one_of: bool
+    array_size: int
+    strings_max: int
+    array_string_size: int
     request_size: int
     outcomes_max: int
     servers: tuple[ServerPlan, ...] = ()
 
     @property
     def strings(self) -> str:
-        """Return what a report says of strings."""
-        return f", strings of {self.string_size}" if self.string_size else ""
+        """Return what a report says of strings and arrays."""
+        strings = f", strings of {self.string_size}" if self.string_size else ""
+        return f"{strings}, arrays of {self.array_size}" if self.array_size else strings
 
     @property
     def handles(self) -> int:
@@ -77,10 +88,19 @@ def plan(given: Given, diagnostics: Diagnostics) -> ParametersPlan:
         name_size=_longest(application, "name") + 1,
         text_size=_longest(application, "description") + 1,
         string_size=_string_size(application),
+        one_of=any(p.one_of for node in application.nodes for p in node.parameters),
+        array_size=_array_size(application),
+        strings_max=_elements(application, "string[]"),
+        array_string_size=_array_string(application) + 1 if _elements(application, "string[]") else 0,
         request_size=largest,
         outcomes_max=largest // _SHORTEST_PARAMETER + 1,
-        servers=tuple(ServerPlan(tuple(_calls(node.parameters))) for node in application.nodes),
+        servers=tuple(_server(i, node) for i, node in enumerate(application.nodes)),
     )
+
+
+def _server(index: int, node: NodeDecl) -> ServerPlan:
+    prefix = f"parameter_values_{index}_" if index else "parameter_values_"
+    return ServerPlan(tuple(calls(node.parameters, prefix)), tuple(tables(node.parameters, prefix)))
 
 
 def record(part: ParametersPlan) -> object:
@@ -88,6 +108,10 @@ def record(part: ParametersPlan) -> object:
     return {
         "max": part.max,
         "sizes": [part.name_size, part.text_size, part.string_size, part.request_size, part.outcomes_max],
+        **({"one_of": True} if part.one_of else {}),
+        **(
+            {"arrays": [part.array_size, part.strings_max, part.array_string_size]} if part.array_size else {}
+        ),
     }
 
 
@@ -108,8 +132,11 @@ def limits(application: Application) -> tuple[LimitRule, ...]:
         *(_rule("msg/ParameterDescriptor", part, text) for part in ("description", "additional_constraints")),
         _rule("msg/Parameter", "name", name),
         _rule("msg/ParameterValue", "string_value", max(_string_size(application) - 1, 0)),
-        *(_rule("msg/ParameterValue", part, None, 0) for part in _ARRAYS),
-        _rule("msg/ParameterValue", "string_array_value", 0, 0),
+        *(
+            _rule("msg/ParameterValue", _ARRAYS[kind][0], None, _elements(application, kind))
+            for kind in _ARRAYS
+        ),
+        _strings_rule(application),
         _rule("msg/ParameterEvent", "node", node),
         # An event has no more parameters than the server, whatever it says of each.
         _rule("msg/ParameterEvent", "new_parameters", None, 1),
@@ -132,7 +159,8 @@ def _longest(application: Application, part: str) -> int:
     """Return the bytes of the longest name or description, where nothing else than what is declared has a place."""
     if application.pools.get("parameters", 0) > _declared(application) or not _declared(application):
         return LONGEST_TEXT
-    texts = (str(getattr(p, part)) for node in application.nodes for p in node.parameters)
+    declared = [p for node in application.nodes for p in node.parameters]
+    texts = [p.name for p in declared] if part == "name" else [t for p in declared for t in texts_of(p)]
     return max(len(text.encode()) for text in texts)
 
 
@@ -146,41 +174,40 @@ def _string_size(application: Application) -> int:
     return longest + 1 if longest else 0
 
 
-def string_limit(parameter: ParameterDecl) -> int:
-    """Return the most bytes of a string, without the NUL."""
-    return parameter.size or max(LONGEST_TEXT, len(str(parameter.default or "").encode()))
+def _elements(application: Application, kind: str) -> int:
+    """Return the most elements of an array of a type: what is declared, or the application's own limit."""
+    member = _ARRAYS[kind][0] if kind in _ARRAYS else _STRINGS[1]
+    path = (f"{_PACKAGE}/msg/ParameterValue", member)
+    own = next((rule.sequence for rule in application.limits if rule.path == path), None)
+    if own is not None:
+        return own
+    sizes = (p.size or 0 for node in application.nodes for p in node.parameters if p.type == kind)
+    return max(sizes, default=0)
 
 
-def _calls(parameters: tuple[ParameterDecl, ...]) -> Iterator[str]:
-    """Yield the calls that add parameters and say what is declared of them."""
-    for parameter in parameters:
-        kind = _KINDS.get(parameter.type)
-        if kind is None:
-            continue
-        name = json.dumps(parameter.name)
-        yield f"rclc_add_parameter({{}}, {name}, RCLC_PARAMETER_{kind.upper()})"
-        if parameter.type == "string":
-            yield f"rclc_add_parameter_constraint_string({{}}, {name}, {string_limit(parameter)})"
-        if parameter.default is not None:
-            value = _literal(parameter.default, parameter.type)
-            yield f"rclc_parameter_set_{kind}({{}}, {name}, {value})"
-        if parameter.description:
-            text = json.dumps(parameter.description, ensure_ascii=False)
-            yield f'rclc_add_parameter_description({{}}, {name}, {text}, "")'
-        if parameter.minimum is not None and parameter.maximum is not None:
-            ends = (parameter.minimum, parameter.maximum, parameter.step or 0)
-            numbers = ", ".join(_literal(end, parameter.type) for end in ends)
-            yield f"rclc_add_parameter_constraint_{parameter.type}({{}}, {name}, {numbers})"
-        if parameter.read_only:
-            yield f"rclc_set_parameter_read_only({{}}, {name}, true)"
+def _array_string(application: Application) -> int:
+    """Return the most bytes of a string in an array, without the NUL."""
+    own = next((rule.string for rule in application.limits if rule.path == _STRINGS and rule.string), None)
+    defaults = (
+        len(str(text).encode())
+        for node in application.nodes
+        for p in node.parameters
+        if p.type == "string[]" and isinstance(p.default, tuple)
+        for text in p.default
+    )
+    return own if own is not None else max(LONGEST_TEXT, *defaults, 0)
 
 
-def _literal(value: bool | int | float | str, kind: str) -> str:
-    if kind == "string":
-        return json.dumps(value, ensure_ascii=False)
-    if kind == "bool":
-        return "true" if value else "false"
-    return str(int(value)) if kind == "integer" else repr(float(value))
+def _array_size(application: Application) -> int:
+    """Return the bytes of the elements of the largest array."""
+    sizes = [_elements(application, kind) * width for kind, (_, width) in _ARRAYS.items()]
+    strings = _elements(application, "string[]") * (_array_string(application) + 1)
+    return max(*sizes, strings)
+
+
+def _strings_rule(application: Application) -> LimitRule:
+    count = _elements(application, "string[]")
+    return LimitRule(_STRINGS, _array_string(application) if count else 0, count)
 
 
 def _rule(name: str, member: str, string: int | None, sequence: int | None = None) -> LimitRule:

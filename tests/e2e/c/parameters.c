@@ -53,6 +53,48 @@ static bool on_parameter_changed(const Parameter * old_param, const Parameter * 
   return shown->value.type != RCLC_PARAMETER_INT || shown->value.integer_value != STEPS_VETOED;
 }
 
+#if MICROROS_PARAMETER_ARRAY_SIZE > 0u
+static void add_arrays(void)
+{
+  static const uint8_t bytes[] = {0, 255};
+  static const bool bools[] = {true, false, true};
+  static const int64_t integers[] = {INT64_MIN, -1, INT64_MAX};
+  static const double doubles[] = {0.5};
+  static const char * const strings[] = {"left", "", "right"};
+
+  check(rclc_add_parameter(&server, "bytes", RCLC_PARAMETER_BYTE_ARRAY), "add");
+  check(rclc_add_parameter(&server, "bools", RCLC_PARAMETER_BOOL_ARRAY), "add");
+  check(rclc_add_parameter(&server, "integers", RCLC_PARAMETER_INT_ARRAY), "add");
+  check(rclc_add_parameter(&server, "doubles", RCLC_PARAMETER_DOUBLE_ARRAY), "add");
+  check(rclc_add_parameter(&server, "strings", RCLC_PARAMETER_STRING_ARRAY), "add");
+  check(rclc_parameter_set_byte_array(&server, "bytes", bytes, 2), "set");
+  check(rclc_parameter_set_bool_array(&server, "bools", bools, 3), "set");
+  check(rclc_parameter_set_int_array(&server, "integers", integers, 3), "set");
+  check(rclc_parameter_set_double_array(&server, "doubles", doubles, 1), "set");
+  check(rclc_parameter_set_string_array(&server, "strings", strings, 3), "set");
+  check(rclc_add_parameter_constraint_array(&server, "bytes", 4), "size");
+  check(rclc_add_parameter_constraint_array(&server, "bools", 4), "size");
+  check(rclc_add_parameter_constraint_array(&server, "integers", 4), "size");
+  check(rclc_add_parameter_constraint_array(&server, "doubles", 2), "size");
+}
+#endif
+
+#if MICROROS_PARAMETER_ONE_OF
+static void add_lists_of_values(void)
+{
+  static const int64_t modes[] = {0, 5};
+  static const double rates[] = {0.0, 0.1};
+  static const char * const sides[] = {"", "left"};
+
+  check(rclc_add_parameter(&server, "mode", RCLC_PARAMETER_INT), "add");
+  check(rclc_add_parameter(&server, "rate", RCLC_PARAMETER_DOUBLE), "add");
+  check(rclc_add_parameter(&server, "side", RCLC_PARAMETER_STRING), "add");
+  check(rclc_add_parameter_constraint_one_of_int(&server, "mode", modes, 2), "values");
+  check(rclc_add_parameter_constraint_one_of_double(&server, "rate", rates, 2), "values");
+  check(rclc_add_parameter_constraint_one_of_string(&server, "side", sides, 2), "values");
+}
+#endif
+
 static void add_parameters(void)
 {
   check(rclc_add_parameter(&server, "enabled", RCLC_PARAMETER_BOOL), "add");
@@ -68,6 +110,12 @@ static void add_parameters(void)
   check(rclc_add_parameter_constraint_integer(&server, "motor.steps", -10, STEPS_MAX, 2), "range");
   check(rclc_add_parameter_constraint_double(&server, "motor.limits.gain", 0.0, 1.0, 0.1), "range");
   check(rclc_set_parameter_read_only(&server, "version", true), "read only");
+#if MICROROS_PARAMETER_ARRAY_SIZE > 0u
+  add_arrays();
+#endif
+#if MICROROS_PARAMETER_ONE_OF
+  add_lists_of_values();
+#endif
 }
 
 /* Arguments: "undeclared" allows a set request to create parameters. */

@@ -5,7 +5,7 @@ One JSON object a line: {"node": "/arm/device", "service": "get_parameters", "ar
 of rclpy's AsyncParameterClient and answers the response; {"node": …, "wait": true} waits for the services; {"node": …,
 "events": true} answers what the node said on /parameter_events since the last time; {"declare": "label", "value": "a"}
 declares one more parameter of the model. Values of parameters are the plain
-ones of JSON.
+ones of JSON, bytes as numbers; {"type": "BYTE_ARRAY", "value": [1]} says the type of one.
 """
 
 from __future__ import annotations
@@ -21,6 +21,8 @@ from tests.support.agent.line_process import LineProcess, serving
 from tests.support.patience import seconds
 
 MODEL = "/model/device"
+BYTE_ARRAY = 5
+"""The first type of rcl_interfaces/msg/ParameterType that is an array."""
 
 
 class ParameterPeer(LineProcess):
@@ -68,7 +70,10 @@ def _plain(message: Any) -> Any:
     if type(message).__name__ == "ParameterValue":
         from rclpy.parameter import parameter_value_to_python
 
-        return [message.type, parameter_value_to_python(message)] if message.type else [0, None]
+        value: Any = parameter_value_to_python(message) if message.type else None
+        if message.type == BYTE_ARRAY:
+            value = [byte[0] for byte in value]
+        return [message.type, list(value) if message.type > BYTE_ARRAY else value]
     if hasattr(message, "get_fields_and_field_types"):
         return {name: _plain(getattr(message, name)) for name in message.get_fields_and_field_types()}
     if isinstance(message, str | int | float | bool):
@@ -78,9 +83,19 @@ def _plain(message: Any) -> Any:
 
 def _parameters(pairs: list[list[Any]]) -> list[Any]:
     """Return messages of `[name, value]`; null is a value that is not set."""
+    return [_parameter(name, value).to_parameter_msg() for name, value in pairs]
+
+
+def _parameter(name: str, value: Any) -> Any:
+    """Return a parameter; {"type": "INTEGER_ARRAY", "value": []} says its type."""
     from rclpy.parameter import Parameter
 
-    return [Parameter(name, value=value).to_parameter_msg() for name, value in pairs]
+    if not isinstance(value, dict):
+        return Parameter(name, value=value)
+    kind, plain = value["type"], value["value"]
+    return Parameter(
+        name, Parameter.Type[kind], [bytes([v]) for v in plain] if kind == "BYTE_ARRAY" else plain
+    )
 
 
 class _Answers:
@@ -92,7 +107,9 @@ class _Answers:
 
     def answer(self, command: dict[str, Any]) -> Any:
         if "declare" in command:
-            self._model.declare_parameter(command["declare"], command["value"])
+            self._model.declare_parameter(
+                command["declare"], _parameter(command["declare"], command["value"]).value
+            )
             return True
         if "events" in command:
             found = [event for event in self._events if event["node"] == command["node"]]

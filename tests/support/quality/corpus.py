@@ -28,6 +28,19 @@ WORKERS = 2
 
 _POOL = "version: 1\nprofiles: [pure_sender]\n"
 _INT32 = _POOL + "interfaces: [std_msgs/msg/Int32]\n"
+EVERY_PARAMETER = """\
+    parameters:
+      - {name: on, type: bool, default: true}
+      - {name: gain, type: double, default: 0.5, range: {min: 0, max: 1, step: 0.1}, unit: 1/s}
+      - {name: label, type: string, default: left, one_of: [left, right]}
+      - {name: mode, type: integer, one_of: [0, 1, 5], description: How}
+      - {name: rate, type: double, default: 2.5, one_of: [0.5, 2.5]}
+      - {name: bytes, type: "byte[]", size: 4, default: [1, 255]}
+      - {name: bools, type: "bool[]", size: 4, default: [true]}
+      - {name: integers, type: "integer[]", size: 4, default: [-9223372036854775808, 7]}
+      - {name: doubles, type: "double[]", size: 4, default: [1, 0.5]}
+      - {name: strings, type: "string[]", size: 4, default: [a, ""]}
+"""
 _NODES = _POOL + "nodes:\n  - name: probe\n    publishers:\n"
 _BEST = "      - {topic: fast, type: std_msgs/msg/Int32, qos: {reliability: best_effort}}\n"
 _SURE = "      - {topic: sure, type: std_msgs/msg/UInt8}\n"
@@ -151,6 +164,9 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "rosout_board": _BOTH
         + "target: {name: qemu-mps2-an386}\nlogging: [rosout, {to: callback, level: warn}]\n",
         "parameters": _NODES.replace("    publishers:\n", "") + "components: [+parameters]\n",
+        "parameters_every": _NODES.replace("    publishers:\n", "")
+        + EVERY_PARAMETER
+        + "components: [+parameters]\n",
         "services_less": _SERVED.replace("20", "9") + _ASKED.replace("9", "20"),
         "lent_tcp": _READER + _ALONE + "transport: {type: tcp, agent: '127.0.0.1:8888'}\n",
     }

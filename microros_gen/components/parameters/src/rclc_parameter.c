@@ -7,55 +7,11 @@
 
 #include <string.h>
 
-static rcl_ret_t parameter_refuse(rcl_ret_t result, const char * name, const char * why)
-{
-  microros_error_set(microros_error_parameter, name, why, 0, 0);
-  return result;
-}
-
-static rcl_ret_t parameter_refuse_argument(void)
-{
-  return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "parameter_server or another argument");
-}
-
 static parameter_text_t parameter_text(const char * text)
 {
   const parameter_text_t result = {text, (uint32_t)microros_text_size(text)};
 
   return result;
-}
-
-/* Returns the place of a parameter; NULL: *result says why. */
-static rclc_parameter_place_t * parameter_look(
-  rclc_parameter_server_t * server, const char * name, rcl_ret_t * result)
-{
-  const rclc_parameter_place_t * found;
-  parameter_text_t text;
-
-  if (server == NULL || name == NULL) {
-    *result = parameter_refuse_argument();
-    return NULL;
-  }
-  text = parameter_text(name);
-  found = rclc_parameter_find(server, &text);
-  if (found == NULL) {
-    *result = parameter_refuse(RCL_RET_ERROR, name, MICROROS_ERROR_WORDS("unknown"));
-    return NULL;
-  }
-  *result = RCL_RET_OK;
-  return &server->places[found - server->places];
-}
-
-/* The same where the parameter is to be changed, which its callback must not. */
-static rclc_parameter_place_t * parameter_look_to_change(
-  rclc_parameter_server_t * server, const char * name, rcl_ret_t * result)
-{
-  if (server != NULL && server->on_callback) {
-    *result = parameter_refuse(
-      RCLC_PARAMETER_DISABLED_ON_CALLBACK, name, MICROROS_ERROR_WORDS("not to be changed by the callback"));
-    return NULL;
-  }
-  return parameter_look(server, name, result);
 }
 
 rcl_ret_t rclc_add_parameter(
@@ -65,22 +21,23 @@ rcl_ret_t rclc_add_parameter(
   rclc_parameter_place_t * place = NULL;
 
   if (parameter_server == NULL || parameter_name == NULL) {
-    return parameter_refuse_argument();
+    return rclc_parameter_refuse_argument();
   }
   if (parameter_server->on_callback) {
-    return parameter_refuse(
+    return rclc_parameter_refuse(
       RCLC_PARAMETER_DISABLED_ON_CALLBACK, parameter_name,
-      MICROROS_ERROR_WORDS("not to be added by the callback"));
+      MICROROS_ERROR_WORDS("not to be changed by the callback"));
   }
   name = parameter_text(parameter_name);
   if (name.size == 0u || name.size >= (uint32_t)MICROROS_PARAMETER_NAME_SIZE) {
-    return parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("empty or too long a name"));
+    return rclc_parameter_refuse(
+      RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("empty or too long a name"));
   }
-  if (type < RCLC_PARAMETER_BOOL || (uint32_t)type > PARAMETER_TYPE_LAST) {
-    return parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("no type of a value"));
+  if (!rclc_parameter_holds((uint32_t)type)) {
+    return rclc_parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("no type of a value"));
   }
   if (rclc_parameter_find(parameter_server, &name) != NULL) {
-    return parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("added already"));
+    return rclc_parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("added already"));
   }
   if (parameter_server->count == parameter_server->max_params) {
     const uint32_t count = (uint32_t)parameter_server->count;
@@ -98,7 +55,7 @@ rcl_ret_t rclc_add_parameter(
 rcl_ret_t rclc_delete_parameter(rclc_parameter_server_t * parameter_server, const char * parameter_name)
 {
   rcl_ret_t result;
-  rclc_parameter_place_t * place = parameter_look_to_change(parameter_server, parameter_name, &result);
+  rclc_parameter_place_t * place = rclc_parameter_look_to_change(parameter_server, parameter_name, &result);
 
   if (place != NULL) {
     place->event = (uint8_t)PARAMETER_EVENT_DELETED;
@@ -112,15 +69,12 @@ static rcl_ret_t parameter_set(
   const rclc_parameter_scalar_t * value)
 {
   rcl_ret_t result;
-  rclc_parameter_place_t * place = parameter_look_to_change(server, name, &result);
+  rclc_parameter_place_t * place = rclc_parameter_look_to_change(server, name, &result);
   parameter_state_t old_state;
   parameter_state_t new_state;
 
-  if (place == NULL) {
+  if (!rclc_parameter_is(place, name, type, &result, RCLC_PARAMETER_TYPE_MISMATCH)) {
     return result;
-  }
-  if (place->type != (uint8_t)type) {
-    return parameter_refuse(RCLC_PARAMETER_TYPE_MISMATCH, name, MICROROS_ERROR_WORDS("it has another type"));
   }
   old_state.name = place->name;
   old_state.type = place->type;
@@ -129,7 +83,7 @@ static rcl_ret_t parameter_set(
   new_state = old_state;
   new_state.value = *value;
   if (!rclc_parameter_accepts(server, &old_state, &new_state)) {
-    return parameter_refuse(
+    return rclc_parameter_refuse(
       RCLC_PARAMETER_MODIFICATION_REJECTED, name, MICROROS_ERROR_WORDS("the callback refused the value"));
   }
   place->value = *value;
@@ -171,17 +125,13 @@ static rcl_ret_t parameter_get(
   rcl_ret_t result;
 
   if (output == NULL) {
-    return parameter_refuse_argument();
+    return rclc_parameter_refuse_argument();
   }
-  place = parameter_look(server, name, &result);
-  if (place == NULL) {
-    return result;
+  place = rclc_parameter_look(server, name, &result);
+  if (rclc_parameter_is(place, name, type, &result, RCL_RET_INVALID_ARGUMENT)) {
+    *value = place->value;
   }
-  if (place->type != (uint8_t)type) {
-    return parameter_refuse(RCL_RET_INVALID_ARGUMENT, name, MICROROS_ERROR_WORDS("it has another type"));
-  }
-  *value = place->value;
-  return RCL_RET_OK;
+  return result;
 }
 
 rcl_ret_t rclc_parameter_get_bool(
@@ -224,16 +174,6 @@ rcl_ret_t rclc_parameter_get_double(
 }
 
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
-/* Notes an error where a place is no string. */
-static bool string_is(
-  const rclc_parameter_place_t * place, const char * name, rcl_ret_t * result, rcl_ret_t error)
-{
-  if (place != NULL && place->type != (uint8_t)RCLC_PARAMETER_STRING) {
-    *result = parameter_refuse(error, name, MICROROS_ERROR_WORDS("it has another type"));
-  }
-  return *result == RCL_RET_OK;
-}
-
 rcl_ret_t rclc_parameter_set_string(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, const char * value)
 {
@@ -244,15 +184,17 @@ rcl_ret_t rclc_parameter_set_string(
   parameter_text_t text = {value, 0};
 
   if (value == NULL) {
-    return parameter_refuse_argument();
+    return rclc_parameter_refuse_argument();
   }
-  place = parameter_look_to_change(parameter_server, parameter_name, &result);
-  if (place == NULL || !string_is(place, parameter_name, &result, RCLC_PARAMETER_TYPE_MISMATCH)) {
+  place = rclc_parameter_look_to_change(parameter_server, parameter_name, &result);
+  if (!rclc_parameter_is(
+        place, parameter_name, RCLC_PARAMETER_STRING, &result, RCLC_PARAMETER_TYPE_MISMATCH)) {
     return result;
   }
   text.size = (uint32_t)microros_text_size(value);
   if (text.size > place->string_most) {
-    return parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("the string is too long"));
+    return rclc_parameter_refuse(
+      RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("the string is too long"));
   }
   rclc_parameter_string_copy(parameter_server->string_new, &text);
   old_state.name = place->name;
@@ -262,7 +204,7 @@ rcl_ret_t rclc_parameter_set_string(
   new_state = old_state;
   new_state.string = parameter_server->string_new;
   if (!rclc_parameter_accepts(parameter_server, &old_state, &new_state)) {
-    return parameter_refuse(
+    return rclc_parameter_refuse(
       RCLC_PARAMETER_MODIFICATION_REJECTED, parameter_name,
       MICROROS_ERROR_WORDS("the callback refused the value"));
   }
@@ -279,10 +221,10 @@ rcl_ret_t rclc_parameter_get_string(
   const rclc_parameter_place_t * place;
 
   if (output == NULL) {
-    return parameter_refuse_argument();
+    return rclc_parameter_refuse_argument();
   }
-  place = parameter_look(parameter_server, parameter_name, &result);
-  if (place != NULL && string_is(place, parameter_name, &result, RCL_RET_INVALID_ARGUMENT)) {
+  place = rclc_parameter_look(parameter_server, parameter_name, &result);
+  if (rclc_parameter_is(place, parameter_name, RCLC_PARAMETER_STRING, &result, RCL_RET_INVALID_ARGUMENT)) {
     *output = place->string;
   }
   return result;
@@ -297,12 +239,12 @@ rcl_ret_t rclc_add_parameter_constraint_string(
   if (size >= MICROROS_PARAMETER_STRING_SIZE) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "size");
   }
-  place = parameter_look(parameter_server, parameter_name, &result);
-  if (place == NULL || !string_is(place, parameter_name, &result, RCL_RET_ERROR)) {
+  place = rclc_parameter_look(parameter_server, parameter_name, &result);
+  if (!rclc_parameter_is(place, parameter_name, RCLC_PARAMETER_STRING, &result, RCL_RET_ERROR)) {
     return result;
   }
   if (microros_text_size(place->string) > size) {
-    return parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("its string is longer"));
+    return rclc_parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("its string is longer"));
   }
   place->string_most = (uint32_t)size;
   return RCL_RET_OK;

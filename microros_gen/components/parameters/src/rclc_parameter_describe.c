@@ -7,38 +7,6 @@
 #include <float.h>
 #include <string.h>
 
-static rcl_ret_t describe_refuse(const char * name, const char * why)
-{
-  microros_error_set(microros_error_parameter, name, why, 0, 0);
-  return RCL_RET_ERROR;
-}
-
-/* Returns the place of a parameter that is to be described; NULL: *result says why. */
-static rclc_parameter_place_t * describe_look(
-  rclc_parameter_server_t * server, const char * name, rcl_ret_t * result)
-{
-  const rclc_parameter_place_t * found;
-  parameter_text_t text = {name, 0};
-
-  if (server == NULL || name == NULL) {
-    *result = microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "parameter_server or parameter_name");
-    return NULL;
-  }
-  if (server->on_callback) {
-    (void)describe_refuse(name, MICROROS_ERROR_WORDS("not to be changed by the callback"));
-    *result = RCLC_PARAMETER_DISABLED_ON_CALLBACK;
-    return NULL;
-  }
-  text.size = (uint32_t)microros_text_size(name);
-  found = rclc_parameter_find(server, &text);
-  if (found == NULL) {
-    *result = describe_refuse(name, MICROROS_ERROR_WORDS("unknown"));
-    return NULL;
-  }
-  *result = RCL_RET_OK;
-  return &server->places[found - server->places];
-}
-
 rcl_ret_t rclc_add_parameter_description(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, const char * parameter_description,
   const char * additional_constraints)
@@ -51,18 +19,20 @@ rcl_ret_t rclc_add_parameter_description(
   if (parameter_description == NULL || additional_constraints == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "parameter_description or additional_constraints");
   }
-  place = describe_look(parameter_server, parameter_name, &result);
+  place = rclc_parameter_look_to_change(parameter_server, parameter_name, &result);
   if (place == NULL) {
     return result;
   }
   if (parameter_server->low_mem_mode) {
-    (void)describe_refuse(parameter_name, MICROROS_ERROR_WORDS("no descriptions in low-memory mode"));
-    return RCLC_PARAMETER_UNSUPORTED_ON_LOW_MEM;
+    return rclc_parameter_refuse(
+      RCLC_PARAMETER_UNSUPORTED_ON_LOW_MEM, parameter_name,
+      MICROROS_ERROR_WORDS("no descriptions in low-memory mode"));
   }
   size = microros_text_size(parameter_description) + 1u;
   more = microros_text_size(additional_constraints) + 1u;
   if (size > sizeof(place->description) || more > sizeof(place->additional_constraints)) {
-    return describe_refuse(parameter_name, MICROROS_ERROR_WORDS("too long a description"));
+    return rclc_parameter_refuse(
+      RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("too long a description"));
   }
   (void)memcpy(place->description, parameter_description, size);
   (void)memcpy(place->additional_constraints, additional_constraints, more);
@@ -73,7 +43,7 @@ rcl_ret_t rclc_set_parameter_read_only(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, bool read_only)
 {
   rcl_ret_t result;
-  rclc_parameter_place_t * place = describe_look(parameter_server, parameter_name, &result);
+  rclc_parameter_place_t * place = rclc_parameter_look_to_change(parameter_server, parameter_name, &result);
 
   if (place != NULL) {
     place->read_only = read_only;
@@ -81,28 +51,14 @@ rcl_ret_t rclc_set_parameter_read_only(
   return result;
 }
 
-/* Returns the place of a parameter of that type; NULL: *result says why. */
-static rclc_parameter_place_t * describe_look_typed(
-  rclc_parameter_server_t * server, const char * name, rclc_parameter_type_t type, rcl_ret_t * result)
-{
-  rclc_parameter_place_t * place = describe_look(server, name, result);
-
-  if (place != NULL && place->type != (uint8_t)type) {
-    *result = describe_refuse(name, MICROROS_ERROR_WORDS("it has another type"));
-    return NULL;
-  }
-  return place;
-}
-
 rcl_ret_t rclc_add_parameter_constraint_integer(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, int64_t from_value,
   int64_t to_value, uint64_t step)
 {
   rcl_ret_t result;
-  rclc_parameter_place_t * place =
-    describe_look_typed(parameter_server, parameter_name, RCLC_PARAMETER_INT, &result);
+  rclc_parameter_place_t * place = rclc_parameter_look_to_change(parameter_server, parameter_name, &result);
 
-  if (place != NULL) {
+  if (rclc_parameter_is(place, parameter_name, RCLC_PARAMETER_INT, &result, RCL_RET_ERROR)) {
     place->has_range = true;
     place->range.integer.from_value = from_value;
     place->range.integer.to_value = to_value;
@@ -151,10 +107,9 @@ rcl_ret_t rclc_add_parameter_constraint_double(
   double step)
 {
   rcl_ret_t result;
-  rclc_parameter_place_t * place =
-    describe_look_typed(parameter_server, parameter_name, RCLC_PARAMETER_DOUBLE, &result);
+  rclc_parameter_place_t * place = rclc_parameter_look_to_change(parameter_server, parameter_name, &result);
 
-  if (place != NULL) {
+  if (rclc_parameter_is(place, parameter_name, RCLC_PARAMETER_DOUBLE, &result, RCL_RET_ERROR)) {
     place->has_range = true;
     place->range.floating_point.from_value = from_value;
     place->range.floating_point.to_value = to_value;

@@ -2,12 +2,11 @@
 #include "microros/rclc_parameter_out.h"
 
 #include "microros/cdr.h"
+#include "microros/rclc_parameter_array.h"
 #include "microros/rclc_parameter_string.h"
 #include "microros/text.h"
 
 #include <string.h>
-
-enum { ARRAYS = 5 }; /* of bytes, bools, integers, doubles and strings */
 
 /* Returns where `bytes` go that are aligned to `width`, and moves on; NULL: no room. */
 static uint8_t * out_take(parameter_out_t * out, uint32_t width, uint32_t bytes)
@@ -51,6 +50,15 @@ void rclc_parameter_out_8(parameter_out_t * out, const void * value)
   }
 }
 
+void rclc_parameter_out_bytes(parameter_out_t * out, uint32_t width, const void * from, uint32_t bytes)
+{
+  uint8_t * to = out_take(out, width, bytes);
+
+  if (to != NULL) {
+    cdr_copy(to, from, bytes);
+  }
+}
+
 void rclc_parameter_out_parts(parameter_out_t * out, const parameter_text_t * parts, uint32_t count)
 {
   uint32_t size = 1; /* the NUL */
@@ -91,7 +99,5 @@ void rclc_parameter_out_value(parameter_out_t * out, const rclc_parameter_place_
   rclc_parameter_out_8(out, &integer);
   rclc_parameter_out_8(out, &number);
   rclc_parameter_out_text(out, rclc_parameter_string_of(place));
-  for (uint32_t i = 0; i < (uint32_t)ARRAYS; ++i) {
-    rclc_parameter_out_4(out, 0u);
-  }
+  rclc_parameter_out_arrays(out, place);
 }

@@ -41,6 +41,14 @@ static const char * reason_words(uint8_t outcome)
     case PARAMETER_STRING_LONG:
       return "the string for parameter '%n' is too long";
 #endif
+#if MICROROS_PARAMETER_ARRAY_SIZE > 0u
+    case PARAMETER_ARRAY_LONG:
+      return "the array for parameter '%n' is too long";
+#endif
+#if MICROROS_PARAMETER_ONE_OF
+    case PARAMETER_NOT_ONE_OF:
+      return "Parameter {%n} doesn't comply with its list of values.";
+#endif
     case PARAMETER_UNSUPPORTED:
     default:
       return "parameter '%n' cannot have a value of type {%t}";

@@ -5,12 +5,12 @@
  *
  * A request that is larger than the largest arrives as the length of its list alone.
  */
+#include "microros/rclc_parameter_array.h"
 #include "microros/rclc_parameters.h"
 
 #include <string.h>
 
-/* Returns where `count` elements of `width` bytes are, and moves to the byte after; NULL where the body ends before. */
-static const uint8_t * request_take(cdr_in_t * in, uint32_t count, uint32_t width)
+const uint8_t * rclc_parameter_request_take(cdr_in_t * in, uint32_t count, uint32_t width)
 {
   const uint32_t start = cdr_aligned(in->position, width);
   const uint64_t bytes = (uint64_t)count * width;
@@ -32,7 +32,7 @@ uint32_t rclc_parameter_request_length(cdr_in_t * in)
 parameter_text_t rclc_parameter_request_text(cdr_in_t * in)
 {
   const uint32_t length = rclc_parameter_request_length(in);
-  const uint8_t * bytes = request_take(in, length, 1u);
+  const uint8_t * bytes = rclc_parameter_request_take(in, length, 1u);
   parameter_text_t text = {"", 0};
 
   if (bytes != NULL) {
@@ -44,23 +44,24 @@ parameter_text_t rclc_parameter_request_text(cdr_in_t * in)
   return text;
 }
 
-/* Passes over a sequence of numbers. */
-static void request_skip(cdr_in_t * in, uint32_t width)
+uint32_t rclc_parameter_request_pass(cdr_in_t * in, uint32_t width)
 {
   const uint32_t count = cdr_in_length(in, width, "request");
 
   if (count != 0u) {
-    (void)request_take(in, count, width);
+    (void)rclc_parameter_request_take(in, count, width);
   }
+  return count;
 }
 
-static void request_skip_texts(cdr_in_t * in)
+uint32_t rclc_parameter_request_pass_texts(cdr_in_t * in)
 {
   const uint32_t count = rclc_parameter_request_length(in);
 
   for (uint32_t i = 0; i < count && !in->failed; ++i) {
     (void)rclc_parameter_request_text(in);
   }
+  return count;
 }
 
 parameter_requested_t rclc_parameter_request_parameter(cdr_in_t * in)
@@ -80,11 +81,7 @@ parameter_requested_t rclc_parameter_request_parameter(cdr_in_t * in)
 #else
   (void)rclc_parameter_request_text(in);
 #endif
-  request_skip(in, 1u);
-  request_skip(in, 1u);
-  request_skip(in, 8u);
-  request_skip(in, 8u);
-  request_skip_texts(in);
+  rclc_parameter_array_request(in, &requested);
   if (requested.type == (uint8_t)RCLC_PARAMETER_BOOL) {
     requested.value.bool_value = truth;
   } else if (requested.type == (uint8_t)RCLC_PARAMETER_DOUBLE) {
@@ -134,7 +131,7 @@ static void request_keep(cdr_in_t * in, rclc_parameter_server_t * server)
 void rclc_parameter_decode_names(cdr_in_t * in, void * server)
 {
   if (!request_cut(in, server)) {
-    request_skip_texts(in);
+    (void)rclc_parameter_request_pass_texts(in);
     request_keep(in, server);
   }
 }
@@ -144,7 +141,7 @@ void rclc_parameter_decode_list(cdr_in_t * in, void * server)
   uint64_t depth;
 
   if (!request_cut(in, server)) {
-    request_skip_texts(in);
+    (void)rclc_parameter_request_pass_texts(in);
     cdr_get_8(in, &depth, 1u, "request");
     request_keep(in, server);
   }

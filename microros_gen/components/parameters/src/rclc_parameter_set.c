@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Set requests, by the rules of rclcpp: each change is checked, then the callback decides, then it is made. */
+#include "microros/rclc_parameter_array.h"
+#include "microros/rclc_parameter_one_of.h"
 #include "microros/rclc_parameter_string.h"
 #include "microros/rclc_parameters.h"
 
@@ -46,11 +48,14 @@ static parameter_outcome_t set_check_new(
   if (requested->name.size >= (uint32_t)MICROROS_PARAMETER_NAME_SIZE) {
     return PARAMETER_NAME_LONG;
   }
-  if (requested->type > PARAMETER_TYPE_LAST) {
+  if (!rclc_parameter_holds(requested->type)) {
     return PARAMETER_UNSUPPORTED;
   }
   if (!rclc_parameter_string_fits(NULL, requested)) {
     return PARAMETER_STRING_LONG;
+  }
+  if (!rclc_parameter_array_fits(NULL, requested)) {
+    return PARAMETER_ARRAY_LONG;
   }
   return server->count + fresh < server->max_params ? PARAMETER_SET : PARAMETER_FULL;
 }
@@ -75,11 +80,17 @@ static parameter_outcome_t set_check(
   if (requested->type != place->type && !place->dynamic_typing) {
     return PARAMETER_OTHER_TYPE;
   }
-  if (requested->type > PARAMETER_TYPE_LAST) {
+  if (!rclc_parameter_holds(requested->type)) {
     return PARAMETER_UNSUPPORTED;
   }
   if (!rclc_parameter_string_fits(place, requested)) {
     return PARAMETER_STRING_LONG;
+  }
+  if (!rclc_parameter_array_fits(place, requested)) {
+    return PARAMETER_ARRAY_LONG;
+  }
+  if (!rclc_parameter_one_of(place, requested)) {
+    return PARAMETER_NOT_ONE_OF;
   }
   return set_check_range(server, place, requested);
 }
@@ -95,6 +106,7 @@ static bool set_accepts(rclc_parameter_server_t * server, const parameter_reques
   new_state.type = requested->type;
   new_state.value = requested->value;
   rclc_parameter_string_new(server, requested, &new_state);
+  rclc_parameter_array_new(server, requested, &new_state);
   if (found == NULL) {
     new_state.name = rclc_parameter_place(server, &requested->name, requested->type)->name;
     return rclc_parameter_accepts(server, NULL, &new_state);
@@ -104,6 +116,7 @@ static bool set_accepts(rclc_parameter_server_t * server, const parameter_reques
   old_state.type = place->type;
   old_state.value = place->value;
   rclc_parameter_string_old(place, &old_state);
+  rclc_parameter_array_old(place, &old_state);
   new_state.name = place->name;
   return rclc_parameter_accepts(
     server, &old_state, requested->type != (uint8_t)RCLC_PARAMETER_NOT_SET ? &new_state : NULL);
@@ -129,6 +142,7 @@ static void set_make(rclc_parameter_server_t * server, const parameter_requested
   place->type = requested->type;
   place->value = requested->value;
   rclc_parameter_string_set(place, requested);
+  rclc_parameter_array_set(place, requested);
   if (place->event != (uint8_t)PARAMETER_EVENT_NEW) {
     place->event = (uint8_t)PARAMETER_EVENT_CHANGED;
   }

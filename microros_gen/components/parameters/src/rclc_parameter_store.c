@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rclc_parameters.h"
 
+#include "microros/rclc_parameter_array.h"
 #include "microros/text.h"
 
 #include <string.h>
@@ -31,6 +32,9 @@ rclc_parameter_place_t * rclc_parameter_place(
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
   place->string_most = MICROROS_PARAMETER_STRING_SIZE - 1u;
 #endif
+#if MICROROS_PARAMETER_ARRAY_SIZE > 0u
+  place->array_most = UINT32_MAX;
+#endif
   return place;
 }
 
@@ -45,7 +49,8 @@ void rclc_parameter_remove(rclc_parameter_server_t * server, const rclc_paramete
 }
 
 /* Makes the message that the callback sees; it points to the name of the place. */
-static void parameter_present(const parameter_state_t * state, Parameter * message)
+static void parameter_present(
+  rclc_parameter_server_t * server, const parameter_state_t * state, Parameter * message, uint32_t which)
 {
   static char nothing[1]; /* a string of ROS 2 is never NULL */
 
@@ -67,7 +72,8 @@ static void parameter_present(const parameter_state_t * state, Parameter * messa
     message->value.string_value.capacity = message->value.string_value.size + 1u;
 #endif
   } else {
-    message->value.double_value = state->value.double_value;
+    message->value.double_value = state->value.double_value; /* of an array: 0 */
+    rclc_parameter_array_present(server, state, &message->value, which);
   }
 }
 
@@ -82,10 +88,10 @@ bool rclc_parameter_accepts(
     return true;
   }
   if (old_state != NULL) {
-    parameter_present(old_state, &old_param);
+    parameter_present(server, old_state, &old_param, 0u);
   }
   if (new_state != NULL) {
-    parameter_present(new_state, &new_param);
+    parameter_present(server, new_state, &new_param, 1u);
   }
   server->on_callback = true;
   result = server->on_modification(

@@ -26,6 +26,9 @@ void rclc_parameter_out_4(parameter_out_t * out, uint32_t value);
 /* Writes 8 bytes of any type. */
 void rclc_parameter_out_8(parameter_out_t * out, const void * value);
 
+/* Writes `bytes` that are aligned to `width`. */
+void rclc_parameter_out_bytes(parameter_out_t * out, uint32_t width, const void * from, uint32_t bytes);
+
 /* Writes a string of several pieces, one after the other. */
 void rclc_parameter_out_parts(parameter_out_t * out, const parameter_text_t * parts, uint32_t count);
 void rclc_parameter_out_text(parameter_out_t * out, const char * text);

@@ -19,12 +19,26 @@ extern "C" {
 /* What an event says of a parameter. */
 enum { PARAMETER_EVENT_NONE, PARAMETER_EVENT_NEW, PARAMETER_EVENT_CHANGED, PARAMETER_EVENT_DELETED };
 
-/* The last type of a value that a server can hold. */
-#if MICROROS_PARAMETER_STRING_SIZE > 0u
-#define PARAMETER_TYPE_LAST ((uint8_t)RCLC_PARAMETER_STRING)
+/* Whether a server can hold values of a type; NOT_SET is none. */
+static inline bool rclc_parameter_holds(uint32_t type)
+{
+#if MICROROS_PARAMETER_STRINGS_MAX > 0u
+  const uint32_t last = RCLC_PARAMETER_STRING_ARRAY;
+#elif MICROROS_PARAMETER_ARRAY_SIZE > 0u
+  const uint32_t last = RCLC_PARAMETER_DOUBLE_ARRAY;
+#elif MICROROS_PARAMETER_STRING_SIZE > 0u
+  const uint32_t last = RCLC_PARAMETER_STRING;
 #else
-#define PARAMETER_TYPE_LAST ((uint8_t)RCLC_PARAMETER_DOUBLE)
+  const uint32_t last = RCLC_PARAMETER_DOUBLE;
 #endif
+
+#if MICROROS_PARAMETER_STRING_SIZE == 0u
+  if (type == (uint32_t)RCLC_PARAMETER_STRING) {
+    return false;
+  }
+#endif
+  return type != (uint32_t)RCLC_PARAMETER_NOT_SET && type <= last;
+}
 
 /* What became of a parameter of a set request. */
 typedef enum parameter_outcome_t {
@@ -41,6 +55,8 @@ typedef enum parameter_outcome_t {
   PARAMETER_NAME_LONG,
   PARAMETER_FULL,
   PARAMETER_STRING_LONG,
+  PARAMETER_ARRAY_LONG,
+  PARAMETER_NOT_ONE_OF,  /* a value that is not listed */
   PARAMETER_UNSUPPORTED, /* a value of a type that a server cannot hold */
   PARAMETER_CUT          /* its request was too large to arrive */
 } parameter_outcome_t;
@@ -59,6 +75,10 @@ typedef struct parameter_requested_t {
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
   parameter_text_t string;
 #endif
+#if MICROROS_PARAMETER_ARRAY_SIZE > 0u
+  cdr_in_t array; /* at the first element */
+  uint32_t array_count;
+#endif
 } parameter_requested_t;
 
 /* A parameter as the callback sees it; the name belongs to a place. */
@@ -68,6 +88,10 @@ typedef struct parameter_state_t {
   rclc_parameter_scalar_t value;
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
   char * string;
+#endif
+#if MICROROS_PARAMETER_ARRAY_SIZE > 0u
+  rclc_parameter_array_t * array;
+  uint32_t array_count;
 #endif
 } parameter_state_t;
 
@@ -79,7 +103,14 @@ cdr_in_t rclc_parameter_request_begin(const rclc_parameter_server_t * server, cd
 /* Read one member and move on. */
 uint32_t rclc_parameter_request_length(cdr_in_t * in);
 parameter_text_t rclc_parameter_request_text(cdr_in_t * in);
+
+/* Returns where `count` elements of `width` bytes are, and moves to the byte after; NULL where the body ends before. */
+const uint8_t * rclc_parameter_request_take(cdr_in_t * in, uint32_t count, uint32_t width);
 parameter_requested_t rclc_parameter_request_parameter(cdr_in_t * in);
+
+/* Pass over a sequence of numbers, and one of strings; return how many there are. */
+uint32_t rclc_parameter_request_pass(cdr_in_t * in, uint32_t width);
+uint32_t rclc_parameter_request_pass_texts(cdr_in_t * in);
 
 /* Decoders of message types whose message is the server: they check the request and keep it there. Of one that was too
  * large to arrive they only note the number of its entries, in `request_cut`: it is read as an empty one. */
@@ -109,6 +140,25 @@ void rclc_parameter_remove(rclc_parameter_server_t * server, const rclc_paramete
 /* Whether the callback accepts a change; either state may be NULL. */
 bool rclc_parameter_accepts(
   rclc_parameter_server_t * server, const parameter_state_t * old_state, const parameter_state_t * new_state);
+
+/* --- calls of the application: rclc_parameter_look.c --- */
+
+/* Notes an error of a parameter; returns `result`. */
+rcl_ret_t rclc_parameter_refuse(rcl_ret_t result, const char * name, const char * why);
+rcl_ret_t rclc_parameter_refuse_argument(void);
+
+/* Returns the place of a parameter; NULL: *result says why. */
+rclc_parameter_place_t * rclc_parameter_look(
+  rclc_parameter_server_t * server, const char * name, rcl_ret_t * result);
+
+/* The same where the parameter is to be changed, which its callback must not. */
+rclc_parameter_place_t * rclc_parameter_look_to_change(
+  rclc_parameter_server_t * server, const char * name, rcl_ret_t * result);
+
+/* Whether there is a place, of that type; another type becomes `error` in *result. */
+bool rclc_parameter_is(
+  const rclc_parameter_place_t * place, const char * name, rclc_parameter_type_t type, rcl_ret_t * result,
+  rcl_ret_t error);
 
 /* --- set requests: rclc_parameter_set.c --- */
 

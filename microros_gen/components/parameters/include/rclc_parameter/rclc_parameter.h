@@ -84,7 +84,12 @@ typedef enum rclc_parameter_type_t {
   RCLC_PARAMETER_BOOL,
   RCLC_PARAMETER_INT,
   RCLC_PARAMETER_DOUBLE,
-  RCLC_PARAMETER_STRING /* where the application file declares one, or its limits have a size for them */
+  RCLC_PARAMETER_STRING, /* this and arrays: where the application file declares one, or its limits have a size for them */
+  RCLC_PARAMETER_BYTE_ARRAY,
+  RCLC_PARAMETER_BOOL_ARRAY,
+  RCLC_PARAMETER_INT_ARRAY,
+  RCLC_PARAMETER_DOUBLE_ARRAY,
+  RCLC_PARAMETER_STRING_ARRAY
 } rclc_parameter_type_t;
 
 /*
@@ -120,6 +125,17 @@ typedef union rclc_parameter_range_t {
   } floating_point;
 } rclc_parameter_range_t;
 
+#if MICROROS_PARAMETER_ARRAY_SIZE > 0u
+/* The elements of an array. Those of strings: one string after the other, each with its NUL. */
+typedef union rclc_parameter_array_t {
+  uint8_t bytes[MICROROS_PARAMETER_ARRAY_SIZE];
+  bool bools[MICROROS_PARAMETER_ARRAY_SIZE];
+  int64_t integers[(MICROROS_PARAMETER_ARRAY_SIZE + 7u) / 8u];
+  double doubles[(MICROROS_PARAMETER_ARRAY_SIZE + 7u) / 8u];
+  char texts[MICROROS_PARAMETER_ARRAY_SIZE];
+} rclc_parameter_array_t;
+#endif
+
 /* One parameter. The members are the library's. */
 typedef struct rclc_parameter_place_t {
   rclc_parameter_scalar_t value;
@@ -129,9 +145,18 @@ typedef struct rclc_parameter_place_t {
   bool dynamic_typing; /* created by a set request */
   bool has_range;
   uint8_t event; /* what the next event says of it */
+#if MICROROS_PARAMETER_ONE_OF
+  const void * one_of; /* the values that are accepted; NULL: all */
+  size_t one_of_count;
+#endif
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
   uint32_t string_most; /* bytes without the NUL */
   char string[MICROROS_PARAMETER_STRING_SIZE];
+#endif
+#if MICROROS_PARAMETER_ARRAY_SIZE > 0u
+  uint32_t array_count; /* elements */
+  uint32_t array_most;  /* of them, where it is declared with a size */
+  rclc_parameter_array_t array;
 #endif
   char name[MICROROS_PARAMETER_NAME_SIZE];
   char description[MICROROS_PARAMETER_TEXT_SIZE];
@@ -164,6 +189,13 @@ typedef struct rclc_parameter_server_t {
   rclc_parameter_place_t places[MICROROS_PARAMETERS_MAX];
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
   char string_new[MICROROS_PARAMETER_STRING_SIZE]; /* what the callback is asked about */
+#endif
+#if MICROROS_PARAMETER_ARRAY_SIZE > 0u
+  rclc_parameter_array_t array_new; /* likewise */
+#endif
+#if MICROROS_PARAMETER_STRINGS_MAX > 0u
+  rosidl_runtime_c__String
+    strings[2][MICROROS_PARAMETER_STRINGS_MAX]; /* as the callback sees them: old and new */
 #endif
   uint8_t outcomes[MICROROS_PARAMETER_OUTCOMES_MAX]; /* of the parameters of a set request */
   uint8_t request[MICROROS_PARAMETER_REQUEST_SIZE];
@@ -198,7 +230,7 @@ rcl_ret_t rclc_executor_add_parameter_server_with_context(
   rclc_executor_t * executor, rclc_parameter_server_t * parameter_server,
   rclc_parameter_callback_t on_modification, void * context);
 
-/* Adds a parameter of the value false, 0 or ""; the name is copied. RCL_RET_ERROR: no place left, a name that is taken, empty
+/* Adds a parameter of the value false, 0, "" or no elements; the name is copied. RCL_RET_ERROR: no place left, a name that is taken, empty
  * or longer than MICROROS_PARAMETER_NAME_SIZE - 1 bytes, or no type of a value. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_add_parameter(
@@ -258,6 +290,69 @@ rcl_ret_t rclc_add_parameter_constraint_string(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, size_t size);
 #endif
 
+#if MICROROS_PARAMETER_ARRAY_SIZE > 0u
+/* Set an array of `count` elements, which is copied; `values` may be NULL for none. As the functions above, and
+ * RCL_RET_ERROR for one that is too long. */
+RCLC_PARAMETER_PUBLIC
+rcl_ret_t rclc_parameter_set_byte_array(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, const uint8_t * values,
+  size_t count);
+
+RCLC_PARAMETER_PUBLIC
+rcl_ret_t rclc_parameter_set_bool_array(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, const bool * values, size_t count);
+
+RCLC_PARAMETER_PUBLIC
+rcl_ret_t rclc_parameter_set_int_array(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, const int64_t * values,
+  size_t count);
+
+RCLC_PARAMETER_PUBLIC
+rcl_ret_t rclc_parameter_set_double_array(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, const double * values,
+  size_t count);
+
+/* Give an array where it is, without a copy: valid as what rclc_parameter_get_string gives. */
+RCLC_PARAMETER_PUBLIC
+rcl_ret_t rclc_parameter_get_byte_array(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, const uint8_t ** output,
+  size_t * count);
+
+RCLC_PARAMETER_PUBLIC
+rcl_ret_t rclc_parameter_get_bool_array(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, const bool ** output,
+  size_t * count);
+
+RCLC_PARAMETER_PUBLIC
+rcl_ret_t rclc_parameter_get_int_array(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, const int64_t ** output,
+  size_t * count);
+
+RCLC_PARAMETER_PUBLIC
+rcl_ret_t rclc_parameter_get_double_array(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, const double ** output,
+  size_t * count);
+
+/* More than `size` elements are refused. RCL_RET_ERROR: no such parameter, it is no array, or has more already;
+ * RCL_RET_INVALID_ARGUMENT: there is no room for so many. */
+RCLC_PARAMETER_PUBLIC
+rcl_ret_t rclc_add_parameter_constraint_array(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, size_t size);
+#endif
+
+#if MICROROS_PARAMETER_STRINGS_MAX > 0u
+RCLC_PARAMETER_PUBLIC
+rcl_ret_t rclc_parameter_set_string_array(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, const char * const * values,
+  size_t count);
+
+/* Gives the first of `count` strings; each following one begins after the NUL of the one before. */
+RCLC_PARAMETER_PUBLIC
+rcl_ret_t rclc_parameter_get_string_array(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, const char ** output,
+  size_t * count);
+#endif
+
 /* Both texts are copied. RCL_RET_ERROR: no such parameter, or a text longer than MICROROS_PARAMETER_TEXT_SIZE - 1 bytes;
  * RCLC_PARAMETER_UNSUPORTED_ON_LOW_MEM. */
 RCLC_PARAMETER_PUBLIC
@@ -281,6 +376,25 @@ RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_add_parameter_constraint_double(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, double from_value, double to_value,
   double step);
+
+#if MICROROS_PARAMETER_ONE_OF
+/* Requests of other nodes are refused where the value is none of `values`, which are not copied: they outlive the server.
+ * RCL_RET_ERROR: no such parameter, or it has another type. */
+RCLC_PARAMETER_PUBLIC
+rcl_ret_t rclc_add_parameter_constraint_one_of_int(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, const int64_t * values,
+  size_t count);
+
+RCLC_PARAMETER_PUBLIC
+rcl_ret_t rclc_add_parameter_constraint_one_of_double(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, const double * values,
+  size_t count);
+
+RCLC_PARAMETER_PUBLIC
+rcl_ret_t rclc_add_parameter_constraint_one_of_string(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, const char * const * values,
+  size_t count);
+#endif
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`parameters:` of a node → declarations of parameters, and whether their defaults are values that they accept."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+
+from microros_gen.application.model import ParameterDecl
+from microros_gen.diagnostics import Diagnostic, Diagnostics, Span
+from microros_gen.documents.tree_values import bool_of, child, items, number_of, size_of, span_of, text_of
+from microros_gen.documents.yaml_tree import ScalarNode, SequenceNode, YamlNode
+from microros_gen.records import dataclass
+
+_VALUE_TYPES: Mapping[str, tuple[type, ...]] = {
+    "bool": (bool,),
+    "byte": (int,),
+    "integer": (int,),
+    "double": (int, float),
+    "string": (str,),
+}
+_LIMITS = {"byte": (0, 255), "integer": (-(2**63), 2**63 - 1)}
+_NUMBERS = ("integer", "double")
+_CLOSE = 1e-9
+"""How far from a whole number of steps a floating-point default may be."""
+_Scalar = bool | int | float | str
+
+
+def parse_declarations(tree: YamlNode | None, diagnostics: Diagnostics) -> tuple[ParameterDecl, ...]:
+    """Return the declarations of a list; each default that its parameter would refuse is an error at its place."""
+    return tuple(_parameter(item, diagnostics) for item in items(tree))
+
+
+def _parameter(item: YamlNode, diagnostics: Diagnostics) -> ParameterDecl:
+    bounds, default, choice = child(item, "range"), child(item, "default"), child(item, "one_of")
+    parameter = ParameterDecl(
+        name=text_of(child(item, "name")) or "",
+        type=text_of(child(item, "type")) or "",
+        default=value_of(default),
+        description=text_of(child(item, "description")) or "",
+        read_only=bool_of(child(item, "read_only")) or False,
+        minimum=number_of(child(bounds, "min")),
+        maximum=number_of(child(bounds, "max")),
+        step=number_of(child(bounds, "step")),
+        size=size_of(child(item, "size")),
+        span=item.span,
+        one_of=tuple(v for v in map(_scalar, items(choice)) if v is not None),
+        unit=text_of(child(item, "unit")) or "",
+    )
+    check_declaration(parameter, Places(default, span_of(bounds), choice), diagnostics)
+    return parameter
+
+
+def value_of(node: YamlNode | None) -> _Scalar | tuple[_Scalar, ...] | None:
+    """Return a scalar, or the scalars of a list."""
+    if isinstance(node, SequenceNode):
+        return tuple(v for v in map(_scalar, node.items) if v is not None)
+    return _scalar(node)
+
+
+def _scalar(node: YamlNode | None) -> _Scalar | None:
+    return node.value if isinstance(node, ScalarNode) else None
+
+
+@dataclass(frozen=True)
+class Places:
+    """Where the default, the range and the choice of a declaration are; None: it has none."""
+
+    default: YamlNode | None
+    bounds: Span | None
+    choice: YamlNode | None
+
+
+def check_declaration(parameter: ParameterDecl, places: Places, diagnostics: Diagnostics) -> None:
+    """Report what contradicts itself in a declaration."""
+    _check_range(parameter, places.bounds, diagnostics)
+    _check_choice(parameter, places, diagnostics)
+    if parameter.is_array and not parameter.size:
+        message = f"the array '{parameter.name}' has no size: how many elements it has at most"
+        count = len(parameter.default) if isinstance(parameter.default, tuple) else 0
+        diagnostics.error(message, parameter.span, f"Write size: {count or 8}", id="MG-3054")
+    elif parameter.size is not None and not (parameter.is_array or parameter.type == "string"):
+        message = f"the parameter '{parameter.name}' is of type {parameter.type}, which has no size"
+        diagnostics.error(message, parameter.span, "Remove `size`", id="MG-3055")
+    if places.default is not None and parameter.default is not None:
+        _check_default(parameter, places.default, diagnostics)
+
+
+def _fits(value: _Scalar, kind: str) -> bool:
+    wanted = _VALUE_TYPES.get(kind)
+    if wanted is None:
+        return True
+    if not isinstance(value, wanted) or (isinstance(value, bool) and kind != "bool"):
+        return False
+    low, high = _LIMITS.get(kind, (value, value))
+    return low <= value <= high  # type: ignore[operator]
+
+
+def _check_default(parameter: ParameterDecl, node: YamlNode, diagnostics: Diagnostics) -> None:
+    value = parameter.default
+    kind = parameter.type.removesuffix("[]")
+    elements = value if isinstance(value, tuple) else (value,)
+    fits = all(element is not None and _fits(element, kind) for element in elements)
+    if isinstance(value, tuple) != parameter.is_array or not fits:
+        message = f"the default of the parameter '{parameter.name}' is not of type {parameter.type}"
+        hint = "Write true or false" if parameter.type == "bool" else "Change it, or the type"
+        hint = f"Write a list of values of type {kind}" if parameter.is_array else hint
+        diagnostics.error(message, node.span, hint, id="MG-3005")
+        return
+    if not all(math.isfinite(element) for element in elements if isinstance(element, float)):
+        message = f"the default of the parameter '{parameter.name}' is no finite number"
+        diagnostics.error(message, node.span, "Set it in the program", id="MG-3063")
+        return
+    diagnostics.extend(_refusals(parameter, node.span))
+
+
+def _refusals(parameter: ParameterDecl, span: Span) -> Iterator[Diagnostic]:
+    """Yield why the device would refuse the default."""
+    value, low, high = parameter.default, parameter.minimum, parameter.maximum
+    what = f"the default of the parameter '{parameter.name}'"
+    if isinstance(value, (int, float)) and low is not None and high is not None:
+        if not low <= value <= high:
+            hint = f"It goes from {low} to {high}"
+            yield Diagnostic(f"{what} is not in its range", span, hint, id="MG-3006")
+        elif parameter.step and value != high and not _is_step(value - low, parameter.step):
+            hint = f"Its values are {parameter.step} apart, from {low}"
+            yield Diagnostic(f"{what} is between two steps of its range", span, hint, id="MG-3062")
+    size = len(value.encode()) if isinstance(value, str) else len(value) if isinstance(value, tuple) else 0
+    if parameter.size is not None and size > parameter.size:
+        yield Diagnostic(f"{what} is longer than its size", span, f"Set size: {size}", id="MG-3007")
+    if parameter.one_of and value not in parameter.one_of:
+        hint = f"Available: {', '.join(map(str, parameter.one_of))}"
+        yield Diagnostic(f"{what} is none of its values", span, hint, id="MG-3056")
+
+
+def _is_step(distance: int | float, step: int | float) -> bool:
+    if isinstance(distance, int) and isinstance(step, int):
+        return distance % step == 0
+    steps = distance / step
+    return math.isclose(steps, round(steps), rel_tol=_CLOSE, abs_tol=_CLOSE)
+
+
+def _check_range(parameter: ParameterDecl, span: Span | None, diagnostics: Diagnostics) -> None:
+    if span is None:
+        return
+    low, high, step = parameter.minimum, parameter.maximum, parameter.step
+    if parameter.type not in _NUMBERS:
+        article = "an" if parameter.type.startswith("integer") else "a"
+        message = f"the parameter '{parameter.name}' is {article} {parameter.type}, which has no range"
+        diagnostics.error(message, span, "Remove `range`", id="MG-3008")
+    elif low is not None and high is not None and low > high:
+        message = f"the range of the parameter '{parameter.name}' is empty: min is above max"
+        diagnostics.error(message, span, "Swap them", id="MG-3009")
+    elif parameter.type == "integer" and not all(_is_int64(v) for v in (low, high, step)):
+        message = f"the range of the parameter '{parameter.name}' has a number that is no integer of 64 bits"
+        diagnostics.error(message, span, "Write whole numbers, or type: double", id="MG-3057")
+
+
+def _is_int64(value: int | float | None) -> bool:
+    return value is None or (isinstance(value, int) and _fits(value, "integer"))
+
+
+def _check_choice(parameter: ParameterDecl, places: Places, diagnostics: Diagnostics) -> None:
+    if places.choice is None:
+        return
+    if parameter.type not in (*_NUMBERS, "string"):
+        message = f"the parameter '{parameter.name}' is of type {parameter.type}, which has no `one_of`"
+        diagnostics.error(message, places.choice.span, "Remove `one_of`", id="MG-3058")
+    elif places.bounds is not None:
+        message = f"the parameter '{parameter.name}' has both `range` and `one_of`"
+        diagnostics.error(message, places.choice.span, "Remove one of them", id="MG-3059")
+    else:
+        _check_choices(parameter, places.choice, diagnostics)
+
+
+def _check_choices(parameter: ParameterDecl, choice: YamlNode, diagnostics: Diagnostics) -> None:
+    for node in items(choice):
+        value = _scalar(node)
+        if value is None or not _fits(value, parameter.type):
+            message = f"a value of `one_of` is not of type {parameter.type}"
+            diagnostics.error(message, node.span, "Change it, or the type", id="MG-3060")
+        elif isinstance(value, str) and parameter.size is not None and len(value.encode()) > parameter.size:
+            message = f"'{value}' is longer than the size of the parameter '{parameter.name}'"
+            diagnostics.error(message, node.span, f"Set size: {len(value.encode())}", id="MG-3061")

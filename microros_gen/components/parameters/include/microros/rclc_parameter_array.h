@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What a value has besides its scalar and string: an array, where a plan has any. Else these do nothing. Internal. */
+#ifndef MICROROS_RCLC_PARAMETER_ARRAY_H
+#define MICROROS_RCLC_PARAMETER_ARRAY_H
+
+#include "microros/rclc_parameter_out.h"
+#include "microros/rclc_parameters.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The five arrays of an rcl_interfaces/msg/ParameterValue. */
+enum { PARAMETER_ARRAYS = 5 };
+
+#if MICROROS_PARAMETER_ARRAY_SIZE > 0u
+
+/* Passes over the arrays of a value, and notes the one of the type that was asked for. */
+void rclc_parameter_array_request(cdr_in_t * in, parameter_requested_t * requested);
+
+/* Returns whether the array that was asked for has room in a place; NULL: a free one. */
+bool rclc_parameter_array_fits(const rclc_parameter_place_t * place, const parameter_requested_t * requested);
+
+/* Makes the array that was asked for the one of a state; it belongs to the server. */
+void rclc_parameter_array_new(
+  rclc_parameter_server_t * server, const parameter_requested_t * requested, parameter_state_t * state);
+
+void rclc_parameter_array_old(rclc_parameter_place_t * place, parameter_state_t * state);
+
+/* Copies an array that fits. */
+void rclc_parameter_array_set(rclc_parameter_place_t * place, const parameter_requested_t * requested);
+
+/* Shows an array to the callback; `which`: 0 the old value, 1 the new one. */
+void rclc_parameter_array_present(
+  rclc_parameter_server_t * server, const parameter_state_t * state, ParameterValue * value, uint32_t which);
+
+/* Writes the arrays of a value; empty ones for a NULL place. */
+void rclc_parameter_out_arrays(parameter_out_t * out, const rclc_parameter_place_t * place);
+
+#else
+
+static inline void rclc_parameter_array_request(cdr_in_t * in, const parameter_requested_t * requested)
+{
+  (void)requested;
+  (void)rclc_parameter_request_pass(in, 1u);
+  (void)rclc_parameter_request_pass(in, 1u);
+  (void)rclc_parameter_request_pass(in, 8u);
+  (void)rclc_parameter_request_pass(in, 8u);
+  (void)rclc_parameter_request_pass_texts(in);
+}
+
+static inline bool rclc_parameter_array_fits(
+  const rclc_parameter_place_t * place, const parameter_requested_t * requested)
+{
+  (void)place;
+  (void)requested;
+  return true;
+}
+
+static inline void rclc_parameter_array_new(
+  const rclc_parameter_server_t * server, const parameter_requested_t * requested,
+  const parameter_state_t * state)
+{
+  (void)server;
+  (void)requested;
+  (void)state;
+}
+
+static inline void rclc_parameter_array_old(
+  const rclc_parameter_place_t * place, const parameter_state_t * state)
+{
+  (void)place;
+  (void)state;
+}
+
+static inline void rclc_parameter_array_set(
+  const rclc_parameter_place_t * place, const parameter_requested_t * requested)
+{
+  (void)place;
+  (void)requested;
+}
+
+static inline void rclc_parameter_array_present(
+  const rclc_parameter_server_t * server, const parameter_state_t * state, const ParameterValue * value,
+  uint32_t which)
+{
+  (void)server;
+  (void)state;
+  (void)value;
+  (void)which;
+}
+
+static inline void rclc_parameter_out_arrays(parameter_out_t * out, const rclc_parameter_place_t * place)
+{
+  (void)place;
+  for (uint32_t i = 0; i < (uint32_t)PARAMETER_ARRAYS; ++i) {
+    rclc_parameter_out_4(out, 0u);
+  }
+}
+
+#endif
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RCLC_PARAMETER_ARRAY_H */

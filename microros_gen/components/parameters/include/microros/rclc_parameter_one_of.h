@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Values that a parameter accepts, where a plan lists any. Else every value is one of them. Internal. */
+#ifndef MICROROS_RCLC_PARAMETER_ONE_OF_H
+#define MICROROS_RCLC_PARAMETER_ONE_OF_H
+
+#include "microros/rclc_parameters.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if MICROROS_PARAMETER_ONE_OF
+
+/* Returns whether the value that was asked for, which has the type of the place, is accepted. */
+bool rclc_parameter_one_of(const rclc_parameter_place_t * place, const parameter_requested_t * requested);
+
+#else
+
+static inline bool rclc_parameter_one_of(
+  const rclc_parameter_place_t * place, const parameter_requested_t * requested)
+{
+  (void)place;
+  (void)requested;
+  return true;
+}
+
+#endif
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RCLC_PARAMETER_ONE_OF_H */
