@@ -55,8 +55,8 @@ else:
         def init(self, *arguments, **named):
             nonlocal left
             left -= 1
-            given = dict(zip(positional, arguments, strict=False), **named)
-            if left >= 0 and len(given) == len(arguments) + len(named) and _fill(self, known, given):
+            assigned = dict(zip(positional, arguments, strict=False), **named)
+            if left >= 0 and len(assigned) == len(arguments) + len(named) and _fill(self, known, assigned):
                 if after := getattr(self, "__post_init__", None):
                     after()
                 return
@@ -66,19 +66,19 @@ else:
 
         return init
 
-    def _fill(self, known, given):
-        """Set all fields from `given` or to their defaults; False if one is missing or unknown."""
+    def _fill(self, known, assigned):
+        """Set all fields from `assigned` or to their defaults; False if one is missing or unknown."""
         values = []
         for name, field in known.items():
-            if name in given:
-                values.append((name, given.pop(name)))
+            if name in assigned:
+                values.append((name, assigned.pop(name)))
             elif field.default is not dataclasses.MISSING:
                 values.append((name, field.default))
             elif field.default_factory is not dataclasses.MISSING:
                 values.append((name, field.default_factory()))
             else:
                 return False
-        if given:
+        if assigned:
             return False
         for name, value in values:
             _set(self, name, value)

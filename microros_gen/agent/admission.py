@@ -123,7 +123,7 @@ class Admission:
             raise MalformedError("too_many_operations", "a client says too much outside of its session")
         # What is out of session may be another client's by now: systems give a port to one after another.
         left = client is None and header.session not in OUT_OF_SESSION
-        key = self._conflicts.heard(transport, address, now) if left else None
+        key = self._conflicts.observe(transport, address, now) if left else None
         holder = self._clients.with_key(key) if key else None
         if holder is not None:
             self._conflicts.fight(holder, transport, address)
@@ -135,7 +135,7 @@ class Admission:
             if isinstance(submessage, GetInfo):
                 known = header.session in OUT_OF_SESSION and bool(client or self._newcomers.at(address))
                 if client is not None and known:
-                    client.heard = now
+                    client.last_received = now
                 answer = agent_info(submessage, known)
                 transport.send(header.encode() + encode(answer), address)
             elif isinstance(submessage, CreateClient) and header.session in OUT_OF_SESSION:
@@ -197,7 +197,7 @@ class Admission:
         for _ in range(client.session.rest()):
             text = "client {client} fell silent within a message in fragments, which is lost"
             self._log.count("unfinished", text, client=client.name)
-        self._deliveries.refresh(client, client.heard)
+        self._deliveries.refresh(client, client.last_received)
         text = "client {client} was not heard for {seconds} s: its entities left the ROS graph"
         self._report(client, "client_silent", text, seconds=client.timeout_s)
 
@@ -239,10 +239,10 @@ class Admission:
 
     def _note(self, newcomer: Newcomer, now: float) -> Status:
         """Remember who may not be where it says to be, if there would be a place for it."""
-        there = self._clients.with_key(newcomer.link.key) is not None
-        if not there and now >= self._full_until and not self._has_room(now):
+        known = self._clients.with_key(newcomer.link.key) is not None
+        if not known and now >= self._full_until and not self._has_room(now):
             self._full_until = now + LOOK_AGAIN_S
-        if not there and now < self._full_until:
+        if not known and now < self._full_until:
             return Status.RESOURCES
         self._newcomers.note(newcomer)
         return Status.OK
@@ -318,9 +318,9 @@ class Admission:
             self._turns.begin(client, Job(self._giving(client), adds=True))
 
     def _giving(self, client: Client) -> Steps[None]:
-        for given in self._held.preconfigured.objects(client.session.link.key):
-            outcome = yield from client.objects.giving(given.id, given.parent, given.description)
-            report_outcome(self._log, client, given.id, outcome)
+        for item in self._held.preconfigured.objects(client.session.link.key):
+            outcome = yield from client.objects.giving(item.id, item.parent, item.description)
+            report_outcome(self._log, client, item.id, outcome)
             yield
 
     def _adopt(
@@ -361,7 +361,7 @@ class Admission:
         client.session.reset(link)
         client.unacknowledged.clear()
         client.objects.forget_requests()
-        client.heard = client.opened = now
+        client.last_received = client.opened = now
         client.adopted = False
         if client.address != address:
             self.move(client, transport, address, now)

@@ -40,7 +40,7 @@ class Client:
     transport: Transport
     address: Hashable
     timeout_s: float
-    heard: float
+    last_received: float
     calls: Calls
     rate: Rate
     account: Account
@@ -51,7 +51,7 @@ class Client:
     """When its session began; times of samples count from there."""
     probed: float = 0.0
     """When it was last asked for a sign of life."""
-    asked: int = 0
+    probes: int = 0
     """How often, since it was known to answer."""
     loss: float = 0.0
     """Part of such questions that stayed without an answer."""

@@ -112,7 +112,7 @@ class Agent:
         moments = [self._deliveries.due(), self._turns.due(), self._processor.due()]
         if len(self.clients):
             moments.append(self._ticked + TICK_S)
-        return min((moment for moment in moments if moment is not None), default=None)
+        return min((time for time in moments if time is not None), default=None)
 
     def take(self) -> None:
         """Hand on what ROS 2 has for the clients. Never raises."""
@@ -158,7 +158,7 @@ class Agent:
         waits = self._turns.waits(client)
         if waits and client.asleep:
             return
-        silent = now - client.heard
+        silent = now - client.last_received
         self._turns.start(self._clock())
         if client.asleep:
             if silent > self._limits.sleep_timeout_s:
@@ -213,7 +213,7 @@ class Agent:
             raise MalformedError(
                 "too_many_messages", f"more than {self._limits.messages_per_second} in a second"
             )
-        client.heard = now
+        client.last_received = now
         if start == 8 and client.address != address:
             self._admission.move(client, transport, address, now)
         if not client.claimed:

@@ -109,12 +109,12 @@ class Entity:
         about = self.description
         return self.kind == ObjectKind.DATAREADER and isinstance(about, Endpoint) and about.qos.reliable
 
-    def keep(self, samples: Sequence[bytes], shares: Shares, behind: bool = False) -> int:
+    def keep(self, samples: Sequence[bytes], shares: Shares, after: bool = False) -> int:
         """Keep samples in order, before or after those already kept; return how many did not fit."""
         taken = [sample for sample in samples if shares.history.take(len(sample))]
         lost = len(samples) - len(taken)
         taken.reverse()
-        self.kept = [*taken, *self.kept] if behind else [*self.kept, *taken]
+        self.kept = [*taken, *self.kept] if after else [*self.kept, *taken]
         return lost
 
     def next_kept(self, shares: Shares) -> bytes:

@@ -117,9 +117,9 @@ class FrameDecoder:
     def feed(self, data: bytes) -> list[Frame]:
         """Take what came next; return the frames that it completes, in order."""
         frames: list[Frame] = []
-        first, *begun = data.split(FLAG)
+        first, *parts = data.split(FLAG)
         self._take(first, frames)
-        for chunk in begun:
+        for chunk in parts:
             self._begin()
             self._take(chunk, frames)
         return frames

@@ -33,7 +33,7 @@ class Keeping:
 
     def forget_old(self, client: Client, now: float) -> None:
         """Drop the samples of a client that is away for too long."""
-        if now - client.heard > self._keep_s:
+        if now - client.last_received > self._keep_s:
             for entity in client.objects:
                 entity.drop_kept(client.shares)
 

@@ -36,7 +36,7 @@ class KeyConflicts:
         if was == key and now - when < MEMORY_S:
             self._report(key, client.place, transport.name_of(address))
 
-    def heard(self, transport: Transport, address: Hashable, now: float) -> bytes | None:
+    def observe(self, transport: Transport, address: Hashable, now: float) -> bytes | None:
         """Return the key that a place without a client had until some time ago, if one had; it goes on sending."""
         key, when = self._before.get((transport, address), (b"", now))
         return key if key and IN_FLIGHT_S < now - when < MEMORY_S else None

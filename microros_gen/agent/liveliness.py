@@ -32,21 +32,21 @@ class Verdict(Enum):
 
 def judge(client: Client, now: float, patience_s: float) -> Verdict:
     """Return what to do about a client that is awake; it is to be asked after half of `patience_s` at the latest."""
-    if client.asked and client.heard >= client.probed:
+    if client.probes and client.last_received >= client.probed:
         _learn(client)
-    silent = now - client.heard
-    asked_within = min(client.timeout_s, patience_s)
-    if silent <= asked_within / 2:
+    silent = now - client.last_received
+    probe_after_s = min(client.timeout_s, patience_s)
+    if silent <= probe_after_s / 2:
         return Verdict.FINE
     if silent > client.timeout_s * stretch(loss_of(client)):
         return Verdict.GONE
-    return Verdict.ASK if now - client.probed >= asked_within / (2 * PROBES) else Verdict.FINE
+    return Verdict.ASK if now - client.probed >= probe_after_s / (2 * PROBES) else Verdict.FINE
 
 
 def ask(client: Client, now: float) -> None:
     """Send a question that every client answers."""
     client.probed = now
-    client.asked += 1
+    client.probes += 1
     client.send(client.session.probe())
 
 
@@ -64,7 +64,7 @@ def stretch(loss: float) -> float:
 
 def _learn(client: Client) -> None:
     """Note that the last of some questions was answered, and those before were not."""
-    for _ in range(min(client.asked - 1, MOST_PROBES)):
+    for _ in range(min(client.probes - 1, MOST_PROBES)):
         client.loss += (1 - client.loss) * LOST
     client.loss -= client.loss * ANSWERED
-    client.asked = 0
+    client.probes = 0

@@ -124,8 +124,8 @@ class EventLog:
         shown = {key: printable(value) if isinstance(value, str) else value for key, value in fields.items()}
         message = text.format(**shown)
         if self._json:
-            moment = round(self._clock(), 6)
-            head: dict[str, Json] = {"time": moment, "level": level.name.lower(), "event": event}
+            time_s = round(self._clock(), 6)
+            head: dict[str, Json] = {"time": time_s, "level": level.name.lower(), "event": event}
             line = json.dumps({**head, **fields, "message": message})
         else:
             line = message if level is Level.INFO else f"{level.name.lower()}: {message}"

@@ -83,7 +83,7 @@ def who_gives_way(clients: Iterable[Client], now: float, silent_s: float) -> Cli
     """
     found: tuple[int, float, Client] | None = None
     for client in clients:
-        silent = now - client.heard
+        silent = now - client.last_received
         if not len(client.objects) and silent >= EMPTY_S:
             rank = 0
         elif client.asleep:
@@ -92,8 +92,8 @@ def who_gives_way(clients: Iterable[Client], now: float, silent_s: float) -> Cli
             rank = 2
         else:
             continue
-        if found is None or (rank, client.heard) < found[:2]:
-            found = rank, client.heard, client
+        if found is None or (rank, client.last_received) < found[:2]:
+            found = rank, client.last_received, client
     return found[2] if found else None
 
 

@@ -338,11 +338,11 @@ class ObjectTree:
             yield
 
     def _made_from(self, source: Entity) -> list[Entity]:
-        made = [source]
+        found = [source]
         for entity in self._objects.values():
-            if any(s in made for s in entity.sources):
-                made.append(entity)
-        return made[1:]
+            if any(s in found for s in entity.sources):
+                found.append(entity)
+        return found[1:]
 
 
 def _kind_name(kind: int) -> str:

@@ -294,7 +294,7 @@ class Operations:
     def _timestamp(self, client: Client, submessage: Submessage, now: float) -> None:
         assert isinstance(submessage, Timestamp)
         here = time.time_ns()
-        received = divmod(here - round((now - client.heard) * 1e9), 1_000_000_000)
+        received = divmod(here - round((now - client.last_received) * 1e9), 1_000_000_000)
         sent = divmod(time.time_ns(), 1_000_000_000)
         client.send(client.session.unnumbered(TimestampReply(sent, received, submessage.transmit)))
 

@@ -106,12 +106,12 @@ class Processor:
     def _process(self, client: Client, data: bytes, start: int, stream: int, whole: bool, done: int) -> None:
         client.stream = stream
         publish, turns = client.objects.publish, self._turns
-        begun = False
+        started = False
         for identifier, flags, at, end in split(data, start, whole):
-            if begun and turns.over:
+            if started and turns.over:
                 client.ready.appendleft((data, at - SUBMESSAGE_HEADER, stream, whole, 0))
                 return
-            begun = True
+            started = True
             if identifier == WRITE_DATA:
                 writer = publish.get(data[at + 2] << 8 | data[at + 3]) if end - at >= DATA_PREFIX else None
                 try:
@@ -166,8 +166,8 @@ class Processor:
         if identifier == SubmessageId.HEARTBEAT:
             self._to_acknowledge.add(client)
         now = self._clock()
-        behind = end + 3 & ~3
-        client.more = not whole and behind + SUBMESSAGE_HEADER <= len(data)
+        next_start = end + 3 & ~3
+        client.more = not whole and next_start + SUBMESSAGE_HEADER <= len(data)
         try:
             submessage = decode(identifier, flags, data, at, end)
         except MalformedError:
@@ -178,12 +178,12 @@ class Processor:
         done = steps is None or self._turns.begin(client, Job(steps, adds=identifier == SubmessageId.CREATE))
         client.more = False
         if not done:
-            client.ready.appendleft((data, behind, client.stream, whole, 0))
+            client.ready.appendleft((data, next_start, client.stream, whole, 0))
             return False
         if client.whole is None:
             return True
         client.ready.extendleft(
-            ((data, behind, client.stream, False, 0), (client.whole, 0, client.stream, True, 0))
+            ((data, next_start, client.stream, False, 0), (client.whole, 0, client.stream, True, 0))
         )
         client.whole = None
         return False
@@ -209,9 +209,12 @@ class Processor:
     def _stop(self, client: Client, unfinished: Ready, error: BusyError, kind: str = "publish_waits") -> bool:
         """Keep what cannot be done now, and what follows on its stream, unacknowledged; False where it is lost."""
         stream = unfinished[2]
-        behind = [ready for ready in client.ready if ready[2] == stream]
+        followers_ready = [ready for ready in client.ready if ready[2] == stream]
         of_it = 1 if unfinished[3] else 0  # the rest of the message whose fragment completed it
-        message, followers = [unfinished, *behind[:of_it]], [ready[0] for ready in behind[of_it:]]
+        message, followers = (
+            [unfinished, *followers_ready[:of_it]],
+            [ready[0] for ready in followers_ready[of_it:]],
+        )
         if stream < STREAM_RELIABLE or not client.session.stop(message, followers):
             return False
         others = [ready for ready in client.ready if ready[2] != stream]

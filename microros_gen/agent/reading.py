@@ -91,7 +91,7 @@ class Reading:
         self._limited = bool(control.min_pace_period or self._rate)
         self._next_at = now
         self._apart_s = entity.separation_s
-        self._heard_at = -NEVER
+        self._received_at = -NEVER
 
     def attach(self, source: Readable | None) -> None:
         """Take from `source` from now on."""
@@ -159,7 +159,7 @@ class Reading:
         taken: list[bytes] = []
         while len(taken) < MOST_SAVED and (sample := self._from_ros()) is not None:
             taken.append(sample)
-        return self.entity.keep(taken, self.client.shares, behind=True)
+        return self.entity.keep(taken, self.client.shares, after=True)
 
     def _put_back(self, sample: bytes) -> None:
         self.client.shares.history.add(len(sample))
@@ -173,9 +173,9 @@ class Reading:
         if taken is None:
             return b"", 0
         if self._apart_s:
-            if now - self._heard_at < self._apart_s:
+            if now - self._received_at < self._apart_s:
                 return taken, 0
-            self._heard_at = now
+            self._received_at = now
         if self._format:
             return self._gather(taken, now)
         self._raw = (taken,)
@@ -194,7 +194,7 @@ class Reading:
             return b"", 0
         key, data = taken
         if self.entity.kind == ObjectKind.REPLIER:
-            self.client.calls.asked(self.entity, key)
+            self.client.calls.add_request(self.entity, key)
             return self._data(key if data[1] & FLAG_LITTLE else swapped(key), data), 1
         ids = self.client.calls.answered(self.entity, key)
         return (self._data(ids, data), 1) if ids else (data, 0)

@@ -49,7 +49,7 @@ class Calls:
         entity.written += 1
         return 1
 
-    def asked(self, replier: Entity, identity: bytes) -> None:
+    def add_request(self, replier: Entity, identity: bytes) -> None:
         """Note that a request went to the client."""
         self._note(replier, identity, b"")
 

@@ -55,10 +55,10 @@ class ReliableIn:
         Nothing is handed on until `go_on`; meanwhile what comes is held as after a gap.
         """
         self._stopped = True
-        given = (b"", *followers)  # the caller keeps the first
-        self.next = (self.next - len(given)) & 0xFFFF
-        self._announced = min(self._announced + len(given), RELIABLE_WINDOW)
-        for i, message in enumerate(given):
+        returned = (b"", *followers)  # the caller keeps the first
+        self.next = (self.next - len(returned)) & 0xFFFF
+        self._announced = min(self._announced + len(returned), RELIABLE_WINDOW)
+        for i, message in enumerate(returned):
             self._held[(self.next + i) & 0xFFFF] = message
             self._count(len(message))
 

@@ -110,8 +110,8 @@ class EndpointDecl:
     `topic` holds the service's name for the latter two. {node} and {ns} in it are replaced. `queue`: how many samples
     wait on the device at most until they are taken; None: follows from the depth. Publishers have none. `queue_bytes`:
     what these take together; None: as much as that many of the largest. `stored`: the library has storage for what is
-    received (`storage: none`: the program has). `given`: the fully qualified name that the source has, where `remap:`
-    makes it `topic`; empty: the same.
+    received (`storage: none`: the program has). `declared_as`: the fully qualified name in the source, if `remap:`
+    changes it to `topic`; empty: the same.
     `of_the_library`: nobody declared it, and the library itself opens it; `executed`: an executor runs it all the
     same. `usual_limits` are then those of its component, which hold where the application says nothing but `*`.
     """
@@ -128,7 +128,7 @@ class EndpointDecl:
     queue_bytes: int | None = None
     queue_bytes_span: Span | None = None
     stored: bool = True
-    given: str = ""
+    declared_as: str = ""
     of_the_library: bool = False
     executed: bool = False
     usual_limits: tuple[LimitRule, ...] = ()

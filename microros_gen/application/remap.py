@@ -31,7 +31,7 @@ NODE, NAMESPACE = "__node", "__ns"
 class _Rule:
     """A topic or service as the source names it, what it becomes, both expanded, and where the rule stands."""
 
-    given: str
+    source_name: str
     wire: str
     key: str
     span: Span
@@ -58,9 +58,9 @@ def rename_endpoints(node: NodeDecl, tree: YamlNode | None, diagnostics: Diagnos
     rules = _rules(node, tree, diagnostics)
     known = {expand_topic_name(e.topic, node.name, node.namespace): e.topic for e in node.endpoints}
     for rule in rules.values():
-        if rule.given == CLOCK_TOPIC and rule.given not in known:
+        if rule.source_name == CLOCK_TOPIC and rule.source_name not in known:
             node = replace(node, clock_topic=rule.wire, clock_span=rule.span)
-        elif rule.given not in known:
+        elif rule.source_name not in known:
             hint = nearest(rule.key, known.values()) or (
                 f"Available: {', '.join(known.values())}" if known else "Declare it first"
             )
@@ -82,9 +82,9 @@ def _rule_fault(name: str) -> NameFault | None:
 
 
 def _renamed(endpoint: EndpointDecl, node: NodeDecl, rules: dict[str, _Rule]) -> EndpointDecl:
-    given = expand_topic_name(endpoint.topic, node.name, node.namespace)
-    rule = rules.get(given)
-    return replace(endpoint, topic=rule.wire, given=given) if rule else endpoint
+    source_name = expand_topic_name(endpoint.topic, node.name, node.namespace)
+    rule = rules.get(source_name)
+    return replace(endpoint, topic=rule.wire, declared_as=source_name) if rule else endpoint
 
 
 def _rules(node: NodeDecl, tree: YamlNode | None, diagnostics: Diagnostics) -> dict[str, _Rule]:
@@ -100,18 +100,17 @@ def _rules(node: NodeDecl, tree: YamlNode | None, diagnostics: Diagnostics) -> d
             continue
         if not report_name(entry.value, "the name", _rule_fault, diagnostics):
             continue
-        given = expand_topic_name(entry.key, node.name, node.namespace)
+        source_name = expand_topic_name(entry.key, node.name, node.namespace)
         wire = expand_topic_name(text_of(entry.value) or "", node.name, node.namespace)
         long = expanded_fault(wire)
         if long:
             diagnostics.error(
                 f"the name '{wire[:60]}' {long.message}", entry.value.span, long.hint, id="MG-3029"
             )
-        elif given in found:
-            message = (
-                f"'{entry.key}' and '{found[given].key}' are the same name, '{given}': it is remapped twice"
-            )
+        elif source_name in found:
+            first = found[source_name].key
+            message = f"'{entry.key}' and '{first}' are the same name, '{source_name}': it is remapped twice"
             diagnostics.error(message, entry.key_span, "Remove one of the rules", id="MG-3030")
         else:
-            found[given] = _Rule(given, wire, entry.key, entry.key_span)
+            found[source_name] = _Rule(source_name, wire, entry.key, entry.key_span)
     return found

@@ -27,8 +27,8 @@ def check_recorded(folder: Folder) -> None:
 
     arguments = folder.library.arguments if folder.library is not None else ()
     if arguments:
-        given = generate.make_context("generate", list(arguments)).params
-        options = {key: value for key, value in given.items() if key not in ("output", "depfile")}
+        parameters = generate.make_context("generate", list(arguments)).params
+        options = {key: value for key, value in parameters.items() if key not in ("output", "depfile")}
         try:
             planned = compiler.plan(compiler.resolve(compiler.read(compiler.Options(**options))))
         except UserError:

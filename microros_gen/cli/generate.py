@@ -54,7 +54,7 @@ def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
     from microros_gen.output.depfile import write_depfile
     from microros_gen.output.tree import JOURNAL, MANIFEST
 
-    begun = time.time_ns()
+    started_ns = time.time_ns()
     resolved = compiler.resolve(compiler.read(compiler.Options(**options)))
     out = compiler.output_folder(resolved, output)
     planned = compiler.plan(resolved)
@@ -69,7 +69,7 @@ def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
     if depfile is not None:
         write_depfile(depfile, out / MANIFEST, inputs)
         outputs.append(depfile)
-    record_run(call, os.environ, run, (*inputs, out / JOURNAL), outputs, begun)
+    record_run(call, os.environ, run, (*inputs, out / JOURNAL), outputs, started_ns)
     click.echo(summary + files_line(out, report), nl=False)
 
 

@@ -13,7 +13,7 @@ from microros_gen.cli.options import interface_path_option
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.migrate.application_folder import NewFolder, write_folder
 from microros_gen.migrate.draft_text import UNDECIDED
-from microros_gen.migrate.proposal import Wish, draft_of
+from microros_gen.migrate.proposal import InitOptions, draft_of
 
 
 @click.command()
@@ -67,25 +67,27 @@ def command(
     microros-gen init my_robot --profile pure_reader --target qemu-mps2-an386
     microros-gen init my_robot --from old/src --from-colcon-meta old/app-colcon.meta
     """
-    wish = Wish(folder, profiles, target, sources, metas, interface_paths, checked)
+    options = InitOptions(folder, profiles, target, sources, metas, interface_paths, checked)
     warnings = Diagnostics()
-    draft = draft_of(wish, warnings)
+    draft = draft_of(options, warnings)
     click.echo(warnings_text(warnings), nl=False, err=True)
-    made = write_folder(wish, draft)
-    click.echo(warnings_text(made.found), nl=False, err=True)
-    _report(made)
-    return 0 if made.builds else 2
+    written = write_folder(options, draft)
+    click.echo(warnings_text(written.found), nl=False, err=True)
+    _report(written)
+    return 0 if written.builds else 2
 
 
-def _report(made: NewFolder) -> None:
-    own = [name for name in made.files if not name.startswith("golden/")]
-    click.echo(f"{made.folder}: {', '.join(own)}")
-    if len(own) < len(made.files):
-        click.echo(f"golden copy of {len(made.files) - len(own)} files in {made.folder / 'golden'}")
-    if made.undecided:
-        place = made.folder / APPLICATION_FILE
-        click.echo(f"{made.undecided} to be decided by you: look for {UNDECIDED} in {place}")
-    if not made.builds:
+def _report(written: NewFolder) -> None:
+    own = [name for name in written.files if not name.startswith("golden/")]
+    click.echo(f"{written.folder}: {', '.join(own)}")
+    if len(own) < len(written.files):
+        click.echo(f"golden copy of {len(written.files) - len(own)} files in {written.folder / 'golden'}")
+    if written.undecided:
+        place = written.folder / APPLICATION_FILE
+        click.echo(f"{written.undecided} to be decided by you: look for {UNDECIDED} in {place}")
+    if not written.builds:
         click.echo("it does not build before the errors are gone")
         return
-    click.echo(f"cmake -S {made.folder} -B {made.folder / 'build'} && cmake --build {made.folder / 'build'}")
+    click.echo(
+        f"cmake -S {written.folder} -B {written.folder / 'build'} && cmake --build {written.folder / 'build'}"
+    )

@@ -94,13 +94,13 @@ def _files(
         click.echo(text, nl=False)
         return
     idl = form == "idl"
-    made, changed = (
+    files, changed = (
         write_idl(interfaces, output, portable, diagnostics)
         if idl
         else write_descriptions(interfaces, output)
     )
     _warn(diagnostics)
-    click.echo(f"{output}: {changed} files written, {made - changed} unchanged")
+    click.echo(f"{output}: {changed} files written, {files - changed} unchanged")
 
 
 def _asked(finder: InterfaceFinder, name: str | None, diagnostics: Diagnostics) -> InterfaceSet:

@@ -153,10 +153,10 @@ class _Parts:
             signal.signal(number, handler)
 
     def start(
-        self, command: list[str], output: int | None = None, given: int | None = None
+        self, command: list[str], output: int | None = None, standard_input: int | None = None
     ) -> subprocess.Popen[str]:
-        """Start a process; a signal that came meanwhile ends it too. `output`, `given`: as subprocess has them."""
-        process = subprocess.Popen(command, stdin=given, stdout=output, text=True)
+        """Start a process; a signal that came meanwhile ends it too. `output`, `standard_input`: as for subprocess."""
+        process = subprocess.Popen(command, stdin=standard_input, stdout=output, text=True)
         self._processes.append(process)
         if self.stopped:
             process.terminate()

@@ -213,9 +213,9 @@ def read_paths(planned: Planned) -> Iterator[Path]:
     request = planned.resolved.request
     near = request.near
     yield request.config or near / APPLICATION_FILE
-    asked = [request.profiles_near / name.name for name in request.application.profiles]
+    requested = [request.profiles_near / name.name for name in request.application.profiles]
     own = [Path(p.span.source.name) for p in planned.resolved.own_profiles if p.span]
-    yield from (Path(f"{path}{suffix}") for path in asked for suffix in ("", ".yaml", ".yml"))
+    yield from (Path(f"{path}{suffix}") for path in requested for suffix in ("", ".yaml", ".yml"))
     yield from (candidate for path in own for candidate in (path, path.with_suffix(".yaml")))
     yield near / request.application.target.name
     yield from (Path(s.name) for s in (*request.found_target.own, *request.found_target.boards))
@@ -284,9 +284,9 @@ def _published(interfaces: InterfaceSet, application: Application) -> tuple[Type
 
     What the library alone asked for is not among them.
     """
-    asked = {named.name for named in application.interfaces}
-    own = {type_name(e.type) for e in application.implied if e.type not in asked}
-    own = {name for name in own if name.package not in asked}
+    requested = {named.name for named in application.interfaces}
+    own = {type_name(e.type) for e in application.implied if e.type not in requested}
+    own = {name for name in own if name.package not in requested}
     return tuple(name for name in interfaces.roots if name.kind == "msg" and name not in own)
 
 
@@ -345,8 +345,8 @@ def _received(application: Application, selection: Selection, capacities: Capaci
 def _root(name: TypeName, application: Application, room: int) -> Root:
     spans = {i.name: i.span for i in application.interfaces}
     declared = declaring_name(name)
-    asked = (str(name), str(declared), f"{name.package}/{declared.name}", name.package)
-    span = next((spans[text] for text in asked if text in spans), None)
+    requested = (str(name), str(declared), f"{name.package}/{declared.name}", name.package)
+    span = next((spans[text] for text in requested if text in spans), None)
     return Root(name, (), span, room)
 
 

@@ -36,7 +36,7 @@ def render_macros(
     def texts(template: Template) -> dict[str, str]:
         module = template.make_module(dict(context)).__dict__
         try:
-            return {word: str(made()) for word, made in module.items() if isinstance(made, Macro)}
+            return {word: str(macro()) for word, macro in module.items() if isinstance(macro, Macro)}
         except (TemplateError, TypeError, ValueError, AttributeError, ArithmeticError):
             environment.handle_exception()  # raises it again, with the template's lines in the traceback
 

@@ -74,8 +74,8 @@ class _Checker:
         elif isinstance(data, dict) and keyword == "properties":
             yield from (((key,), (data[key], wanted[key])) for key in wanted if key in data)
         elif isinstance(data, dict) and keyword == "patternProperties":
-            for pattern, one in wanted.items():
-                yield from (((k,), (v, one)) for k, v in data.items() if re.search(pattern, k))
+            for pattern, schema_of_pattern in wanted.items():
+                yield from (((k,), (v, schema_of_pattern)) for k, v in data.items() if re.search(pattern, k))
         elif keyword == "additionalProperties":
             yield from (((key,), (data[key], wanted)) for key in _others(data, schema))
 
@@ -109,13 +109,13 @@ def _has_type(data: Any, wanted: str | list[str]) -> bool:
     return any(_TYPES[kind](data) for kind in ([wanted] if isinstance(wanted, str) else wanted))
 
 
-def _equal(one: Any, other: Any) -> bool:
+def _equal(first: Any, second: Any) -> bool:
     """Return whether two values are the same to JSON, which takes no number for true or false."""
-    if isinstance(one, list) and isinstance(other, list):
-        return len(one) == len(other) and all(map(_equal, one, other))
-    if isinstance(one, dict) and isinstance(other, dict):
-        return one.keys() == other.keys() and all(_equal(one[key], other[key]) for key in one)
-    return isinstance(one, bool) == isinstance(other, bool) and bool(one == other)
+    if isinstance(first, list) and isinstance(second, list):
+        return len(first) == len(second) and all(map(_equal, first, second))
+    if isinstance(first, dict) and isinstance(second, dict):
+        return first.keys() == second.keys() and all(_equal(first[key], second[key]) for key in first)
+    return isinstance(first, bool) == isinstance(second, bool) and bool(first == second)
 
 
 def _has_twins(data: list[Any]) -> bool:

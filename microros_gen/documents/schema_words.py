@@ -45,11 +45,11 @@ def describe_mismatch(node: YamlNode, label: str, schema: dict[str, Any]) -> tup
 def describe_unknown_key(key: str, label: str, schema: dict[str, Any]) -> tuple[str, str | None]:
     """Return message and hint for a key that `schema` does not have."""
     where = f"'{label}'" if label else "the file"
-    begun = key_without_space(key, schema)
-    if begun is not None:
+    known_key = key_without_space(key, schema)
+    if known_key is not None:
         return (
             f"unknown key '{key}' in {where}",
-            f"Write `{begun}: {key[len(begun) + 1 :]}`, with a space after the colon",
+            f"Write `{known_key}: {key[len(known_key) + 1 :]}`, with a space after the colon",
         )
     if "x-keys" in schema:
         corrected = _full_type(key, schema.get("x-format"))
@@ -61,8 +61,8 @@ def describe_unknown_key(key: str, label: str, schema: dict[str, Any]) -> tuple[
 
 def key_without_space(key: str, schema: dict[str, Any]) -> str | None:
     """Return the key that somebody meant who wrote `topic:x`, which is one word to YAML; else None."""
-    begun, separator, _ = key.partition(":")
-    return begun if separator and begun in schema.get("properties", {}) else None
+    beginning, separator, _ = key.partition(":")
+    return beginning if separator and beginning in schema.get("properties", {}) else None
 
 
 def expectation(schema: dict[str, Any]) -> str:
@@ -119,8 +119,8 @@ def _scalar_hint(node: ScalarNode, kinds: list[str], schema: dict[str, Any]) -> 
     if kinds == ["string"] and not isinstance(node.value, str) and node.value is not None:
         return f'Put it into quotes: "{text}"' if "pattern" not in schema else None
     if kinds == ["object"] and key_without_space(text, schema) is not None:
-        begun, _, value = text.partition(":")
-        return f"Write `{begun}: {value}`, with a space after the colon"
+        beginning, _, value = text.partition(":")
+        return f"Write `{beginning}: {value}`, with a space after the colon"
     profile = _QOS_PROFILES.get(text.lower().removeprefix("rmw_qos_profile_"))
     if profile is not None and "reliability" in schema.get("properties", {}):
         return f"Write `qos: {profile}`"

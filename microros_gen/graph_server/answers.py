@@ -107,8 +107,8 @@ def _matched(
     if not own:
         return None
     if what == PUBLISHERS:
-        return [one for one in found if any(match(one, other) for other in own)]
-    return [one for one in found if any(match(other, one) for other in own)]
+        return [candidate for candidate in found if any(match(candidate, other) for other in own)]
+    return [candidate for candidate in found if any(match(other, candidate) for other in own)]
 
 
 def _page(

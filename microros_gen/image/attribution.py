@@ -280,13 +280,13 @@ def _texts(folder: Folder, placed: Iterable[Placed], owners: Owners) -> Mapping[
     """Return each string constant of the objects in the image, with the owner that comes first."""
     found: dict[bytes, Chunk] = {}
     code = [p for p in placed if p.section.startswith(".text")]
-    mine = {source: owner for p in code for owner, source in [owners.of(p)] if source is not None}
-    for source in sorted(mine):
-        elf = None if mine[source].group in ("compiler", "C library") else folder.object(source)
+    owner_of_source = {source: owner for p in code for owner, source in [owners.of(p)] if source is not None}
+    for source in sorted(owner_of_source):
+        elf = None if owner_of_source[source].group in ("compiler", "C library") else folder.object(source)
         for section in elf.sections if elf is not None else ():
             if section.strings and section.kind:
                 for text in elf.content(section).split(b"\0") if elf is not None else ():
-                    found.setdefault(text, Chunk("text", "", "", 0, 0, mine[source], source))
+                    found.setdefault(text, Chunk("text", "", "", 0, 0, owner_of_source[source], source))
     return found
 
 

@@ -241,17 +241,17 @@ def _receivers(
         known = declared[index] if index < len(declared) else None
         kinds = messages_of(known["type"], manifest) if known else set(manifest["types"])
         parts = with_parts(kinds, manifest)
-        lent = known is not None and known.get("slot") == INPUT_BUFFER
+        in_input_buffer = known is not None and known.get("slot") == INPUT_BUFFER
         queue = _queue_size(known) if known else by_use.get("queues", 0) // places
         yield Entity(
             kind.name,
             shown_endpoint(known) if known else f"{kind.name} {index} of the pool",
             known["type"] if known else None,
-            by_use.get(f"{kind.name} {index}", 0) + (0 if lent else queue),
+            by_use.get(f"{kind.name} {index}", 0) + (0 if in_input_buffer else queue),
             sum(flash.get(part, 0) for part in parts),
             sum(1 for other in declared if other["type"] == known["type"]) if known else count,
             sum(by_use.get(f"message of {name}", 0) for name in kinds),
-            (Share(INPUT_BUFFER, by_use.get(INPUT_BUFFER, 0), places),) if lent else (),
+            (Share(INPUT_BUFFER, by_use.get(INPUT_BUFFER, 0), places),) if in_input_buffer else (),
         )
 
 

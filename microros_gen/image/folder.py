@@ -104,8 +104,8 @@ class Folder:
         """Return an object from a library of the map: by its name there, or by the source that it was made from."""
         if not source.endswith((".c", ".S")):
             archive, name = member_of(source)
-            mine = (m for path, m in self._members if path.name == archive and m.name == name)
-            return next(mine, None)
+            matching = (m for path, m in self._members if path.name == archive and m.name == name)
+            return next(matching, None)
         named = [m for _, m in self._members if source in self.by_name.candidates(m.name)]
         for member in named:
             symbols = [s.name for s in Elf(self.path / member.name, member.content).symbols]
@@ -148,8 +148,8 @@ class Folder:
             name = split_type_name(text)
             if name is not None:
                 files = type_files(name)
-                made = (files.functions_source, files.type_support_source, files.storage_source)
-                found.update(dict.fromkeys(made, text))
+                sources = (files.functions_source, files.type_support_source, files.storage_source)
+                found.update(dict.fromkeys(sources, text))
         return found
 
     @cached_property

@@ -78,15 +78,15 @@ def _taken(folder: Folder, functions: Mapping[int, Chunk]) -> Iterator[int]:
     local = {(p.source, n): a for a, p in functions.items() for n in (p.symbol, *p.aliases)}
     exported = {name: address for (_, name), address in local.items()}
     for source in sorted({p.source for p in functions.values() if p.source}):
-        mine = [a for a, p in functions.items() if p.source == source]
-        group = functions[mine[0]].owner.group
+        of_source = [a for a, p in functions.items() if p.source == source]
+        group = functions[of_source[0]].owner.group
         item = folder.object(source) if group not in ("compiler", "C library") else None
         if item is None:
             if group in FOREIGN:
-                yield from mine
+                yield from of_source
             continue
         if _shares_sections(item):
-            yield from mine
+            yield from of_source
         for name in _referred(item):
             address = local.get((source, name), exported.get(name))
             if address is not None:

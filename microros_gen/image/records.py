@@ -119,8 +119,8 @@ def _outputs(libraries: Iterable[LibraryRecord]) -> str:
 
 def _unrecorded(image: Path, linker_map: Path | None, known: ImageRecord | None = None) -> ImageRecord:
     whole = image.resolve()
-    beside = (image.with_suffix(".map"), image.with_name(f"{image.name}.map"))
-    path = linker_map or next((p for p in beside if p.is_file()), beside[0])
+    candidates = (image.with_suffix(".map"), image.with_name(f"{image.name}.map"))
+    path = linker_map or next((p for p in candidates if p.is_file()), candidates[0])
     if known is not None:
         return replace(known, map=path)
     folders = (image.parent, Path(), *list(whole.parents)[1:_ABOVE])
@@ -142,10 +142,10 @@ def _chosen(path: Path, libraries: tuple[LibraryRecord, ...], images: tuple[Imag
     if len({r.output for r in libraries}) > 1:
         message = f"{path} has several libraries and no image"
         raise UserError([Diagnostic(message, hint=f"Choose one: {_outputs(libraries)}", id="MG-8409")])
-    made = [r for r in libraries if r.archive.is_file()]
-    if not made:
+    archived = [r for r in libraries if r.archive.is_file()]
+    if not archived:
         raise _not_built(path, libraries[0].archive)
-    return Located(made[0].output, made[0])
+    return Located(archived[0].output, archived[0])
 
 
 def _not_built(path: Path, missing: Path) -> UserError:
@@ -170,8 +170,8 @@ def _has_example(out: Path) -> bool:
     return (out / "lib").is_dir()
 
 
-def _same(one: Path, other: Path) -> bool:
-    return one.resolve() == other.resolve()
+def _same(first: Path, second: Path) -> bool:
+    return first.resolve() == second.resolve()
 
 
 def _read(home: Path) -> tuple[tuple[LibraryRecord, ...], tuple[ImageRecord, ...]]:

@@ -43,20 +43,20 @@ class References:
 
 def read_references(folder: Folder, chunks: Iterable[Chunk]) -> References:
     """Read the relocations of every object that has a symbol in the image."""
-    mine: dict[Key, Chunk] = {}
+    of_source: dict[Key, Chunk] = {}
     for chunk in chunks:
         for name in (chunk.symbol, *chunk.aliases):
             if name and chunk.source and chunk.owner.group not in ("compiler", "C library"):
-                mine[chunk.source, name] = chunk
+                of_source[chunk.source, name] = chunk
     exported: dict[str, Key] = {}
-    for key in mine:
+    for key in of_source:
         exported.setdefault(key[1], key)
     found: dict[Key, set[Key]] = {}
-    for source in sorted({source for source, _ in mine}):
+    for source in sorted({source for source, _ in of_source}):
         item = folder.object(source)
         for name, to in _edges(item) if item is not None else ():
-            target = (source, to) if (source, to) in mine else exported.get(to)
-            if target and (source, name) in mine and target != (source, name):
+            target = (source, to) if (source, to) in of_source else exported.get(to)
+            if target and (source, name) in of_source and target != (source, name):
                 found.setdefault(target, set()).add((source, name))
     return References({key: frozenset(names) for key, names in found.items()})
 

@@ -102,8 +102,8 @@ def public_functions(folder: Folder, chunks: Iterable[Chunk]) -> frozenset[str]:
     for path in sorted((folder.path / "include").rglob("*.h")):
         if path.relative_to(folder.path / "include").parts[0] != _PRIVATE:
             declared.update(_CALL.findall(path.read_text(encoding="utf-8", errors="replace")))
-    mine = (p.symbol for p in chunks if p.function and p.symbol and p.owner.group == "component")
-    return frozenset(name for name in mine if shown_name(name) in declared)
+    of_components = (p.symbol for p in chunks if p.function and p.symbol and p.owner.group == "component")
+    return frozenset(name for name in of_components if shown_name(name) in declared)
 
 
 def check_budgets(

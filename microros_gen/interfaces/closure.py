@@ -120,16 +120,16 @@ class _Resolver:
         names = [name for kind in KINDS if (name := split_type_name(text, kind)) is not None]
         if text.count("/") > 1:
             return names[0]
-        there = [name for name in names if self._has(name)]
-        if len(there) > 1:
+        existing = [name for name in names if self._has(name)]
+        if len(existing) > 1:
             self._diagnostics.error(
-                f"'{text}' is ambiguous: {names[0].package} has {' and '.join(map(str, there))}",
+                f"'{text}' is ambiguous: {names[0].package} has {' and '.join(map(str, existing))}",
                 span,
-                f"Write {' or '.join(map(str, there))}",
+                f"Write {' or '.join(map(str, existing))}",
                 id="MG-2002",
             )
             return None
-        return there[0] if there else names[0]
+        return existing[0] if existing else names[0]
 
     def _read(self, name: TypeName) -> Interface | None:
         place = self._place(name.package)
@@ -160,12 +160,12 @@ class _Resolver:
         return False
 
     def _unknown_package(self, package: str, span: Span | None, need: str) -> None:
-        near = nearest(package, (place.name for place in self._finder.packages()))
+        suggestion = nearest(package, (place.name for place in self._finder.packages()))
         looked = f"Looked in {self._finder.searched()}; --interface-path adds a place"
         self._diagnostics.error(
             f"unknown interface package '{package}'{need}",
             span,
-            f"{near} {looked}" if near else looked,
+            f"{suggestion} {looked}" if suggestion else looked,
             id="MG-2003",
         )
 
@@ -231,9 +231,9 @@ def _parsed(source: Source, name: TypeName, diagnostics: Diagnostics) -> Declara
     declarations = parse_idl(source, name.package, name.kind, found)
     declaration = next((d for d in declarations if d.name == name), None)
     if declaration is None and not found.has_errors():
-        there = ", ".join(str(d.name) for d in declarations) or "nothing"
+        declared = ", ".join(str(d.name) for d in declarations) or "nothing"
         found.error(
-            f"the file declares {there} and not {name}",
+            f"the file declares {declared} and not {name}",
             Span(source, 1, 1),
             "ROS 2 names a file after the type that it declares",
             id="MG-2008",

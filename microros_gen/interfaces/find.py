@@ -139,7 +139,7 @@ class InterfaceFinder:
             places: dict[str, list[PackagePlace]] = {}
             for place in _packages_below(path, Origin.PATH):
                 places.setdefault(place.name, []).append(place)
-            found = {**{name: tuple(there) for name, there in places.items()}, **found}
+            found = {**{name: tuple(found_places) for name, found_places in places.items()}, **found}
         return found
 
     def check_paths(self, diagnostics: Diagnostics, spans: Mapping[Path, Span | None] | None = None) -> None:

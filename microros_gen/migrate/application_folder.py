@@ -20,7 +20,7 @@ from microros_gen.migrate.code import c_sources
 from microros_gen.migrate.draft import Draft
 from microros_gen.migrate.draft_text import draft_text
 from microros_gen.migrate.limits import LOWER_LIMITS
-from microros_gen.migrate.proposal import Wish
+from microros_gen.migrate.proposal import InitOptions
 from microros_gen.output.tree import write_files
 from microros_gen.records import dataclass
 
@@ -70,24 +70,24 @@ class NewFolder:
     found: tuple[Diagnostic, ...]
 
 
-def write_folder(wish: Wish, draft: Draft) -> NewFolder:
+def write_folder(options: InitOptions, draft: Draft) -> NewFolder:
     """Write the folder of `draft`, which need not build when it was proposed from what there was.
 
     Raises UserError, and writes nothing, where a file is in the way or where a profile alone does not plan.
     """
     undecided = [remark for remark in draft.all_remarks if remark.undecided]
-    with _made(wish.folder):
-        text, planned, found = _planned(wish, draft)
-        if planned is None and not wish.adopts:
+    with _made(options.folder):
+        text, planned, found = _planned(options, draft)
+        if planned is None and not options.adopts:
             found.check()
-        files = _files(wish, text, planned, len(undecided))
-        _refuse_to_overwrite(wish.folder, files)
-        write_files(wish.folder, files)
+        files = _files(options, text, planned, len(undecided))
+        _refuse_to_overwrite(options.folder, files)
+        write_files(options.folder, files)
     for remark in undecided:
         report = found.error if remark.refused else found.warning
         report(remark.text, remark.span, remark.refused or None, id="MG-9099")
     builds = planned is not None and not any(remark.refused for remark in undecided)
-    return NewFolder(wish.folder, tuple(sorted(files)), len(undecided), builds, tuple(found))
+    return NewFolder(options.folder, tuple(sorted(files)), len(undecided), builds, tuple(found))
 
 
 @contextmanager
@@ -109,21 +109,21 @@ def _made(folder: Path) -> Iterator[None]:
         raise
 
 
-def _heading(wish: Wish) -> list[str]:
-    lines = [f"What {wish.name} has; `microros-gen resolve` says what follows from it."]
-    read = [str(path) for path in (wish.sources, *wish.metas) if path is not None]
+def _heading(options: InitOptions) -> list[str]:
+    lines = [f"What {options.name} has; `microros-gen resolve` says what follows from it."]
+    read = [str(path) for path in (options.sources, *options.metas) if path is not None]
     if read:
         lines += [f"Proposed by `microros-gen init` from {', '.join(read)}."]
     return lines
 
 
-def _planned(wish: Wish, draft: Draft) -> tuple[str, Planned | None, Diagnostics]:
+def _planned(options: InitOptions, draft: Draft) -> tuple[str, Planned | None, Diagnostics]:
     """Return the text of the proposal, its plan and what was found; the first limits for "*" with which it plans."""
     first: tuple[str, Planned | None, Diagnostics] | None = None
     for lower in (None, *(LOWER_LIMITS if "*" in draft.limits else ())):
         limits = draft.limits if lower is None else {**draft.limits, "*": lower}
-        text, found = draft_text(replace(draft, limits=limits), _heading(wish)), Diagnostics()
-        planned = _plan(wish, text, found)
+        text, found = draft_text(replace(draft, limits=limits), _heading(options)), Diagnostics()
+        planned = _plan(options, text, found)
         if planned is not None:
             return text, planned, found
         first = first or (text, planned, found)
@@ -133,11 +133,13 @@ def _planned(wish: Wish, draft: Draft) -> tuple[str, Planned | None, Diagnostics
     return first
 
 
-def _plan(wish: Wish, text: str, diagnostics: Diagnostics) -> Planned | None:
+def _plan(options: InitOptions, text: str, diagnostics: Diagnostics) -> Planned | None:
     """Return the plan of the proposal, or None with what is against it in `diagnostics`."""
-    source = Source(str(wish.folder / APPLICATION_FILE), text)
+    source = Source(str(options.folder / APPLICATION_FILE), text)
     try:
-        planned = compiler.plan(compiler.resolve(compiler.read_source(source, wish.folder, wish.options())))
+        planned = compiler.plan(
+            compiler.resolve(compiler.read_source(source, options.folder, options.compiler_options()))
+        )
     except UserError as error:
         diagnostics.extend(error.diagnostics)
         return None
@@ -145,53 +147,53 @@ def _plan(wish: Wish, text: str, diagnostics: Diagnostics) -> Planned | None:
     return planned
 
 
-def _files(wish: Wish, text: str, planned: Planned | None, undecided: int) -> dict[str, bytes]:
+def _files(options: InitOptions, text: str, planned: Planned | None, undecided: int) -> dict[str, bytes]:
     """Return the files to write, by their path below the folder."""
     files = {APPLICATION_FILE: text.encode()}
     environment = shared_environment()
     toolchain = None
     if planned is not None:
         rendered = compiler.render(planned)
-        if wish.checked:
+        if options.checked:
             files |= {f"golden/{name}": content for name, content in rendered.items()}
         toolchain = rendered.get("toolchain.cmake")
-        if wish.sources is None:
-            heading = f"What {wish.name} does."
+        if options.sources is None:
+            heading = f"What {options.name} does."
             files["main.c"] = render_example(planned.project, environment, heading)
     if toolchain is not None:
         files["toolchain.cmake"] = toolchain
-    view_of_folder = _view(wish, planned, toolchain is not None, undecided)
+    view_of_folder = _view(options, planned, toolchain is not None, undecided)
     for name, template in _TEMPLATES.items():
-        if name == WORKFLOW and not wish.checked:
+        if name == WORKFLOW and not options.checked:
             continue
         files[name] = environment.get_template(f"init/{template}").render(view=view_of_folder).encode()
     return files
 
 
-def _view(wish: Wish, planned: Planned | None, toolchain: bool, undecided: int) -> _View:
+def _view(options: InitOptions, planned: Planned | None, toolchain: bool, undecided: int) -> _View:
     project = planned.project if planned is not None else None
-    sources = c_sources(wish.sources) if wish.sources is not None else ()
-    shown = tuple(_relative(path, wish.folder) for path in sources) or ("main.c",)
-    paths = [_relative(path, wish.folder) for path in wish.interface_paths]
+    sources = c_sources(options.sources) if options.sources is not None else ()
+    shown = tuple(_relative(path, options.folder) for path in sources) or ("main.c",)
+    paths = [_relative(path, options.folder) for path in options.interface_paths]
     discovery = project is not None and project.selection.has("discovery")
     return _View(
-        name=wish.name,
+        name=options.name,
         version=__version__,
-        target=project.target.name if project else wish.target or "host",
+        target=project.target.name if project else options.target or "host",
         toolchain=toolchain,
         languages="C CXX" if any(not name.endswith(".c") for name in shown) else "C",
         has_image=project is None or project.target.has_image,
         package=project.target.package if project and not project.target.hosted else "",
         sources=shown,
-        include_folders=tuple(sorted({_relative(path.parent, wish.folder) for path in sources})),
+        include_folders=tuple(sorted({_relative(path.parent, options.folder) for path in sources})),
         own_sources=bool(sources),
-        code=f"`{_relative(wish.sources, wish.folder)}`" if wish.sources is not None else "`main.c`",
+        code=f"`{_relative(options.sources, options.folder)}`" if options.sources is not None else "`main.c`",
         interface_paths="".join(f' "{path}"' for path in paths),
         check_options="".join(f" --interface-path {shlex.quote(path)}" for path in paths),
         agent="udp4 --port 8888" + (" --discovery" if discovery else ""),
         undecided=undecided,
         golden=planned is not None,
-        checked=wish.checked,
+        checked=options.checked,
     )
 
 
@@ -200,9 +202,9 @@ def _relative(path: Path, folder: Path) -> str:
 
 
 def _refuse_to_overwrite(folder: Path, files: Mapping[str, bytes]) -> None:
-    there = sorted(name for name in files if (folder / name).exists())
-    if there:
-        shown = ", ".join(there[:3]) + (f" and {len(there) - 3} more" if len(there) > 3 else "")
+    existing = sorted(name for name in files if (folder / name).exists())
+    if existing:
+        shown = ", ".join(existing[:3]) + (f" and {len(existing) - 3} more" if len(existing) > 3 else "")
         message = f"{folder} already has files that would be written: {shown}"
         raise UserError(
             [

@@ -36,7 +36,7 @@ DEFAULT_SERVICE = "example_interfaces/srv/AddTwoInts"
 
 
 @dataclass(frozen=True)
-class Wish:
+class InitOptions:
     """The arguments of `init`; `checked`: with a golden copy and the workflow that compares it."""
 
     folder: Path
@@ -64,22 +64,22 @@ class Wish:
         """Whether there is something to be read."""
         return self.sources is not None or bool(self.metas)
 
-    def options(self) -> compiler.Options:
+    def compiler_options(self) -> compiler.Options:
         """Return the options of the other commands for this."""
         return compiler.Options(interface_paths=self.interface_paths)
 
 
-def draft_of(wish: Wish, warnings: Diagnostics) -> Draft:
+def draft_of(options: InitOptions, warnings: Diagnostics) -> Draft:
     """Return the proposal; what is no error is added to `warnings`. Raises UserError where a file cannot be read."""
-    if not wish.adopts:
-        return _of_profiles(wish)
+    if not options.adopts:
+        return _of_profiles(options)
     diagnostics = Diagnostics()
-    settings = [setting for path in wish.metas for setting in _settings_of(path, diagnostics)]
-    adopted = _of_code(wish.sources, diagnostics) if wish.sources is not None else None
+    settings = [setting for path in options.metas for setting in _settings_of(path, diagnostics)]
+    adopted = _of_code(options.sources, diagnostics) if options.sources is not None else None
     diagnostics.check()
     warnings.extend(diagnostics)
     draft = meta_draft(settings, declared=adopted is not None)
-    return _with_defaults(wish, draft if adopted is None else _joined(wish, draft, adopted))
+    return _with_defaults(options, draft if adopted is None else _joined(options, draft, adopted))
 
 
 def _of_code(folder: Path, diagnostics: Diagnostics) -> Adopted:
@@ -89,7 +89,7 @@ def _of_code(folder: Path, diagnostics: Diagnostics) -> Adopted:
     return rclc_draft(sources, declared_functions(catalogue), catalogue, diagnostics)
 
 
-def _joined(wish: Wish, meta: Draft, adopted: Adopted) -> Draft:
+def _joined(options: InitOptions, meta: Draft, adopted: Adopted) -> Draft:
     """Return what sources and settings say together; the sources have the last word."""
     code = adopted.draft
     groups = {name: dict(values) for name, values in meta.groups.items()}
@@ -100,15 +100,15 @@ def _joined(wish: Wish, meta: Draft, adopted: Adopted) -> Draft:
         components=tuple(sorted({*meta.components, *code.components})),
         settings=meta.settings,
         groups=groups,
-        limits=_limits(wish, adopted),
+        limits=_limits(options, adopted),
         remarks=(*code.remarks, *meta.remarks),
     )
 
 
-def _limits(wish: Wish, adopted: Adopted) -> Mapping[str, DraftValue]:
+def _limits(options: InitOptions, adopted: Adopted) -> Mapping[str, DraftValue]:
     """Return the limits; where a type is not found, that is reported when the proposal is planned."""
     types = [e.type for node in adopted.draft.nodes for e in node.endpoints if e.type]
-    finder = InterfaceFinder.from_environment(wish.interface_paths)
+    finder = InterfaceFinder.from_environment(options.interface_paths)
     try:
         interfaces = resolve_interfaces(tuple(Named(t) for t in dict.fromkeys(types)), finder, Diagnostics())
     except UserError:
@@ -136,10 +136,10 @@ def _settings_of(path: Path, diagnostics: Diagnostics) -> tuple[MetaSetting, ...
     return read_settings(source, diagnostics)
 
 
-def _with_defaults(wish: Wish, draft: Draft) -> Draft:
+def _with_defaults(options: InitOptions, draft: Draft) -> Draft:
     """Return the proposal with what every application file has: what it does, and with which types."""
     remarks = list(draft.remarks)
-    profiles = wish.profiles or draft.profiles
+    profiles = options.profiles or draft.profiles
     if not profiles and not draft.nodes:
         profiles = (DEFAULT_PROFILE,)
         remarks.append(Remark(f"what the application does is unknown: `profiles` has {DEFAULT_PROFILE}"))
@@ -154,16 +154,18 @@ def _with_defaults(wish: Wish, draft: Draft) -> Draft:
         settings.setdefault("on_full", DraftValue(Flow("block 1 s"), "as rmw_microxrcedds does by itself"))
     groups = dict(draft.groups)
     transport = groups.pop("transport", {})
-    if "type" not in transport and wish.target in (None, "host"):
+    if "type" not in transport and options.target in (None, "host"):
         agent = "discover" if "+discovery" in draft.components else AGENT
         transport = {"type": DraftValue("udp"), "agent": DraftValue(agent), **transport}
     if transport:
         groups = {"transport": transport, **groups}
-    target = DraftValue(wish.seen_from_folder(wish.target or "host"), "`microros-gen targets` lists them")
+    target = DraftValue(
+        options.seen_from_folder(options.target or "host"), "`microros-gen targets` lists them"
+    )
     limits = draft.limits if draft.nodes else {"*": DEFAULT_LIMITS}
     return replace(
         draft,
-        profiles=tuple(wish.seen_from_folder(profile) for profile in profiles),
+        profiles=tuple(options.seen_from_folder(profile) for profile in profiles),
         interfaces=interfaces,
         settings={"target": target, **settings},
         groups=groups,
@@ -172,12 +174,16 @@ def _with_defaults(wish: Wish, draft: Draft) -> Draft:
     )
 
 
-def _of_profiles(wish: Wish) -> Draft:
+def _of_profiles(options: InitOptions) -> Draft:
     diagnostics = Diagnostics()
-    profiles = wish.profiles or (DEFAULT_PROFILE,)
-    options = compiler.Options(profiles=profiles, interface_paths=wish.interface_paths, target=wish.target)
-    resolved = compiler.resolve(compiler.read_source(None, Path(), options))
+    profiles = options.profiles or (DEFAULT_PROFILE,)
+    compiled = compiler.Options(
+        profiles=profiles, interface_paths=options.interface_paths, target=options.target
+    )
+    resolved = compiler.resolve(compiler.read_source(None, Path(), compiled))
     check_ready(resolved.selection, diagnostics)
     diagnostics.check()
-    named = tuple(wish.seen_from_folder(profile) for profile in profiles)
-    return first_draft(resolved.selection, named, wish.name, wish.seen_from_folder(wish.target or "host"))
+    named = tuple(options.seen_from_folder(profile) for profile in profiles)
+    return first_draft(
+        resolved.selection, named, options.name, options.seen_from_folder(options.target or "host")
+    )

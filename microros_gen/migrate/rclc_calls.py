@@ -100,7 +100,9 @@ def turns(call: Call, values: Values) -> list[Call]:
         count = values.number(loop.limit, call)
         if isinstance(count, Unknown) or not 0 < count + loop.inclusive <= _MOST_TURNS:
             return [call]
-        found = [_with(one, loop.variable, n) for one in found for n in range(count + loop.inclusive)]
+        found = [
+            _with(found_call, loop.variable, n) for found_call in found for n in range(count + loop.inclusive)
+        ]
     return found if len(found) <= _MOST_TURNS else [call]
 
 
@@ -201,12 +203,12 @@ def _qos(way: str, kind: str, call: Call, values: Values) -> tuple[Mapping[str, 
         return _SENSOR_DATA, []
     if way == "" or len(call.arguments) < 5:
         return {}, []
-    given: Tokens = call.arguments[4]
-    handle = handle_of(given)
+    qos: Tokens = call.arguments[4]
+    handle = handle_of(qos)
     if handle in _PROFILES:
         return _PROFILES[handle], []
     if not handle:
-        return {}, [Remark(f"the QoS: `{shown(given)}` is worked out when the program runs", call.span)]
+        return {}, [Remark(f"the QoS: `{shown(qos)}` is worked out when the program runs", call.span)]
     return _changed_qos(handle, ".qos" if way == "options" else "", call, values)
 
 

@@ -166,8 +166,8 @@ def _once(endpoints: Iterable[FoundEndpoint]) -> Iterable[FoundEndpoint]:
 def _owner(endpoint: FoundEndpoint, nodes: list[FoundNode]) -> int | None:
     """Return the index of the node that an endpoint is of; None where it can be more than one."""
     named = [i for i, node in enumerate(nodes) if node.handle and node.handle == endpoint.node]
-    near = [i for i in named if nodes[i].call.function == endpoint.call.function]
-    for found in (near, named, list(range(len(nodes)))):
+    alike = [i for i in named if nodes[i].call.function == endpoint.call.function]
+    for found in (alike, named, list(range(len(nodes)))):
         if len(found) == 1:
             return found[0]
     return None
@@ -224,10 +224,10 @@ def _wanted(
 def _components(wanted: set[str], catalogue: Catalogue, profiles: tuple[str, ...]) -> tuple[str, ...]:
     """Return the components that have to be named: without those that others bring along."""
     wanted = {name for name in wanted | {"node"} if catalogue[name].ready and not name.startswith(_AXES)}
-    given = {component for component, profile in _GIVEN if profile in profiles}
-    given |= {"node"} if profiles else set()
-    brought = {below for name in wanted | given for below in _below(name, catalogue)}
-    return tuple(f"+{name}" for name in sorted(wanted - brought - given))
+    of_profiles = {component for component, profile in _GIVEN if profile in profiles}
+    of_profiles |= {"node"} if profiles else set()
+    needed = {below for name in wanted | of_profiles for below in _below(name, catalogue)}
+    return tuple(f"+{name}" for name in sorted(wanted - needed - of_profiles))
 
 
 def _below(name: str, catalogue: Catalogue) -> set[str]:

@@ -13,14 +13,14 @@ from microros_gen.output.runs import tool_files
 _ESCAPED = str.maketrans({" ": "\\ ", "#": "\\#", "$": "$$"})
 
 
-def write_depfile(path: Path, made: Path, inputs: Iterable[Path]) -> None:
-    """Write to `path` that `made` depends on those of `inputs` that exist and on the tool's own files.
+def write_depfile(path: Path, target: Path, inputs: Iterable[Path]) -> None:
+    """Write to `path` that `target` depends on those of `inputs` that exist and on the tool's own files.
 
     One path a line, absolute. A file that holds the same already is not touched. Raises UserError where it cannot
     be written.
     """
     read = {str(p.absolute()) for p in (*inputs, *tool_files()) if p.exists()}
-    lines = [f"{_escaped(str(made.absolute()))}:", *(f"  {_escaped(name)}" for name in sorted(read))]
+    lines = [f"{_escaped(str(target.absolute()))}:", *(f"  {_escaped(name)}" for name in sorted(read))]
     content = (" \\\n".join(lines) + "\n").encode()
     try:
         if path.is_file() and path.read_bytes() == content:

@@ -129,7 +129,7 @@ def _declared(project: Project, kind: EntityKind) -> list[dict[str, Any]]:
     """Return the declared entities of a kind, each with its queue where it receives."""
     declared = project.runtime.entities.places(kind.name).declared
     queues = iter(_queues(project, kind))
-    return [_entity(project, one, next(queues, None)) for one in declared]
+    return [_entity(project, entity, next(queues, None)) for entity in declared]
 
 
 def _queues(project: Project, kind: EntityKind) -> tuple[QueuePlan, ...]:
@@ -159,11 +159,11 @@ def _entity(
     if isinstance(entity, PublisherPlan):
         own = project.own_limits(entity)
         return {**shown, **({"max_encoded_size": own.max_encoded_size} if own else {})}
-    lent = entity.index == project.runtime.input.reader
+    in_input_buffer = entity.index == project.runtime.input.reader
     return {
         **shown,
         **_queue(queue),
-        **({"slot": "input buffer"} if lent else {}),
+        **({"slot": "input buffer"} if in_input_buffer else {}),
         **({"storage": "none"} if entity.storage and not entity.stored else {}),
     }
 
@@ -172,7 +172,7 @@ def _queue(queue: QueuePlan | None) -> dict[str, int]:
     """Return the size of a queue; with its bytes where its samples share them."""
     if queue is None:
         return {}
-    shared = {} if queue.asked is None else {"queue_bytes": queue.asked}
+    shared = {} if queue.requested_bytes is None else {"queue_bytes": queue.requested_bytes}
     return {"queue": queue.slots, "slot_size": queue.slot_size, **shared}
 
 

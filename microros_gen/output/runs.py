@@ -58,15 +58,15 @@ def record_run(
     run: Run,
     inputs: Iterable[Path],
     outputs: Iterable[Path],
-    begun_ns: int,
+    started_ns: int,
 ) -> None:
     """Record a finished run. A cache that cannot be written is no error: the next run is a full one.
 
-    `begun_ns` is the time (nanoseconds since the epoch) before anything was read: an input that is as young may
+    `started_ns` is the time (nanoseconds since the epoch) before anything was read: an input that is as young may
     have been read before its change.
     """
     states = _states(inputs)
-    if any(max(state[1:]) >= begun_ns - _CLOCK_STEP_NS for state in states.values()):
+    if any(max(state[1:]) >= started_ns - _CLOCK_STEP_NS for state in states.values()):
         return
     data = {
         "tool": _tool_state(),

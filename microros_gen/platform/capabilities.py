@@ -41,7 +41,7 @@ def capabilities() -> Mapping[str, Capability]:
     diagnostics.check()
     found = {}
     for entry in entries(tree):
-        facts = {one.key: one.value for one in entries(entry.value)}
+        facts = {fact.key: fact.value for fact in entries(entry.value)}
         found[entry.key] = Capability(
             entry.key,
             text_of(facts["summary"]) or "",

@@ -39,8 +39,8 @@ def builtin_targets() -> tuple[str, ...]:
 
 def target_names(extensions: Extensions = INSTALLED) -> tuple[str, ...]:
     """Return the names of all targets that installed packages bring or that are built in; these come first."""
-    brought = {name for extension in extensions.installed() for name in extension.target_names()}
-    return (*builtin_targets(), *sorted(brought - set(builtin_targets())))
+    of_extensions = {name for extension in extensions.installed() for name in extension.target_names()}
+    return (*builtin_targets(), *sorted(of_extensions - set(builtin_targets())))
 
 
 def read_target(
@@ -82,12 +82,12 @@ class _Reader:
         """Return what a target says, and below it what it extends."""
         known = builtin_targets()
         builtin = name in known or (near == TARGETS and (TARGETS / f"{name}.yaml").is_file())
-        brought = None
+        found = None
         if not builtin and not name.endswith((".yaml", ".yml")):
-            brought = self._brought(name, span)
-            if brought is None:
+            found = self._brought(name, span)
+            if found is None:
                 return None
-        path = brought or (TARGETS / f"{name}.yaml" if builtin else near / name)
+        path = found or (TARGETS / f"{name}.yaml" if builtin else near / name)
         if path.resolve() in self._way:
             self._diagnostics.error(
                 f"'{name}' extends itself",
@@ -123,8 +123,8 @@ class _Reader:
         board = node.get("board")
         if board is None:
             return node
-        near = Path(board.span.source.name).parent
-        facts = board_facts(text_of(board) or "", near, board.span, self._diagnostics, self._extensions)
+        folder = Path(board.span.source.name).parent
+        facts = board_facts(text_of(board) or "", folder, board.span, self._diagnostics, self._extensions)
         if facts is None:
             return node
         self.boards += facts.own

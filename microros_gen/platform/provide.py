@@ -78,23 +78,23 @@ def provide(
     by_name = {component.name: component for component in components}
     parts = tuple(by_name[name] for name in order if name in by_name)
     offers = _offers(parts, own, holds)
-    asked: dict[str, list[str]] = {}
+    requested: dict[str, list[str]] = {}
     waiting: list[tuple[str, Ask]] = [(c.name, ask) for c in components for ask in c.asks]
     for capability, (part, provision) in offers.items():
         if provision.always:
-            asked.setdefault(capability, [])
+            requested.setdefault(capability, [])
             waiting += [(part, ask) for ask in provision.asks]
     while waiting:
         name, ask = waiting.pop(0)
         if not holds(ask.when):
             continue
-        if ask.capability not in asked and ask.capability in offers:
+        if ask.capability not in requested and ask.capability in offers:
             part, provision = offers[ask.capability]
             waiting += [(part, further) for further in provision.asks]
-        askers = asked.setdefault(ask.capability, [])
+        askers = requested.setdefault(ask.capability, [])
         if name not in askers:
             askers.append(name)
-    found = _provisions(offers, asked, own, holds)
+    found = _provisions(offers, requested, own, holds)
     return replace(found, clashes=_clashes(found, parts, holds))
 
 
@@ -124,25 +124,25 @@ def _offers(
     found: dict[str, tuple[str, Provision]] = {}
     for part in parts:
         for provision in part.provides:
-            there = any(holds(file.when) for file in provision.sources)
-            if there and provision.capability not in own:
+            available = any(holds(file.when) for file in provision.sources)
+            if available and provision.capability not in own:
                 found.setdefault(provision.capability, (part.name, provision))
     return found
 
 
 def _provisions(
     offers: dict[str, tuple[str, Provision]],
-    asked: dict[str, list[str]],
+    requested: dict[str, list[str]],
     own: tuple[str, ...],
     holds: Callable[[Conditions], bool],
 ) -> Provisions:
     rows, files = [], []
     for name, capability in capabilities().items():
-        if name not in asked:
+        if name not in requested:
             continue
         part = offers[name][0] if name in offers else ""
         provider = APPLICATION if name in own or capability.of_application else part
-        rows.append(Provided(capability, provider, tuple(sorted(asked[name]))))
+        rows.append(Provided(capability, provider, tuple(sorted(requested[name]))))
         if part:
             files += [(part, file.path) for file in offers[name][1].sources if holds(file.when)]
     return Provisions(tuple(rows), tuple(dict.fromkeys(files)))

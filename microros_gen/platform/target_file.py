@@ -118,9 +118,9 @@ def _parts(node: MappingNode, diagnostics: Diagnostics, extensions: Extensions) 
     for kind in KINDS:
         value = node.get(kind)
         if value is not None:
-            near = Path(value.span.source.name).parent
+            folder = Path(value.span.source.name).parent
             name = text_of(value) or ""
-            found.append(read_part(kind, name, near, value.span, diagnostics, extensions))
+            found.append(read_part(kind, name, folder, value.span, diagnostics, extensions))
     return tuple(part for part in found if part is not None)
 
 
@@ -190,7 +190,7 @@ def _uart(node: YamlNode | None, parts: tuple[Part, ...]) -> Uart | None:
     driver, tx_irq = text_of(child(node, "driver")) or "", int_of(child(node, "tx_irq"))
     if tx_irq is None:
         known = (part.cpu.driver(driver) for part in parts if part.cpu is not None)
-        tx_irq = irq + next((one.tx_irq for one in known if one is not None), 0)
+        tx_irq = irq + next((found.tx_irq for found in known if found is not None), 0)
     return Uart(driver, base, irq, clock_hz, tx_pin, rx_pin, tx_irq)
 
 
@@ -271,7 +271,7 @@ def _check_uart(node: MappingNode, target: Target, diagnostics: Diagnostics) -> 
             )
     name = text_of(driver) or ""
     if target.cpu.driver(name) is None:
-        known = (*(one.name for one in target.cpu.drivers), OWN_DRIVER)
+        known = (*(item.name for item in target.cpu.drivers), OWN_DRIVER)
         has = f"Its drivers are: {', '.join(known)}. Without `uart:` the application provides port_serial_*"
         diagnostics.error(
             f"{_cpu_name(target)} has no driver '{name}'",
@@ -283,11 +283,11 @@ def _check_uart(node: MappingNode, target: Target, diagnostics: Diagnostics) -> 
 
 def _check_memory(node: MappingNode, diagnostics: Diagnostics) -> None:
     flash, ram = node.get("flash"), node.get("ram")
-    for name, there, other, lacks in (("flash", flash, "ram", ram), ("ram", ram, "flash", flash)):
-        if there is not None and lacks is None:
+    for name, present, other, missing in (("flash", flash, "ram", ram), ("ram", ram, "flash", flash)):
+        if present is not None and missing is None:
             hint = f"Add `{other}: {{origin: 0x20000000, size: 64 KiB}}`"
             diagnostics.error(
-                f"'{name}' without '{other}' is not enough for an image", there.span, hint, id="MG-6019"
+                f"'{name}' without '{other}' is not enough for an image", present.span, hint, id="MG-6019"
             )
     if flash is None or ram is None:
         return
@@ -362,7 +362,7 @@ def _check_stdio(node: MappingNode, target: Target, diagnostics: Diagnostics) ->
         text = f"'stdio.floats' has no effect with {name}: its C library, picolibc, always formats %f"
         diagnostics.error(text, floats.span, "Remove `floats`", id="MG-6028")
     driver = child(stdio, "driver")
-    drivers = [one.name for one in target.cpu.drivers if one.stdio]
+    drivers = [item.name for item in target.cpu.drivers if item.stdio]
     if driver is not None and to == "uart" and text_of(driver) not in drivers:
         hint = f"Its drivers for output are: {', '.join(drivers) or 'none'}. With `to: application` the program has one"
         diagnostics.error(

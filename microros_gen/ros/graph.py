@@ -108,7 +108,7 @@ class Graph:
             found = ask(self._node, topic, False)
         except FAILURES as error:
             raise RosError(f"{topic}: {first_line(error)}") from error
-        return tuple(sorted(map(_endpoint, found), key=lambda one: (one.node, one.gid)))
+        return tuple(sorted(map(_endpoint, found), key=lambda endpoint: (endpoint.node, endpoint.gid)))
 
     def _count(self, ask: Callable[[str], int], name: str) -> int:
         try:

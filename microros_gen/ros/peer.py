@@ -95,25 +95,29 @@ class Peer:
     ) -> Subscription:
         """Create a subscription; `spin_once` calls `callback` with each message. Errors as for `publisher`."""
         known = self._types.message(type_name)
-        made = Subscription(self._topic(self._handles.Subscription, topic, known, qos), known, callback)
-        self._waited.append(made)
-        return made
+        subscription = Subscription(
+            self._topic(self._handles.Subscription, topic, known, qos), known, callback
+        )
+        self._waited.append(subscription)
+        return subscription
 
     def client(self, service: str, type_name: str) -> Client:
         """Create a service client. Errors as for `publisher`."""
         known = self._types.service(type_name)
         name = ServiceName(service, known.name)
-        made = Client(self._service(self._handles.Client, name, known), known, name, self._raw, self.spin)
-        self._waited.append(made)
-        return made
+        service_client = Client(
+            self._service(self._handles.Client, name, known), known, name, self._raw, self.spin
+        )
+        self._waited.append(service_client)
+        return service_client
 
     def serve(self, service: str, type_name: str, answer: Callable[[Value], Mapping[str, Any]]) -> Server:
         """Create a service server; `spin_once` replies with `answer(request)`. Errors as for `publisher`."""
         known = self._types.service(type_name)
         name = ServiceName(service, known.name)
-        made = Server(self._service(self._handles.Service, name, known), known, name, self._raw, answer)
-        self._waited.append(made)
-        return made
+        server = Server(self._service(self._handles.Service, name, known), known, name, self._raw, answer)
+        self._waited.append(server)
+        return server
 
     def graph(self) -> Graph:
         """Return what queries the ROS graph; it works until the peer is closed."""
@@ -134,8 +138,8 @@ class Peer:
         self._spinning = True
         try:
             ready = self._ready(timeout_s)
-            for one in ready:
-                one.look()
+            for waited in ready:
+                waited.look()
             return bool(ready)
         finally:
             self._spinning = False
@@ -166,22 +170,22 @@ class Peer:
     def _ready(self, timeout_s: float) -> list[_Waited]:
         """Return the entities with data, after at most `timeout_s` seconds."""
         end = time.monotonic() + timeout_s
-        kinds = [one.kind for one in self._waited]
+        kinds = [waited.kind for waited in self._waited]
         counts = tuple(map(kinds.count, _WAITED_KINDS))
         waits = self._handles.WaitSet(*counts, self._context.handle)
         try:
             while True:
                 waits.clear_entities()
-                places = [one.add(waits) for one in self._waited]
+                places = [waited.add(waits) for waited in self._waited]
                 left = max(0.0, min(_SLICE_S, end - time.monotonic()))
                 if places:
                     waits.wait(int(left * 1e9))
                 else:
                     time.sleep(left)
                 ready = [
-                    one
-                    for one, place in zip(self._waited, places, strict=True)
-                    if waits.is_ready(one.kind, place)
+                    waited
+                    for waited, place in zip(self._waited, places, strict=True)
+                    if waits.is_ready(waited.kind, place)
                 ]
                 if ready or time.monotonic() >= end:
                     return ready

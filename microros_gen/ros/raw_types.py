@@ -140,7 +140,7 @@ class RawTypes:
 
     def _make_message(self, name: TypeName, type_hash: str | None) -> _Message:
         namespace, text = cpp_namespace(name).encode(), name.name.encode()
-        made = _Message(
+        message = _Message(
             callbacks=MessageCallbacks(
                 namespace,
                 text,
@@ -160,24 +160,24 @@ class RawTypes:
         ):
             support = MessageSupport(
                 identifier,
-                addressof(made) + data,
+                addressof(message) + data,
                 self._function("handle_of"),
                 self._function("message_hash"),
                 self._function("message_description"),
                 self._function("message_sources"),
             )
-            setattr(made, member, support)
-        return made
+            setattr(message, member, support)
+        return message
 
     def _make_service(self, name: TypeName, type_hash: str | None, request: int, response: int) -> _Service:
-        made = _Service(
+        service = _Service(
             callbacks=ServiceCallbacks(cpp_namespace(name).encode(), name.name.encode(), request, response),
             hash=_parse_hash(type_hash),
             description=self._description(str(name)),
         )
-        made.support = ServiceSupport(
+        service.support = ServiceSupport(
             identifier=self.libraries.fastrtps_identifier,
-            data=addressof(made) + _Service.callbacks.offset,
+            data=addressof(service) + _Service.callbacks.offset,
             func=self.libraries.service_handle_function,
             request=request,
             response=response,
@@ -185,7 +185,7 @@ class RawTypes:
             get_type_description=self._function("service_description"),
             get_type_sources=self._function("service_sources"),
         )
-        return made
+        return service
 
     def _description(self, name: str) -> TypeDescription:
         """Return a type description without fields: rcl copies it, and nodes created here offer it to no other node."""
@@ -248,6 +248,6 @@ def _parse_hash(text: str | None) -> TypeHash:
     match = _HASH.fullmatch(text)
     if not match:
         raise RosError(f"'{text[:80]}' is not a type hash: RIHS01_ and 64 hexadecimal digits are expected")
-    made = TypeHash(version=HASH_RIHS01)
-    made.value[:] = bytes.fromhex(match[1])
-    return made
+    type_hash = TypeHash(version=HASH_RIHS01)
+    type_hash.value[:] = bytes.fromhex(match[1])
+    return type_hash

@@ -34,7 +34,7 @@ def _placed(application: Application, endpoint: EndpointDecl, topic: str) -> End
     if not endpoint.of_the_library or endpoint.topic != CLOCK_TOPIC:
         return endpoint
     endpoint = replace(endpoint, span=application.clock.span if application.clock else None)
-    return replace(endpoint, topic=topic, given=CLOCK_TOPIC) if topic else endpoint
+    return replace(endpoint, topic=topic, declared_as=CLOCK_TOPIC) if topic else endpoint
 
 
 def _check_rules(nodes: Iterable[NodeDecl], listens: bool, diagnostics: Diagnostics) -> None:

@@ -101,12 +101,12 @@ def _provides(node: MappingNode, diagnostics: Diagnostics) -> tuple[Provision, .
         )
     found = []
     for entry in entries(value):
-        one = expect_mapping(entry.value, f"'provides.{entry.key}'", diagnostics)
-        if one is None:
+        provision = expect_mapping(entry.value, f"'provides.{entry.key}'", diagnostics)
+        if provision is None:
             continue
-        check_keys(one, _PROVISION, ("sources",), diagnostics)
-        always = bool_of(one.get("always")) or False
-        sources, asks = _sources(one, diagnostics), _asks(one, diagnostics)
+        check_keys(provision, _PROVISION, ("sources",), diagnostics)
+        always = bool_of(provision.get("always")) or False
+        sources, asks = _sources(provision, diagnostics), _asks(provision, diagnostics)
         found.append(Provision(entry.key, sources, asks, always))
     return tuple(found)
 
@@ -115,18 +115,21 @@ def _implies(node: MappingNode, diagnostics: Diagnostics) -> tuple[Implied, ...]
     """Read a list of `{subscription: /clock, type: …, every_node: true, queue: 1, qos: {…}, limits: {…}}`."""
     found = []
     for item in items(node.get("implies")):
-        one = expect_mapping(item, "an item of 'implies'", diagnostics)
-        kind = next((k for k in NAMES if one is not None and k in one.entries), None)
-        if one is None or kind is None:
+        item_node = expect_mapping(item, "an item of 'implies'", diagnostics)
+        kind = next((k for k in NAMES if item_node is not None and k in item_node.entries), None)
+        if item_node is None or kind is None:
             hint = f"Write one of {', '.join(f'`{k}: NAME`' for k in NAMES)}"
             diagnostics.error("'implies' must list endpoints", item.span, hint, id="MG-4010")
             continue
-        check_keys(one, (kind, *_IMPLIED), (kind, "type"), diagnostics)
-        every_node = bool_of(one.get("every_node")) or False
-        name, type_ = read_text(one, kind, diagnostics), read_text(one, "type", diagnostics)
-        queue = int_of(one.get("queue"))
-        qos, limits = _qos(one.get("qos"), diagnostics), endpoint_limits(one.get("limits"), type_)
-        executed, stored = bool_of(one.get("executed")) or False, text_of(one.get("storage")) != "none"
+        check_keys(item_node, (kind, *_IMPLIED), (kind, "type"), diagnostics)
+        every_node = bool_of(item_node.get("every_node")) or False
+        name, type_ = read_text(item_node, kind, diagnostics), read_text(item_node, "type", diagnostics)
+        queue = int_of(item_node.get("queue"))
+        qos, limits = _qos(item_node.get("qos"), diagnostics), endpoint_limits(item_node.get("limits"), type_)
+        executed, stored = (
+            bool_of(item_node.get("executed")) or False,
+            text_of(item_node.get("storage")) != "none",
+        )
         found.append(Implied(kind, name, type_, qos, queue, every_node, limits, executed, stored))
     return tuple(found)
 

@@ -130,13 +130,13 @@ class _Reader:
         profile = parse_profile(source, self._diagnostics) if source else None
         if profile is None:
             return False
-        twin = next((k for k, p in self.found.items() if p.name == profile.name), None)
-        if twin is None and profile.name in self._builtin:
-            twin = f"the built-in {profile.name}"
-        if twin is not None:
+        other = next((k for k, p in self.found.items() if p.name == profile.name), None)
+        if other is None and profile.name in self._builtin:
+            other = f"the built-in {profile.name}"
+        if other is not None:
             hint = "Give it a different name"
             self._diagnostics.error(
-                f"the profile name '{profile.name}' is taken by {twin}", profile.span, hint, id="MG-4016"
+                f"the profile name '{profile.name}' is taken by {other}", profile.span, hint, id="MG-4016"
             )
         self.found[key] = profile
         bases = tuple(self.take(base, path.parent) for base in profile.extends)

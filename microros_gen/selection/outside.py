@@ -97,9 +97,9 @@ class _Reader:
     def _read(self, extension: Extension, name: str) -> Component | None:
         folder = extension.component(name)
         assert folder is not None
-        twin = self.found.get(name)
-        if name in self._builtin or twin is not None:
-            taken = "the built-in component" if twin is None else twin.origin
+        other = self.found.get(name)
+        if name in self._builtin or other is not None:
+            taken = "the built-in component" if other is None else other.origin
             message = f"the name '{name}' of a component from {extension.origin} is taken by {taken}"
             self._diagnostics.error(message, extension.span, f"Rename the folder {folder}", id="MG-4070")
             return None

@@ -87,12 +87,12 @@ def _report_nothing(application: Application, diagnostics: Diagnostics) -> None:
 
 def check_ready(selection: Selection, diagnostics: Diagnostics) -> None:
     """Report what is selected and planned only: an error for each choice of the user that leads to it."""
-    asked: dict[Named, list[str]] = {}
+    requested: dict[Named, list[str]] = {}
     for chosen in selection.components:
         if not chosen.component.ready:
             for cause in chosen.causes:
-                asked.setdefault(cause, []).append(chosen.component.name)
-    for cause, names in sorted(asked.items(), key=lambda item: item[0].name):
+                requested.setdefault(cause, []).append(chosen.component.name)
+    for cause, names in sorted(requested.items(), key=lambda item: item[0].name):
         several = len(names) > 1
         diagnostics.error(
             f"{cause.name} needs the component{'s' if several else ''} {', '.join(names)}, which {NOT_READY}",
@@ -148,9 +148,9 @@ def _pick_axis(picker: Picker, choice: AxisChoice, middleware: Middleware) -> No
     if about.several and choice.value == about.default and choice.reason == "default":
         return
     for each in (choice, *choice.further):
-        brought = about.values[each.value].component
-        if brought is not None:
-            picker.pick(brought, each.text, each.span)
+        needed = about.values[each.value].component
+        if needed is not None:
+            picker.pick(needed, each.text, each.span)
 
 
 def _pick_parts(picker: Picker, application: Application, parts: tuple[str, ...]) -> None:
@@ -160,7 +160,7 @@ def _pick_parts(picker: Picker, application: Application, parts: tuple[str, ...]
     while waiting:
         asks = {ask.capability for name in picker.causes for ask in picker.catalogue[name].asks}
         chosen = (picker.catalogue[name] for name in parts if name in picker.causes)
-        asks |= {ask.capability for part in chosen for one in part.provides for ask in one.asks}
+        asks |= {ask.capability for part in chosen for provision in part.provides for ask in provision.asks}
         useful = [name for name in waiting if _is_useful(picker.catalogue[name], asks)]
         if not useful:
             return
@@ -170,11 +170,11 @@ def _pick_parts(picker: Picker, application: Application, parts: tuple[str, ...]
         waiting = [name for name in waiting if name not in useful]
 
 
-def _is_useful(part: Component, asked: set[str]) -> bool:
+def _is_useful(part: Component, requested: set[str]) -> bool:
     return (
         bool(part.sources)
         or not part.provides
-        or any(one.always or one.capability in asked for one in part.provides)
+        or any(provision.always or provision.capability in requested for provision in part.provides)
     )
 
 

@@ -39,7 +39,7 @@ class Found:
     """A compilation that was found: the files that it read, and what it made, by ending (`.o`, `.d`, `.ci`)."""
 
     files: list[str]
-    made: Mapping[str, bytes]
+    outputs: Mapping[str, bytes]
 
 
 class ObjectStore:
@@ -66,12 +66,12 @@ class ObjectStore:
         """
         for files in self._lists(key):
             path = self._object(key, digest(files))
-            made = _unpacked(path)
-            if made is not None:
+            outputs = _unpacked(path)
+            if outputs is not None:
                 with suppress(OSError):
                     os.utime(path)
                     os.utime(self._list_path(key))
-                return Found(files, made)
+                return Found(files, outputs)
         return None
 
     def keep(self, key: str, digest: _Digest, found: Found) -> None:
@@ -79,7 +79,7 @@ class ObjectStore:
         files = found.files
         others = [other for other in self._lists(key) if other != files]
         lists = json.dumps([files, *others][:_LISTS]).encode()
-        packed = _packed(found.made)
+        packed = _packed(found.outputs)
         with suppress(OSError):
             _write(self._object(key, digest(files)), packed)
             _write(self._list_path(key), lists)
@@ -135,10 +135,10 @@ class ObjectStore:
         return self._folder / name[:2] / f"{name}.bin"
 
 
-def _packed(made: Mapping[str, bytes]) -> bytes:
+def _packed(outputs: Mapping[str, bytes]) -> bytes:
     """Return the bytes of an entry: a line with the digest of the rest, one with endings and sizes, the contents."""
-    sizes = json.dumps({ending: len(content) for ending, content in made.items()}).encode()
-    body = b"".join((sizes, b"\n", *made.values()))
+    sizes = json.dumps({ending: len(content) for ending, content in outputs.items()}).encode()
+    body = b"".join((sizes, b"\n", *outputs.values()))
     return hashlib.sha256(body).hexdigest().encode() + b"\n" + body
 
 
@@ -151,11 +151,11 @@ def _unpacked(path: Path) -> dict[str, bytes] | None:
     if digest.decode("ascii", "replace") != hashlib.sha256(body).hexdigest():
         return None
     sizes, _, contents = body.partition(b"\n")
-    made, at = {}, 0
+    outputs, at = {}, 0
     for ending, size in json.loads(sizes).items():
-        made[ending] = contents[at : at + size]
+        outputs[ending] = contents[at : at + size]
         at += size
-    return made
+    return outputs
 
 
 def _write(path: Path, content: bytes) -> None:

@@ -87,8 +87,8 @@ class Objects:
             return False
         for ending in ENDINGS:
             path = self._made(unit, ending)
-            if ending in found.made:
-                path.write_bytes(found.made[ending])
+            if ending in found.outputs:
+                path.write_bytes(found.outputs[ending])
             else:
                 path.unlink(missing_ok=True)
         self._stamps.record(unit.object, unit.identity, found.files)
@@ -100,8 +100,8 @@ class Objects:
         if self._store is None or not _is_kept(unit) or any(map(self._has_time, files)):
             return
         paths = {ending: self._made(unit, ending) for ending in ENDINGS}
-        made = {ending: path.read_bytes() for ending, path in paths.items() if path.is_file()}
-        self._store.keep(self._key(unit), self._contents.of_files, Found(files, made))
+        contents = {ending: path.read_bytes() for ending, path in paths.items() if path.is_file()}
+        self._store.keep(self._key(unit), self._contents.of_files, Found(files, contents))
 
     def _key(self, unit: Unit) -> str:
         """Return what identifies a compilation before it is known what it reads."""

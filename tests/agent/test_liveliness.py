@@ -57,7 +57,7 @@ def test_on_a_lossless_line_the_time_out_stays_as_set() -> None:
     bench = quiet(2_000)
     assert live(bench, 60, 0.0, random.Random(1)) == 0
     (client,) = bench.agent.clients
-    heard = client.heard
+    heard = client.last_received
     while not client.asleep:
         bench.wait(STEP_S, STEP_S)
     assert bench.now - heard == pytest.approx(2.0, abs=0.11)
@@ -69,7 +69,7 @@ def test_one_that_has_gone_is_noticed_on_a_bad_line_too(loss: float) -> None:
     live(bench, 200, loss, random.Random(2))
     (client,) = bench.agent.clients
     bench.say(SIGN_OF_LIFE)
-    heard = client.heard
+    heard = client.last_received
     while not client.asleep:
         bench.wait(STEP_S, STEP_S)
     assert 2.0 < bench.now - heard <= 4.2

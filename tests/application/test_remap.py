@@ -68,7 +68,7 @@ def test_names_of_the_source_are_kept_next_to_those_on_the_wire() -> None:
         "imu",
         "/arm",
     )
-    assert [(e.topic, e.given) for e in node.endpoints] == [
+    assert [(e.topic, e.declared_as) for e in node.endpoints] == [
         ("/robot/imu", "/left/data"),
         ("~/state", ""),
         ("/left/imu/restart", "/left/reset"),

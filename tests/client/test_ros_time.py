@@ -118,7 +118,7 @@ def test_a_rule_of_the_first_node_moves_it(tmp_path: Path) -> None:
     text = NODES.replace("name: first", "name: first\n    remap: {/clock: /sim/clock}")
     result = planned(tmp_path, text)
     clock = result.project.runtime.entities.subscriptions.declared[0]
-    assert (clock.given, clock.topic, clock.dds_topic) == ("/clock", "/sim/clock", "rt/sim/clock")
+    assert (clock.declared_as, clock.topic, clock.dds_topic) == ("/clock", "/sim/clock", "rt/sim/clock")
     for wrong, expected in (
         (text.replace("clock: ros\n", ""), "first does not subscribe to /clock. Select it with `clock: ros`"),
         (

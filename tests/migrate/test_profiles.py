@@ -10,7 +10,7 @@ import pytest
 
 from microros_gen.cli import main as cli
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.migrate.proposal import Wish
+from microros_gen.migrate.proposal import InitOptions
 from microros_gen.platform.find import builtin_targets, read_target
 from microros_gen.toolchain.toolchain import WARNINGS
 from tests.support.ids import without_id
@@ -132,4 +132,4 @@ def test_a_file_is_no_folder(init: Init, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("folder", "name"), [("a", "a"), ("42", "app_42"), ("Über", "ber"), ("x__y", "x_y")])
 def test_the_name_of_the_folder_becomes_a_name(folder: str, name: str) -> None:
-    assert Wish(Path("deep") / folder, (), None, None, (), ()).name == name
+    assert InitOptions(Path("deep") / folder, (), None, None, (), ()).name == name

@@ -210,7 +210,7 @@ def test_builds_side_by_side_find_whole_entries(tmp_path: Path) -> None:
         store.keep("aa", "".join, Found(["x"], {".o": content, ".d": b"d"}))
         found = store.find("aa", "".join)
         store.close()
-        return found is None or found.made == {".o": content, ".d": b"d"}
+        return found is None or found.outputs == {".o": content, ".d": b"d"}
 
     with ThreadPoolExecutor(8) as pool:
         assert all(pool.map(keep_and_find, range(200)))

@@ -263,8 +263,8 @@ class _Objects:
         value = node.get(key)
         if identifier is None or value is None or not kind:
             return 0
-        there = self.found.get(identifier)
-        if not self._unsure and (there is None or there.kind != kind):
+        referred = self.found.get(identifier)
+        if not self._unsure and (referred is None or referred.kind != kind):
             known = [f"{o.id:#06x}" for o in self.found.values() if o.kind == kind]
             hint = nearest(f"{identifier:#06x}", known) or f"Put the {kind} before what names it"
             self._diagnostics.error(

@@ -76,8 +76,8 @@ class Wakeups(Generic[T]):
     @staticmethod
     def set_timer(descriptor: int, seconds: float) -> None:
         """Let a timer wake up once, so many seconds from now."""
-        moment = _Time(first_s=int(seconds), first_ns=round(seconds % 1 * 1e9))
-        _libc().timerfd_settime(descriptor, 0, ctypes.byref(moment), None)
+        deadline = _Time(first_s=int(seconds), first_ns=round(seconds % 1 * 1e9))
+        _libc().timerfd_settime(descriptor, 0, ctypes.byref(deadline), None)
 
     def remove(self, descriptor: int) -> None:
         """Close an eventfd that nobody writes to any more."""

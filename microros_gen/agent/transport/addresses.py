@@ -42,11 +42,11 @@ def parse_address(text: str) -> Address:
 
 def _ipv4() -> list[OwnAddress]:
     found = []
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asked:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as queried:
         for index, name in socket.if_nameindex():
             request = struct.pack("256s", name.encode()[: _NAME_BYTES - 1])
             try:
-                answer = fcntl.ioctl(asked, _SIOCGIFADDR, request)
+                answer = fcntl.ioctl(queried, _SIOCGIFADDR, request)
             except OSError:
                 continue  # it has none
             found.append(OwnAddress(ipaddress.IPv4Address(answer[20:24]), index))

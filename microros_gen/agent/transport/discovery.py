@@ -135,12 +135,12 @@ class Discovery:
 
     def locators(self, asker: Address) -> tuple[Locator, ...]:
         """Return where the agent listens, as far as `asker` can get there: UDP before TCP, IPv4 before IPv6."""
-        near = self._is_near(asker)
+        is_near = self._is_near(asker)
         found = dict.fromkeys(
             (address, transport.port)
             for transport in self._transports
             for address in self._reachable(parse_address(transport.host), asker)
-            if near or not address.is_loopback
+            if is_near or not address.is_loopback
         )
         ordered = sorted(found, key=lambda place: place[0].version)
         return tuple(_locator(address, port) for address, port in ordered[:MOST_LOCATORS])
@@ -192,20 +192,20 @@ class Discovery:
 
 
 def _open(port: int) -> socket.socket:
-    made = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    opened = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     try:
-        made.setblocking(False)
+        opened.setblocking(False)
         # Others share the port: DDS of domain 0 listens there to another group, and so do other agents.
-        made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        made.setsockopt(socket.IPPROTO_IP, _IP_MULTICAST_ALL, 0)
-        made.bind((GROUP, port))  # not to every address: what is sent to this machine alone is no question
+        opened.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        opened.setsockopt(socket.IPPROTO_IP, _IP_MULTICAST_ALL, 0)
+        opened.bind((GROUP, port))  # not to every address: what is sent to this machine alone is no question
     except OSError as error:
-        made.close()
+        opened.close()
         reason = f"discovery at {GROUP}:{port} cannot be opened: {error.strerror or error}"
         raise UserError(
             [Diagnostic(reason, hint="Choose another port with --discovery-port", id="MG-9429")]
         ) from error
-    return made
+    return opened
 
 
 def _facing(asker: Address) -> Address | None:

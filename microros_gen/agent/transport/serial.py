@@ -124,11 +124,11 @@ def _make_link(link: Path, device: str) -> None:
 
 
 def _no_such_speed(baud: int) -> Diagnostic:
-    near = min(speeds(), key=lambda speed: abs(speed - baud))
+    nearest_baud = min(speeds(), key=lambda speed: abs(speed - baud))
     known = ", ".join(str(speed) for speed in speeds() if speed >= 9600)
     return Diagnostic(
         f"this system has no serial speed of {baud} bit/s",
-        hint=f"The nearest is {near}; available: {known}",
+        hint=f"The nearest is {nearest_baud}; available: {known}",
         id="MG-9431",
     )
 

@@ -60,24 +60,24 @@ def open_socket(protocol: Protocol, host: str, port: int) -> socket.socket:
     kind = socket.SOCK_STREAM if protocol.stream else socket.SOCK_DGRAM
     try:
         place = socket.getaddrinfo(host, port, protocol.family, kind)[0][4]
-        made = socket.socket(protocol.family, kind)
+        opened = socket.socket(protocol.family, kind)
     except OSError as error:
         raise UserError([_explain(error, protocol, host, port)]) from error
     try:
-        made.setblocking(False)
+        opened.setblocking(False)
         if protocol.family == socket.AF_INET6:
-            made.setsockopt(socket.IPPROTO_IPV6, socket.IPV6_V6ONLY, 1)
+            opened.setsockopt(socket.IPPROTO_IPV6, socket.IPV6_V6ONLY, 1)
         if protocol.stream:
-            made.setsockopt(
+            opened.setsockopt(
                 socket.SOL_SOCKET, socket.SO_REUSEADDR, 1
             )  # connections of an earlier agent linger
         else:
-            made.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, BUFFER_BYTES)
-        made.bind(place)
+            opened.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, BUFFER_BYTES)
+        opened.bind(place)
     except OSError as error:
-        made.close()
+        opened.close()
         raise UserError([_explain(error, protocol, host, port)]) from error
-    return made
+    return opened
 
 
 def open_connected(listener: socket.socket, peer: tuple[object, ...]) -> socket.socket:
@@ -86,20 +86,20 @@ def open_connected(listener: socket.socket, peer: tuple[object, ...]) -> socket.
     The port is shared among the sockets of this user alone (SO_REUSEPORT), and only from when the listener was bound: a
     second agent at the port is still refused. Between the two calls below the new one may get datagrams of others.
     """
-    made = socket.socket(listener.family, socket.SOCK_DGRAM)
+    connected = socket.socket(listener.family, socket.SOCK_DGRAM)
     try:
-        made.setblocking(False)
+        connected.setblocking(False)
         if listener.family == socket.AF_INET6:
-            made.setsockopt(socket.IPPROTO_IPV6, socket.IPV6_V6ONLY, 1)
-        made.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, CLIENT_BUFFER_BYTES)
+            connected.setsockopt(socket.IPPROTO_IPV6, socket.IPV6_V6ONLY, 1)
+        connected.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, CLIENT_BUFFER_BYTES)
         listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
-        made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
-        made.bind(listener.getsockname())
-        made.connect(peer)
+        connected.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
+        connected.bind(listener.getsockname())
+        connected.connect(peer)
     except OSError:
-        made.close()
+        connected.close()
         raise
-    return made
+    return connected
 
 
 def place_name(address: object) -> str:

@@ -64,7 +64,7 @@ class Connection:
 
     def __init__(
         self,
-        made: socket.socket,
+        accepted: socket.socket,
         peer: str,
         limit: int,
         now: float,
@@ -81,14 +81,14 @@ class Connection:
         """The agent has sent something to it: it said something that makes sense."""
         self.holder = holder
         """Holds the message that it began."""
-        self.socket = made
-        self.descriptor = made.fileno()
+        self.socket = accepted
+        self.descriptor = accepted.fileno()
         self.peer = peer
         self.decoder = LengthDecoder()
         self.outbox = Outbox(limit, partial(too_slow, peer), output)
         self.spoke = False
         """A whole message came."""
-        self.heard = now
+        self.last_received = now
         self.due_since: float | None = now
         """Since when a message is owed: its first one, or the rest of one."""
         self.stuck_since: float | None = None
@@ -208,7 +208,7 @@ class Tcp:
         if address.closed or len(data) > LARGEST_PAYLOAD:
             return
         frame = encode_length(data)
-        begun = False
+        is_partly_sent = False
         if not address.outbox:
             try:
                 done = address.socket.send(frame)
@@ -220,10 +220,10 @@ class Tcp:
             if done == len(frame):
                 return
             frame = frame[done:]
-            begun = done > 0
+            is_partly_sent = done > 0
             address.stuck_since = self._now
             self._watch(address, writing=True)
-        if not address.outbox.put(frame, not begun and is_sample(data)):
+        if not address.outbox.put(frame, not is_partly_sent and is_sample(data)):
             text = "{transport}: {peer} reads too slowly: messages to it are lost"
             self._log.count("tcp_output_full", text, transport=self.label, peer=address.peer)
 
@@ -249,7 +249,7 @@ class Tcp:
         if not data:
             self._drop(connection, "it hung up")
             return
-        connection.heard = self._now
+        connection.last_received = self._now
         for message in connection.decoder.feed(data):
             if message:
                 connection.spoke = True
@@ -288,7 +288,7 @@ class Tcp:
     def _accept(self) -> None:
         for _ in range(ACCEPTS):
             try:
-                made, peer = self._listener.accept()
+                accepted, peer = self._listener.accept()
             except BlockingIOError:
                 return
             except OSError as error:
@@ -301,21 +301,21 @@ class Tcp:
                 continue  # it was gone again
             host = host_of(peer[0])
             if self._make_room(host):
-                self._add(made, place_name(peer), host)
+                self._add(accepted, place_name(peer), host)
             else:
                 text = "{transport} has {count} connections already: {peer} was refused"
                 fields = {"transport": self.label, "peer": place_name(peer)}
                 self._log.count("tcp_refused", text, count=len(self._connections), **fields)
-                made.close()
+                accepted.close()
 
-    def _add(self, made: socket.socket, peer: str, host: str) -> None:
-        made.setblocking(False)
-        made.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-        made.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
+    def _add(self, accepted: socket.socket, peer: str, host: str) -> None:
+        accepted.setblocking(False)
+        accepted.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        accepted.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
         for name, value in _KEEPALIVE:
-            made.setsockopt(socket.IPPROTO_TCP, getattr(socket, name), value)
+            accepted.setsockopt(socket.IPPROTO_TCP, getattr(socket, name), value)
         connection = Connection(
-            made,
+            accepted,
             peer,
             self._limits.output_bytes,
             self._now,
@@ -326,7 +326,7 @@ class Tcp:
             self._strangers,
         )
         self._connections[connection.descriptor] = connection
-        self._epoll.register(made, select.EPOLLIN)
+        self._epoll.register(accepted, select.EPOLLIN)
         self._log.emit(
             Level.DEBUG, "connection_opened", "{transport}: {peer} opened", transport=self.label, peer=peer
         )
@@ -351,8 +351,8 @@ class Tcp:
         return self._displace(list(self._connections.values()), self._limits.patience_s)
 
     def _displace(self, candidates: list[Connection], silent_s: float) -> bool:
-        least = min(candidates, key=lambda c: (c.answered, c.heard))
-        if least.answered and self._now - least.heard < silent_s:
+        least = min(candidates, key=lambda c: (c.answered, c.last_received))
+        if least.answered and self._now - least.last_received < silent_s:
             return False
         self._fail(least, "tcp_displaced", "its place is needed")
         return True

@@ -33,9 +33,9 @@ Peer = Any
 class Queue:
     """A socket that is read: the one for everybody, or that of one client."""
 
-    def __init__(self, made: socket.socket, account: Account, peer: Peer = None) -> None:
+    def __init__(self, opened: socket.socket, account: Account, peer: Peer = None) -> None:
         """`peer`: whose it is; None: everybody's who has none."""
-        self.socket = made
+        self.socket = opened
         self.account = account
         self.peer = peer
 
@@ -115,12 +115,12 @@ class Udp:
         peer: Peer = address[1]  # type: ignore[index]
         self.release(address)
         try:
-            twin = open_connected(self._socket, peer)
+            connected = open_connected(self._socket, peer)
         except OSError:
             return  # no descriptor is left: it is read with everybody's
         self._keep(self._socket)  # what it said before comes before what it says from now on
-        self._keep(twin)
-        queue = self._by_peer[peer] = self._queues[twin.fileno()] = Queue(twin, account, peer)
+        self._keep(connected)
+        queue = self._by_peer[peer] = self._queues[connected.fileno()] = Queue(connected, account, peer)
         self._epoll.register(queue.socket, select.EPOLLIN)
 
     def release(self, address: Hashable, moved: bool = False) -> None:

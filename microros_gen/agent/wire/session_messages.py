@@ -249,8 +249,8 @@ def _read_time(reader: Reader) -> Time:
     return reader.i32(), reader.u32()
 
 
-def _write_time(writer: Writer, moment: Time) -> None:
-    writer.u32(moment[0] & 0xFFFF_FFFF).u32(moment[1])
+def _write_time(writer: Writer, time: Time) -> None:
+    writer.u32(time[0] & 0xFFFF_FFFF).u32(time[1])
 
 
 @dataclass(frozen=True)
@@ -287,6 +287,6 @@ class TimestampReply:
 
     def encode(self, writer: Writer) -> int:
         """Write the payload; return the flags besides the byte order."""
-        for moment in (self.transmit, self.receive, self.originate):
-            _write_time(writer, moment)
+        for time in (self.transmit, self.receive, self.originate):
+            _write_time(writer, time)
         return 0

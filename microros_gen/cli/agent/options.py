@@ -142,40 +142,40 @@ class AgentOptions:
     """Where the configuration file names a path."""
 
     @staticmethod
-    def of(given: Sequence[dict[str, Any]], transports: Iterable[TransportChoice]) -> AgentOptions:
-        """Return what the command line (`given`: the common options of each place) and the file say together.
+    def of(sections: Sequence[dict[str, Any]], transports: Iterable[TransportChoice]) -> AgentOptions:
+        """Return what the command line (`sections`: the common options of each place) and the file say together.
 
         UserError: a file or a limit that does not hold, an option with two values, or no transport.
         """
-        one = _one_each(given)
-        file, folder = _read_file(one["config"])
+        options = _one_each(sections)
+        file, folder = _read_file(options["config"])
         chosen = tuple(transports) or tuple(_near(folder, choice) for choice in file.transports)
         if not chosen:
             hint = "Name one, as `microros-gen agent udp4 --port 8888`, or a --config that does"
             raise UserError([Diagnostic("the agent has no transport", hint=hint, id="MG-9701")])
-        asked = one["discovery_port"] or (DISCOVERY_PORT if one["discovery"] else None)
+        discovery_port = options["discovery_port"] or (DISCOVERY_PORT if options["discovery"] else None)
         return AgentOptions(
             transports=chosen,
-            discovery=file.discovery if asked is None else asked,
-            domain=file.domain if one["domain"] is None else one["domain"],
-            limits=_limits(file, one),
-            references=_paths(folder, file.references, one["references"]),
-            entities=_paths(folder, file.entities, one["entities"]),
+            discovery=file.discovery if discovery_port is None else discovery_port,
+            domain=file.domain if options["domain"] is None else options["domain"],
+            limits=_limits(file, options),
+            references=_paths(folder, file.references, options["references"]),
+            entities=_paths(folder, file.entities, options["entities"]),
             manifests=(
                 *(ManifestOf.of(named.path, folder, named.span) for named in file.manifests),
-                *(ManifestOf.of(text, Path()) for text in one["manifest"]),
+                *(ManifestOf.of(text, Path()) for text in options["manifest"]),
             ),
-            interface_paths=_paths(folder, file.interface_paths, one["interface_path"]),
-            log_format=one["log_format"] or file.log_format or "text",
-            verbose=one["verbose"] or file.verbose or 0,
+            interface_paths=_paths(folder, file.interface_paths, options["interface_path"]),
+            log_format=options["log_format"] or file.log_format or "text",
+            verbose=options["verbose"] or file.verbose or 0,
             places={folder / n.path: n.span for n in _named(file) if n.span is not None},
         )
 
 
-def _one_each(given: Sequence[dict[str, Any]]) -> dict[str, Any]:
+def _one_each(sections: Sequence[dict[str, Any]]) -> dict[str, Any]:
     """Return one value of each option: lists joined, counts added; UserError for two that differ."""
-    joined = dict(given[0])
-    for place in given[1:]:
+    joined = dict(sections[0])
+    for place in sections[1:]:
         for name, value in place.items():
             before = joined[name]
             if value is None or value is False:
@@ -232,24 +232,24 @@ def _near(folder: Path, choice: TransportChoice) -> TransportChoice:
     return choice
 
 
-def _paths(folder: Path, of_file: Sequence[NamedPath], given: Sequence[Path]) -> tuple[Path, ...]:
-    return tuple(dict.fromkeys((*(folder / named.path for named in of_file), *given)))
+def _paths(folder: Path, of_file: Sequence[NamedPath], of_options: Sequence[Path]) -> tuple[Path, ...]:
+    return tuple(dict.fromkeys((*(folder / named.path for named in of_file), *of_options)))
 
 
-def _limits(file: AgentFile, one: dict[str, Any]) -> Limits:
+def _limits(file: AgentFile, options: dict[str, Any]) -> Limits:
     """Return the limits: defaults, then the file's, then those of the command line."""
     chosen: dict[str, Any] = dict(file.limits)
     diagnostics = Diagnostics()
-    for text in one["limits"]:
+    for text in options["limits"]:
         name, _, value = text.partition("=")
         number = _limit(name, value, diagnostics)
         if number is not None:
             chosen[name] = number
     diagnostics.check()
-    if one["client_timeout"] is not None:
-        chosen["client_timeout_s"] = one["client_timeout"]
-    if one["max_clients"] is not None:
-        chosen["clients"] = one["max_clients"]
+    if options["client_timeout"] is not None:
+        chosen["client_timeout_s"] = options["client_timeout"]
+    if options["max_clients"] is not None:
+        chosen["clients"] = options["max_clients"]
     return replace(DEFAULTS, **chosen)
 
 

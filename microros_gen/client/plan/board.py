@@ -238,8 +238,8 @@ def _stdio_divisor(
 
 
 def _stack_size(application: Application, target: Target, diagnostics: Diagnostics) -> int:
-    asked = application.memory.stack
-    size = DEFAULT_STACK if asked is None else asked
+    requested = application.memory.stack
+    size = DEFAULT_STACK if requested is None else requested
     size = (size + _STACK_ALIGNMENT - 1) // _STACK_ALIGNMENT * _STACK_ALIGNMENT
     region = target.stack_region
     assert region is not None

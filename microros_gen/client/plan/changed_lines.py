@@ -29,8 +29,8 @@ def changed_lines(before: Application, after: Application) -> Iterator[ChangedLi
         pools = ", ".join(f"{key}: {value}" for key, value in after.pools.items())
         yield ChangedLine(f"pools: {{{pools}}}", f"instead of `pools:` in line {span.line}" if span else "")
     yield from _limits(before, after)
-    for one, other in zip(before.nodes, after.nodes, strict=True):
-        for old, new in zip(one.endpoints, other.endpoints, strict=True):
+    for node_before, node_after in zip(before.nodes, after.nodes, strict=True):
+        for old, new in zip(node_before.endpoints, node_after.endpoints, strict=True):
             yield from _queues(old, new)
 
 
@@ -51,7 +51,7 @@ def _limits(before: Application, after: Application) -> Iterator[ChangedLine]:
 
 
 def _queues(old: EndpointDecl, new: EndpointDecl) -> Iterator[ChangedLine]:
-    at = f"at the {old.kind} {old.given or old.topic}{f', line {old.span.line}' if old.span else ''}"
+    at = f"at the {old.kind} {old.declared_as or old.topic}{f', line {old.span.line}' if old.span else ''}"
     for key, known, value in (
         ("queue", old.queue, new.queue),
         ("queue_bytes", old.queue_bytes, new.queue_bytes),

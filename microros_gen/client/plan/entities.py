@@ -110,14 +110,15 @@ class EntitiesPlan:
     def endpoints(self) -> tuple[EndpointRow, ...]:
         """The declared endpoints in the order of their places, with the places that nobody declared."""
         declared = self.publishers.declared
-        publishers = [EndpointRow(p.topic, p.dds_type, p.node, p.limited, p.given) for p in declared]
+        publishers = [EndpointRow(p.topic, p.dds_type, p.node, p.limited, p.declared_as) for p in declared]
         subscriptions = [
-            EndpointRow(s.topic, s.dds_type, s.node, given=s.given) for s in self.subscriptions.declared
+            EndpointRow(s.topic, s.dds_type, s.node, declared_as=s.declared_as)
+            for s in self.subscriptions.declared
         ]
         rows = publishers + [EndpointRow()] * (self.publisher_places - len(publishers))
         subscriptions += [EndpointRow()] * (self.subscriptions.max - len(subscriptions))
         services = [
-            EndpointRow(s.name, s.dds_type, s.node, s.limited, s.given)
+            EndpointRow(s.name, s.dds_type, s.node, s.limited, s.declared_as)
             for s in (*self.services.declared, *self.clients.declared)
         ]
         return (*rows, *subscriptions, *services)
@@ -126,7 +127,7 @@ class EntitiesPlan:
     def remaps(self) -> bool:
         """Whether some name of the source is another one on the wire."""
         nodes = any(node.given_name for node in self.nodes.declared)
-        return nodes or any(row.given for row in self.endpoints)
+        return nodes or any(row.declared_as for row in self.endpoints)
 
     @property
     def limited_headers(self) -> tuple[str, ...]:

@@ -112,7 +112,7 @@ def _with_changed(application: Application, endpoint: EndpointDecl, changed: End
 def _with_limit(application: Application, capacity: Capacity, value: int) -> Application:
     path = (str(capacity.root), *capacity.path)
     others = tuple(rule for rule in application.limits if rule.path != path)
-    mine = [rule for rule in application.limits if rule.path == path and not rule.single]
-    rule = mine[0] if mine else LimitRule(path)
+    of_path = [rule for rule in application.limits if rule.path == path and not rule.single]
+    rule = of_path[0] if of_path else LimitRule(path)
     rule = replace(rule, string=value) if capacity.kind == "string" else replace(rule, sequence=value)
     return replace(application, limits=(*others, rule))

@@ -105,7 +105,7 @@ def _input(plan: InputPlan) -> _Record:
         "lent": [plan.reader, plan.free],
         "fragments": plan.arrives_in_fragments,
         "reliable": [plan.reliable_slots, plan.reliable_slot_size],
-        "queues": [[q.slots, q.slot_size, q.asked] for q in plan.queues],
+        "queues": [[q.slots, q.slot_size, q.requested_bytes] for q in plan.queues],
     }
 
 
@@ -123,7 +123,7 @@ def _entities(plan: EntitiesPlan) -> _Record:
 
 
 def _places(places: Places[Declared], row: Callable[[Declared], list[Any]]) -> list[Any]:
-    return [places.max, places.implied, [row(one) for one in places.declared]]
+    return [places.max, places.implied, [row(plan) for plan in places.declared]]
 
 
 def _node(plan: NodePlan) -> list[Any]:
@@ -134,19 +134,27 @@ def _node(plan: NodePlan) -> list[Any]:
 
 
 def _publisher(plan: PublisherPlan) -> list[Any]:
-    return [plan.node, plan.topic, plan.dds_topic, str(plan.type), plan.reliable, plan.limited, plan.given]
+    return [
+        plan.node,
+        plan.topic,
+        plan.dds_topic,
+        str(plan.type),
+        plan.reliable,
+        plan.limited,
+        plan.declared_as,
+    ]
 
 
 def _subscription(plan: SubscriptionPlan) -> list[Any]:
     return [
-        *(plan.node, plan.topic, plan.dds_topic, str(plan.type), plan.reliable, plan.given),
+        *(plan.node, plan.topic, plan.dds_topic, str(plan.type), plan.reliable, plan.declared_as),
         *(plan.storage, plan.header, plan.c_type, list(plan.buffers), plan.stored),
     ]
 
 
 def _service(plan: ServicePlan) -> list[Any]:
     stored = [[m.part, m.storage, m.header, m.c_type, list(m.buffers)] for m in plan.stored]
-    return [plan.node, plan.name, str(plan.type), plan.limited, stored, plan.given]
+    return [plan.node, plan.name, str(plan.type), plan.limited, stored, plan.declared_as]
 
 
 def _memory(plan: MemoryPlan) -> _Record:

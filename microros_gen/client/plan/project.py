@@ -145,7 +145,9 @@ def plan_project(
         (*receiving.received, *serving.received),
         create_text,
         # Memory that survives a sleep ends before the input buffer.
-        lends_input=bool(nodes) and not session.has_sleep and all(queue.asked is None for queue in queues),
+        lends_input=bool(nodes)
+        and not session.has_sleep
+        and all(queue.requested_bytes is None for queue in queues),
         keeps_output=own_driver,
     )
     receivers = receiving.subscriptions_max + serving.services_max + serving.clients_max

@@ -59,7 +59,7 @@ def _declared(application: Application, types: Mapping[TypeName, TypePlan]) -> t
                 name,
                 reliable,
                 own.name if own else "",
-                endpoint.given,
+                endpoint.declared_as,
             )
         )
     return tuple(publishers)

@@ -65,7 +65,7 @@ def plan_receiving(
         reliable = endpoint.qos.reliability == "reliable"
         size = types[name].largest("subscription", index)
         plan = SubscriptionPlan(
-            index, node_index, topic, dds_topic(topic), name, reliable, given=endpoint.given
+            index, node_index, topic, dds_topic(topic), name, reliable, declared_as=endpoint.declared_as
         )
         subscriptions.append(_with_storage(plan, types, endpoint.stored))
         label = f"{endpoint.type} on {topic}"

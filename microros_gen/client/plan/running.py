@@ -163,4 +163,4 @@ def _handles(node: NodeDecl, executor: ExecutorDecl) -> int:
     names = {handle.name for handle in executor.handles}
     received = [e for e in node.endpoints if KIND[e.kind].waited and e.takes_handle]
     timers = sum(not names or timer.name in names for timer in node.timers)
-    return timers + sum(not names or e.executed or (e.given or e.topic) in names for e in received)
+    return timers + sum(not names or e.executed or (e.declared_as or e.topic) in names for e in received)

@@ -46,7 +46,7 @@ class PublisherPlan:
     """A declared publisher; `topic` is the expanded ROS name (`/imu/data`), `dds_topic` is `rt` + topic.
 
     `limited` is the prefix of the C names of its type under own limits (typesupport/plan/own_limits.py); empty: those
-    of the type. `given` is the expanded name that the source has, where `remap:` makes it `topic`.
+    of the type. `declared_as` is the expanded name that the source has, where `remap:` makes it `topic`.
     """
 
     index: int
@@ -56,7 +56,7 @@ class PublisherPlan:
     type: TypeName
     reliable: bool
     limited: str = field(default="", repr=False)
-    given: str = field(default="", repr=False)
+    declared_as: str = field(default="", repr=False)
 
     @property
     def dds_type(self) -> str:
@@ -84,7 +84,7 @@ class SubscriptionPlan:
     c_type: str = ""
     buffers: tuple[str, ...] = ()
     stored: bool = False
-    given: str = field(default="", repr=False)
+    declared_as: str = field(default="", repr=False)
 
     @property
     def dds_type(self) -> str:
@@ -96,19 +96,19 @@ class SubscriptionPlan:
 class QueuePlan:
     """What waits for the application to take it: `slots` samples, of at most `slot_size` bytes each.
 
-    `asked`: they share so many bytes, each takes what it has; None: each has `slot_size`. A sample is what DATA carries
-    after the object's id: the CDR body, for a service after 24 bytes (who asks), for a client after 4 (which
-    request).
+    `requested_bytes`: they share this number of bytes, and each takes its own size; None: each takes `slot_size`. A
+    sample is what DATA contains after the object's id: the CDR body, for a service after 24 bytes (the requester), for
+    a client after 4 (the request).
     """
 
     slots: int
     slot_size: int
-    asked: int | None = field(default=None, repr=False)
+    requested_bytes: int | None = field(default=None, repr=False)
 
     @property
     def size(self) -> int:
         """Bytes of all samples together."""
-        return self.slots * self.slot_size if self.asked is None else self.asked
+        return self.slots * self.slot_size if self.requested_bytes is None else self.requested_bytes
 
     @property
     def waits_alone(self) -> bool:

@@ -14,7 +14,7 @@ class EndpointRow:
     dds_type: str = ""
     node: int = 0
     limited: str = ""
-    given: str = ""
+    declared_as: str = ""
 
 
 @dataclass(frozen=True)

@@ -26,8 +26,8 @@ class ServicePlan:
     """A declared service or client, by `kind`; `index` counts those of its kind alone.
 
     `name` is the expanded ROS name (`/arm/set_bool`), `type` the service's. `limited` begins the C names of the type of
-    what it sends, where that has its own limits. `stored`: what it receives, and what a service answers. `given` is
-    as of publishers.
+    what it sends, where that has its own limits. `stored`: what it receives, and what a service answers. `declared_as`
+    as for publishers.
     """
 
     kind: str
@@ -37,7 +37,7 @@ class ServicePlan:
     type: TypeName
     limited: str = field(default="", repr=False)
     stored: tuple[StoredMessage, ...] = ()
-    given: str = ""
+    declared_as: str = ""
 
     def binder(self, part: str) -> str:
         """Return the C function that binds its request or response to storage: NULL without such."""

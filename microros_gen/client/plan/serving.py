@@ -162,7 +162,7 @@ def _plan(
                     tuple(buffers_of(type_.message, messages)),
                 )
             )
-    return ServicePlan(kind, index, node, name, service, limited, tuple(stored), endpoint.given)
+    return ServicePlan(kind, index, node, name, service, limited, tuple(stored), endpoint.declared_as)
 
 
 def _pooled(

@@ -47,5 +47,5 @@ def _client_key(application: Application, selection: Selection, target: Target, 
 
 
 def _hard_liveliness(application: Application, selection: Selection) -> int:
-    asked = application.hard_liveliness_ms
-    return asked or (DEFAULT_SILENCE_MS if selection.has("liveliness_hard") else 0)
+    requested = application.hard_liveliness_ms
+    return requested or (DEFAULT_SILENCE_MS if selection.has("liveliness_hard") else 0)

@@ -36,23 +36,23 @@ class TimesPlan:
     close_timeout_ms: int = CLOSE_MS
 
 
-def plan_times(asked: SessionTimes, baud: int | None, sent: int, received: int) -> TimesPlan:
+def plan_times(settings: SessionTimes, baud: int | None, sent: int, received: int) -> TimesPlan:
     """Return the times of a session. `baud`: of its serial line, or None; `sent`, `received`: its largest messages."""
-    first = asked.round_trip or max(ROUND_TRIP_MS, _line_ms(baud, sent + received))
+    first = settings.round_trip or max(ROUND_TRIP_MS, _line_ms(baud, sent + received))
 
-    def of(given: int | None, least: int, round_trips: int) -> int:
-        return given if given is not None else max(least, round_trips * first)
+    def of(configured: int | None, least: int, round_trips: int) -> int:
+        return configured if configured is not None else max(least, round_trips * first)
 
-    silence = of(asked.liveliness_timeout, SILENCE_MS, SILENCE_ROUND_TRIPS)
+    silence = of(settings.liveliness_timeout, SILENCE_MS, SILENCE_ROUND_TRIPS)
     return TimesPlan(
         retry_first_ms=first,
-        retry_most_ms=max(first, of(asked.retry_max, RETRY_MAX_MS, RETRY_MAX_ROUND_TRIPS)),
-        heartbeat_period_ms=asked.heartbeat or first,
-        liveliness_period_ms=of(asked.liveliness_period, PERIOD_MS, PERIOD_ROUND_TRIPS),
+        retry_most_ms=max(first, of(settings.retry_max, RETRY_MAX_MS, RETRY_MAX_ROUND_TRIPS)),
+        heartbeat_period_ms=settings.heartbeat or first,
+        liveliness_period_ms=of(settings.liveliness_period, PERIOD_MS, PERIOD_ROUND_TRIPS),
         liveliness_wait_ms=silence // ATTEMPTS,
-        connect_timeout_ms=of(asked.connect_timeout, CALL_MS, CALL_ROUND_TRIPS),
-        create_timeout_ms=of(asked.create_timeout, CALL_MS, CALL_ROUND_TRIPS),
-        close_timeout_ms=of(asked.close_timeout, CLOSE_MS, CLOSE_ROUND_TRIPS),
+        connect_timeout_ms=of(settings.connect_timeout, CALL_MS, CALL_ROUND_TRIPS),
+        create_timeout_ms=of(settings.create_timeout, CALL_MS, CALL_ROUND_TRIPS),
+        close_timeout_ms=of(settings.close_timeout, CLOSE_MS, CLOSE_ROUND_TRIPS),
     )
 
 

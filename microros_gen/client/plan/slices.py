@@ -203,15 +203,17 @@ class InputPlan:
         rows: list[QueueRow] = []
         first, offset = 0, 0
         for queue in self.queues:
-            lent = len(rows) == self.reader
-            rows.append(QueueRow(queue.slots, queue.slot_size, first, 0 if lent else offset, queue.size))
-            first, offset = first + queue.slots, offset + (0 if lent else queue.size)
+            in_input_buffer = len(rows) == self.reader
+            rows.append(
+                QueueRow(queue.slots, queue.slot_size, first, 0 if in_input_buffer else offset, queue.size)
+            )
+            first, offset = first + queue.slots, offset + (0 if in_input_buffer else queue.size)
         return tuple(rows)
 
     @property
     def queue_mode(self) -> str:
         """`bytes` or `slots`: whether a sample in a queue takes its own size, or that of the largest."""
-        return "bytes" if any(queue.asked is not None for queue in self.queues) else "slots"
+        return "bytes" if any(queue.requested_bytes is not None for queue in self.queues) else "slots"
 
     @property
     def queue_slots(self) -> int:

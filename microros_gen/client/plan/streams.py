@@ -170,11 +170,11 @@ def plan_streams(
     for sample in samples:
         _check_received(sample, ceiling, transport, application, diagnostics)
     _check_create(create, ceiling, application, diagnostics)
-    asked = application.pools.get("slot_size", 0)
-    least = min(asked, ceiling)
+    requested = application.pools.get("slot_size", 0)
+    least = min(requested, ceiling)
     best_effort = max((_datagram(m) for m in messages if m.best_effort), default=0)
     reliable = max((_datagram(m) for m in messages if m.reliable), default=0)
-    reliable = max(reliable, asked) if reliable else 0
+    reliable = max(reliable, requested) if reliable else 0
     slots = application.pools.get("history", default_history(reliable)) if reliable else 0
     fragments = reliable > ceiling
     if fragments and slots == 1 and application.on_full == "drop_oldest":
@@ -207,7 +207,7 @@ def plan_streams(
     # What is dropped on its way would be broken off: where more is written than the line carries, nothing arrived.
     kept = keeps_output and not fragments and application.on_full != "drop_oldest"
     kept = kept and line.saves(application.transport.send_buffer)
-    lent = (
+    in_input_buffer = (
         _lent(samples, max(WRITE_SIDE_INPUT, least), ceiling, FRAGMENTS_PER_SAMPLE[transport])
         if lends_input
         else None
@@ -222,9 +222,9 @@ def plan_streams(
         fragments=fragments,
         reliable_input_slots=_input_slots(application, reliable_input, diagnostics),
         arrives_in_fragments=any(sample.whole > input_size for sample in samples),
-        input_reader=lent[0] if lent else None,
-        input_free=lent[1] if lent else 0,
-        input_slot=slot_of(samples[lent[0]].max_size) if lent else 0,
+        input_reader=in_input_buffer[0] if in_input_buffer else None,
+        input_free=in_input_buffer[1] if in_input_buffer else 0,
+        input_slot=slot_of(samples[in_input_buffer[0]].max_size) if in_input_buffer else 0,
         line_input=max((WRITE_SIDE_INPUT, *must)),
         send_buffer=_send_buffer(application, messages, line.kept if kept else line.copied, diagnostics)
         if transport in _LINES
@@ -240,9 +240,9 @@ class _Line:
     kept: int
     copied: int
 
-    def saves(self, asked: int | None) -> bool:
+    def saves(self, requested: int | None) -> bool:
         """Whether it is worth its code to leave them out, and nobody asked for room for them."""
-        return self.copied - self.kept >= LEAST_KEPT and (asked is None or asked < self.copied)
+        return self.copied - self.kept >= LEAST_KEPT and (requested is None or requested < self.copied)
 
 
 def _send_frames(
@@ -260,15 +260,15 @@ def _send_buffer(
 ) -> int:
     """Return the bytes that a serial line needs for its output, of which one is never used."""
     at_once = sum(usual_frame(_datagram(message)) for message in messages if message.best_effort)
-    asked = application.transport.send_buffer
-    if asked is not None and asked < least:
+    requested = application.transport.send_buffer
+    if requested is not None and requested < least:
         diagnostics.error(
-            f"'transport.send_buffer' is {asked} and the longest frame on the line may take {least - 1} bytes",
+            f"'transport.send_buffer' is {requested} and the longest frame on the line may take {least - 1} bytes",
             application.spans.get("transport.send_buffer"),
             f"Set send_buffer: {_align4(least)} or more, or lower transport.mtu or the limits of the largest message",
             id="MG-7024",
         )
-    return _align4(asked or max(least, at_once + 1))
+    return _align4(requested or max(least, at_once + 1))
 
 
 def usual_frame(size: int) -> int:
@@ -298,10 +298,10 @@ def slot_of(size: int) -> int:
 
 
 def _input_slots(application: Application, reliable_input: bool, diagnostics: Diagnostics) -> int:
-    asked = application.pools.get("input_history")
+    requested = application.pools.get("input_history")
     if reliable_input:
-        return asked or DEFAULT_INPUT_HISTORY
-    if asked is not None:
+        return requested or DEFAULT_INPUT_HISTORY
+    if requested is not None:
         diagnostics.warning(
             "'pools.input_history' has no effect: no selected component receives on a reliable stream",
             application.spans.get("pools.input_history"),

@@ -17,22 +17,22 @@ def plan_transport(
     application: Application, selection: Selection, target: Target, streams: StreamSizes, own_driver: bool
 ) -> TransportPlan:
     """Plan the transport. `own_driver`: the serial line belongs to a driver of the platform."""
-    asked = application.transport
-    host, port = _agent(asked, selection)
+    requested = application.transport
+    host, port = _agent(requested, selection)
     return TransportPlan(
         kind=selection.transport,
         agent_host=host,
         agent_port=port,
         has_discovery=selection.has("discovery"),
-        discovery_port=asked.discover or DISCOVERY_PORT,
-        framing=_FRAMING[asked.framing],
-        device=asked.device if selection.transport == "serial" and target.hosted else "",
-        baud=asked.baud,
+        discovery_port=requested.discover or DISCOVERY_PORT,
+        framing=_FRAMING[requested.framing],
+        device=requested.device if selection.transport == "serial" and target.hosted else "",
+        baud=requested.baud,
         send_buffer=streams.send_buffer,
         keeps_output=streams.keeps_output,
         line_input=streams.line_input,
         line_chunk=RING_CHUNK if own_driver else LINE_CHUNK,
-        read_polls=asked.read_polls,
+        read_polls=requested.read_polls,
     )
 
 

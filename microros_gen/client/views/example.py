@@ -182,7 +182,7 @@ def _publishers(
                 types[p.type],
                 nodes[p.node],
                 p.index,
-                declared[p.index].given or declared[p.index].topic,
+                declared[p.index].declared_as or declared[p.index].topic,
                 declared[p.index].qos,
                 types[p.type].storage_name(p.topic),
             )
@@ -268,14 +268,14 @@ def _subscription(
         package=plan.name.package,
         type=plan.name.name,
         c_type=plan.c_name,
-        topic=endpoint.given or endpoint.topic,
+        topic=endpoint.declared_as or endpoint.topic,
         storage=storage,
         format=shown.format if shown else "",
         value=shown.expression.format(message=name) if shown else "",
         received=Received(
             variable=f"subscription_{index}",
             node=node.variable,
-            topic=endpoint.given or endpoint.topic,
+            topic=endpoint.declared_as or endpoint.topic,
             message=name,
             c_type=plan.c_name,
             callback=f"on_{name}",
@@ -291,19 +291,19 @@ _SENSOR_DATA = Qos(reliability="best_effort", depth=5)
 
 def _init(qos: Qos, what: str = "publisher") -> tuple[str, tuple[str, ...]]:
     """Return the function that opens the publisher or subscription, and what differs from the default QoS, as C."""
-    asked, default = replace(qos, span=None), Qos()
-    if asked == default:
+    requested, default = replace(qos, span=None), Qos()
+    if requested == default:
         return f"rclc_{what}_init_default", ()
-    if asked == _SENSOR_DATA:
+    if requested == _SENSOR_DATA:
         return f"rclc_{what}_init_best_effort", ()
-    policies = [(p, getattr(asked, p)) for p in ("reliability", "durability", "history")]
+    policies = [(p, getattr(requested, p)) for p in ("reliability", "durability", "history")]
     changes = [
         f"{policy} = RMW_QOS_POLICY_{policy.upper()}_{value.upper()}"
         for policy, value in policies
         if value != getattr(default, policy)
     ]
-    changes += [f"depth = {asked.depth}"] if asked.depth != default.depth else []
-    changes += _times("deadline", asked.deadline_ms) + _times("lifespan", asked.lifespan_ms)
+    changes += [f"depth = {requested.depth}"] if requested.depth != default.depth else []
+    changes += _times("deadline", requested.deadline_ms) + _times("lifespan", requested.lifespan_ms)
     return f"rclc_{what}_init", tuple(changes)
 
 

@@ -190,18 +190,18 @@ def _shared(
     rest = {handle.variable: handle for handle in handles}
     shared: list[tuple[str, tuple[_Handle, ...], str]] = []
     for index, (node, executor) in enumerate(declared):
-        mine = [h for h in rest.values() if h.node == node and h.name]
+        own_handles = [h for h in rest.values() if h.node == node and h.name]
         if executor.handles:
             by_name: Mapping[str, list[_Handle]] = {
-                h.name: [m for m in mine if m.name == h.name] for h in executor.handles
+                h.name: [m for m in own_handles if m.name == h.name] for h in executor.handles
             }
-            mine = [handle for found in by_name.values() for handle in found]
-        mine += [] if index else [h for h in rest.values() if not h.name]
-        for handle in mine:
+            own_handles = [handle for found in by_name.values() for handle in found]
+        own_handles += [] if index else [h for h in rest.values() if not h.name]
+        for handle in own_handles:
             del rest[handle.variable]
         default = _TURN if len(declared) > 1 else ""
         timeout = _time(executor.timeout_us * _NS_PER_US) if executor.timeout_us else default
-        shared.append((f"executor_{index}", tuple(mine), timeout))
+        shared.append((f"executor_{index}", tuple(own_handles), timeout))
     return shared
 
 
@@ -228,9 +228,9 @@ def _in_lines(call: str) -> str:
 def _sending(timers: Sequence[TimerView], sends: Sequence[Sender]) -> Iterator[TimerView]:
     """Yield the timers, each with what it sends: the timers of a node take turns, a node without one has all."""
     for timer in timers:
-        mine: list[Sender] = []
+        sent: list[Sender] = []
         for index, sender in enumerate(sends):
             of_node = [t for t in timers if t.node == sender.node] or list(timers)
             if of_node[index % len(of_node)] is timer:
-                mine.append(sender)
-        yield TimerView(timer.variable, timer.node, timer.name, timer.callback, timer.period, tuple(mine))
+                sent.append(sender)
+        yield TimerView(timer.variable, timer.node, timer.name, timer.callback, timer.period, tuple(sent))

@@ -76,7 +76,7 @@ def service_views(project: Project, nodes: tuple[str, ...]) -> tuple[ServiceView
                 kind,
                 s.index,
                 (nodes[s.node], s.node),
-                declared[s.index].given or declared[s.index].topic,
+                declared[s.index].declared_as or declared[s.index].topic,
                 s.type,
                 s.name,
             )

@@ -51,8 +51,8 @@ def limits(application: Application) -> tuple[LimitRule, ...]:
         _rule("msg/LoggerLevel", "name", NAME_SIZE - 1),
         _rule("msg/SetLoggerLevelsResult", "reason", REASON_SIZE - 1),
     )
-    given = {rule.path for rule in application.limits}
-    return tuple(rule for rule in rules if rule.path not in given)
+    configured = {rule.path for rule in application.limits}
+    return tuple(rule for rule in rules if rule.path not in configured)
 
 
 _PACKAGE = "rcl_interfaces"

@@ -68,8 +68,8 @@ def record(part: RosoutPlan) -> object:
 
 def limits(application: Application) -> tuple[LimitRule, ...]:
     """Return the bounds of the texts of a line."""
-    given = {rule.path for rule in application.limits}
-    if (str(TYPE),) in given:
+    configured = {rule.path for rule in application.limits}
+    if (str(TYPE),) in configured:
         return ()
     rules = (LimitRule((str(TYPE), member), bound, None) for member, bound in _TEXTS.items())
-    return tuple(rule for rule in rules if rule.path not in given)
+    return tuple(rule for rule in rules if rule.path not in configured)

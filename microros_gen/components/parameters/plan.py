@@ -143,8 +143,8 @@ def limits(application: Application) -> tuple[LimitRule, ...]:
         _rule("msg/ParameterEvent", "changed_parameters", None, count),
         _rule("msg/ParameterEvent", "deleted_parameters", None, 1),
     ]
-    given = {rule.path for rule in application.limits}
-    return tuple(rule for rule in rules if rule.path not in given)
+    configured = {rule.path for rule in application.limits}
+    return tuple(rule for rule in rules if rule.path not in configured)
 
 
 def _declared(application: Application) -> int:

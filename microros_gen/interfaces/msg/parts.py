@@ -71,13 +71,13 @@ def _borders(
     source: Source, lines: Sequence[str], parts: Sequence[str], diagnostics: Diagnostics
 ) -> list[int]:
     """Return the indices of the separators; report malformed separators, too few and too many."""
-    exact, near = [], []
+    exact, similar = [], []
     for index, line in enumerate(lines):
         if line == SEPARATOR:
             exact.append(index)
         elif _resembles(line):
-            near.append(index)
-    for index in near:
+            similar.append(index)
+    for index in similar:
         diagnostics.error(
             f"'{lines[index].strip()}' is not a separator",
             Span(source, index + 1, 1, len(lines[index]) + 1),
@@ -90,15 +90,15 @@ def _borders(
         diagnostics.error(
             f"'---' number {number}: {_kind(parts)} has {_count(wanted)}", place, _order(parts), id="MG-2028"
         )
-    if len(exact) + len(near) < wanted:
-        missing = parts[len(exact) + len(near) :]
+    if len(exact) + len(similar) < wanted:
+        missing = parts[len(exact) + len(similar) :]
         diagnostics.error(
             f"the line '---' before the {missing[1].lower()} is missing",
             Span(source, max(len(lines), 1), 1),
             _order(parts),
             id="MG-2029",
         )
-    return sorted(exact + near)
+    return sorted(exact + similar)
 
 
 def _resembles(line: str) -> bool:

@@ -207,10 +207,12 @@ def _target(alias: Alias, scope: Scope) -> Written | None:
 def _type_hint(name: str, scope: Scope) -> str | None:
     if name in _OTHER_LANGUAGES:
         return f"Write {_OTHER_LANGUAGES[name]}"
-    near = nearest(name, [*scope.typedefs, *_BASES, "string", "wstring"])
-    if name[0].isupper() and (near is None or near.strip("?'").rpartition("'")[2] not in scope.typedefs):
+    suggestion = nearest(name, [*scope.typedefs, *_BASES, "string", "wstring"])
+    if name[0].isupper() and (
+        suggestion is None or suggestion.strip("?'").rpartition("'")[2] not in scope.typedefs
+    ):
         return f"Another interface is written '{scope.modules[0]}::msg::{name}'"
-    return near or (
+    return suggestion or (
         "Write a type of IDL (boolean, octet, int32, double, string), a typedef above it, or another "
         f"interface with its package ('{scope.modules[0]}::msg::Name')"
     )

@@ -195,10 +195,10 @@ def _topic_limits(
     own: Iterable[EntityLimits], limits: Mapping[TypeName, TypeLimits | None]
 ) -> tuple[TopicLimits, ...]:
     found: dict[tuple[TypeName, str], TypeLimits] = {}
-    for one in own:
-        key = (one.type, one.entity.topic)
-        found[key] = _larger(found.get(key), one.limits) or one.limits
-    return tuple(TopicLimits(*key, one) for key, one in found.items() if one != limits[key[0]])
+    for item in own:
+        key = (item.type, item.entity.topic)
+        found[key] = _larger(found.get(key), item.limits) or item.limits
+    return tuple(TopicLimits(*key, item) for key, item in found.items() if item != limits[key[0]])
 
 
 class _Tier:
@@ -305,22 +305,24 @@ class _Walk:
         return WireSizes(self._messages).largest(self._root.type, limits)
 
 
-def _larger(one: TypeLimits | None, other: TypeLimits | None) -> TypeLimits | None:
-    if one is None or other is None:
-        return one or other
-    return TypeLimits(tuple(_larger_field(a, b) for a, b in zip(one.fields, other.fields, strict=True)))
+def _larger(first: TypeLimits | None, second: TypeLimits | None) -> TypeLimits | None:
+    if first is None or second is None:
+        return first or second
+    return TypeLimits(tuple(_larger_field(a, b) for a, b in zip(first.fields, second.fields, strict=True)))
 
 
-def _larger_field(one: FieldLimits | None, other: FieldLimits | None) -> FieldLimits | None:
-    if one is None or other is None:
-        return one or other
+def _larger_field(first: FieldLimits | None, second: FieldLimits | None) -> FieldLimits | None:
+    if first is None or second is None:
+        return first or second
     return FieldLimits(
-        _max(one.sequence, other.sequence), _max(one.string, other.string), _larger(one.nested, other.nested)
+        _max(first.sequence, second.sequence),
+        _max(first.string, second.string),
+        _larger(first.nested, second.nested),
     )
 
 
-def _max(one: int | None, other: int | None) -> int | None:
-    return one if other is None else other if one is None else max(one, other)
+def _max(first: int | None, second: int | None) -> int | None:
+    return first if second is None else second if first is None else max(first, second)
 
 
 def _yaml_key(root: TypeName, path: tuple[str, ...], values: Mapping[str, int]) -> str:

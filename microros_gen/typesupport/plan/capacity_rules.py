@@ -44,9 +44,9 @@ class RuleChecker:
                 self._check_field(rule, path, field_type)
 
     def _unknown_type(self, rule: LimitRule, name: str) -> None:
-        near = nearest(name, self._messages)
+        suggestion = nearest(name, self._messages)
         self._diagnostics.warning(
-            f"the limit for '{name}' has no effect: the type is not used", rule.span, near, id="MG-5001"
+            f"the limit for '{name}' has no effect: the type is not used", rule.span, suggestion, id="MG-5001"
         )
 
     def _check_range(self, rule: LimitRule) -> None:
@@ -74,9 +74,9 @@ class RuleChecker:
                 message = self._messages[str(element.name)]
             field = next((f for f in message.fields if f.name == name), None)
             if field is None:
-                near = nearest(name, (f.name for f in message.fields))
+                suggestion = nearest(name, (f.name for f in message.fields))
                 self._diagnostics.error(
-                    f"{message.name} has no member '{name}'", rule.span, near, id="MG-5004"
+                    f"{message.name} has no member '{name}'", rule.span, suggestion, id="MG-5004"
                 )
                 return None
             found = field.type

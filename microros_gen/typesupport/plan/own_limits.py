@@ -62,8 +62,8 @@ def plan_limit_sets(
     A second set of one topic ends in `__2`.
     """
     members: dict[tuple[TypeName, TypeLimits], list[Entity]] = {}
-    for one in entities:
-        members.setdefault((one.type, one.limits), []).append(one.entity)
+    for item in entities:
+        members.setdefault((item.type, item.limits), []).append(item.entity)
     used: set[str] = set()
     found: dict[TypeName, list[LimitSet]] = {}
     for (name, limits), group in members.items():

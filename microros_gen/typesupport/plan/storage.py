@@ -91,20 +91,20 @@ def storage_extents(
 
 def _member_extent(member: StorageMember, layouts: StructLayouts, unit: Callable[[str], Extent]) -> Extent:
     if member.unit is not None:
-        one = unit(member.unit)
+        element = unit(member.unit)
     elif member.message is not None:
-        one = layouts.extent(member.message)
+        element = layouts.extent(member.message)
     elif member.strings is not None:
-        one = layouts.of(member.strings)
+        element = layouts.of(member.strings)
     elif member.primitive is not None:
-        one = layouts.of(member.primitive)
+        element = layouts.of(member.primitive)
     else:
         wide = member.characters is not None and member.characters.wide
-        one = Extent(2, 2) if wide else Extent(1, 1)
-    size = one.size
+        element = Extent(2, 2) if wide else Extent(1, 1)
+    size = element.size
     for dimension in member.dimensions:
         size *= dimension
-    return Extent(size, one.alignment)
+    return Extent(size, element.alignment)
 
 
 class _Planner:

@@ -94,10 +94,10 @@ class _Renderer:
         stored = [storage_view(plan, self._plans) for plan in plans if plan.storage]
         if stored:
             own.append(paths.storage)
-            one = len(stored) == 1
+            is_single = len(stored) == 1
             wording = {
-                "subject": f"a {stored[0].ros_name}" if one else f"each message of {_title(plans)}",
-                "fini": f"{stored[0].name}__fini" if one else "its __fini",
+                "subject": f"a {stored[0].ros_name}" if is_single else f"each message of {_title(plans)}",
+                "fini": f"{stored[0].name}__fini" if is_single else "its __fini",
             }
             header = {**_file(plans, paths.storage, stored, "header_includes"), **wording}
             self._print(paths.storage, "storage.h", header)
