@@ -271,15 +271,15 @@ class SessionTimes:
 
 
 LOG_LEVELS = ("debug", "info", "warn", "error", "fatal")
-BUFFERED_LOG_WRITERS = ("rosout",)
-"""Writers that keep lines until they are sent."""
+BUFFERED_LOG_WRITERS = ("rosout", "ring")
+"""Writers that keep lines."""
 
 
 @dataclass(frozen=True)
 class LogWriter:
-    """Where log messages of `level` and above go: `to` is console, callback or rosout.
+    """Where log messages of `level` and above go: `to` is console, callback, rosout or ring.
 
-    `size`: bytes that lines take which wait for the agent; None: the usual ones.
+    `size`: bytes of the lines that a writer keeps; None: the usual ones.
     """
 
     to: str

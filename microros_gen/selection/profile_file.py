@@ -19,7 +19,7 @@ AXES = {
     "entities": ("preconfigured", "reference", "xml", "binary"),
     "transport": ("udp", "tcp", "serial", "custom"),
     "liveliness": ("ping", "acknack", "none"),
-    "logging": ("console", "callback", "rosout"),
+    "logging": ("console", "callback", "rosout", "ring"),
     "clock": ("steady", "ros"),
 }
 """Axis → its values, as both schemas and the middleware table have them."""

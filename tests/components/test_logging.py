@@ -15,20 +15,11 @@ from microros_gen.components.logging.plan import LoggingPlan
 from microros_gen.diagnostics import UserError
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.toolchain.toolchain import WARNINGS
+from tests.support.components.rendered import SANITIZE, UNITS, planned, rendered, run
 from tests.support.ids import without_id
-from tests.support.paths import ROOT, TESTS
-from tests.support.patience import seconds
+from tests.support.paths import ROOT
 
 BARE = "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\n"
-UNITS = TESTS / "runtime" / "c"
-SANITIZE = ("-std=gnu99", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all", f"-I{UNITS}")
-
-
-def planned(folder: Path, text: str) -> compiler.Planned:
-    config = folder / "microros.yaml"
-    config.write_text(text)
-    options = compiler.Options(config=config, interface_paths=(shipped_folder(),))
-    return compiler.plan(compiler.resolve(compiler.read(options)))
 
 
 def slice_of(found: compiler.Planned) -> LoggingPlan:
@@ -37,25 +28,10 @@ def slice_of(found: compiler.Planned) -> LoggingPlan:
     return part
 
 
-def generate(folder: Path, text: str) -> Path:
-    """Write the output folder and return it."""
-    out = folder / "out"
-    for name, content in compiler.render(planned(folder, text)).items():
-        (out / name).parent.mkdir(parents=True, exist_ok=True)
-        (out / name).write_bytes(content)
-    return out
-
-
-def run(*command: str | Path) -> str:
-    done = subprocess.run(command, capture_output=True, text=True, timeout=seconds(120), check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
-
-
 @pytest.fixture(scope="module")
 def verbose(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the output folder of an application whose console gets everything."""
-    return generate(tmp_path_factory.mktemp("verbose"), BARE + "logging: [{to: console, level: debug}]\n")
+    return rendered(tmp_path_factory.mktemp("verbose"), BARE + "logging: [{to: console, level: debug}]\n")
 
 
 def unit(out: Path, name: str, folder: Path, *flags: str) -> str:
@@ -107,7 +83,7 @@ def texts(out: Path, *flags: str) -> set[str]:
 
 @pytest.mark.parametrize("optimized", ["-O0", "-Os"])
 def test_levels_below_those_of_the_build_are_not_in_the_image(tmp_path: Path, optimized: str) -> None:
-    out = generate(tmp_path, BARE + "logging: [{to: callback, level: error}, {to: console, level: warn}]\n")
+    out = rendered(tmp_path, BARE + "logging: [{to: callback, level: error}, {to: console, level: warn}]\n")
     assert texts(out, optimized) == {"warn", "error", "fatal"}
     raised = "-DRCUTILS_LOG_MIN_SEVERITY=RCUTILS_LOG_MIN_SEVERITY_FATAL"
     assert texts(out, optimized, raised) == {"fatal"}
@@ -117,7 +93,7 @@ def test_levels_below_those_of_the_build_are_not_in_the_image(tmp_path: Path, op
 @pytest.mark.parametrize("optimized", ["-O0", "-Os"])
 def test_without_logging_the_macros_are_nothing(tmp_path: Path, optimized: str) -> None:
     """The compiler still checks format and arguments."""
-    out = generate(tmp_path, BARE)
+    out = rendered(tmp_path, BARE)
     assert texts(out, optimized) == set()
     assert "macros.c" not in run("nm", "--undefined-only", out / "macros.o")
     assert not [line for line in run("nm", out / "macros.o").splitlines() if " U " in line or " b " in line]
@@ -250,7 +226,7 @@ def test_rosout_needs_a_node(tmp_path: Path) -> None:
 
 
 def test_limits_of_the_type_are_those_of_lines(tmp_path: Path) -> None:
-    found = generate(tmp_path, NODE + "logging: rosout\nlimits: {rcl_interfaces/msg/Log: {msg: 300}}\n")
+    found = rendered(tmp_path, NODE + "logging: rosout\nlimits: {rcl_interfaces/msg/Log: {msg: 300}}\n")
     config = (found / "include" / "microros_config.h").read_text()
     assert "MICROROS_LOG_ROSOUT_TEXT 300u" in config
     assert "MICROROS_LOG_ROSOUT_FILE 48u" in config
@@ -270,5 +246,5 @@ def test_a_request_of_the_logger_services_fits_their_memory(tmp_path: Path, limi
         + "components: [+logger_services]\nlogging: callback\n"
         + (f"limits: {limits}\n" if limits else "")
     )
-    config = (generate(tmp_path, text) / "include" / "microros_config.h").read_text()
+    config = (rendered(tmp_path, text) / "include" / "microros_config.h").read_text()
     assert f"MICROROS_LOGGER_REQUEST_MAX {most}u" in config

@@ -67,7 +67,7 @@ def level_number(writer: LogWriter) -> int:
 def plan(given: Given, diagnostics: Diagnostics) -> LoggingPlan:
     """Return what the application file says; without that the console where it is selected, else the callback."""
     writers = given.application.logging
-    for to in ("rosout", "console"):
+    for to in ("ring", "rosout", "console"):
         if given.selection.has(f"logging_{to}") and writer_of(given.application, to) is None:
             writers = (LogWriter(to), *writers)
     writers = writers or (LogWriter("callback"),)

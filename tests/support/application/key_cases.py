@@ -236,7 +236,7 @@ _TOP = {
         [("callback", "info"), ("console", "debug")],
         "logging: printer",
         "1:10",
-        "'logging' must be console, callback or rosout, or a list of such writers; it is the text 'printer'",
+        "'logging' must be console, callback, rosout or ring, or a list of such writers; it is the text 'printer'",
     ),
     "logging[].to": KeyCase(
         "logging: [{to: callback}]",
@@ -244,7 +244,7 @@ _TOP = {
         [("callback", "info")],
         "logging: [{to: file}]",
         "1:16",
-        "'logging[0].to' must be console, callback or rosout",
+        "'logging[0].to' must be console, callback, rosout or ring",
     ),
     "logging[].size": KeyCase(
         "logging: [{to: rosout, size: 2 KiB}]",

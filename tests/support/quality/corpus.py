@@ -161,6 +161,8 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "logging": _INT32 + "components: [+multithread]\nlogging: [{to: console, level: debug}, callback]\n",
         "rosout": _BOTH + "components: [+multithread]\nlogging: rosout\n",
         "logger_services": _BOTH + "components: [+logger_services, +multithread]\nlogging: callback\n",
+        "ring_board": _BOTH
+        + "target: {name: qemu-mps2-an386}\nlogging: [{to: rosout, level: warn}, {to: ring, level: debug}]\n",
         "rosout_board": _BOTH
         + "target: {name: qemu-mps2-an386}\nlogging: [rosout, {to: callback, level: warn}]\n",
         "parameters": _NODES.replace("    publishers:\n", "") + "components: [+parameters]\n",

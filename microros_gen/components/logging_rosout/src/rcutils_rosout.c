@@ -7,6 +7,7 @@
 #include "microros/lock.h"
 #include "microros/port.h"
 #include "microros/rcutils_format.h"
+#include "microros/rcutils_ring.h"
 #include "microros/rcutils_rosout.h"
 #include "microros/rcutils_rosout_hooks.h"
 #include "microros/text.h"
@@ -93,13 +94,12 @@ static void rosout_begin(
   rosout_text(line, name, MICROROS_LOG_ROSOUT_NAME);
 }
 
-/* Puts where the message is from, and keeps the line. */
-static bool rosout_end(rosout_line_t * line, const rcutils_log_location_t * location)
+/* Puts where the message is from. */
+static void rosout_end(rosout_line_t * line, const rcutils_log_location_t * location)
 {
   rosout_path(line, location == NULL ? "" : location->file_name);
   rosout_text(line, location == NULL ? "" : location->function_name, MICROROS_LOG_ROSOUT_FUNCTION);
   rosout_number(line, location == NULL ? 0u : (uint32_t)location->line_number);
-  return xrce_rosout_put(line->body, line->position);
 }
 
 static void rosout_report_dropped(rcutils_time_point_value_t timestamp)
@@ -117,23 +117,31 @@ static void rosout_report_dropped(rcutils_time_point_value_t timestamp)
   microros_format_integer(&out, &number, rosout_unreported, false);
   microros_format_string(&out, " messages dropped");
   rosout_text_end(&line, &out);
-  if (rosout_end(&line, NULL)) {
+  rosout_end(&line, NULL);
+  if (xrce_rosout_put(line.body, line.position)) {
     rosout_unreported = 0;
   }
 }
 
+/* Encodes a message for those of both writers that take it: `is_published` for /rosout. */
 static void rosout_keep(
   const rcutils_log_location_t * location, int severity, const char * name,
-  rcutils_time_point_value_t timestamp, const char * format, va_list * args)
+  rcutils_time_point_value_t timestamp, const char * format, va_list * args, bool is_published)
 {
   rosout_line_t line;
   microros_format_t out;
+  bool has_room;
 
   rosout_begin(&line, severity, name, timestamp);
   out = rosout_text_begin(&line, MICROROS_LOG_ROSOUT_TEXT);
   microros_format_arguments(&out, format, args);
   rosout_text_end(&line, &out);
-  if (rosout_unreported != 0u || !rosout_end(&line, location)) {
+  rosout_end(&line, location);
+  if (microros_ring_takes(severity)) {
+    microros_ring_put(line.body, line.position);
+  }
+  has_room = !is_published || (rosout_unreported == 0u && xrce_rosout_put(line.body, line.position));
+  if (!has_room) {
     microros_format_dropped();
     ++rosout_unreported;
   }
@@ -145,7 +153,7 @@ void rcl_logging_rosout_output_handler(
 {
   microros_lock();
   rosout_report_dropped(timestamp);
-  rosout_keep(location, severity, name == NULL ? "" : name, timestamp, format, args);
+  rosout_keep(location, severity, name == NULL ? "" : name, timestamp, format, args, true);
   microros_unlock();
 }
 
@@ -155,6 +163,12 @@ void microros_rosout_log(
 {
   if (severity >= (int)MICROROS_LOG_ROSOUT_LEVEL) {
     rcl_logging_rosout_output_handler(location, severity, name, timestamp, format, args);
+  } else if (microros_ring_takes(severity)) {
+    microros_lock();
+    rosout_keep(location, severity, name, timestamp, format, args, false);
+    microros_unlock();
+  } else {
+    /* for neither */
   }
 }
 

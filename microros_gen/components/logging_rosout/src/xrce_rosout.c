@@ -41,6 +41,12 @@ void xrce_rosout_use(const xrce_endpoint_t * writer)
   rosout_writer = writer;
 }
 
+/* A new session has no writers until their nodes are open again. */
+bool xrce_rosout_is_open(const xrce_client_t * client)
+{
+  return rosout_writer != NULL && rosout_writer->client == client;
+}
+
 bool xrce_rosout_put(const uint8_t * body, uint32_t size)
 {
   const uint8_t header[LINE_HEADER] = {(uint8_t)(size >> 8), (uint8_t)(size & 0xffu)};
@@ -77,8 +83,7 @@ static uint32_t rosout_move(uint8_t * room)
 
 void xrce_rosout_send(const xrce_client_t * client)
 {
-  /* A new session has no writers until their nodes are open again. */
-  if (rosout_writer == NULL || rosout_writer->client != client) {
+  if (!xrce_rosout_is_open(client)) {
     return;
   }
   while (rosout_used != 0u && xrce_route_unacknowledged(client) < (MICROROS_RELIABLE_SLOTS + 1u) / 2u) {

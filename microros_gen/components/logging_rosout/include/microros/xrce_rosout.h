@@ -19,6 +19,9 @@ extern "C" {
 /* Sets the data writer of /rosout; NULL: none is open, and lines wait. */
 void xrce_rosout_use(const xrce_endpoint_t * writer);
 
+/* Returns whether the data writer is open in this client's session. */
+bool xrce_rosout_is_open(const xrce_client_t * client);
+
 /* Keeps a line, an encoded rcl_interfaces/msg/Log. Returns false without room for it: nothing has changed. */
 bool xrce_rosout_put(const uint8_t * body, uint32_t size);
 

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Plans and output folders of small applications for the tests of components, and C units over their files."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+from microros_gen import compiler
+from microros_gen.interfaces.find import shipped_folder
+from tests.support.paths import TESTS
+from tests.support.patience import seconds
+
+UNITS = TESTS / "runtime" / "c"
+SANITIZE = ("-std=gnu99", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all", f"-I{UNITS}")
+
+
+def planned(folder: Path, text: str) -> compiler.Planned:
+    """Return the plan of an application file."""
+    config = folder / "microros.yaml"
+    config.write_text(text)
+    options = compiler.Options(config=config, interface_paths=(shipped_folder(),))
+    return compiler.plan(compiler.resolve(compiler.read(options)))
+
+
+def rendered(folder: Path, text: str) -> Path:
+    """Write the output folder and return it."""
+    out = folder / "out"
+    for name, content in compiler.render(planned(folder, text)).items():
+        (out / name).parent.mkdir(parents=True, exist_ok=True)
+        (out / name).write_bytes(content)
+    return out
+
+
+def run(*command: str | Path) -> str:
+    """Return what a command prints; AssertionError with its words if it fails."""
+    done = subprocess.run(command, capture_output=True, text=True, timeout=seconds(120), check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
