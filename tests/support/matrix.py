@@ -140,7 +140,8 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         "parameters-every": _BUSY + EVERY_PARAMETER + "profiles: [pure_sender]\ncomponents: [+parameters]\n",
         "logging": _POOL + "logging: [{to: console, level: debug}, callback]\n",
         "rosout": _BUSY + "profiles: [pure_sender]\nlogging: [rosout, console]\n",
-        "ring": _BUSY + "profiles: [pure_sender]\nlogging: [{to: rosout, level: warn}, {to: ring, level: debug}]\n",
+        "ring": _BUSY
+        + "profiles: [pure_sender]\nlogging: [{to: rosout, level: warn}, {to: ring, level: debug}]\n",
         "logger-services": _BUSY
         + "profiles: [pure_sender]\ncomponents: [+logger_services]\nlogging: callback\nerrors: code\n",
         "logging-callback-codes": _POOL + "logging: callback\nerrors: code\n",

@@ -79,7 +79,7 @@ static void expect(bool is_true, const char * what, long place)
   }
 }
 
-/* Everything but the memory of the lines begins anew. */
+/* Everything but the memory of the lines begins from the start. */
 static void restart(void)
 {
   ring_before = 0;

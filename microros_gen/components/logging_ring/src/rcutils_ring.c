@@ -17,7 +17,8 @@ enum { RING_HEADER = 4, RING_LINE_MAX = rcl_interfaces__msg__Log__MAX_ENCODED_SI
  */
 typedef struct ring_kept_t {
   uint32_t mark;
-  uint32_t place; /* low half: where the oldest line begins, high half: bytes of all lines. One store changes both. */
+  uint32_t
+    place; /* low half: where the oldest line begins, high half: bytes of all lines. One store changes both. */
   uint8_t lines[MICROROS_LOG_RING_SIZE]; /* each: its size and its checksum, low byte first, and the body */
 } ring_kept_t;
 
