@@ -39,33 +39,39 @@ _UNKNOWN = "is not in this version"
 _HINT = "Remove the call and what belongs to it"
 
 
-def selected_by(function: str, declared: Mapping[str, str], catalogue: Catalogue) -> str:
-    """Return the component that a call selects: the one that declares the function, else one that lists it in `calls`.
+def selected_by(function: str, declared: Mapping[str, str], catalogue: Catalogue) -> tuple[str, ...]:
+    """Return what a call selects: the component that declares the function, else those that list it in `calls`.
 
-    `declared` says which component declares a function. Of several that list it, the longest name counts.
+    `declared` says which component declares a function. Of the names under which it is listed, the longest counts.
     """
     if function in declared:
-        return declared[function]
+        return (declared[function],)
     listed = [
         (len(call.name), component.name)
         for component in catalogue.values()
         for call in component.presence.calls
         if call.matches(function)
     ]
-    return max(listed, default=(0, ""))[1]
+    longest, _ = max(listed, default=(0, ""))
+    return tuple(sorted(component for length, component in listed if length == longest))
 
 
-def find_missing(called: Iterable[Call], selected: Mapping[str, str], catalogue: Catalogue) -> list[Remark]:
+def find_missing(
+    called: Iterable[Call], selected: Mapping[str, tuple[str, ...]], catalogue: Catalogue
+) -> list[Remark]:
     """Return a remark for each component, or function of none, that is called and not there: its first call.
 
-    `selected` says which component a function selects.
+    `selected` says which components a function selects.
     """
     first: dict[str, Remark] = {}
     for call in called:
-        name = selected.get(call.name, "")
-        if (name and catalogue[name].ready) or call.name.startswith(_KNOWN_BUT_NOT_DECLARED):
+        names = selected.get(call.name, ())
+        planned = next((name for name in names if not catalogue[name].ready), "")
+        if (names and not planned) or call.name.startswith(_KNOWN_BUT_NOT_DECLARED):
             continue
-        component = name or next((c for prefix, c in _COMPONENTS.items() if call.name.startswith(prefix)), "")
+        component = planned or next(
+            (c for prefix, c in _COMPONENTS.items() if call.name.startswith(prefix)), ""
+        )
         what = f"needs the component '{component}', which {NOT_READY}" if component else _UNKNOWN
         remark = Remark(f"{call.name} {what}", call.span, refused=_HINT)
         first.setdefault(component or call.name, remark)

@@ -73,7 +73,7 @@ def rclc_draft(
     endpoints = {endpoint.kind for node in nodes for endpoint in node.endpoints}
     profiles = tuple(profile for profile, kind in _PROFILES if kind in endpoints)
     own = {function.name for file in files for function in file.functions}
-    selected = {call.name: name for call in calls if (name := selected_by(call.name, declared, catalogue))}
+    selected = {call.name: names for call in calls if (names := selected_by(call.name, declared, catalogue))}
     called = [
         call
         for call in calls
@@ -210,11 +210,14 @@ def _executors(calls: Iterable[Call]) -> dict[str, dict[str, DraftValue]]:
 
 
 def _wanted(
-    files: Iterable[CFile], called: Iterable[Call], selected: Mapping[str, str], catalogue: Catalogue
+    files: Iterable[CFile],
+    called: Iterable[Call],
+    selected: Mapping[str, tuple[str, ...]],
+    catalogue: Catalogue,
 ) -> set[str]:
     """Return the components that have what is called, have the headers that are included, or serve several tasks."""
     headers = {header: component.name for component in catalogue.values() for header in component.headers}
-    found = {selected[call.name] for call in called if call.name in selected}
+    found = {name for call in called for name in selected.get(call.name, ())}
     found |= {headers[name] for file in files for name in file.text.includes if name in headers}
     starts = {call.name for file in files for call in file.calls} & _TASKS
     names = {token.text for file in files for token in file.text.tokens if token.kind == "name"}

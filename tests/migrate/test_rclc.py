@@ -448,9 +448,9 @@ def test_a_loop_without_a_known_limit_is_marked() -> None:
     assert len(endpoints(program(LOOP.format(limit="1000000", topic='"a"', type=INT32)))) == 1
 
 
-def test_log_macros_select_the_console() -> None:
+def test_log_macros_select_the_console_and_rosout() -> None:
     text = program('RCUTILS_LOG_INFO_NAMED("n", "text");')
-    assert "+logging_console" in adopted(text).draft.components
+    assert {"+logging_console", "+logging_rosout"} <= set(adopted(text).draft.components)
     assert not any("RCUTILS_LOG_INFO_NAMED" in reason for reason in reasons(text))
 
 

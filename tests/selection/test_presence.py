@@ -124,11 +124,11 @@ def test_nothing_of_it_is_there_without_it(folder: Path, run: Runner) -> None:
 def test_a_call_selects_who_declares_it_or_else_who_lists_it() -> None:
     catalogue = load_catalogue()
     declared = declared_functions(catalogue)
-    assert selected_by("rcl_publish", declared, catalogue) == "publish"
-    assert selected_by("RCUTILS_LOG_INFO_NAMED", declared, catalogue) == "logging_console"
-    assert selected_by("rcutils_logging_set_logger_level", declared, catalogue) == "logging"
-    assert selected_by("rclc_make_node_a_lifecycle_node", {}, catalogue) == "lifecycle"
-    assert selected_by("printf", declared, catalogue) == ""
+    assert selected_by("rcl_publish", declared, catalogue) == ("publish",)
+    assert selected_by("RCUTILS_LOG_INFO_NAMED", declared, catalogue) == ("logging_console", "logging_rosout")
+    assert selected_by("rcutils_logging_set_logger_level", declared, catalogue) == ("logging",)
+    assert selected_by("rclc_make_node_a_lifecycle_node", {}, catalogue) == ("lifecycle",)
+    assert selected_by("printf", declared, catalogue) == ()
 
 
 @pytest.mark.parametrize(
