@@ -108,6 +108,7 @@ def test_ros_time_is_one_of_them() -> None:
     assert (clock.qos.reliability, clock.qos.depth, clock.queue) == ("best_effort", 1, 1)
     assert [name for name, c in load_catalogue().items() if c.implies] == [
         "clock_ros",
+        "graph",
         "logger_services",
         "logging_rosout",
         "parameters",

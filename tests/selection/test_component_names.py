@@ -22,6 +22,7 @@ _OTHER_MEANING = {
         "entities",
         "executor",
         "framing",
+        "graph",
         "lifecycle",
         "logging",
         "memory",

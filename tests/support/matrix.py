@@ -138,6 +138,8 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "      - {name: label, type: string, default: left, size: 8}\n"
         + "profiles: [pure_sender]\ncomponents: [+parameters]\n",
         "parameters-every": _BUSY + EVERY_PARAMETER + "profiles: [pure_sender]\ncomponents: [+parameters]\n",
+        "graph": _BUSY
+        + "profiles: [pure_sender]\ncomponents: [+graph]\nmemory: {arena: 4096}\nerrors: code\n",
         "logging": _POOL + "logging: [{to: console, level: debug}, callback]\n",
         "rosout": _BUSY + "profiles: [pure_sender]\nlogging: [rosout, console]\n",
         "ring": _BUSY

@@ -159,7 +159,11 @@ def run(
 def started(program: Path, *arguments: str) -> Iterator[subprocess.Popen[str]]:
     """Start a program; kill it afterwards where it still runs."""
     process = subprocess.Popen(
-        [program, *arguments], text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+        [program, *arguments],
+        text=True,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
     )
     try:
         yield process

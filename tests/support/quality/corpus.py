@@ -169,6 +169,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "parameters_every": _NODES.replace("    publishers:\n", "")
         + EVERY_PARAMETER
         + "components: [+parameters]\n",
+        "graph": _NODES + _SURE + "components: [+graph, +multithread]\nmemory: {arena: 4096}\n",
         "services_less": _SERVED.replace("20", "9") + _ASKED.replace("9", "20"),
         "lent_tcp": _READER + _ALONE + "transport: {type: tcp, agent: '127.0.0.1:8888'}\n",
     }

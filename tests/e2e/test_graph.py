@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A device queries the ROS graph through a graph server, and sees what rclpy sees."""
+
+from __future__ import annotations
+
+import subprocess
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.support.agent.line_process import LineProcess
+from tests.support.e2e.graph_peer import NODE, graph_peer
+from tests.support.e2e.graph_server import graph_server
+from tests.support.e2e.images import C_FILES, Images, ends_well, started
+from tests.support.e2e.relay import Relay
+from tests.support.paths import TESTS
+from tests.support.patience import deadline
+
+pytestmark = pytest.mark.ros
+
+APPLICATION = """\
+version: 1
+profiles: [pure_sender]
+components: [+graph]
+memory: {arena: 60000}
+pools: {guard_conditions: 1}
+session: {connect_timeout: 20 s, create_timeout: 4 s}
+nodes:
+  - name: device
+    namespace: /arm
+    publishers: [{topic: count, type: std_msgs/msg/Int32}]
+    subscriptions: [{topic: order, type: std_msgs/msg/Int32}]
+    clients: [{name: set, type: std_srvs/srv/SetBool, limits: {message: 8}, storage: none}]
+"""
+STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror", f"-I{TESTS / 'runtime' / 'c'}")
+OK, TIMEOUT = 0, 2
+LISTS_OF_NODE = ("publishers_of", "subscriptions_of", "services_of", "clients_of")
+
+
+class Device:
+    """The program on the other side of two pipes."""
+
+    def __init__(self, process: subprocess.Popen[str]) -> None:
+        self._process = process
+
+    def call(self, command: str) -> tuple[int, str, list[str]]:
+        """Return code, error text and printed lines."""
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        self._process.stdin.write(command + "\n")
+        self._process.stdin.flush()
+        lines: list[str] = []
+        while not (line := self._process.stdout.readline()).startswith("ret "):
+            assert line, self._process.stderr.read() if self._process.stderr else ""
+            lines.append(line.rstrip("\n"))
+        _, code, error = line.rstrip("\n").split(" ", 2)
+        return int(code), error, lines
+
+    def lines(self, command: str) -> list[str]:
+        code, error, lines = self.call(command)
+        assert code == OK, error
+        return [line.partition(" ")[2] for line in lines]
+
+    def sorted(self, command: str) -> list[str]:
+        """Return the items in their order."""
+        return sorted(self.lines(command))
+
+
+@contextmanager
+def running(program: Path) -> Iterator[Device]:
+    with started(program) as process:
+        device = Device(process)
+        assert device.call("init") == (OK, "", [])
+        yield device
+        assert device.call("end") == (OK, "", [])
+        ends_well(process)
+
+
+@pytest.fixture(scope="module")
+def program(images: Images, image_port: Relay, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    image = images.build(image_port.port, APPLICATION)
+    return image.application(C_FILES / "graph.c", tmp_path_factory.mktemp("graph") / "graph", *STRICT)
+
+
+def alike(found: Callable[[], Any], wanted: Callable[[], Any], part: Any = None) -> Any:
+    """Wait until both give the same, which has `part`; discovery takes a moment. Return it."""
+    end = deadline(20)
+    while True:
+        first, second = found(), wanted()
+        if first == second and (part is None or part in first):
+            return first
+        assert time.monotonic() < end, f"{first} is not {second}, or is without {part}"
+        time.sleep(0.1)
+
+
+def served(device: Device) -> None:
+    """Wait until a graph server answers; agent and server discover each other first."""
+    end = deadline(60)
+    while (result := device.call("count publishers /arm/count"))[2] != ["count 1"]:
+        assert time.monotonic() < end, result
+        time.sleep(0.1)
+
+
+def compare_names(device: Device, peer: LineProcess) -> None:
+    for what, part in (
+        ("topics", "/arm/count std_msgs/msg/Int32"),
+        ("services", "/arm/set std_srvs/srv/SetBool"),
+    ):
+        alike(
+            partial(device.sorted, f"names {what}"),
+            partial(peer.ask, do="names", what=what, node="", namespace=""),
+            part,
+        )
+    for (namespace, name), what in product(
+        (("/arm", "device"), NODE, ("/", "microros_graph")), LISTS_OF_NODE
+    ):
+        command = f"names {what} {name} {namespace}"
+        alike(
+            partial(device.sorted, command),
+            partial(peer.ask, do="names", what=what, node=name, namespace=namespace),
+        )
+
+
+def compare_endpoints(device: Device, peer: LineProcess) -> None:
+    topics = ("/arm/count", "/arm/order", "/parameter_events", "/microros_graph/changes")
+    services = ("/arm/set", "/microros_graph/list_names")
+    for what, topic in product(("publishers", "subscriptions"), topics):
+        alike(
+            partial(device.sorted, f"infos {what} {topic}"),
+            partial(peer.ask, do="infos", what=what, topic=topic),
+        )
+    counted = [*product(("publishers", "subscriptions"), topics), *product(("servers", "clients"), services)]
+    for what, name in counted:
+        (count,) = device.lines(f"count {what} {name}")
+        assert int(count) == peer.ask(do="count", what=what, name=name)
+
+
+def test_what_rclpy_sees(program: Path, agent: object, domain: int) -> None:
+    with graph_peer(domain) as peer, graph_server(domain), running(program) as device:
+        served(device)
+        peer.ask(do="subscribe", topic="/arm/count")
+        peer.ask(do="serve", name="/arm/set")
+        nodes = alike(lambda: sorted(device.lines("nodes")), lambda: peer.ask(do="nodes"), "/arm device")
+        assert {"/ microros_graph", " ".join(NODE)} <= set(nodes)
+        compare_names(device, peer)
+        compare_endpoints(device, peer)
+        assert device.lines("count available") == ["1"]
+
+
+def test_changes_and_matched_counts(program: Path, agent: object, domain: int) -> None:
+    with graph_peer(domain) as peer, graph_server(domain), running(program) as device:
+        served(device)
+        before = int(device.lines("count matched_subscriptions")[0])
+        peer.ask(do="subscribe", topic="/arm/count")
+        assert device.call("change 20000")[0] == OK
+        alike(lambda: device.lines("count matched_subscriptions"), lambda: [str(before + 1)])
+        peer.ask(do="publish", topic="/arm/order")
+        alike(lambda: device.lines("count matched_publishers"), lambda: [str(peer.ask(do="matched"))], "1")
+        peer.ask(do="leave")
+        alike(lambda: device.lines("count matched_subscriptions"), lambda: [str(before)])
+        end = deadline(20)
+        while device.lines("changes") == ["0"]:  # a notice comes at most 0.2 s after the change
+            device.call("spin 100")
+            assert time.monotonic() < end
+
+
+def test_a_server_that_restarts(program: Path, agent: object, domain: int) -> None:
+    with graph_server(domain) as server, running(program) as device:
+        served(device)
+        server.kill()
+        server.wait()
+        code, error, _ = device.call("count publishers /arm/count")
+        assert (code, error) == (
+            TIMEOUT,
+            "no answer of a graph server within 4000 ms: start `microros-gen graph-server`",
+        )
+        with graph_server(domain):
+            served(device)
+            assert device.call("change 20000")[0] == OK

@@ -1,0 +1,363 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Queries of the graph with a scripted agent and a clock of the test: results, limits, and servers that fail."""
+
+from __future__ import annotations
+
+import functools
+import random
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from microros_gen.ros.graph import GraphEndpoint
+from tests.support.runtime.driver import Client, Result
+from tests.support.runtime.graph_agent import GraphAgent, MadeGraph
+from tests.support.runtime.harness import Tree, build
+from tests.support.runtime.surface import write_application
+
+APPLICATION = """\
+version: 1
+profiles: [pure_sender]
+components: [+graph]
+memory: {arena: 2500}
+pools: {guard_conditions: 1}
+nodes:
+  - name: device
+    namespace: /arm
+    publishers: [{topic: count, type: std_msgs/msg/Int32}]
+    subscriptions: [{topic: order, type: std_msgs/msg/Int32}]
+    clients: [{name: set, type: std_srvs/srv/SetBool, limits: {message: 8}, storage: none}]
+"""
+OK, ERROR, TIMEOUT, UNSUPPORTED, BAD_ALLOC, INVALID, NO_NODE = 0, 1, 2, 3, 10, 11, 203
+INT32, SET_BOOL = "std_msgs/msg/Int32", "std_srvs/srv/SetBool"
+BETWEEN_MS = 1000
+"""What a query waits for a server: create_timeout."""
+TOPICS = tuple((f"/topic_{number}", (INT32,)) for number in range(5))
+NODE = (("/arm/count", (INT32,)),)
+
+
+def endpoint(node: str, number: int = 1, **changed: Any) -> GraphEndpoint:
+    values: dict[str, Any] = {
+        "node": node,
+        "type": INT32,
+        "hash_version": 1,
+        "hash": bytes(range(32)),
+        "gid": bytes([number] * 16),
+        "reliability": 1,
+        "durability": 2,
+        "history": 3,
+        "liveliness": 1,
+        "depth": 7,
+        "deadline": 2_500_000_000,
+        "lifespan": 9223372036854775807,
+        "lease": 0,
+    }
+    return GraphEndpoint(**(values | changed))
+
+
+@pytest.fixture(scope="module")
+def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    tree = write_application(tmp_path_factory.mktemp("graph") / "tree", APPLICATION)
+    sources = tuple(s for s in tree.sources if not s.parent.name.startswith("port_posix"))
+    return build(Tree(tree.folder, sources), ["port_fake.c", "client_graph.c"], "graph")
+
+
+class Device:
+    """The program, its agent and the graph that its server knows."""
+
+    def __init__(self, client: Client, agent: GraphAgent) -> None:
+        self.client, self.agent = client, agent
+        self.client.ok("init")
+
+    def items(self, command: str) -> list[str]:
+        return [line.removeprefix("item ") for line in self.client.ok(command).lines]
+
+    def count(self, command: str) -> int:
+        (line,) = self.client.ok(command).lines
+        return int(line.removeprefix("count "))
+
+    def fails(self, command: str, code: int) -> str:
+        result: Result = self.client.call(command)
+        assert result.code == code, result
+        assert result.lines == ()
+        return result.error
+
+
+@pytest.fixture
+def device(program: Path) -> Iterator[Device]:
+    graph = MadeGraph(
+        node_names=("/arm/device", "/a/b/deep", "/root"),
+        topic_names=TOPICS,
+        service_names=(("/set", (SET_BOOL,)), ("/two", (SET_BOOL, "a/srv/B"))),
+        of_node={("publishers", "/arm/device"): NODE, ("clients", "/root"): ()},
+        publishing={"/arm/order": (endpoint("/root"),), "/arm/count": (endpoint("/arm/device"),)},
+        subscribing={"/arm/count": (endpoint("/root", 1), endpoint("/a/b/deep", 2))},
+        servers={"/arm/set": 2},
+        clients={"/arm/set": 1},
+    )
+    # One publisher; then the subscription of changes; two clients of the graph after two subscriptions.
+    agent = GraphAgent(mtu=256, graph=graph, reader=1, first_client=3)
+    with Client(program, agent) as client:
+        yield Device(client, agent)
+
+
+def test_names_with_types(device: Device) -> None:
+    assert device.items("names topics") == [f"/topic_{n} {INT32}" for n in range(5)]
+    assert [request["first"] for _, request in device.agent.requests] == [0, 2, 4]
+    assert device.items("names services") == [f"/set {SET_BOOL}", f"/two {SET_BOOL} a/srv/B"]
+
+
+def test_names_of_a_node(device: Device) -> None:
+    assert device.items("names publishers_of device /arm") == [f"/arm/count {INT32}"]
+    assert device.agent.requests[-1][1]["node"] == "/arm/device"
+    assert device.items("names clients_of root /") == []
+    assert device.agent.requests[-1][1]["node"] == "/root"
+    assert "graph: the node /arm/nobody is not known" in device.fails(
+        "names services_of nobody /arm", NO_NODE
+    )
+
+
+def test_nodes(device: Device) -> None:
+    assert device.items("nodes") == ["/arm device", "/a/b deep", "/ root"]
+    assert all(request["types_max"] == 0 for _, request in device.agent.requests)
+
+
+def test_endpoints_of_a_topic(device: Device) -> None:
+    hash_, forever = bytes(range(32)).hex(), "9223372036.854775807"
+    rest = f"1 2 3 1 7 2.500000000 {forever} 0.000000000"
+    assert device.items("infos subscriptions /arm/count") == [
+        f"/ root {INT32} 2 1 {hash_} {'01' * 16} {rest}",
+        f"/a/b deep {INT32} 2 1 {hash_} {'02' * 16} {rest}",
+    ]
+    assert device.items("infos publishers /arm/order") == [
+        f"/ root {INT32} 1 1 {hash_} {'01' * 16} {rest}",
+    ]
+    assert device.items("infos publishers /nothing") == []
+
+
+def test_counts(device: Device) -> None:
+    assert device.count("count subscriptions /arm/count") == 2
+    assert device.count("count publishers /arm/count") == 1
+    assert device.count("count servers /arm/set") == 2
+    assert device.count("count clients /arm/set") == 1
+    assert device.count("count available") == 1
+    device.agent.graph.servers.clear()
+    assert device.count("count available") == 0
+    assert all(request["endpoints_max"] == 0 for _, request in device.agent.requests)
+
+
+def test_counts_of_own_endpoints(device: Device) -> None:
+    best_effort = endpoint("/arm/device", reliability=2)
+    assert device.count("count matched_subscriptions") == 2
+    device.agent.graph.publishing["/arm/count"] = (best_effort,)
+    assert device.count("count matched_subscriptions") == 0
+    assert "an endpoint of the own node on /arm/order is not known" in device.fails(
+        "count matched_publishers", ERROR
+    )
+    device.agent.graph.subscribing["/arm/order"] = (endpoint("/arm/device"),)
+    assert device.count("count matched_publishers") == 1
+
+
+def test_wrong_names_and_what_is_not_supported(device: Device) -> None:
+    assert "not_absolute" in device.fails("count publishers not_absolute", INVALID)
+    assert "no_demangle" in device.fails("names mangled", UNSUPPORTED)
+    long = "/" + "x" * 95
+    assert "more than 95 bytes" in device.fails(f"count publishers {long}", ERROR)
+    assert "more than 95 bytes" in device.fails(f"names services_of {long[1:]} /", ERROR)
+    assert device.count(f"count publishers {long[:-1]}") == 0
+
+
+def test_names_that_have_no_room_are_an_error(device: Device) -> None:
+    longest = "/" + "x" * 94
+    device.agent.graph.topic_names = ((longest, (INT32,)),)
+    assert device.items("names topics") == [f"{longest} {INT32}"]
+    device.agent.graph.topic_names = (*TOPICS, (longest + "y", (INT32,)))
+    assert "more than 95 bytes, or with more than 2 types: raise limits" in device.fails(
+        "names topics", ERROR
+    )
+    device.agent.graph.topic_names = (("/three", (INT32, "a/msg/B", "a/msg/C")),)
+    assert "more than 2 types" in device.fails("names topics", ERROR)
+
+
+def test_a_list_that_has_no_room_is_an_error_and_leaves_nothing(device: Device) -> None:
+    device.agent.graph.topic_names = tuple((f"/topic_{n}", (INT32,)) for n in range(200))
+    for _ in range(3):
+        assert "raise memory: {arena:" in device.fails("names topics", BAD_ALLOC)
+    device.agent.graph.node_names = tuple(f"/a{n}" for n in range(90))
+    assert "raise memory: {arena:" in device.fails("nodes", BAD_ALLOC)
+    device.agent.graph.subscribing["/arm/count"] = (endpoint("/root"),) * 20
+    assert "raise memory: {arena:" in device.fails("infos subscriptions /arm/count", BAD_ALLOC)
+    device.agent.graph.topic_names = TOPICS
+    assert len(device.items("names topics")) == len(TOPICS)
+
+
+def test_a_graph_that_changes_is_read_again(device: Device) -> None:
+    responses = 0
+
+    def later(response: dict[str, Any]) -> dict[str, Any]:
+        nonlocal responses
+        responses += 1
+        return response | {"version": min(responses, 4)}
+
+    device.agent.change = later
+    assert len(device.items("names topics")) == len(TOPICS)
+    assert [request["first"] for _, request in device.agent.requests] == [0, 2, 0, 2, 0, 2, 4]
+    device.agent.change = lambda response: response | {"version": len(device.agent.requests)}
+    assert "changes faster than it is read" in device.fails("names topics", ERROR)
+    assert device.count("count publishers /arm/count") == 1
+
+
+def test_without_a_server(device: Device) -> None:
+    device.agent.server = False
+    result = device.client.call("count publishers /arm/count")
+    assert (result.code, result.slept) == (TIMEOUT, BETWEEN_MS)
+    assert result.error == "no answer of a graph server within 1000 ms: start `microros-gen graph-server`"
+    assert "no answer of a graph server" in device.fails("names topics", TIMEOUT)
+    assert "no answer of a graph server" in device.fails("wait publishers /arm/count 9000", ERROR)
+    device.agent.server = True
+    assert device.count("count publishers /arm/count") == 1
+
+
+def test_a_server_that_appears_within_the_time(device: Device) -> None:
+    device.agent.server = False
+    asleep = 0
+
+    def appear() -> None:
+        nonlocal asleep
+        asleep += 1
+        device.agent.server = asleep > 10
+
+    device.client.on_sleep = appear
+    assert device.count("count publishers /arm/count") == 1
+
+
+def test_an_agent_that_restarts(device: Device) -> None:
+    asleep = 0
+
+    def restart() -> None:
+        nonlocal asleep
+        asleep += 1
+        if asleep == 1:
+            device.agent.restart()
+
+    device.agent.server = False
+    device.client.on_sleep = restart
+    assert device.client.call("names topics").code in (ERROR, TIMEOUT)
+    device.agent.server = True
+    for _ in range(20):
+        device.client.wait(200)
+        device.client.ok("spin 0")
+    assert len(device.items("names topics")) == len(TOPICS)
+
+
+def test_a_change_wakes_a_wait_set(device: Device) -> None:
+    assert device.client.call("change 200").code == TIMEOUT
+    device.client.queued += device.agent.notice()
+    assert device.client.ok("change 200").slept == 0
+    assert device.client.call("change 200").code == TIMEOUT
+
+
+def test_a_change_calls_back_in_the_executor(device: Device) -> None:
+    for expected in (1, 2):
+        device.client.queued += device.agent.notice()
+        device.client.ok("spin 20")
+        assert device.count("changes") == expected
+    device.client.ok("spin 20")
+    assert device.count("changes") == 2
+
+
+def test_a_change_during_a_query_is_not_lost(device: Device) -> None:
+    device.client.queued += device.agent.notice()
+    assert device.count("count publishers /arm/count") == 1
+    device.client.ok("spin 20")
+    assert device.count("changes") == 1
+
+
+def test_waits_for_publishers(device: Device) -> None:
+    graph, two = device.agent.graph, (endpoint("/root", 1), endpoint("/root", 2))
+
+    def appear() -> None:
+        if device.client.now_ms > begun + 300 and "/late" not in graph.publishing:
+            graph.publishing["/late"] = two
+            device.client.queued += device.agent.notice()
+
+    begun = device.client.now_ms
+    device.client.on_sleep = appear
+    assert 300 <= device.client.ok("wait publishers /late 2000").slept < 400
+    assert device.client.ok("wait publishers /late 2000").slept < 10
+    graph.subscribing["/late"] = two[:1]
+    result = device.client.call("wait subscriptions /late 700")
+    assert (result.code, result.slept) == (TIMEOUT, 700)
+
+
+CONTRADICTIONS: dict[str, Callable[[dict[str, Any]], dict[str, Any]]] = {
+    "next beyond total": lambda r: r | {"next": r["total"] + 1},
+    "next does not advance": lambda r: r | {"next": 0},
+    "fewer names than next says": lambda r: r | {"names": r["names"][:1]},
+    "no names": lambda r: r | {"names": [], "next": 0},
+    "a total of all": lambda r: r | {"total": 2**32 - 1},
+    "an unknown status": lambda r: r | {"status": 77},
+}
+
+
+@pytest.mark.parametrize("name", CONTRADICTIONS)
+def test_responses_that_contradict_themselves(device: Device, name: str) -> None:
+    device.agent.change = CONTRADICTIONS[name]
+    result = device.client.call("names topics")
+    assert result.code in (ERROR, BAD_ALLOC)
+    assert result.error
+    device.agent.change = lambda response: response
+    assert len(device.items("names topics")) == len(TOPICS)
+
+
+def test_a_node_name_without_a_slash(device: Device) -> None:
+    device.agent.graph.node_names = ("plain",)
+    assert "a node without a namespace" in device.fails("nodes", ERROR)
+    device.agent.graph.node_names = ("/",)
+    assert device.items("nodes") == ["/ "]
+
+
+QUERIES = ("names services", "nodes", "infos subscriptions /arm/count", "count publishers /arm/count")
+
+
+@pytest.mark.parametrize("query", QUERIES)
+def test_truncated_responses(device: Device, query: str) -> None:
+    bodies: list[bytes] = []
+
+    def damage(body: bytes, size: int | None = None) -> bytes:
+        bodies.append(body)
+        return body[:size]
+
+    device.agent.damage = damage
+    device.client.ok(query)
+    body = bodies[0]
+    for size in range(len(body)):
+        device.agent.damage = functools.partial(damage, size=size)
+        result = device.client.call(query)
+        assert result.code == ERROR, size
+        assert result.error
+
+
+def test_damaged_responses(device: Device) -> None:
+    """Random bytes are changed; sanitizers watch, and the next query is answered."""
+    generator = random.Random(14)
+    device.agent.damage = lambda body: bytes(
+        byte if generator.random() > 0.03 else generator.randrange(256) for byte in body
+    )
+    failed = 0
+    for number in range(400):
+        result = device.client.call(QUERIES[number % len(QUERIES)])
+        failed += result.code != OK
+        assert result.code == OK or result.error
+    assert 100 < failed < 400
+    device.agent.damage = lambda body: body
+    assert len(device.items("names topics")) == len(TOPICS)
+
+
+def test_ends_and_begins_again(device: Device) -> None:
+    device.client.ok("end")
+    device.client.ok("init")
+    assert len(device.items("names topics")) == len(TOPICS)
+    device.client.ok("end")

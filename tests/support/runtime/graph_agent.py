@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The agent of serving_agent.py and a graph server: answers of the real one about a graph of the test."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.documents.named import Named
+from microros_gen.graph_server.answers import list_endpoints, list_names
+from microros_gen.interfaces.closure import resolve_interfaces
+from microros_gen.interfaces.find import InterfaceFinder, shipped_folder
+from microros_gen.ros.codec import ENCAPSULATION_BYTES, Codec
+from microros_gen.ros.graph import GraphEndpoint, Names
+from tests.support.runtime.serving_agent import ServingAgent
+
+LITTLE = b"\0\1\0\0"
+LISTS = {0: ("ListNames", list_names), 1: ("ListEndpoints", list_endpoints)}
+"""Clients of the first node, in the order of component.yaml."""
+
+
+@dataclass
+class MadeGraph:
+    """What microros_gen.ros.graph.Graph tells, by hand."""
+
+    node_names: tuple[str, ...] = ()
+    topic_names: Names = ()
+    service_names: Names = ()
+    of_node: dict[tuple[str, str], Names] = field(default_factory=dict)
+    publishing: dict[str, tuple[GraphEndpoint, ...]] = field(default_factory=dict)
+    subscribing: dict[str, tuple[GraphEndpoint, ...]] = field(default_factory=dict)
+    servers: dict[str, int] = field(default_factory=dict)
+    clients: dict[str, int] = field(default_factory=dict)
+
+    def nodes(self) -> tuple[str, ...]:
+        return self.node_names
+
+    def topics(self) -> Names:
+        return self.topic_names
+
+    def services(self) -> Names:
+        return self.service_names
+
+    def publishers_of(self, node: str) -> Names | None:
+        return self.of_node.get(("publishers", node))
+
+    def subscriptions_of(self, node: str) -> Names | None:
+        return self.of_node.get(("subscriptions", node))
+
+    def services_of(self, node: str) -> Names | None:
+        return self.of_node.get(("services", node))
+
+    def clients_of(self, node: str) -> Names | None:
+        return self.of_node.get(("clients", node))
+
+    def publishers(self, topic: str) -> tuple[GraphEndpoint, ...]:
+        return self.publishing.get(topic, ())
+
+    def subscriptions(self, topic: str) -> tuple[GraphEndpoint, ...]:
+        return self.subscribing.get(topic, ())
+
+    def count_servers(self, service: str) -> int:
+        return self.servers.get(service, 0)
+
+    def count_clients(self, service: str) -> int:
+        return self.clients.get(service, 0)
+
+
+@dataclass
+class GraphAgent(ServingAgent):
+    """`requests` are what the server was asked; without `server` requests get no response.
+
+    `first_client` is the index of the first client of the graph on the wire, `reader` that of the subscription of
+    changes. `change` gets each response before it is encoded, and `damage` its bytes.
+    """
+
+    graph: MadeGraph = field(default_factory=MadeGraph)
+    version: int = 1
+    first_client: int = 0
+    reader: int = 0
+    server: bool = True
+    requests: list[tuple[str, dict[str, Any]]] = field(default_factory=list)
+    change: Callable[[dict[str, Any]], dict[str, Any]] = lambda response: response
+    damage: Callable[[bytes], bytes] = lambda body: body
+    codec: Codec = field(default_factory=lambda: graph_codec())
+
+    def notice(self) -> list[bytes]:
+        """Return the datagrams of a notice that the graph has changed."""
+        self.version += 1
+        return self.offer(self.reader, self.version.to_bytes(4, "little"))
+
+    def _write(self, payload: bytes) -> None:
+        super()._write(payload)
+        if payload[2:4] not in self.objects or payload[3] & 15 != 7 or not self.server:
+            return
+        place = (int.from_bytes(payload[2:4], "big") >> 4) - self.first_client
+        if place not in LISTS:
+            return
+        name, answer = LISTS[place]
+        kind = f"microros_graph_msgs/srv/{name}"
+        request = self.codec.decode(f"{kind}_Request", LITTLE + payload[4:])
+        self.requests.append((name, request))
+        response = self.change(answer(self.graph, request, self.version))  # type: ignore[arg-type]
+        body = self.codec.encode(f"{kind}_Response", response)[ENCAPSULATION_BYTES:]
+        self.history.setdefault(payload[2:4], []).append(payload[:2] + payload[2:4] + self.damage(body))
+
+
+def graph_codec() -> Codec:
+    """Return a codec of both services of the graph server."""
+    names = tuple(Named(f"microros_graph_msgs/srv/{name}", None) for name, _ in LISTS.values())
+    return Codec(
+        resolve_interfaces(names, InterfaceFinder.from_environment((shipped_folder(),)), Diagnostics())
+    )
