@@ -86,7 +86,7 @@ OF_A_BUILD = _BUILD
 
 NOT_HERE_WHEN_ON: Mapping[str, str] = MappingProxyType(
     {
-        "RMW_UXRCE_GRAPH": "questions about the ROS graph are not in this version",
+        "RMW_UXRCE_GRAPH": "declare the nodes and write `components: [+graph]`, which needs a graph server",
         "RMW_UXRCE_ALLOW_DYNAMIC_ALLOCATIONS": "pools do not grow: the library has no heap. Declare all entities",
         "UCLIENT_PROFILE_CAN": "CAN FD is not supported: provide its four functions as a custom transport",
         "UCLIENT_PROFILE_SHARED_MEMORY": "delivery inside one device goes through the agent in this version",

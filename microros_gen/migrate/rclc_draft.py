@@ -82,7 +82,8 @@ def rclc_draft(
     remarks += find_missing(called, selected, catalogue)
     remarks += _macros(files)
     settings, more = find_settings(calls, values)
-    groups = {**settings, **_executors(calls)}
+    pools = {**settings.get("pools", {}), **_executors(calls)}
+    groups = {**settings, **({"pools": pools} if pools else {})}
     draft = Draft(
         profiles=profiles,
         components=_components(_wanted(files, called, selected, catalogue), catalogue, profiles),
@@ -196,7 +197,7 @@ def _macros(files: Iterable[CFile]) -> list[Remark]:
     ]
 
 
-def _executors(calls: Iterable[Call]) -> dict[str, dict[str, DraftValue]]:
+def _executors(calls: Iterable[Call]) -> dict[str, DraftValue]:
     """Return `pools.executors` where the sources have more than one: a declared application has one by default."""
     inits = {
         handle_of(call.arguments[0]): call
@@ -206,7 +207,7 @@ def _executors(calls: Iterable[Call]) -> dict[str, dict[str, DraftValue]]:
     if len(inits) < 2:
         return {}
     last = list(inits.values())[-1]
-    return {"pools": {"executors": DraftValue(len(inits), f"{last.name} ({place(last.span)})")}}
+    return {"executors": DraftValue(len(inits), f"{last.name} ({place(last.span)})")}
 
 
 def _wanted(

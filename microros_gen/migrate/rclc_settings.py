@@ -18,12 +18,16 @@ _TAKES_MEMORY = re.compile(
 )
 _ARENA_ALONE = re.compile(r"micro_ros_utilities_type_info|\w+__Sequence__create")
 _RECEIVES = re.compile(r"rclc?_(subscription|service|client)_init\w*")
+# Lists of the ROS graph, whose length is that of the graph.
+_LISTS_GRAPH = re.compile(r"rcl_get_((?!zero)\w+_names_and_types(_by_node)?|node_names|\w+_info_by_topic)")
 _ARENA = 4096
+_GRAPH_ARENA = 16384
 _MOST_ARENA = 1 << 20
 # Function of an rcl_allocator_t that gives memory → how many arguments it has.
 _ALLOCATES = {"allocate": 2, "zero_allocate": 3, "reallocate": 3}
 # What has storage from the limits, unless there is an arena and nothing is said of messages.
 _FROM_POOLS = re.compile(r"micro_ros_\w+|\w+__(create|assign\w*|copy|Sequence__init)")
+_GUARDS_ARGUMENT = 2  # of rcl_wait_set_init
 _BLOCK = 8  # the arena's unit: every piece is a multiple, after one more for its head
 
 
@@ -39,6 +43,9 @@ def _arena(calls: Sequence[Call], values: Values, groups: _Groups, remarks: list
     ]
     size = sum(size for _, size in taking if size is not None)
     size += _ARENA if guessed else 0
+    listing = [call for call in calls if _LISTS_GRAPH.fullmatch(call.name)]
+    guessed += listing
+    size += _GRAPH_ARENA if listing else 0
     if not size:
         return
     first = guessed[0] if guessed else taking[0][0]
@@ -87,7 +94,22 @@ def find_settings(
             text = f"{call.name}() is of another library: here rmw_uros_set_custom_transport takes your four functions"
             remarks.append(Remark(text, call.span))
     _arena(calls, values, groups, remarks)
+    groups["pools"] = _guard_conditions(calls, values)
     return {name: keys for name, keys in groups.items() if keys}, remarks
+
+
+def _guard_conditions(calls: Sequence[Call], values: Values) -> dict[str, DraftValue]:
+    """Return how many guard conditions there are or a wait set has room for: the larger number."""
+    inits = [call for call in calls if call.name == "rcl_guard_condition_init"]
+    found = [(len(inits), inits[-1])] if inits else []
+    for call in calls:
+        if call.name == "rcl_wait_set_init" and len(call.arguments) > _GUARDS_ARGUMENT:
+            number = values.number(call.arguments[_GUARDS_ARGUMENT], call)
+            found.append((number if isinstance(number, int) else 1, call))
+    most, where = max(found, key=lambda one: one[0]) if found else (0, None)
+    if not most or where is None:
+        return {}
+    return {"guard_conditions": DraftValue(most, f"{where.name} ({place(where.span)})")}
 
 
 def _custom(call: Call, values: Values, groups: _Groups, remarks: list[Remark]) -> None:

@@ -135,7 +135,10 @@ def test_what_is_not_needed_is_named_with_its_reason_and_line(init: Init, tmp_pa
         ("RMW_UXRCE_STREAM_HISTORY=32", "here it can be 1 to 16"),
         ("RMW_UXRCE_MAX_NODES=many", "'many' is not a whole number"),
         ("RMW_UXRCE_MAX_PUBLISHERS=-1", "here it can be 0 to 250"),
-        ("RMW_UXRCE_GRAPH=ON", "questions about the ROS graph are not in this version"),
+        (
+            "RMW_UXRCE_GRAPH=ON",
+            "declare the nodes and write `components: [+graph]`, which needs a graph server",
+        ),
         ("RMW_UXRCE_ALLOW_DYNAMIC_ALLOCATIONS=ON", "pools do not grow: the library has no heap"),
         ("RMW_UXRCE_CREATION_MODE=xml", "'xml' is none of bin, refs"),
         ("RMW_UXRCE_TRANSPORT=custom_serial", "the transport 'custom_serial' is not known here"),
@@ -153,7 +156,7 @@ def test_what_could_not_be_decided_is_marked(init: Init, tmp_path: Path) -> None
     write(tmp_path / "a.meta", rmw_microxrcedds=["RMW_UXRCE_GRAPH=ON"])
     status, out, err = init("app", "--from-colcon-meta", "a.meta")
     assert status == 0
-    assert "a.meta:5:17: warning: rmw_microxrcedds RMW_UXRCE_GRAPH=ON: questions about" in err
+    assert "a.meta:5:17: warning: rmw_microxrcedds RMW_UXRCE_GRAPH=ON: declare the nodes" in err
     assert '"-DRMW_UXRCE_GRAPH=ON"\n' in err
     assert f"{1 + ALWAYS} to be decided by you: look for UNDECIDED in app/microros.yaml" in out
     assert undecided_in(tmp_path / "app/microros.yaml") == ["UNDECIDED: to be decided by you."]

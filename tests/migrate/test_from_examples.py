@@ -132,29 +132,31 @@ def test_what_is_proposed_is_taken(init: Init, tmp_path: Path) -> None:
     assert limits["*",] == (32, 8)
 
 
-GRAPH = """#include <rcl/rcl.h>
+ACTION = """#include <rcl/rcl.h>
 int main(void)
 {
   rclc_node_init_default(&node, "n", "", &support);
-  size_t count;
-  rcl_count_publishers(&node, "/a", &count);
-  rcl_count_subscribers(&node, "/a", &count);
-  return (int)count;
+  rcl_action_server_init(&server, &node, &clock, type, "/a", &options);
+  rcl_action_server_fini(&server, &node);
+  return 0;
 }
 """
 
 
 def test_what_needs_a_component_that_is_not_there_is_refused(init: Init, tmp_path: Path) -> None:
     """Once a component, at the first call; nobody is told to build what does not build."""
-    (tmp_path / "main.c").write_text(GRAPH)
+    (tmp_path / "main.c").write_text(ACTION)
     status, out, err = init("app", "--from", "main.c")
     assert status == 2
     first, code, mark = without_id(err).splitlines()
     assert first.startswith(
-        "main.c:6:3: error: rcl_count_publishers needs the component 'graph', which this version"
+        "main.c:5:3: error: rcl_action_server_init needs the component 'actions', which this version"
     )
     assert first.endswith("Remove the call and what belongs to it")
-    assert (code.strip(), mark.strip()) == ('rcl_count_publishers(&node, "/a", &count);', "^" + "~" * 19)
+    assert (code.strip(), mark.strip()) == (
+        'rcl_action_server_init(&server, &node, &clock, type, "/a", &options);',
+        "^" + "~" * 21,
+    )
     assert len(undecided_in(tmp_path / "app/microros.yaml")) == 1
     assert "cmake" not in out
     assert "does not build" in out

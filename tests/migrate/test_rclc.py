@@ -295,7 +295,7 @@ def test_settings_of_transport_session_and_domain() -> None:
     [
         ("rclc_action_server_init_default(&a, &node, &support, T, n);", "needs the component 'actions'"),
         ("rclc_lifecycle_node_fini(&l, a);", "rclc_lifecycle_node_fini needs the component 'lifecycle'"),
-        ("rcl_get_node_names(&node, a, &b, &c);", "rcl_get_node_names needs the component 'graph'"),
+        ("rcl_get_node_names(&node, a, &b, &c);", "rcl_get_node_names takes memory from `memory.arena`"),
         ("rcl_no_such_call(&node);", "rcl_no_such_call is not in this version"),
         ("set_microros_serial_transports(Serial);", "set_microros_serial_transports() is of another library"),
         ("std_msgs__msg__Header__Sequence__create(2);", "takes memory from `memory.arena`"),
@@ -458,3 +458,26 @@ def test_a_program_without_a_node_is_taken() -> None:
     """It may ping, or synchronize its clock, and no more."""
     draft = adopted("int main(void) { rmw_uros_ping_agent(100, 1); return 0; }").draft
     assert draft.nodes == ()
+
+
+def test_queries_of_the_graph_select_their_component() -> None:
+    body = """
+  rcl_wait_set_init(&set, 0, 1, 0, 0, 0, 0, &context, allocator);
+  rcl_wait_set_add_guard_condition(&set, rcl_node_get_graph_guard_condition(&node), NULL);
+  rcl_names_and_types_t found = rcl_get_zero_initialized_names_and_types();
+  rcl_get_topic_names_and_types(&node, &allocator, false, &found);
+"""
+    draft = adopted(program(body)).draft
+    assert "+graph" in draft.components
+    assert {key: value.value for key, value in draft.groups["pools"].items()} == {"guard_conditions": 1}
+    assert draft.groups["memory"]["arena"].value == 16384
+    assert [remark.text.split()[0] for remark in draft.remarks] == ["rcl_get_topic_names_and_types"]
+
+
+def test_guard_conditions_of_the_application_have_places() -> None:
+    body = "rcl_guard_condition_init(&a, &context, options); rcl_guard_condition_init(&b, &context, options);"
+    assert adopted(program(body)).draft.groups["pools"]["guard_conditions"].value == 2
+    counts = "rcl_count_publishers(&node, name, &count);"
+    draft = adopted(program(counts)).draft
+    assert "+graph" in draft.components
+    assert not draft.groups.keys() & {"pools", "memory"}
