@@ -91,7 +91,10 @@ def _sections(component: str, name: str, everything: frozenset[str]) -> list[Sec
             "contributed": shared,
             "waits": SimpleNamespace(present=WAITED_KINDS, absent=()),
             "selection": SimpleNamespace(has=lambda _name: True),
-            "plan": SimpleNamespace(transport=SimpleNamespace(kind=transport, device="/dev/ttyUSB0")),
+            "plan": SimpleNamespace(
+                transport=SimpleNamespace(kind=transport, device="/dev/ttyUSB0"),
+                features=SimpleNamespace(of=lambda _name: SimpleNamespace(declared=())),
+            ),
         }
         text = _REFUSAL.sub("", environment.get_template(f"{name}.j2").render(view))
         seen[text] = read_header(text)

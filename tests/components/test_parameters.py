@@ -117,21 +117,50 @@ def test_another_number_makes_another_plan_id(tmp_path: Path) -> None:
     assert len({planned(tmp_path, text).project.runtime.plan_id for text in texts}) == len(texts)
 
 
-def test_the_example_adds_what_is_declared(tmp_path: Path) -> None:
-    found = planned(tmp_path, DECLARED)
-    files = compiler.render(found)
-    example = files["examples/pure_sender/main.c"].decode()
+def declaring(found: compiler.Planned) -> str:
+    """Return the C that declares the parameters."""
+    return compiler.render(found)["src/parameters/rclc_parameter_declared.c"].decode()
+
+
+def test_the_example_declares_and_uses_the_parameters(tmp_path: Path) -> None:
+    """Of each node that declares any, in the server of that node."""
+    text = DECLARED.replace("  - name: arm\n", "  - name: none\n  - name: arm\n    namespace: /left\n")
+    example = compiler.render(planned(tmp_path, text))["examples/pure_sender/main.c"].decode()
     for line in (
-        'rclc_add_parameter(&node_parameters, "gain", RCLC_PARAMETER_DOUBLE)',
-        'rclc_parameter_set_double(&node_parameters, "gain", 1.0)',
-        'rclc_add_parameter_constraint_double(&node_parameters, "gain", 0.0, 2.0, 0.5)',
-        'rclc_parameter_set_int(&node_parameters, "steps", -3)',
-        r'rclc_add_parameter_description(&node_parameters, "steps", "Steps of \"one\" turn", "")',
-        'rclc_set_parameter_read_only(&node_parameters, "steps", true)',
-        'rclc_parameter_set_bool(&node_parameters, "on", true)',
-        "rclc_parameter_server_init_default(&node_1_parameters, &node_1)",
+        "static left_arm_parameters_t left_arm_values;",
+        "&node_2_parameters, &node_2);",
+        "left_arm_parameters_declare(&node_1_parameters)",
+        "left_arm_parameters_update(&left_arm_values, &node_1_parameters)",
     ):
         assert line in example
+    assert example.count("_declare(") == 1
+
+
+def test_members_are_names_of_c(tmp_path: Path) -> None:
+    declared = "".join(
+        f"      - {{name: {name}, type: bool}}\n" for name in ("int", "a.b", "a_b", "changed", "a_b_2")
+    )
+    found = planned(
+        tmp_path, BARE.partition("nodes:")[0] + f"nodes:\n  - name: arm\n    parameters:\n{declared}"
+    )
+    assert slice_of(found).servers[0].members == (
+        *("bool int_;", "bool a_b;", "bool a_b_2;", "bool changed_2;", "bool a_b_2_2;"),
+    )
+
+
+def test_what_is_declared_is_added(tmp_path: Path) -> None:
+    found = planned(tmp_path, DECLARED)
+    declarations = declaring(found)
+    for line in (
+        'rclc_add_parameter(parameter_server, "gain", RCLC_PARAMETER_DOUBLE)',
+        'rclc_parameter_set_double(parameter_server, "gain", 1.0)',
+        'rclc_add_parameter_constraint_double(parameter_server, "gain", 0.0, 2.0, 0.5)',
+        'rclc_parameter_set_int(parameter_server, "steps", -3)',
+        r'rclc_add_parameter_description(parameter_server, "steps", "Steps of \"one\" turn", "")',
+        'rclc_set_parameter_read_only(parameter_server, "steps", true)',
+        'rclc_parameter_set_bool(parameter_server, "on", true)',
+    ):
+        assert line in declarations
 
 
 EVERY = """\
@@ -154,18 +183,18 @@ def test_arrays_and_lists_of_values_take_what_is_declared(tmp_path: Path) -> Non
     part = slice_of(found)
     assert (part.array_size, part.strings_max, part.array_string_size) == (3 * 50, 3, 50)
     assert part.text_size == len("one of: 0, -9223372036854775808") + 1
-    example = compiler.render(found)["examples/pure_sender/main.c"].decode()
+    declarations = declaring(found)
     for line in (
-        "static const char * const parameter_values_0[] = {",
-        "static const int64_t parameter_values_1[] = {0, INT64_MIN};",
-        'rclc_add_parameter_constraint_one_of_string(&node_parameters, "side", parameter_values_0, 2)',
-        'rclc_add_parameter_description(&node_parameters, "mode", "Way [mm]", "one of: 0, -9223372036854775808")',
-        'rclc_add_parameter_constraint_array(&node_parameters, "bytes", 5)',
-        'rclc_parameter_set_byte_array(&node_parameters, "bytes", (const uint8_t[]){1u, 255u}, 2)',
-        'rclc_parameter_set_string_array(&node_parameters, "names", (const char *[]){"a", "ö"}, 2)',
-        'rclc_add_parameter_constraint_array(&node_parameters, "none", 2)',
+        "static const char * const arm_values_0[] = {",
+        "static const int64_t arm_values_1[] = {0, INT64_MIN};",
+        'rclc_add_parameter_constraint_one_of_string(parameter_server, "side", arm_values_0, 2)',
+        'rclc_add_parameter_description(parameter_server, "mode", "Way [mm]", "one of: 0, -9223372036854775808")',
+        'rclc_add_parameter_constraint_array(parameter_server, "bytes", 5)',
+        'rclc_parameter_set_byte_array(parameter_server, "bytes", (const uint8_t[]){1u, 255u}, 2)',
+        'rclc_parameter_set_string_array(parameter_server, "names", (const char *[]){"a", "ö"}, 2)',
+        'rclc_add_parameter_constraint_array(parameter_server, "none", 2)',
     ):
-        assert line in example
+        assert line in declarations
     limits = "limits: {rcl_interfaces/msg/ParameterValue: {string_array_value: {sequence: 3, string: 9}}}\n"
     assert slice_of(planned(tmp_path, EVERY + limits)).array_size == 3 * 10
     plain = slice_of(planned(tmp_path, DECLARED))
@@ -187,14 +216,14 @@ nodes:
 def test_strings_take_what_is_declared(tmp_path: Path) -> None:
     found = planned(tmp_path, LABELED)
     assert slice_of(found).string_size == 49 + 1  # without a size, as names and descriptions
-    example = compiler.render(found)["examples/pure_sender/main.c"].decode()
+    declarations = declaring(found)
     for line in (
-        'rclc_add_parameter(&node_parameters, "label", RCLC_PARAMETER_STRING)',
-        'rclc_add_parameter_constraint_string(&node_parameters, "label", 12)',
-        r'rclc_parameter_set_string(&node_parameters, "label", "left \"a\"")',
-        'rclc_add_parameter_constraint_string(&node_parameters, "comment", 49)',
+        'rclc_add_parameter(parameter_server, "label", RCLC_PARAMETER_STRING)',
+        'rclc_add_parameter_constraint_string(parameter_server, "label", 12)',
+        r'rclc_parameter_set_string(parameter_server, "label", "left \"a\"")',
+        'rclc_add_parameter_constraint_string(parameter_server, "comment", 49)',
     ):
-        assert line in example
+        assert line in declarations
     first = largest(found, "srv/SetParameters_Request")
     own = "limits: {rcl_interfaces/msg/ParameterValue: {string_value: 100}}\n"
     more = planned(tmp_path, LABELED + own)

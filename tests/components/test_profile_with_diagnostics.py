@@ -29,7 +29,7 @@ def test_the_example_has_parameters_log_messages_and_diagnostics(tmp_path: Path,
     options = compiler.Options(config=config, interface_paths=(shipped_folder(),))
     out = compiler.generate(options, tmp_path / "out").out
     example = next((out / "examples").rglob("main.c")).read_text()
-    assert 'rclc_add_parameter(&node_parameters, "label", RCLC_PARAMETER_STRING)' in example
+    assert "_parameters_declare(&node_parameters)" in example
     assert 'RCUTILS_LOG_INFO_NAMED("example", "all entities are open");' in example
     assert "diagnostic_msgs__msg__DiagnosticArray" in example
     compile_example(out)

@@ -244,6 +244,47 @@ def test_undeclared_parameters(program: Path, codec: Codec) -> None:
         ]
 
 
+DECLARED = """\
+version: 1
+profiles: [pure_sender]
+components: [+parameters]
+nodes:
+  - name: device
+    namespace: /arm
+    parameters:
+      - {name: on, type: bool, default: true}
+      - {name: motor.gain, type: double, default: 0.5}
+      - {name: steps, type: integer, default: -9223372036854775808}
+      - {name: int, type: integer, one_of: [7, 0]}
+      - {name: label, type: string, size: 5, default: left}
+      - {name: integers, type: "integer[]", size: 3, default: [1, -2]}
+      - {name: bytes, type: "byte[]", size: 2, default: [255]}
+      - {name: names, type: "string[]", size: 2, default: [a]}
+"""
+
+
+@pytest.mark.parametrize("flags", [(), ("-m32",)], ids=["64", "32"])
+def test_the_struct_of_declared_values(
+    images: Images, image_port: Relay, tmp_path: Path, flags: tuple[str, ...]
+) -> None:
+    """It has every value, says what changed, and keeps what was deleted."""
+    image = images.build(image_port.port, DECLARED, "gcc", (*SANITIZE, *flags))
+    program = image.application(
+        C_FILES / "parameter_values.c", tmp_path / "values", "-std=c99", "-Wall", "-Wextra", "-Werror"
+    )
+    run = subprocess.run([program], capture_output=True, text=True, timeout=seconds(20), check=False)
+    assert (run.returncode, run.stderr) == (0, "")
+    first = "on=1 motor_gain=0.5 steps=-9223372036854775808 int_=0 label=left 1 -2 255 'a'"
+    changed = "on=1 motor_gain=-1.5 steps=-9223372036854775808 int_=0 label=right 4 5 6"
+    assert run.stdout.splitlines() == [
+        f"1 {first}",
+        f"0 {first}",
+        f"1 {changed} 255 '' 'second'",
+        f"1 {changed} '' 'second'",
+        f"0 {changed} '' 'second'",
+    ]
+
+
 def test_cut_and_changed_requests(program: Path, codec: Codec) -> None:
     """Each prefix of a request, and thousands of requests with wrong bytes: a reply or a refusal, and no error of a
     sanitizer."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The C of the example that adds the declared parameters and says what is declared of them."""
+"""The C that adds the declared parameters and says what is declared of them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from microros_gen.application.model import ParameterDecl
 
 LONGEST_TEXT = 49
 """Bytes of a name or description without its NUL, as in rclc."""
-_KINDS = {
+KINDS = {
     "bool": "bool",
     "integer": "int",
     "double": "double",
@@ -22,7 +22,7 @@ _KINDS = {
     "string[]": "string_array",
 }
 """Type in the application file → as functions and constants of rclc call it."""
-_C_TYPES = {
+C_TYPES = {
     "byte": "uint8_t ",
     "bool": "bool ",
     "integer": "int64_t ",
@@ -43,42 +43,42 @@ def texts_of(parameter: ParameterDecl) -> tuple[str, str]:
     return parameter.shown, f"one of: {values}" if values else ""
 
 
-def tables(parameters: tuple[ParameterDecl, ...], prefix: str) -> Iterator[str]:
-    """Yield the constants that `one_of` needs, each with the prefix and the number of its parameter."""
+def tables(parameters: tuple[ParameterDecl, ...], symbol: str) -> Iterator[str]:
+    """Yield the constants that `one_of` needs, each with the symbol of the server and the number of its parameter."""
     for index, parameter in enumerate(parameters):
         if parameter.one_of:
             values = ", ".join(_literal(value, parameter.type) for value in parameter.one_of)
             star = "const " if parameter.type == "string" else ""
-            yield f"static const {_C_TYPES[parameter.type]}{star}{prefix}{index}[] = {{{values}}};"
+            yield f"static const {C_TYPES[parameter.type]}{star}{symbol}_values_{index}[] = {{{values}}};"
 
 
-def calls(parameters: tuple[ParameterDecl, ...], prefix: str) -> Iterator[str]:
-    """Yield the calls in their order; `{}` is the server."""
+def calls(parameters: tuple[ParameterDecl, ...], symbol: str) -> Iterator[str]:
+    """Yield the calls in their order."""
     for index, parameter in enumerate(parameters):
-        kind, name = _KINDS[parameter.type], _text(parameter.name)
-        yield f"rclc_add_parameter({{}}, {name}, RCLC_PARAMETER_{kind.upper()})"
+        kind, name = KINDS[parameter.type], _text(parameter.name)
+        yield f"rclc_add_parameter(parameter_server, {name}, RCLC_PARAMETER_{kind.upper()})"
         if parameter.type == "string":
-            yield f"rclc_add_parameter_constraint_string({{}}, {name}, {string_limit(parameter)})"
+            yield f"rclc_add_parameter_constraint_string(parameter_server, {name}, {string_limit(parameter)})"
         if parameter.is_array:
-            yield f"rclc_add_parameter_constraint_array({{}}, {name}, {parameter.size})"
+            yield f"rclc_add_parameter_constraint_array(parameter_server, {name}, {parameter.size})"
         if parameter.default not in (None, ()):
-            yield f"rclc_parameter_set_{kind}({{}}, {name}, {_value(parameter)})"
+            yield f"rclc_parameter_set_{kind}(parameter_server, {name}, {_value(parameter)})"
         if parameter.one_of:
-            values = f"{prefix}{index}, {len(parameter.one_of)}"
-            yield f"rclc_add_parameter_constraint_one_of_{kind}({{}}, {name}, {values})"
+            values = f"{symbol}_values_{index}, {len(parameter.one_of)}"
+            yield f"rclc_add_parameter_constraint_one_of_{kind}(parameter_server, {name}, {values})"
         yield from _descriptions(parameter, name)
 
 
 def _descriptions(parameter: ParameterDecl, name: str) -> Iterator[str]:
     description, constraints = texts_of(parameter)
     if description or constraints:
-        yield f"rclc_add_parameter_description({{}}, {name}, {_text(description)}, {_text(constraints)})"
+        yield f"rclc_add_parameter_description(parameter_server, {name}, {_text(description)}, {_text(constraints)})"
     if parameter.minimum is not None and parameter.maximum is not None:
         ends = (parameter.minimum, parameter.maximum, parameter.step or 0)
         numbers = ", ".join(_literal(end, parameter.type) for end in ends)
-        yield f"rclc_add_parameter_constraint_{parameter.type}({{}}, {name}, {numbers})"
+        yield f"rclc_add_parameter_constraint_{parameter.type}(parameter_server, {name}, {numbers})"
     if parameter.read_only:
-        yield f"rclc_set_parameter_read_only({{}}, {name}, true)"
+        yield f"rclc_set_parameter_read_only(parameter_server, {name}, true)"
 
 
 def _value(parameter: ParameterDecl) -> str:
@@ -86,7 +86,7 @@ def _value(parameter: ParameterDecl) -> str:
     if isinstance(value, tuple):
         kind = parameter.type.removesuffix("[]")
         elements = ", ".join(_literal(element, kind) for element in value)
-        return f"(const {_C_TYPES[kind].strip()}[]){{{elements}}}, {len(value)}"
+        return f"(const {C_TYPES[kind].strip()}[]){{{elements}}}, {len(value)}"
     assert value is not None
     return _literal(value, parameter.type)
 

@@ -3,10 +3,13 @@
 
 from __future__ import annotations
 
-from microros_gen.application.model import Application, LimitRule, NodeDecl
+from collections.abc import Iterator
+
+from microros_gen.application.model import Application, LimitRule
 from microros_gen.client.plan.declared import pool
 from microros_gen.client.plan.features import Given, refuse_own_limits
 from microros_gen.components.parameters.calls import LONGEST_TEXT, calls, string_limit, tables, texts_of
+from microros_gen.components.parameters.values import Identifiers, copies, members
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
@@ -34,13 +37,20 @@ _ARRAYS = {
 
 @dataclass(frozen=True)
 class ServerPlan:
-    """The parameter server of a node in the example: the calls that follow its initialization, as C; `{}` is it.
+    """The parameter server of a node: what is declared for it, as C. Empty for a node that declares nothing.
 
-    `tables` are constants that the calls need.
+    `index`: of the node.
+    `symbol` begins the names; `members` of the struct of its values; `calls` declare them, with the constants `tables`;
+    `copies` fill the struct.
     """
 
-    calls: tuple[str, ...]
+    index: int
+    node: str
+    symbol: str
+    calls: tuple[str, ...] = ()
     tables: tuple[str, ...] = ()
+    members: tuple[str, ...] = ()
+    copies: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,6 +82,11 @@ class ParametersPlan:
         return f"{strings}, arrays of {self.array_size}" if self.array_size else strings
 
     @property
+    def declared(self) -> tuple[ServerPlan, ...]:
+        """Return the servers whose nodes declare parameters."""
+        return tuple(server for server in self.servers if server.members)
+
+    @property
     def handles(self) -> int:
         """Handles of all servers: RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES each."""
         return 6 * len(self.servers)
@@ -94,13 +109,24 @@ def plan(given: Given, diagnostics: Diagnostics) -> ParametersPlan:
         array_string_size=_array_string(application) + 1 if _elements(application, "string[]") else 0,
         request_size=largest,
         outcomes_max=largest // _SHORTEST_PARAMETER + 1,
-        servers=tuple(_server(i, node) for i, node in enumerate(application.nodes)),
+        servers=tuple(_servers(application)),
     )
 
 
-def _server(index: int, node: NodeDecl) -> ServerPlan:
-    prefix = f"parameter_values_{index}_" if index else "parameter_values_"
-    return ServerPlan(tuple(calls(node.parameters, prefix)), tuple(tables(node.parameters, prefix)))
+def _servers(application: Application) -> Iterator[ServerPlan]:
+    names = Identifiers()
+    for index, node in enumerate(application.nodes):
+        full = f"{node.namespace.rstrip('/')}/{node.name}"
+        symbol = names.take(full.strip("/"))
+        yield ServerPlan(
+            index,
+            full,
+            symbol,
+            tuple(calls(node.parameters, symbol)),
+            tuple(tables(node.parameters, symbol)),
+            tuple(members(node.parameters, _array_string(application) + 1)),
+            tuple(copies(node.parameters)),
+        )
 
 
 def record(part: ParametersPlan) -> object:

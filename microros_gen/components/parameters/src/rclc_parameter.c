@@ -46,7 +46,7 @@ rcl_ret_t rclc_add_parameter(
     return RCL_RET_ERROR;
   }
   place = rclc_parameter_place(parameter_server, &name, (uint8_t)type);
-  place->event = (uint8_t)PARAMETER_EVENT_NEW;
+  rclc_parameter_note(parameter_server, place, PARAMETER_EVENT_NEW);
   ++parameter_server->count;
   rclc_parameter_publish(parameter_server);
   return RCL_RET_OK;
@@ -58,7 +58,7 @@ rcl_ret_t rclc_delete_parameter(rclc_parameter_server_t * parameter_server, cons
   rclc_parameter_place_t * place = rclc_parameter_look_to_change(parameter_server, parameter_name, &result);
 
   if (place != NULL) {
-    place->event = (uint8_t)PARAMETER_EVENT_DELETED;
+    rclc_parameter_note(parameter_server, place, PARAMETER_EVENT_DELETED);
     rclc_parameter_publish(parameter_server);
   }
   return result;
@@ -87,7 +87,7 @@ static rcl_ret_t parameter_set(
       RCLC_PARAMETER_MODIFICATION_REJECTED, name, MICROROS_ERROR_WORDS("the callback refused the value"));
   }
   place->value = *value;
-  place->event = (uint8_t)PARAMETER_EVENT_CHANGED;
+  rclc_parameter_note(server, place, PARAMETER_EVENT_CHANGED);
   rclc_parameter_publish(server);
   return RCL_RET_OK;
 }
@@ -209,7 +209,7 @@ rcl_ret_t rclc_parameter_set_string(
       MICROROS_ERROR_WORDS("the callback refused the value"));
   }
   rclc_parameter_string_copy(place->string, &text);
-  place->event = (uint8_t)PARAMETER_EVENT_CHANGED;
+  rclc_parameter_note(parameter_server, place, PARAMETER_EVENT_CHANGED);
   rclc_parameter_publish(parameter_server);
   return RCL_RET_OK;
 }

@@ -241,7 +241,7 @@ static rcl_ret_t array_change(
   }
   place->array = server->array_new;
   place->array_count = count;
-  place->event = (uint8_t)PARAMETER_EVENT_CHANGED;
+  rclc_parameter_note(server, place, PARAMETER_EVENT_CHANGED);
   rclc_parameter_publish(server);
   return RCL_RET_OK;
 }

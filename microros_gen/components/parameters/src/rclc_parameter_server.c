@@ -20,77 +20,82 @@ rcl_ret_t rclc_parameter_server_init_default(rclc_parameter_server_t * parameter
   return rclc_parameter_server_init_with_option(parameter_server, node, &options);
 }
 
-/* Notes the first result that is no RCL_RET_OK. */
-static void server_note(rcl_ret_t * first, rcl_ret_t result)
+/* Replies are written from the store, by the encoders of their types. */
+static void server_reply(const void * request, void * response, void * context)
 {
-  if (*first == RCL_RET_OK) {
-    *first = result;
-  }
+  (void)request;
+  (void)response;
+  (void)context;
 }
 
-static rcl_ret_t server_open_service(
-  rcl_ret_t before, rcl_service_t * service, const rcl_node_t * node,
-  const rosidl_service_type_support_t * type, const char * name)
+static void server_set_each(const void * request, void * response, void * context)
 {
-  rcl_ret_t result = before;
-
-  if (result == RCL_RET_OK) {
-    result = rclc_service_init(service, node, type, name, &rmw_qos_profile_parameters);
-  }
-  if (before == RCL_RET_OK && result == RCL_RET_OK) {
-    rmw_parameters_answer_large(rcl_service_get_rmw_handle(service), true);
-  }
-  return result;
+  (void)request;
+  (void)response;
+  rclc_parameter_set_each(context);
 }
+
+static void server_set_all(const void * request, void * response, void * context)
+{
+  (void)request;
+  (void)response;
+  rclc_parameter_set_all(context);
+}
+
+typedef struct server_service_t {
+  const rosidl_service_type_support_t * type;
+  const char * name;
+  rclc_service_callback_with_context_t callback;
+} server_service_t;
+
+static const server_service_t services[RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES] = {
+  {&rclc_parameter_describe_type, "~/describe_parameters", server_reply},
+  {&rclc_parameter_get_types_type, "~/get_parameter_types", server_reply},
+  {&rclc_parameter_get_type, "~/get_parameters", server_reply},
+  {&rclc_parameter_list_type, "~/list_parameters", server_reply},
+  {&rclc_parameter_set_type, "~/set_parameters", server_set_each},
+  {&rclc_parameter_set_atomically_type, "~/set_parameters_atomically", server_set_all},
+};
 
 static rcl_ret_t server_open(rclc_parameter_server_t * server, const rcl_node_t * node)
 {
-  rcl_ret_t result = RCL_RET_OK;
+  for (uint32_t i = 0; i < (uint32_t)RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES; ++i) {
+    const rcl_ret_t result = rclc_service_init(
+      &server->services[i], node, services[i].type, services[i].name, &rmw_qos_profile_parameters);
 
-  result = server_open_service(
-    result, &server->describe_service, node, &rclc_parameter_describe_type, "~/describe_parameters");
-  result = server_open_service(
-    result, &server->get_types_service, node, &rclc_parameter_get_types_type, "~/get_parameter_types");
-  result =
-    server_open_service(result, &server->get_service, node, &rclc_parameter_get_type, "~/get_parameters");
-  result =
-    server_open_service(result, &server->list_service, node, &rclc_parameter_list_type, "~/list_parameters");
-  result =
-    server_open_service(result, &server->set_service, node, &rclc_parameter_set_type, "~/set_parameters");
-  result = server_open_service(
-    result, &server->set_atomically_service, node, &rclc_parameter_set_atomically_type,
-    "~/set_parameters_atomically");
-  if (result == RCL_RET_OK && server->notify_changed_over_dds) {
-    result = rclc_publisher_init(
-      &server->event_publisher, node, &rclc_parameter_event_type, "/parameter_events",
-      &rmw_qos_profile_parameter_events);
+    if (result != RCL_RET_OK) {
+      return result;
+    }
+    rmw_parameters_answer_large(rcl_service_get_rmw_handle(&server->services[i]), true);
   }
-  return result;
+  if (!server->notify_changed_over_dds) {
+    return RCL_RET_OK;
+  }
+  return rclc_publisher_init(
+    &server->event_publisher, node, &rclc_parameter_event_type, "/parameter_events",
+    &rmw_qos_profile_parameter_events);
 }
 
-static void server_close_service(rcl_ret_t * first, rcl_service_t * service, rcl_node_t * node)
-{
-  if (rcl_service_is_valid(service)) {
-    rmw_parameters_answer_large(rcl_service_get_rmw_handle(service), false);
-  }
-  server_note(first, rcl_service_fini(service, node));
-}
-
-/* Closes what is open; a service or publisher that is not stays as it is. */
+/* Closes what is open; a service or publisher that is not stays as it is. Returns the first result that is no RCL_RET_OK. */
 static rcl_ret_t server_close(rclc_parameter_server_t * server, rcl_node_t * node)
 {
-  rcl_ret_t result = RCL_RET_OK;
+  rcl_ret_t first = RCL_RET_OK;
 
-  server_close_service(&result, &server->describe_service, node);
-  server_close_service(&result, &server->get_types_service, node);
-  server_close_service(&result, &server->get_service, node);
-  server_close_service(&result, &server->list_service, node);
-  server_close_service(&result, &server->set_service, node);
-  server_close_service(&result, &server->set_atomically_service, node);
-  if (rcl_publisher_is_valid(&server->event_publisher)) {
-    server_note(&result, rcl_publisher_fini(&server->event_publisher, node));
+  for (uint32_t i = 0; i < (uint32_t)RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES; ++i) {
+    rcl_ret_t result;
+
+    if (rcl_service_is_valid(&server->services[i])) {
+      rmw_parameters_answer_large(rcl_service_get_rmw_handle(&server->services[i]), false);
+    }
+    result = rcl_service_fini(&server->services[i], node);
+    first = first == RCL_RET_OK ? result : first;
   }
-  return result;
+  if (rcl_publisher_is_valid(&server->event_publisher)) {
+    const rcl_ret_t result = rcl_publisher_fini(&server->event_publisher, node);
+
+    first = first == RCL_RET_OK ? result : first;
+  }
+  return first;
 }
 
 rcl_ret_t rclc_parameter_server_init_with_option(
@@ -131,28 +136,6 @@ rcl_ret_t rclc_parameter_server_fini(rclc_parameter_server_t * parameter_server,
   return server_close(parameter_server, node);
 }
 
-/* Replies are written from the store, by the encoders of their types. */
-static void server_reply(const void * request, void * response, void * context)
-{
-  (void)request;
-  (void)response;
-  (void)context;
-}
-
-static void server_set_each(const void * request, void * response, void * context)
-{
-  (void)request;
-  (void)response;
-  rclc_parameter_set_each(context);
-}
-
-static void server_set_all(const void * request, void * response, void * context)
-{
-  (void)request;
-  (void)response;
-  rclc_parameter_set_all(context);
-}
-
 static rclc_handle_kind_t server_kind; /* that of a service, which also sends what events are due */
 
 /* As that of a service, which is not called here: a call by its pointer would be one that might come back. */
@@ -177,15 +160,6 @@ static void server_watch(rclc_executor_t * executor)
   handle->kind = &server_kind;
 }
 
-static rcl_ret_t server_add(
-  rcl_ret_t before, rclc_executor_t * executor, rclc_parameter_server_t * server, rcl_service_t * service,
-  rclc_service_callback_with_context_t callback)
-{
-  return before == RCL_RET_OK
-           ? rclc_executor_add_service_with_context(executor, service, server, server, callback, server)
-           : before;
-}
-
 rcl_ret_t rclc_executor_add_parameter_server_with_context(
   rclc_executor_t * executor, rclc_parameter_server_t * parameter_server,
   rclc_parameter_callback_t on_modification, void * context)
@@ -197,13 +171,11 @@ rcl_ret_t rclc_executor_add_parameter_server_with_context(
   }
   parameter_server->on_modification = on_modification;
   parameter_server->context = context;
-  result = server_add(result, executor, parameter_server, &parameter_server->list_service, server_reply);
-  result = server_add(result, executor, parameter_server, &parameter_server->get_types_service, server_reply);
-  result = server_add(result, executor, parameter_server, &parameter_server->set_service, server_set_each);
-  result =
-    server_add(result, executor, parameter_server, &parameter_server->set_atomically_service, server_set_all);
-  result = server_add(result, executor, parameter_server, &parameter_server->get_service, server_reply);
-  result = server_add(result, executor, parameter_server, &parameter_server->describe_service, server_reply);
+  for (uint32_t i = 0; i < (uint32_t)RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES && result == RCL_RET_OK; ++i) {
+    result = rclc_executor_add_service_with_context(
+      executor, &parameter_server->services[i], parameter_server, parameter_server, services[i].callback,
+      parameter_server);
+  }
   if (result == RCL_RET_OK) {
     server_watch(executor);
   }

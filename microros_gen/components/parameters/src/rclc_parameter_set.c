@@ -130,22 +130,22 @@ static void set_make(rclc_parameter_server_t * server, const parameter_requested
   if (found == NULL) {
     place = rclc_parameter_place(server, &requested->name, requested->type);
     place->dynamic_typing = true;
-    place->event = (uint8_t)PARAMETER_EVENT_NEW;
+    rclc_parameter_note(server, place, PARAMETER_EVENT_NEW);
     ++server->count;
   } else {
     place = &server->places[found - server->places];
   }
   if (requested->type == (uint8_t)RCLC_PARAMETER_NOT_SET) {
-    place->event = (uint8_t)PARAMETER_EVENT_DELETED;
+    rclc_parameter_note(server, place, PARAMETER_EVENT_DELETED);
     return;
   }
   place->type = requested->type;
   place->value = requested->value;
   rclc_parameter_string_set(place, requested);
   rclc_parameter_array_set(place, requested);
-  if (place->event != (uint8_t)PARAMETER_EVENT_NEW) {
-    place->event = (uint8_t)PARAMETER_EVENT_CHANGED;
-  }
+  rclc_parameter_note(
+    server, place,
+    place->event == (uint8_t)PARAMETER_EVENT_NEW ? PARAMETER_EVENT_NEW : PARAMETER_EVENT_CHANGED);
 }
 
 void rclc_parameter_set_each(rclc_parameter_server_t * server)

@@ -38,6 +38,12 @@ rclc_parameter_place_t * rclc_parameter_place(
   return place;
 }
 
+void rclc_parameter_note(rclc_parameter_server_t * server, rclc_parameter_place_t * place, uint32_t event)
+{
+  place->event = (uint8_t)event;
+  ++server->revision;
+}
+
 void rclc_parameter_remove(rclc_parameter_server_t * server, const rclc_parameter_place_t * place)
 {
   const size_t last = sizeof(server->places) / sizeof(server->places[0]) - 1u;

@@ -134,6 +134,9 @@ const rclc_parameter_place_t * rclc_parameter_find(
 rclc_parameter_place_t * rclc_parameter_place(
   rclc_parameter_server_t * server, const parameter_text_t * name, uint8_t type);
 
+/* Notes what the next event says of a place that changed. */
+void rclc_parameter_note(rclc_parameter_server_t * server, rclc_parameter_place_t * place, uint32_t event);
+
 /* Removes the place, and moves those after it. */
 void rclc_parameter_remove(rclc_parameter_server_t * server, const rclc_parameter_place_t * place);
 

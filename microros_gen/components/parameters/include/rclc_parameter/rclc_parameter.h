@@ -165,12 +165,7 @@ typedef struct rclc_parameter_place_t {
 
 /* A server and its parameters. The members are the library's; the struct stays where it was initialized. */
 typedef struct rclc_parameter_server_t {
-  rcl_service_t get_service;
-  rcl_service_t get_types_service;
-  rcl_service_t set_service;
-  rcl_service_t set_atomically_service;
-  rcl_service_t list_service;
-  rcl_service_t describe_service;
+  rcl_service_t services[RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES];
   rcl_publisher_t event_publisher;
   const rcl_node_t * node;
   rclc_parameter_callback_t on_modification;
@@ -186,6 +181,7 @@ typedef struct rclc_parameter_server_t {
   uint32_t request_cut;  /* entries of one that was too large to arrive; 0: it arrived */
   size_t max_params;
   size_t count;
+  uint32_t revision; /* goes up with each change */
   rclc_parameter_place_t places[MICROROS_PARAMETERS_MAX];
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
   char string_new[MICROROS_PARAMETER_STRING_SIZE]; /* what the callback is asked about */
