@@ -16,11 +16,11 @@ class Places(dict[str, tuple[float, int]]):
 
 def arrange(edges: Iterable[tuple[str, str]]) -> Places:
     """Return the places of all nodes; an arrow that a longer way implies is left out of `edges`."""
-    given = sorted(set(edges))
-    below: dict[str, set[str]] = {name: set() for edge in given for name in edge}
-    for one, other in given:
-        below[one].add(other)
-    kept = [(a, b) for a, b in given if not any(_leads(below, c, b) for c in below[a] - {b})]
+    arrows = sorted(set(edges))
+    below: dict[str, set[str]] = {name: set() for edge in arrows for name in edge}
+    for source, successor in arrows:
+        below[source].add(successor)
+    kept = [(a, b) for a, b in arrows if not any(_leads(below, c, b) for c in below[a] - {b})]
     rows = _rows(below, kept)
     wide = max(map(len, rows))
     places = Places()
@@ -38,8 +38,8 @@ def _rows(below: dict[str, set[str]], edges: list[tuple[str, str]]) -> list[list
     """Return the nodes by the longest way to them, those of a row in an order with few crossings."""
     depth = dict.fromkeys(below, 0)
     for _ in depth:
-        for one, other in edges:
-            depth[other] = max(depth[other], depth[one] + 1)
+        for source, successor in edges:
+            depth[successor] = max(depth[successor], depth[source] + 1)
     rows = [sorted(name for name in depth if depth[name] == y) for y in range(max(depth.values()) + 1)]
     for _ in range(_SWEEPS):
         for direction in (rows, rows[::-1]):
@@ -60,8 +60,8 @@ def _sort(row: list[str], rows: list[list[str]], edges: list[tuple[str, str]]) -
 
 
 def _neighbors(name: str, edges: list[tuple[str, str]]) -> Iterator[str]:
-    for one, other in edges:
-        if name == one:
-            yield other
-        elif name == other:
-            yield one
+    for source, successor in edges:
+        if name == source:
+            yield successor
+        elif name == successor:
+            yield source

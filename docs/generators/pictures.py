@@ -66,7 +66,7 @@ def components() -> str:
     width, height = 158, 66
     columns = max(x for x, _ in places.values()) + 1
     center = {name: (10 + x * width + 74, 8 + y * height + 15) for name, (x, y) in places.items()}
-    parts = [_curve(*center[one], *center[other]) for one, other in places.edges]
+    parts = [_curve(*center[source], *center[successor]) for source, successor in places.edges]
     parts += [_box(x - 70, y - 15, 140, 30, name) for name, (x, y) in sorted(center.items())]
     rows = max(y for _, y in places.values()) + 1
     return _svg(columns * width + 10, rows * height - 18, "Components of the demo application", parts)

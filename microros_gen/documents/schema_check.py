@@ -126,7 +126,7 @@ def _has_twins(data: list[Any]) -> bool:
 _FAULTS: Mapping[str, Callable[[Any, Any], bool]] = MappingProxyType(
     {
         "type": lambda data, wanted: not _has_type(data, wanted),
-        "enum": lambda data, wanted: not any(_equal(data, one) for one in wanted),
+        "enum": lambda data, wanted: not any(_equal(data, value) for value in wanted),
         "const": lambda data, wanted: not _equal(data, wanted),
         "minimum": lambda data, wanted: _is_number(data) and data < wanted,
         "maximum": lambda data, wanted: _is_number(data) and data > wanted,

@@ -16,10 +16,13 @@ from tests.support.paths import ROOT
 _ENTRIES = yaml.safe_load(Path(__file__).with_name("names.yaml").read_text(encoding="utf-8"))
 REFUSED: dict[str, str] = {entry["word"]: entry["write"] for entry in _ENTRIES if "in" not in entry}
 REFUSED_IN_C: dict[str, str] = {
-    entry["word"]: entry["write"] for entry in _ENTRIES if entry.get("in") != "variables"
+    entry["word"]: entry["write"] for entry in _ENTRIES if entry.get("in", "c") == "c"
 }
 REFUSED_VARIABLES: dict[str, str] = {
     entry["word"]: entry["write"] for entry in _ENTRIES if entry.get("in") == "variables"
+}
+REFUSED_IN_PACKAGE: dict[str, str] = {
+    entry["word"]: entry["write"] for entry in _ENTRIES if entry.get("in") == "package"
 }
 C_NAMES_THAT_STAY = {
     "given_up": "a member of rmw_uros_client_statistics_t, which applications read",
@@ -86,6 +89,33 @@ def test_no_variable_has_a_refused_word(folder: str) -> None:
         for hit in refused_variables(path.read_text(encoding="utf-8"))
     ]
     assert found == []
+
+
+def refused_in_package(text: str) -> Iterator[str]:
+    """Yield each variable of a Python file whose whole name is a word refused in the package, with what to write."""
+    for name in sorted({name.lstrip("_") for name in variables(text)} & REFUSED_IN_PACKAGE.keys()):
+        yield f"{name}: write {REFUSED_IN_PACKAGE[name]}"
+
+
+@pytest.mark.parametrize("folder", ["microros_gen", "docs", "cmake"])
+def test_no_variable_of_the_package_is_a_refused_word(folder: str) -> None:
+    found = [
+        f"{path.relative_to(ROOT)}: {hit}"
+        for path in sorted((ROOT / folder).rglob("*.py"))
+        for hit in refused_in_package(path.read_text(encoding="utf-8"))
+    ]
+    assert found == []
+
+
+@pytest.mark.parametrize(
+    "text", ["[one for one in x]", "def f(made): ...", "self._asked = 1", "there: int = 0"]
+)
+def test_a_word_refused_in_the_package_is_found(text: str) -> None:
+    assert len(list(refused_in_package(text))) == 1
+
+
+def test_a_part_of_a_variable_is_not_refused_in_the_package() -> None:
+    assert list(refused_in_package("one_of = made_from = 1\nx.one(y.made)")) == []
 
 
 @pytest.mark.parametrize("text", ["said = 1", "def f(piece): ...", "self._pieces = []", "f = lambda told: 0"])

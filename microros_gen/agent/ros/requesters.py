@@ -35,7 +35,7 @@ class RawRequester(RawService):
         self._report = ros.report
         self._patience = patience
         self._wait_s = ros.request_wait_s
-        self._there = False
+        self._available = False
         self._found: float | None = None
         self._look_until = time.monotonic() + self._wait_s
         patience.wait_for(self)
@@ -68,16 +68,16 @@ class RawRequester(RawService):
     def find_server(self) -> bool:
         """Return whether the service is there, and had time to find this client; then what is held is sent."""
         if not self._handle.service_server_is_available():
-            self._there, self._found = False, None
+            self._available, self._found = False, None
             return False
-        if self._there:
+        if self._available:
             return True
         now = time.monotonic()
         if self._found is None:
             self._found = now
         if now < self._found + SETTLE_S:
             return False
-        self._there = True
+        self._available = True
         self._report_found()
         while self._held:
             _, number, serialized = self._held.pop()
