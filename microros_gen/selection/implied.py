@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from microros_gen.application.kinds import KIND
@@ -12,6 +12,8 @@ from microros_gen.diagnostics import Diagnostics, nearest
 from microros_gen.selection.component import Implied
 from microros_gen.selection.model import Selection
 
+_OF_ENTITIES = frozenset({"nodes", "interfaces", "pools"})
+"""Keys of an application file that say which entities there are."""
 _NODE = NodeDecl(name="device", endpoints=(EndpointDecl("publisher", "count", "std_msgs/msg/Int32"),))
 
 
@@ -19,14 +21,14 @@ def with_implied(application: Application, selection: Selection, diagnostics: Di
     """Return the application with the endpoints that its components imply, before its own ones.
 
     With `nodes:` an endpoint belongs to the first node, or one to every node. Without them the library opens
-    subscriptions alone by itself, once: for anything else the nodes have to be declared. A profile alone, without an
-    application file, has one node then.
+    subscriptions alone by itself, once: for anything else the nodes have to be declared. A profile alone, or in an
+    application file that says nothing of entities, has one node then.
     """
     changes = {change.name: change for change in application.endpoints}
     once = _endpoints(selection, changes, every_node=False)
     each = _endpoints(selection, changes, every_node=True)
     _check_changes(application, (*once, *each), diagnostics)
-    if each and not application.spans and not application.nodes:
+    if each and not application.nodes and not _OF_ENTITIES & application.spans.keys():
         application = replace(application, nodes=(_NODE,))
     if application.nodes:
         first, *others = application.nodes
@@ -38,15 +40,19 @@ def with_implied(application: Application, selection: Selection, diagnostics: Di
     return replace(application, implied=once)
 
 
-def _refuse(endpoints: Iterable[EndpointDecl], application: Application, diagnostics: Diagnostics) -> None:
-    """Report endpoints that need a declared node."""
-    for endpoint in endpoints:
-        diagnostics.error(
-            f"the {endpoint.kind} '{endpoint.topic}', which a component opens by itself, needs a declared node",
-            application.spans.get("components") or application.spans.get("logging"),
-            "Declare the nodes: `nodes: [{name: …}]`",
-            id="MG-4021",
-        )
+def _refuse(endpoints: Sequence[EndpointDecl], application: Application, diagnostics: Diagnostics) -> None:
+    """Report endpoints that need a declared node: in one message, since one line mends all."""
+    if not endpoints:
+        return
+    first, others = endpoints[0], len(endpoints) - 1
+    more = f" (and {others} more)" if others else ""
+    places = (application.spans.get(key) for key in ("components", "logging", "profiles"))
+    diagnostics.error(
+        f"the {first.kind} '{first.topic}'{more}, which a component opens by itself, needs a declared node",
+        next((place for place in places if place is not None), None),
+        "Declare the nodes: `nodes: [{name: device}]`",
+        id="MG-4021",
+    )
 
 
 def _endpoints(

@@ -97,9 +97,12 @@ def test_what_is_built_has_them_and_the_example_leaves_them_to_the_library(made_
 def test_without_nodes_the_message_says_what_is_missing(made_up: Path) -> None:
     with pytest.raises(UserError) as caught:
         planned(made_up, APPLICATION + "interfaces: [std_msgs/msg/Int32]\n")
-    messages = [without_id(diagnostic.headline()) for diagnostic in caught.value.diagnostics]
-    assert len(messages) == 2
-    assert "the publisher '/beats', which a component opens by itself, needs a declared node" in messages[0]
+    (message,) = (without_id(diagnostic.headline()) for diagnostic in caught.value.diagnostics)
+    assert (
+        "the publisher '/beats' (and 1 more), which a component opens by itself, needs a declared node"
+        in message
+    )
+    assert caught.value.diagnostics[0].span is not None
 
 
 def test_ros_time_is_one_of_them() -> None:

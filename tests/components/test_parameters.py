@@ -231,6 +231,13 @@ def test_strings_take_what_is_declared(tmp_path: Path) -> None:
     assert largest(more, "srv/SetParameters_Request") > first + 2 * 48
 
 
+def test_a_file_that_says_nothing_of_entities_has_one_node(tmp_path: Path) -> None:
+    """As the profile has without a file."""
+    found = planned(tmp_path, BARE.partition("nodes:")[0])
+    services = found.project.runtime.entities.services.declared
+    assert [s.name for s in services] == [f"/device/{name}" for name in SERVICES]
+
+
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
@@ -239,8 +246,9 @@ def test_strings_take_what_is_declared(tmp_path: Path) -> None:
             "error: the limits of '~/get_parameters' cannot differ from those of its type",
         ),
         (
-            BARE.partition("nodes:")[0],
-            "error: the service '~/describe_parameters', which a component opens by itself, needs a declared node",
+            BARE.partition("nodes:")[0] + "interfaces: [std_msgs/msg/Int32]\n",
+            "error: the service '~/describe_parameters' (and 6 more), which a component opens by itself, "
+            "needs a declared node",
         ),
     ],
     ids=["limits of one", "no node"],
