@@ -48,7 +48,7 @@ void rcl_graph_end(void)
 /* Waits for a response. RCL_RET_TIMEOUT without a text: none has arrived in half of the time. */
 static rcl_ret_t graph_await(const rcl_client_t * client, void * response, rcl_graph_bind_t bind)
 {
-  const int64_t timeout_ms = MICROROS_CREATE_TIMEOUT_MS / (int64_t)GRAPH_ATTEMPTS;
+  const int64_t timeout_ms = (int64_t)MICROROS_CREATE_TIMEOUT_MS / GRAPH_ATTEMPTS;
   const rcl_waiting_t waiting = rcl_waiting_begin(timeout_ms * GRAPH_NS_PER_MS);
 
   for (;;) {

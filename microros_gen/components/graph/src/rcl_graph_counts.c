@@ -87,8 +87,8 @@ rcl_ret_t rcl_count_services(const rcl_node_t * node, const char * service_name,
 static rcl_ret_t counts_matched(uint8_t what, const xrce_endpoint_t * own, size_t * count)
 {
   const xrce_participant_t * participant = &own->client->participants[own->participant];
-  const rmw_name_t topic = {{own->name, "", "", ""}};
   const rmw_name_t node = rmw_name_of_topic(participant->name, participant->name, participant->namespace_);
+  const rmw_name_t topic = {{own->name, "", "", ""}};
   char topic_full[MICROROS_GRAPH_NAME_SIZE];
   char node_full[MICROROS_GRAPH_NAME_SIZE];
   rcl_ret_t result = rcl_graph_write_name(&topic, topic_full);

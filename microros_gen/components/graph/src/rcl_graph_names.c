@@ -12,10 +12,10 @@ typedef struct names_list_t {
 } names_list_t;
 
 static microros_graph_msgs__msg__Name names_page[MICROROS_GRAPH_NAMES_MAX];
-static rosidl_runtime_c__String names_types[MICROROS_GRAPH_NAMES_MAX][MICROROS_GRAPH_TYPES_MAX];
 
 static void names_bind(void * response)
 {
+  static rosidl_runtime_c__String names_types[MICROROS_GRAPH_NAMES_MAX][MICROROS_GRAPH_TYPES_MAX];
   microros_graph_msgs__srv__ListNames_Response * names = response;
   size_t text = 0;
 
