@@ -106,7 +106,7 @@ def _guard_conditions(calls: Sequence[Call], values: Values) -> dict[str, DraftV
         if call.name == "rcl_wait_set_init" and len(call.arguments) > _GUARDS_ARGUMENT:
             number = values.number(call.arguments[_GUARDS_ARGUMENT], call)
             found.append((number if isinstance(number, int) else 1, call))
-    most, where = max(found, key=lambda one: one[0]) if found else (0, None)
+    most, where = max(found, key=lambda counted: counted[0]) if found else (0, None)
     if not most or where is None:
         return {}
     return {"guard_conditions": DraftValue(most, f"{where.name} ({place(where.span)})")}
