@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How clients come and go: CREATE_CLIENT, messages without a session, sleep, waking and leaving."""
+"""How clients connect and disconnect: CREATE_CLIENT, messages without a session, sleep, waking and leaving."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ LOOK_AGAIN_S = 0.1
 
 @dataclass(frozen=True)
 class Held:
-    """What the agent's files say: objects that clients name, those that they never speak of, the types they have."""
+    """The contents of the agent's files: references, preconfigured objects, and types of clients."""
 
     references: References
     preconfigured: Preconfigured
@@ -63,7 +63,7 @@ class Held:
 
 
 class Admission:
-    """Lets clients in and out; keeps the client table."""
+    """Admits and removes clients; keeps the client table."""
 
     def __init__(
         self,
@@ -107,11 +107,11 @@ class Admission:
         transport: Transport,
         now: float,
     ) -> Client | None:
-        """Answer a message outside of any session: CREATE_CLIENT, GET_INFO, and DELETE of a client long gone.
+        """Answer a message outside of any session: CREATE_CLIENT, GET_INFO, and DELETE of a client that has left.
 
-        `client` is who is known at this address. Everything else is counted, and not answered; but what comes from
-        a client that is to be adopted, or is the first word of a newcomer, is not dealt with here, and that client
-        returned.
+        `client` is the known client of this address. Other messages are counted and not answered, with two exceptions:
+        the message of a client that is to be adopted, and the first message of a newcomer. These are not processed
+        here; their client is returned.
         """
         header = Header.decode(data)
         newcomer = self._newcomers.proved(header, address)
@@ -148,7 +148,7 @@ class Admission:
         return None
 
     def move(self, client: Client, transport: Transport, address: Hashable, now: float) -> None:
-        """Note that `client` sends from another address now."""
+        """Note that `client` now sends from another address."""
         before = client.place
         self._conflicts.moved(client, transport, address, now)
         client.transport.release(client.address, moved=True)
@@ -174,7 +174,7 @@ class Admission:
         client.send(answer)
 
     def dismiss(self, client: Client, why: str) -> None:
-        """Forget a client; its entities leave the ROS graph, as fast as others let them."""
+        """Remove a client; its entities leave the ROS graph, as fast as the rate of changes allows."""
         self._clients.remove(client)
         client.transport.release(client.address)
         self._deliveries.forget(client)
@@ -185,12 +185,12 @@ class Admission:
         self._report(client, "client_gone", "client {client} " + why)
 
     def send_away(self, client: Client) -> None:
-        """Dismiss a client that was adopted and does what that one would not do; it is not adopted again."""
+        """Dismiss an adopted client that behaves like another one; it is not adopted again."""
         self._never_adopted.add(client.session.link.key)
         self.dismiss(client, "sent away: it is not what its samples were taken for; it is not adopted again")
 
     def put_to_sleep(self, client: Client) -> None:
-        """Take the entities of a client that is not heard out of the ROS graph; its session stays."""
+        """Remove the entities of a silent client from the ROS graph; its session stays."""
         client.asleep = client.kept = True
         self.keeping.before_sleep(client)
         self._turns.begin(client, Job(client.objects.suspending(), adds=False))
@@ -202,7 +202,7 @@ class Admission:
         self._report(client, "client_silent", text, seconds=client.timeout_s)
 
     def wake(self, client: Client) -> bool:
-        """Bring the entities of a client back that is heard again; return whether they are there."""
+        """Restore the entities of a client that sends again; return whether all are in the ROS graph."""
         client.asleep = False
         return self._turns.begin(client, Job(self._waking(client), adds=True))
 
@@ -234,11 +234,11 @@ class Admission:
             )
 
     def _is_known(self, newcomer: Newcomer) -> bool:
-        """Return whether somebody is at the address of a newcomer: by its transport, or as a client in session."""
+        """Return whether the address of a newcomer is in use: by a connection, or by a client in session."""
         return not newcomer.transport.forgeable or self._clients.at(newcomer.address) is not None
 
     def _note(self, newcomer: Newcomer, now: float) -> Status:
-        """Remember who may not be where it says to be, if there would be a place for it."""
+        """Remember a sender whose address may be forged, if there would be a place for it."""
         known = self._clients.with_key(newcomer.link.key) is not None
         if not known and now >= self._full_until and not self._has_room(now):
             self._full_until = now + LOOK_AGAIN_S
@@ -248,7 +248,7 @@ class Admission:
         return Status.OK
 
     def _let_in(self, newcomer: Newcomer, now: float) -> Client:
-        """Return the client that a newcomer is, after its first word in session."""
+        """Return the client that a newcomer becomes with its first message in the session."""
         if self._admit(newcomer, now) is not Status.OK:
             raise MalformedError("client_resources", "its place is taken by now")
         client = self._clients.at(newcomer.address)
@@ -313,7 +313,7 @@ class Admission:
         return new
 
     def _give(self, client: Client) -> None:
-        """Make the objects that files have for a client; those that it has stay."""
+        """Create the objects that the files have for a client; existing ones stay."""
         if self._held.preconfigured.objects(client.session.link.key):
             self._turns.begin(client, Job(self._giving(client), adds=True))
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What clients together may make the agent hold, kind by kind, and what one of them holds of each.
+"""What all clients together may make the agent store, by kind, and what one of them stores of each kind.
 
-The bytes are upper estimates: what Python and Fast DDS 2.14.5 take for a thing, measured on 64 bits.
+The bytes are upper estimates of what Python and Fast DDS 2.14.5 take, measured on 64 bits.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class Gate:
 
 @dataclass(frozen=True)
 class Shares:
-    """What one client holds; unlimited without pools."""
+    """What one client stores; unlimited without pools."""
 
     history: Holder
     """Samples in the histories of its writers, and what those of its readers take at least."""
@@ -58,12 +58,12 @@ class Shares:
 
     @staticmethod
     def unlimited() -> Shares:
-        """Return shares of nothing, for a client that stands alone."""
+        """Return shares without a limit, for a client that is used alone."""
         return Shares(Holder(), Holder(), Holder(), Holder(), 1 << 62, Gate())
 
     @property
     def held(self) -> int:
-        """All of it in bytes."""
+        """All stored bytes."""
         return self.history.held + self.objects.held + self.output.held + self.calls.held
 
 
@@ -71,7 +71,7 @@ class Budgets:
     """One pool for each kind."""
 
     def __init__(self, limits: Limits, connections: int = 0) -> None:
-        """`connections`: how many TCP connections share what waits to be sent."""
+        """Create the pools; `connections` is the number of TCP connections that share the output pool."""
         self._limits = limits
         clients = limits.clients
         self._history = InputPool(limits.history_bytes, clients)
@@ -81,7 +81,7 @@ class Budgets:
         self.gate = Gate()
 
     def of_client(self) -> Shares:
-        """Return what a new client may hold."""
+        """Return the shares of a new client."""
         limits = self._limits
         return Shares(
             Holder(self._history, limits.client_history_bytes),
@@ -94,12 +94,12 @@ class Budgets:
 
 
 def cost_of(object_id: int, representation: int) -> int:
-    """Return the bytes that an object takes whose representation has so many."""
+    """Return the bytes that an object takes whose representation has `representation` bytes."""
     return OBJECT_BYTES + 2 * representation + ROS_BYTES.get(ObjectKind(object_id & 0x0F), 0)
 
 
 def most_descriptors(limits: Limits, connections: int) -> int:
-    """Return how many file descriptors the agent takes at most, with so many TCP connections."""
+    """Return the maximum number of file descriptors of the agent, with this number of TCP connections."""
     objects = limits.object_bytes // cost_of(ObjectKind.PARTICIPANT, 0)
     nodes = min(objects, limits.clients * limits.objects)
     fixed = BASE_DESCRIPTORS + limits.domains * DOMAIN_DESCRIPTORS
@@ -107,6 +107,6 @@ def most_descriptors(limits: Limits, connections: int) -> int:
 
 
 def most_bytes(limits: Limits) -> int:
-    """Return what the agent takes when every pool is full."""
+    """Return the bytes that the agent takes when every pool is full."""
     pools = limits.input_bytes + limits.history_bytes + limits.object_bytes + limits.output_bytes
     return BASE_BYTES + HELD_CALLS_BYTES + pools + limits.call_bytes

@@ -20,7 +20,7 @@ from microros_gen.agent.wire.constants import Status
 
 
 class RefusedError(Exception):
-    """An object cannot be; the text is for people, `status` for the client."""
+    """An object cannot be created; the text is for people, `status` for the client."""
 
     def __init__(self, status: Status, reason: str) -> None:
         super().__init__(reason)
@@ -64,7 +64,7 @@ def check_application(
 
 
 def check_object(description: Description) -> None:
-    """Refuse what ROS 2 cannot carry instead of leaving it out silently."""
+    """Refuse what ROS 2 cannot represent, instead of omitting it silently."""
     if isinstance(description, Endpoint) and description.content_filter:
         reason = f"ROS 2 cannot filter by content: '{description.content_filter}'"
         raise RefusedError(Status.INCOMPATIBLE, reason)
@@ -74,7 +74,7 @@ def check_object(description: Description) -> None:
 
 
 def check_names(description: Description) -> None:
-    """Refuse names that ROS 2 cannot have (BridgeError), as it would itself."""
+    """Raise BridgeError for names that ROS 2 would refuse."""
     if isinstance(description, Endpoint) and description.topic is not None:
         description = description.topic
     if isinstance(description, Topic):

@@ -109,7 +109,7 @@ class Client:
         self.transport.send(message, self.address)
 
     def acknowledge(self) -> None:
-        """Send the acknowledgements that are due, of what is done; what is not is still to be acknowledged."""
+        """Send the due acknowledgements of processed messages; the others stay to be acknowledged."""
         undone = [
             ready[2] for ready in self.ready if not ready[3]
         ]  # after what fragments made stands their rest
@@ -145,7 +145,7 @@ class ClientTable:
         self._by_address[client.address] = client
 
     def move(self, client: Client, transport: Transport, address: Hashable) -> Client | None:
-        """Put a client at another address; return the client that had it, which has none now."""
+        """Give a client another address; return the client that had it, which now has none."""
         evicted = self._by_address.get(address)
         if self._by_address.get(client.address) is client:
             del self._by_address[client.address]
@@ -154,7 +154,7 @@ class ClientTable:
         return evicted if evicted is not client else None
 
     def remove(self, client: Client) -> None:
-        """Take a client out."""
+        """Remove a client."""
         self._by_key.pop(client.session.link.key, None)
         if self._by_address.get(client.address) is client:
             del self._by_address[client.address]

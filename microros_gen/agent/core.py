@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The agent without sockets and without its own clock: takes messages, answers them, watches time-outs.
 
-`receive` never raises, whatever the bytes: what is malformed is counted, and told once per kind.
+`receive` never raises, whatever the bytes: malformed input is counted, and reported once per kind.
 """
 
 from __future__ import annotations
@@ -95,27 +95,27 @@ class Agent:
 
     @property
     def samples(self) -> int:
-        """Return how many samples, requests and replies were handed to ROS 2."""
+        """Return how many samples, requests and replies were passed to ROS 2."""
         return self._processor.samples
 
     @property
     def delivered(self) -> int:
-        """Return how many samples, requests and replies went to clients."""
+        """Return how many samples, requests and replies were sent to clients."""
         return self._deliveries.delivered
 
     def fileno(self) -> int:
-        """Return the descriptor that is readable when ROS 2 has something: then `take` is due."""
+        """Return the descriptor that is readable when ROS 2 has data: then `take` is due."""
         return self._bridge.fileno()
 
     def due(self) -> float | None:
-        """Return the moment (of the clock) at which `tick` is due; None: not before a message or data come."""
+        """Return the time (of the clock) at which `tick` is due; None: not before the next message or data."""
         moments = [self._deliveries.due(), self._turns.due(), self._processor.due()]
         if len(self.clients):
             moments.append(self._ticked + TICK_S)
         return min((time for time in moments if time is not None), default=None)
 
     def take(self) -> None:
-        """Hand on what ROS 2 has for the clients. Never raises."""
+        """Deliver what ROS 2 has for the clients. Never raises."""
         try:
             self._deliveries.ready(self._bridge.ready(), self._clock())
         except Exception as error:
@@ -151,7 +151,7 @@ class Agent:
                 self._guarded(partial(self._look_after, client, now))
 
     def care(self, now: float) -> None:
-        """Look at the memory of the process; to be called some ten times a second. Never raises."""
+        """Check the memory of the process; to be called some ten times a second. Never raises."""
         self._guarded(partial(self._relief.look, now))
 
     def _look_after(self, client: Client, now: float) -> None:
@@ -179,7 +179,7 @@ class Agent:
             ask(client, now)
 
     def _patience_s(self) -> float:
-        """Return after which time to ask for signs of life; where places are rare, not later than usual."""
+        """Return after how many seconds of silence a client is probed; earlier when few places are free."""
         return self._limits.client_timeout_s if len(self.clients) >= self._limits.clients else float("inf")
 
     def close(self) -> None:
@@ -190,7 +190,7 @@ class Agent:
         self._guarded(self._bridge.close)
 
     def _guarded(self, do: Callable[[], None]) -> None:
-        """Do something for one client; a fault in it is not the others' concern."""
+        """Do something for one client, so that a fault in it does not affect the others."""
         try:
             do()
         except Exception as error:
@@ -253,7 +253,7 @@ class Agent:
         self._fault(error, b"")
 
     def _fault(self, error: Exception, data: bytes) -> None:
-        """Tell of a fault of this program: it must not end the service of other clients."""
+        """Report a defect of this program, which must not end the service of other clients."""
         self._log.count(
             f"internal_{type(error).__name__}",
             "internal error: {error} at {place}; please report it with the message {data}",

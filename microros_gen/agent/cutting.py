@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The samples of one WRITE_DATA, cut from it as far as the turn of its client goes."""
+"""The samples of one WRITE_DATA, decoded as far as the turn of its client permits."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ SAMPLES = 16
 
 
 class TurnOverError(Exception):
-    """The turn of a client ended within a submessage; `done`: how many of its samples are done with."""
+    """The turn of a client ended within a submessage, of which `done` samples are processed."""
 
     def __init__(self, done: int) -> None:
         super().__init__(done)
@@ -21,21 +21,21 @@ class TurnOverError(Exception):
 
 
 class Cutting:
-    """What was cut so far; nothing is done with any of it before all could be cut."""
+    """The samples decoded so far; none is processed before all are decoded."""
 
     def __init__(self, data: bytes, at: int, reader: Reader, form: int) -> None:
-        """`reader` stands at the samples of the submessage whose payload begins at `data[at]`."""
+        """Start at `reader`, which is at the samples of the submessage with its payload at `data[at]`."""
         self._data = data
         self._at = at
         self._coming = cut_samples(reader, form)
         self._cut: list[Sample] = []
 
     def is_of(self, data: bytes, at: int) -> bool:
-        """Return whether it is that submessage."""
+        """Return whether it belongs to this submessage."""
         return self._data is data and self._at == at
 
     def go_on(self, over: Callable[[], bool], done: int) -> Sequence[Sample]:
-        """Return all samples, of which `done` are done with; TurnOverError: the turn is `over` before they are cut."""
+        """Return all samples, of which `done` are processed. Raises TurnOverError if the turn is `over` earlier."""
         for sample in self._coming:
             self._cut.append(sample)
             if len(self._cut) % SAMPLES == 0 and over():

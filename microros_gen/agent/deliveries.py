@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""All readings of all clients: who goes on when ROS 2 has something, when there is room, when a moment comes."""
+"""All readings of all clients: which continue when ROS 2 has data, when there is room, or at a given time."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ CROWDED = 256
 
 
 class Deliveries:
-    """Starts, wakes and ends readings; one at most for each object."""
+    """Starts, continues and ends readings; each object has at most one."""
 
     def __init__(
         self,
@@ -28,7 +28,7 @@ class Deliveries:
         fair: Fairness,
         clock: Callable[[], float],
     ) -> None:
-        """`fault` is told of what should not happen: it ends the turn of one reading, and nobody else's."""
+        """Call `fault` for unexpected errors, which end the turn of one reading and of no other."""
         self._fair = fair
         self._clock = clock
         self._log = log
@@ -42,7 +42,7 @@ class Deliveries:
         """Samples, requests and replies that went to clients."""
 
     def start(self, client: Client, entity: Entity, wanted: ReadData, now: float) -> None:
-        """Begin what a READ_DATA asks for; it takes the place of the one before for the same object."""
+        """Start what a READ_DATA requests; it replaces an earlier reading of the same object."""
         self._drop(client, entity.id)
         reading = Reading(client, entity, wanted, now, self._log)
         client.readings[entity.id] = reading
@@ -50,12 +50,12 @@ class Deliveries:
         self._go(reading, now)
 
     def ready(self, sources: Iterable[Source], now: float) -> None:
-        """Take from sources that got something; one that nobody reads keeps it."""
+        """Read from sources that have data; a source without a reading keeps its data."""
         found = (self._by_source.get(id(source)) for source in sources)
         self._round([reading for reading in found if reading is not None], now)
 
     def room(self, client: Client, now: float) -> None:
-        """Let those go on, in turn, that wait for room on a reliable stream of `client`."""
+        """Continue, in turn, the readings that wait for room on a reliable stream of `client`."""
         still = []
         for _ in range(len(client.waiting)):
             reading = client.waiting.popleft()
@@ -67,7 +67,7 @@ class Deliveries:
         client.waiting.extendleft(reversed(still))
 
     def refresh(self, client: Client, now: float) -> None:
-        """Follow the objects of `client`: readings of those that are gone end, those with a new source take from it."""
+        """Follow the objects of `client`: end readings of removed objects, and use new sources."""
         for object_id, reading in list(client.readings.items()):
             entity = client.objects.find(object_id)
             if entity is not reading.entity:
@@ -84,7 +84,7 @@ class Deliveries:
         client.waiting.clear()
 
     def due(self) -> float | None:
-        """Return the moment at which `run` has something to do."""
+        """Return the time at which `run` is due."""
         while self._later and self._later[0][2].over:
             heapq.heappop(self._later)
         return self._later[0][0] if self._later else None

@@ -82,7 +82,7 @@ class Entity:
 
     @property
     def participant(self) -> Entity:
-        """The participant that it belongs to, or is."""
+        """The participant that contains it, or itself."""
         found = self
         while found.kind != ObjectKind.PARTICIPANT and found.sources:
             found = found.sources[0]
@@ -94,18 +94,18 @@ class Entity:
 
     @property
     def label(self) -> str:
-        """Name for the log; empty for what has no place in ROS."""
+        """Name for the log; empty for objects without a ROS name."""
         side = self.node or self.writer or self.source
         return side.label if side else ""
 
     @property
     def separation_s(self) -> float:
-        """Least time between two samples that are handed on (time-based filter), in seconds; 0: none."""
+        """Minimum seconds between two delivered samples (time-based filter); 0: no minimum."""
         return self.description.separation_ms / 1000 if isinstance(self.description, Endpoint) else 0.0
 
     @property
     def keeps(self) -> bool:
-        """Whether its samples are kept for a client that is away: those of a reliable reader."""
+        """Whether its samples are kept for a client that is away, as for reliable readers."""
         about = self.description
         return self.kind == ObjectKind.DATAREADER and isinstance(about, Endpoint) and about.qos.reliable
 
@@ -124,12 +124,12 @@ class Entity:
         return sample
 
     def drop_kept(self, shares: Shares) -> None:
-        """Keep nothing."""
+        """Drop all kept samples."""
         shares.history.add(-sum(map(len, self.kept)))
         self.kept.clear()
 
     def forget_calls(self, shares: Shares) -> None:
-        """Let nothing wait for an answer."""
+        """Remove all open requests."""
         self.outstanding.clear()
         shares.calls.add(-self.calls_bytes)
         self.calls_bytes = 0
@@ -142,7 +142,7 @@ class Entity:
         self.written += 1
 
     def enter(self, home: Home) -> None:
-        """Take its place in the ROS graph unless it has it; BridgeError when ROS 2 refuses."""
+        """Create its ROS entity unless it exists. Raises BridgeError when ROS 2 refuses."""
         if self.node or self.writer or self.source:
             return
         description = self.description
@@ -159,7 +159,7 @@ class Entity:
             self.source = make(description)
 
     def leave(self, shares: Shares) -> None:
-        """Leave the ROS graph; what waits for an answer gets none."""
+        """Destroy its ROS entity; open requests get no answer."""
         side = self.writer or self.source or self.node
         if side is not None:
             side.destroy()
@@ -195,7 +195,7 @@ class Entity:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a CREATE came to; `reason` says why it failed, `entity` is what was made."""
+    """The result of a CREATE; `reason` explains a failure, `entity` is the new object."""
 
     status: Status
     reason: str = ""

@@ -31,7 +31,7 @@ TURN_S = 0.004
 
 @dataclass(eq=False, slots=True)
 class Account:
-    """What one client, or all strangers together, cost."""
+    """What one client, or all senders without a session together, cost."""
 
     used: float = 0.0
     """Seconds of work lately, as of `used_at`."""
@@ -46,7 +46,7 @@ class Account:
     """When that was counted last."""
 
     def bill(self, seconds: float, now: float) -> None:
-        """Charge what was done until `now`."""
+        """Charge the time since the last call up to `now`, in seconds."""
         if self.refused:
             self.refused = False
             seconds *= REFUSED
@@ -54,18 +54,18 @@ class Account:
         self.used += seconds
 
     def fade(self, now: float) -> None:
-        """Forget what was long ago."""
+        """Reduce the cost by its age."""
         if now > self.used_at:
             self.used *= exp((self.used_at - now) / MEMORY_S)
             self.used_at = now
 
 
 class Billed(Protocol):
-    """Something that is done for the owner of an account."""
+    """Work that is done for the owner of an account."""
 
     @property
     def account(self) -> Account:
-        """Who pays."""
+        """The account that is charged."""
 
 
 B = TypeVar("B", bound=Billed)
@@ -78,7 +78,7 @@ class Fairness:
         self._clock = clock
 
     def order(self, items: list[B]) -> None:
-        """Sort what is to be done now: the account that cost least lately first."""
+        """Sort pending work: the account with the lowest recent cost first."""
         now = self._clock()
         for item in items:
             item.account.fade(now)
@@ -87,7 +87,7 @@ class Fairness:
 
 
 class Accounts:
-    """Of each key one, also after its client has gone, so that to come again is no way round; at most `limit`."""
+    """Accounts by key, kept after the client has left, so that reconnecting does not help; at most `limit`."""
 
     def __init__(self, limit: int, clock: Callable[[], float] = time.monotonic) -> None:
         self._limit = limit

@@ -61,18 +61,18 @@ def encode_length(payload: bytes) -> bytes:
 
 
 class LengthDecoder:
-    """Cuts a TCP stream into messages, whatever its segments; holds at most one unfinished message."""
+    """Splits a TCP stream into messages, whatever its segments; holds at most one incomplete message."""
 
     def __init__(self) -> None:
         self._rest = b""
 
     @property
     def unfinished(self) -> int:
-        """How many bytes are here of a message whose end has not come."""
+        """Number of bytes of an incomplete message."""
         return len(self._rest)
 
     def feed(self, data: bytes) -> list[bytes]:
-        """Take what came next; return the messages that it completes, in order. Some may be empty."""
+        """Add received bytes; return the messages that they complete, in order. Some may be empty."""
         if self._rest:
             data = self._rest + data
         messages = []
@@ -110,12 +110,12 @@ class FrameDecoder:
         self._skipping = False  # after a fault that was told: what follows up to the flag belongs to it
 
     def reset(self) -> None:
-        """Forget what was begun: the line was opened again."""
+        """Drop an incomplete frame: the line was opened again."""
         self._drop()
         self._skipping = False
 
     def feed(self, data: bytes) -> list[Frame]:
-        """Take what came next; return the frames that it completes, in order."""
+        """Add received bytes; return the frames that they complete, in order."""
         frames: list[Frame] = []
         first, *parts = data.split(FLAG)
         self._take(first, frames)
@@ -136,7 +136,7 @@ class FrameDecoder:
         self._in_frame = self._escaped = False
 
     def _take(self, chunk: bytes, frames: list[Frame]) -> None:
-        """Take bytes without a flag."""
+        """Add bytes without a flag."""
         if not chunk:
             return
         if not self._in_frame:
@@ -169,7 +169,7 @@ class FrameDecoder:
         return chunk.replace(_ESCAPED_FLAG, FLAG).replace(_ESCAPED_ESCAPE, ESCAPE), bad
 
     def _complete(self, frames: list[Frame]) -> bool:
-        """Look at the frame that is gathered; return whether it is decided, for good or bad."""
+        """Check the collected frame; return whether it is complete or invalid."""
         plain = self._plain
         if len(plain) < _HEADER:
             return False
@@ -206,7 +206,7 @@ class FrameDecoder:
 
 
 def _wrong_escape(chunk: bytes) -> int:
-    """Return where the first escape stands that is not a pair with the byte after it; there is one."""
+    """Return the position of the first escape that forms no pair with the next byte; one exists."""
     at = chunk.find(ESCAPE)
     while chunk[at : at + 2] in (_ESCAPED_FLAG, _ESCAPED_ESCAPE):
         at = chunk.find(ESCAPE, at + 2)

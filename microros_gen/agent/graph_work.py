@@ -44,7 +44,7 @@ class GraphWork:
         return self._left > 0 and self._left >= took and (self._left_now > 0 or took < self._share * LIGHT_S)
 
     def charge(self, account: Account, seconds: float, now: float) -> None:
-        """Note that a change for a client took so many seconds."""
+        """Charge a change to a client, in seconds."""
         self._refill(now)
         seconds = min(seconds, self._share * MOST_S)
         self._left -= seconds

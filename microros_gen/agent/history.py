@@ -22,7 +22,7 @@ KEEP_ALL_DEPTH = 5_000
 
 
 class HistoryFullError(BridgeError):
-    """A sample was refused for good: the history that it belongs to may not grow."""
+    """A sample is refused for good: the history that it belongs to must not grow."""
 
     def __init__(self, reason: str) -> None:
         super().__init__(reason, Status.RESOURCES)
@@ -34,10 +34,10 @@ def depth_of(qos: Qos) -> int:
 
 
 class ReaderHistory:
-    """What the history of a reader takes at least when it is full; samples of readers come from elsewhere."""
+    """The minimum memory of a full history of a reader; its samples are stored elsewhere."""
 
     def __init__(self, qos: Qos, shares: Shares) -> None:
-        """HistoryFullError when that is too much."""
+        """Reserve the memory. Raises HistoryFullError if it exceeds a limit."""
         self._shares = shares
         _check(depth_of(qos), shares)
         self.bytes = depth_of(qos) * UNREAD_BYTES
@@ -46,16 +46,16 @@ class ReaderHistory:
             raise HistoryFullError("its history does not fit into history_bytes, which all clients share")
 
     def give_back(self) -> None:
-        """It is gone."""
+        """Release the memory of a destroyed reader."""
         self._shares.history.add(-self.bytes)
         self.bytes = 0
 
 
 class WriterHistory:
-    """What the history of a writer takes now."""
+    """The current memory of the history of a writer."""
 
     def __init__(self, qos: Qos, shares: Shares) -> None:
-        """HistoryFullError when samples of no bytes would be too much already."""
+        """Start empty. Raises HistoryFullError if even empty samples would exceed a limit."""
         depth = depth_of(qos)
         _check(depth, shares)
         self._shares = shares
@@ -68,11 +68,11 @@ class WriterHistory:
         self.bytes = 0
 
     def fits(self, size: int) -> bool:
-        """Return whether a sample of `size` bytes takes the place of another; else `make_room` for it."""
+        """Return whether a sample of `size` bytes replaces another one; otherwise call `make_room`."""
         return size <= self.largest and self.samples >= self.depth
 
     def make_room(self, size: int, writer: Writer) -> None:
-        """Count a sample that is to be published; BusyError: it may go later, HistoryFullError: it never will."""
+        """Reserve memory for a sample. Raises BusyError if it may fit later, HistoryFullError if it never will."""
         if self._take(size):
             return
         if not self._lasting and writer.settled():
@@ -86,7 +86,7 @@ class WriterHistory:
         raise BusyError(reason + ", while its readers have not taken earlier samples")
 
     def give_back(self) -> None:
-        """It is gone."""
+        """Release the memory of a destroyed writer."""
         self._shares.history.add(-self.bytes)
         self.bytes = self.samples = self.largest = 0
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 
 class InputPool:
-    """At most `total` bytes for at most `holders` of them."""
+    """At most `total` bytes for at most `holders` holders."""
 
     def __init__(self, total: int, holders: int) -> None:
         self.share = total // 2 // max(1, holders)
@@ -18,36 +18,36 @@ class InputPool:
 
 
 class Holder:
-    """What one client, or one connection, holds of a pool; without a pool it is not limited."""
+    """What one client or connection uses of a pool; without a pool it is not limited."""
 
     def __init__(self, pool: InputPool | None = None, most: int = 1 << 62) -> None:
-        """It holds no more than `most` bytes of what can be refused."""
+        """Use at most `most` bytes of what can be refused."""
         self._pool = pool
         self._most = most
         self.held = 0
 
     def take(self, size: int) -> bool:
-        """Hold `size` more bytes; return False if they do not fit."""
+        """Reserve `size` more bytes; return False if they do not fit."""
         if not self.has_room(size):
             return False
         self.add(size)
         return True
 
     def has_room(self, size: int) -> bool:
-        """Return whether `take` would take `size` bytes."""
+        """Return whether `take` would reserve `size` bytes."""
         if self._pool is None:
             return True
         more = self._beyond(self.held + size) - self._beyond(self.held)
         return self.held + size <= self._most and more <= max(0, self._pool.free)
 
     def add(self, size: int) -> None:
-        """Hold `size` bytes more, which cannot be refused, or fewer (below 0)."""
+        """Reserve `size` bytes that cannot be refused; release them if `size` is negative."""
         before, self.held = self._beyond(self.held), self.held + size
         if self._pool is not None:
             self._pool.free -= self._beyond(self.held) - before
 
     def clear(self) -> None:
-        """Hold nothing."""
+        """Release everything."""
         self.add(-self.held)
 
     def _beyond(self, size: int) -> int:

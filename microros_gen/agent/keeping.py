@@ -19,7 +19,7 @@ from microros_gen.agent.streams_out import Kept
 
 
 class Keeping:
-    """Keeps for `keep_s` seconds from when a client was last heard, within the budget of its histories."""
+    """Keeps samples for `keep_s` seconds after the last message of a client, within the budget of its histories."""
 
     def __init__(self, keep_s: float, deliveries: Deliveries, log: EventLog) -> None:
         self._keep_s = keep_s
@@ -27,7 +27,7 @@ class Keeping:
         self._log = log
 
     def before_sleep(self, client: Client) -> None:
-        """Take what DDS has for a client whose readers are about to leave the ROS graph."""
+        """Take the samples that DDS has for a client whose readers are about to leave the ROS graph."""
         if self._keep_s:
             self._report_lost(client, sum(reading.save() for reading in client.readings.values()))
 
@@ -38,14 +38,14 @@ class Keeping:
                 entity.drop_kept(client.shares)
 
     def begin_again(self, client: Client, now: float) -> None:
-        """End what a client reads, as its session begins again, and keep what it has not got."""
+        """End the readings of a client whose session begins again, and keep unacknowledged samples."""
         undelivered = client.session.undelivered()
         self._deliveries.forget(client)
         self._restore(client, undelivered)
         self.forget_old(client, now)
 
     def heritage(self, client: Client, now: float) -> Heritage:
-        """Return what another session with the same key gets, when it creates the same readers."""
+        """Return what a new session with the same key receives when it creates the same readers."""
         self.before_sleep(client)
         self.begin_again(client, now)
         return {entity.id: (described(entity), entity.kept[::-1]) for entity in client.objects if entity.kept}

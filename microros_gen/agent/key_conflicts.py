@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Two clients with one key: each takes the session of the other. That is noticed, and said once."""
+"""Two clients with one key: each takes over the session of the other. That is detected, and reported once."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Place = tuple[Transport, Hashable]
 
 
 class KeyConflicts:
-    """Remembers from where keys came; at most `limit` places."""
+    """Remembers the addresses from which keys were used; at most `limit` of them."""
 
     def __init__(self, log: EventLog, limit: int) -> None:
         self._log = log
@@ -26,7 +26,7 @@ class KeyConflicts:
         self._reported: set[bytes] = set()
 
     def moved(self, client: Client, transport: Transport, address: Hashable, now: float) -> None:
-        """Note that the key of `client` comes from another place now; a way back and forth is one of two clients."""
+        """Note that the key of `client` is used from another address; moving back and forth reveals two clients."""
         key = client.session.link.key
         self._before.pop((client.transport, client.address), None)
         self._before[client.transport, client.address] = key, now
@@ -37,12 +37,12 @@ class KeyConflicts:
             self._report(key, client.place, transport.name_of(address))
 
     def observe(self, transport: Transport, address: Hashable, now: float) -> bytes | None:
-        """Return the key that a place without a client had until some time ago, if one had; it goes on sending."""
+        """Return the key that an address without a client had recently, if any: it still sends."""
         key, when = self._before.get((transport, address), (b"", now))
         return key if key and IN_FLIGHT_S < now - when < MEMORY_S else None
 
     def fight(self, client: Client, transport: Transport, address: Hashable) -> None:
-        """Tell that `client` shares its key with whoever sends from another place."""
+        """Report that `client` shares its key with a sender at another address."""
         self._report(client.session.link.key, client.place, transport.name_of(address))
 
     def _report(self, key: bytes, place: str, other: str) -> None:

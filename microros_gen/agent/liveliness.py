@@ -31,7 +31,7 @@ class Verdict(Enum):
 
 
 def judge(client: Client, now: float, patience_s: float) -> Verdict:
-    """Return what to do about a client that is awake; it is to be asked after half of `patience_s` at the latest."""
+    """Return what to do about an awake client; it is probed after half of `patience_s` seconds at the latest."""
     if client.probes and client.last_received >= client.probed:
         _learn(client)
     silent = now - client.last_received
@@ -51,19 +51,19 @@ def ask(client: Client, now: float) -> None:
 
 
 def loss_of(client: Client) -> float:
-    """Return which part of questions stays without an answer, by what is known."""
+    """Return the estimated part of questions that stay unanswered, 0 to 1."""
     arrives = 1 - client.session.repeated_part()
     return max(client.loss, 1 - arrives * arrives)
 
 
 def stretch(loss: float) -> float:
-    """Return by what a time-out is multiplied when this part of questions stays without an answer: 1 to 2."""
+    """Return the factor of a time-out, 1 to 2, when this part of questions stays unanswered."""
     wanted = math.log(WRONG) / math.log(min(0.99, max(loss, 1e-9)))
     return 1 + (min(MOST_PROBES, max(PROBES, wanted)) - PROBES) / (2 * PROBES)
 
 
 def _learn(client: Client) -> None:
-    """Note that the last of some questions was answered, and those before were not."""
+    """Record that the last of several questions was answered and the earlier ones were not."""
     for _ in range(min(client.probes - 1, MOST_PROBES)):
         client.loss += (1 - client.loss) * LOST
     client.loss -= client.loss * ANSWERED

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the agent tells: events as lines for people, or as one JSON object a line."""
+"""The log of the agent: events as lines for people, or as one JSON object per line."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ ALWAYS = ("stopped", "memory_tight", "memory_relieved")
 
 
 def printable(text: str) -> str:
-    """Return `text` with everything that could steer a terminal replaced; it came from the network."""
+    """Return `text` from the network without anything that could control a terminal."""
     return "".join(c if c.isprintable() else "?" for c in text)
 
 
 def _short(text: str) -> str:
-    """Return `text`, or its beginning, how long it is, and its end."""
+    """Return `text`; if it is long, its beginning, its length and its end."""
     if len(text) <= LONGEST:
         return text
     return f"{text[: LONGEST // 2]}… ({len(text)} characters) …{text[-LONGEST // 2 :]}"
@@ -52,7 +52,7 @@ def _short(text: str) -> str:
 
 @dataclass
 class _Repeated:
-    """A warning, when it was written, and how often it came again since."""
+    """A warning, when it was written, and how often it was repeated since."""
 
     message: str
     since: float
@@ -60,7 +60,7 @@ class _Repeated:
 
 
 class EventLog:
-    """Writes events to one stream. A stream that is gone is ignored: the agent goes on serving."""
+    """Writes events to one stream. A closed stream is ignored: the agent continues."""
 
     def __init__(
         self,
@@ -89,7 +89,7 @@ class EventLog:
         return self._json
 
     def shows(self, level: Level) -> bool:
-        """Return whether events of `level` are written: whoever builds costly ones asks first."""
+        """Return whether events of `level` are written; ask before building expensive ones."""
         return level <= self._limit
 
     def emit(self, level: Level, event: str, text: str, /, **fields: Json) -> None:
@@ -116,7 +116,7 @@ class EventLog:
         self._write(level, event, text, short)
 
     def finish(self) -> None:
-        """Tell how often warnings were repeated that were not written again."""
+        """Report how often suppressed warnings were repeated."""
         for event in list(self._before):
             self._report_repeated(event)
 
@@ -134,7 +134,7 @@ class EventLog:
         self.line(line)
 
     def _is_repeated(self, event: str, message: str) -> bool:
-        """Return whether a warning is the same as the one of its event before, which is counted then."""
+        """Return whether a warning equals the previous one of its event, and count it then."""
         before, now = self._before.get(event), self._clock()
         if before is not None and before.message == message and now - before.since < REPEATED_S:
             before.count += 1
