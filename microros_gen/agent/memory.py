@@ -29,7 +29,7 @@ _STATM = Path("/proc/self/statm")
 
 
 class Pressure(IntEnum):
-    """How much of the memory is taken."""
+    """How much of the memory is in use."""
 
     LOW = 0
     TIGHT = 1
@@ -37,12 +37,12 @@ class Pressure(IntEnum):
 
 
 class MemoryGuard:
-    """Looks at the memory of this process some ten times a second."""
+    """Checks the memory of this process some ten times a second."""
 
     def __init__(
         self, limit: int, used: Callable[[], int] | None = None, trim: Callable[[], object] | None = None
     ) -> None:
-        """`used` returns the bytes of memory in use, `trim` gives what is free back to the system."""
+        """Use `used`, which returns the used bytes, and `trim`, which returns free memory to the system."""
         self.limit = limit
         self._used = used or resident_bytes
         self._trim = trim or (lambda: None)
@@ -50,7 +50,7 @@ class MemoryGuard:
         self._most_held = 0
 
     def look(self, held: int, now: float) -> Pressure:
-        """Return how much is taken, after free memory went back where that helps; clients hold `held` bytes."""
+        """Return the pressure, after returning free memory where that helps; clients hold `held` bytes."""
         self._most_held = max(self._most_held, held)
         pressure = self._pressure()
         freed = self._most_held - held >= FREED_BYTES
@@ -68,23 +68,23 @@ class MemoryGuard:
 
 
 def resident_bytes() -> int:
-    """Return what of this process is in memory."""
+    """Return the resident bytes of this process."""
     return int(_STATM.read_bytes().split()[1]) * os.sysconf("SC_PAGESIZE")
 
 
 def heaviest(clients: Iterable[Client]) -> Client | None:
-    """Return the client that takes most memory, as far as that is known; None without clients."""
+    """Return the client with the most memory, by estimate; None without clients."""
     return max(clients, key=weight_of, default=None)
 
 
 def weight_of(client: Client) -> int:
-    """Return about how many bytes a client takes, with what waits unread for it in DDS."""
+    """Return the estimated bytes of a client, including its unread samples in DDS."""
     unread = sum(entity.source.unread() for entity in client.objects if entity.source is not None)
     return client.shares.held + client.session.held + UNREAD_BYTES * unread
 
 
 class Relief:
-    """Does what the memory asks for: makes nothing more, and sends the client away that takes most."""
+    """Relieves the memory: stops creating objects, and disconnects the client with the most memory."""
 
     def __init__(
         self,
@@ -94,7 +94,7 @@ class Relief:
         dismiss: Callable[[Client, str], None],
         log: EventLog,
     ) -> None:
-        """`gate` is closed while nothing more may be made; without a guard nothing is ever done."""
+        """Close `gate` while nothing may be created; without a guard nothing is ever done."""
         self._guard = guard
         self._clients = clients
         self._gate = gate
@@ -102,7 +102,7 @@ class Relief:
         self._log = log
 
     def look(self, now: float) -> None:
-        """Do it."""
+        """Check the memory and act."""
         if self._guard is None:
             return
         pressure = self._guard.look(sum(client.shares.held for client in self._clients), now)

@@ -32,7 +32,7 @@ EMPTY_S = 1.0
 
 @dataclass(frozen=True)
 class Newcomer:
-    """What a CREATE_CLIENT said, and where it came from."""
+    """The contents of a CREATE_CLIENT, and its sender."""
 
     link: Link
     timeout_s: float
@@ -41,7 +41,7 @@ class Newcomer:
 
 
 class Newcomers:
-    """At most `limit` of them; the oldest gives way."""
+    """At most `limit` of them; a new one replaces the oldest."""
 
     def __init__(self, limit: int) -> None:
         self._limit = limit
@@ -51,22 +51,22 @@ class Newcomers:
         return len(self._by_address)
 
     def note(self, newcomer: Newcomer) -> None:
-        """Remember one, in place of the one before at its address."""
+        """Remember a newcomer; it replaces the previous one of its address."""
         self.forget(newcomer.address)
         self._by_address[newcomer.address] = newcomer
         if len(self._by_address) > self._limit:
             del self._by_address[next(iter(self._by_address))]
 
     def forget(self, address: Hashable) -> None:
-        """Forget who is at an address, if anybody is."""
+        """Remove the newcomer of an address, if any."""
         self._by_address.pop(address, None)
 
     def at(self, address: Hashable) -> Newcomer | None:
-        """Return who is at an address, or None."""
+        """Return the newcomer of an address, or None."""
         return self._by_address.get(address)
 
     def proved(self, header: Header, address: Hashable) -> Newcomer | None:
-        """Return, and forget here, the newcomer whose session a message from `address` belongs to."""
+        """Remove and return the newcomer to whose session a message from `address` belongs."""
         found = self._by_address.get(address)
         if found is None or header.session != found.link.session:
             return None
@@ -98,7 +98,7 @@ def who_gives_way(clients: Iterable[Client], now: float, silent_s: float) -> Cli
 
 
 class Strangers:
-    """Who sends samples without a session, and since when; of at most `limit` senders, the newest."""
+    """Senders of samples without a session, with the time of their first one; at most `limit`, the newest."""
 
     def __init__(self, listen_s: float, limit: int) -> None:
         self._listen_s = listen_s
@@ -106,11 +106,11 @@ class Strangers:
         self._since: dict[tuple[Transport, Hashable], float] = {}
 
     def forget(self, transport: Transport, address: Hashable) -> None:
-        """It knows how to help itself."""
+        """Remove a sender, which has opened a session."""
         self._since.pop((transport, address), None)
 
     def listened_to(self, transport: Transport, address: Hashable, now: float) -> bool:
-        """Return whether a sender was listened to for long enough."""
+        """Return whether a sender was observed for long enough."""
         since = self._since.setdefault((transport, address), now)
         if len(self._since) > self._limit:
             del self._since[next(iter(self._since))]
@@ -121,7 +121,7 @@ class Strangers:
 
 
 def check(wanted: CreateClient, minimum_mtu: int) -> Status:
-    """Return whether a CREATE_CLIENT says what can be."""
+    """Return whether the values of a CREATE_CLIENT are valid."""
     nobody = (SESSION_NONE_WITH_KEY, SESSION_NONE_WITHOUT_KEY)
     if wanted.cookie != COOKIE or wanted.key == bytes(4) or wanted.session in nobody:
         return Status.INVALID_DATA
@@ -131,7 +131,7 @@ def check(wanted: CreateClient, minimum_mtu: int) -> Status:
 
 
 def timeout_of(wanted: CreateClient, usual_s: float) -> float:
-    """Return the time-out that a client asks for, or the usual one."""
+    """Return the time-out in seconds that a client requests, or the default."""
     text = dict(wanted.properties or ()).get(HARD_LIVELINESS, "")
     if text.isascii() and text.isdigit() and len(text) < 9 and int(text) > 0:
         return int(text) / 1000

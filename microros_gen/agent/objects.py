@@ -68,7 +68,7 @@ Heritage = dict[int, tuple[object, list[bytes]]]
 
 @dataclass(frozen=True)
 class _Wanted:
-    """An object that is to be made, and what is to happen when one with its id is there."""
+    """An object that is to be created, and what to do if one with its id exists."""
 
     id: int
     parent: int
@@ -101,7 +101,7 @@ class ObjectTree:
         return iter(self._objects.values())
 
     def inherit(self, heritage: Heritage) -> None:
-        """Take over what another session had not got, as far as there is room."""
+        """Take over undelivered samples of an earlier session, as far as there is room."""
         self._heritage = {
             object_id: (about, samples)
             for object_id, (about, samples) in heritage.items()
@@ -109,7 +109,7 @@ class ObjectTree:
         }
 
     def _claim(self, entity: Entity) -> None:
-        """Give a new object what another session had not got from the same."""
+        """Give a new object the undelivered samples of the same object in an earlier session."""
         about, samples = self._heritage.pop(entity.id, (None, []))
         self._home.shares.history.add(-sum(map(len, samples)))
         if about == described(entity):
@@ -120,15 +120,15 @@ class ObjectTree:
         return self._objects.get(object_id)
 
     def create(self, create: Create) -> Outcome:
-        """Carry out a CREATE by the table of creation modes (DDS-XRCE 1.0, table 7)."""
+        """Process a CREATE by the table of creation modes (DDS-XRCE 1.0, table 7)."""
         return finish(self.creating(create))
 
     def creating(self, create: Create) -> Steps[Outcome]:
-        """Carry out a CREATE in steps: one for each object that is made or taken away."""
+        """Process a CREATE in steps, one for each object that is created or removed."""
         return self._guarded(lambda: self._create(create))
 
     def giving(self, object_id: int, parent: int, description: Description) -> Steps[Outcome]:
-        """Make an object that the client does not create itself; one that is there and the same stays."""
+        """Create an object for a client that does not create it; an equal existing one stays."""
         wanted = _Wanted(object_id, parent, description, reuse=True, replace=True)
         return self._guarded(lambda: self._place(wanted))
 
@@ -149,11 +149,11 @@ class ObjectTree:
             return Outcome(Status.DENIED, f"{error} are not served")
 
     def delete(self, object_id: int) -> Status:
-        """Carry out a DELETE."""
+        """Process a DELETE."""
         return finish(self.deleting(object_id))
 
     def deleting(self, object_id: int) -> Steps[Status]:
-        """Carry out a DELETE in steps: one for each object."""
+        """Process a DELETE in steps, one for each object."""
         entity = self._objects.get(object_id)
         if entity is not None:
             contained = [e for e in self if e.inside(entity)]
@@ -168,18 +168,18 @@ class ObjectTree:
         return Status.UNKNOWN_REFERENCE
 
     def clear(self) -> None:
-        """Drop everything; the ROS graph loses it at once."""
+        """Remove everything, from the ROS graph at once."""
         finish(self.clearing())
 
     def clearing(self) -> Steps[None]:
-        """Drop everything, in steps."""
+        """Remove everything, in steps."""
         self._home.shares.history.add(-sum(len(s) for _, samples in self._heritage.values() for s in samples))
         self._heritage.clear()
         yield from self._remove(list(self._objects.values()))
         self._gone_with_container.clear()
 
     def forget_requests(self) -> None:
-        """Let nobody wait for the replies to requests any more: the client does not know of them."""
+        """Remove open requests, which the client does not know any more."""
         for entity in self:
             if entity.kind == ObjectKind.REQUESTER:
                 entity.forget_calls(self._home.shares)
@@ -195,7 +195,7 @@ class ObjectTree:
             yield
 
     def resume(self) -> list[tuple[Entity, str]]:
-        """Return to the ROS graph; what cannot is dropped and returned with the reason."""
+        """Return to the ROS graph; objects that cannot are removed and returned with the reason."""
         return finish(self.resuming())
 
     def resuming(self) -> Steps[list[tuple[Entity, str]]]:
@@ -259,7 +259,7 @@ class ObjectTree:
         return Outcome(Status.OK, entity=entity)
 
     def _fill(self, application: Entity, description: Application, replace: bool) -> Steps[None]:
-        """Make the parts of an application: all of them, or none and not the application either (7.8.3.1)."""
+        """Create all parts of an application; if one fails, none of them and not the application (7.8.3.1)."""
         ids = part_ids(application.id, description)
         try:
             for object_id, part in zip(ids, description.parts, strict=True):
@@ -273,7 +273,7 @@ class ObjectTree:
             raise
 
     def _known(self, parent: int) -> Known:
-        """Return what a description may name: all qualities, and the topics of the participant of `parent`."""
+        """Return what a description may refer to: all QoS profiles, and the topics of the participant of `parent`."""
         container = self._objects.get(parent)
         home = container.participant if container else None
         held = {name: d for (_, name), d in self._references.known.items() if isinstance(d, QosProfile)}
@@ -312,7 +312,7 @@ class ObjectTree:
             self.publish[entity.id] = entity.publish
 
     def _charge(self, entity: Entity, representation: int) -> None:
-        """Count what an object takes until it is removed; it is not there yet."""
+        """Charge the memory of an object until it is removed. Raises RefusedError if it exceeds a limit."""
         if self._home.shares.gate.closed:
             raise RefusedError(Status.RESOURCES, "the agent's memory is nearly all taken")
         cost = cost_of(entity.id, representation)
@@ -329,7 +329,7 @@ class ObjectTree:
         entity.leave(self._home.shares)
 
     def _remove(self, entities: list[Entity]) -> Steps[None]:
-        """Take objects away, what was made from others before those: so it may end midway."""
+        """Remove objects, in the reverse order of their creation, so that it may stop midway."""
         for entity in reversed(entities):
             self._objects.pop(entity.id, None)
             self._discharge(entity)
@@ -350,5 +350,5 @@ def _kind_name(kind: int) -> str:
 
 
 def described(entity: Entity) -> object:
-    """Return what an object and those that it was made from are, to be compared."""
+    """Return the descriptions of an object and of its sources, for comparison."""
     return entity.description, tuple(source.description for source in entity.sources)

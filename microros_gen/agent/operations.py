@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a client in session asks for: one method a submessage."""
+"""The requests of clients in session: one method per submessage."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ NAMES = {
 
 
 class Operations:
-    """Dispatches by submessage; answers go out at once, after the acknowledgements that are due."""
+    """Dispatches by submessage; answers are sent at once, after the due acknowledgements."""
 
     def __init__(self, log: EventLog, deliveries: Deliveries, turns: Turns) -> None:
         self._turns = turns
@@ -95,9 +95,9 @@ class Operations:
         self._handlers: Mapping[type, Handler] = MappingProxyType(handlers)
 
     def run(self, client: Client, submessage: Submessage, now: float) -> Steps[None] | None:
-        """Carry out one submessage of `client`, or return the steps to do it in.
+        """Process one submessage of `client`, or return the steps to do so.
 
-        MalformedError when it makes no sense from a client.
+        Raises MalformedError if it is invalid from a client.
         """
         handler = self._handlers.get(type(submessage))
         if handler is None:
@@ -215,7 +215,7 @@ class Operations:
     def _samples(
         self, client: Client, data: bytes, at: int, end: int, flags: int, done: int
     ) -> Sequence[Sample]:
-        """Return the samples of a WRITE_DATA, kept until the client is done with them; TurnOverError: not all yet."""
+        """Return the samples of a WRITE_DATA, which stay until all are processed. Raises TurnOverError until then."""
         kept = client.samples
         if kept is None or not kept.is_of(data, at):
             reader = Reader(data, at + DATA_PREFIX, end, bool(flags & FLAG_LITTLE))
@@ -354,7 +354,7 @@ def _signed(number: int) -> int:
 
 
 def report_outcome(log: EventLog, client: Client, object_id: int, outcome: Outcome) -> None:
-    """Tell of an object that was made, or why it was not."""
+    """Report that an object was created, or why it was not."""
     kind = ObjectKind(object_id & 0x0F).name.lower()
     if outcome.status >= Status.DDS_ERROR:
         log.emit(

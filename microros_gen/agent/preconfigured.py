@@ -53,7 +53,7 @@ WRITTEN = (ObjectKind.DATAWRITER, ObjectKind.REQUESTER, ObjectKind.REPLIER)
 
 @dataclass(frozen=True)
 class Given:
-    """An object that the agent makes: its id, what contains it, what it is."""
+    """An object that the agent creates: its id, its container, its description."""
 
     id: int
     parent: int
@@ -64,7 +64,7 @@ class Preconfigured:
     """Objects by the key of their client."""
 
     def __init__(self, clients: Sequence[PreconfiguredClient] = ()) -> None:
-        """Take what a file says; UserError for names that ROS 2 does not have."""
+        """Read the contents of a file. Raises UserError for names that ROS 2 does not allow."""
         diagnostics = Diagnostics()
         for client in clients:
             for item in client.objects:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What clients in session say, by submessage: done now, in the client's next turn, or when ROS 2 has room."""
+"""Submessages of clients in session: processed now, in the client's next turn, or when ROS 2 has room."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ Refuse = Callable[[Exception, bytes, Client], None]
 
 
 class Processor:
-    """Takes what is ready of a client; what does not end in its turn is put off."""
+    """Processes ready input of clients; what does not finish in its turn is postponed."""
 
     def __init__(
         self,
@@ -69,7 +69,7 @@ class Processor:
         turns.messages = self._take_up
 
     def due(self) -> float | None:
-        """Return when `try_again` has something to do."""
+        """Return the time at which `try_again` is due."""
         return min((client.retry_at for client in self._stopped), default=None) if self._stopped else None
 
     def flush(self) -> None:
@@ -79,18 +79,18 @@ class Processor:
         self._to_acknowledge.clear()
 
     def note_arrival(self, client: Client, stream: int) -> None:
-        """Note that a message came on a reliable stream, to be acknowledged."""
+        """Note that a message arrived on a reliable stream and has to be acknowledged."""
         client.unacknowledged.add(stream)
         self._to_acknowledge.add(client)
 
     def _take_up(self, client: Client) -> None:
-        """Go on with what was put off; what gets done is acknowledged."""
+        """Continue postponed input; what is processed gets acknowledged."""
         if client.unacknowledged:
             self._to_acknowledge.add(client)
         self.process(client)
 
     def process(self, client: Client) -> None:
-        """Do what is ready of a client, as far as its turn goes."""
+        """Process ready input of a client, as far as its turn goes."""
         ready, turns = client.ready, self._turns
         while ready:
             message = ready.popleft()
@@ -148,7 +148,7 @@ class Processor:
     def _operate(
         self, client: Client, identifier: int, flags: int, data: bytes, at: int, end: int, whole: bool
     ) -> bool:
-        """Carry out a submessage that is no sample; False: the rest of the message is not to be processed now."""
+        """Process a submessage that is no sample; return False if the rest of the message has to wait."""
         if identifier == SubmessageId.DELETE and _of_client(data, at, end):
             self._admission.leave(client, data, at)
             self._to_acknowledge.discard(client)
@@ -207,7 +207,7 @@ class Processor:
         self._refuse(MalformedError("too_many_operations", detail), data, client)
 
     def _stop(self, client: Client, unfinished: Ready, error: BusyError, kind: str = "publish_waits") -> bool:
-        """Keep what cannot be done now, and what follows on its stream, unacknowledged; False where it is lost."""
+        """Keep unfinished input and what follows on its stream, unacknowledged; return False if it is lost."""
         stream = unfinished[2]
         followers_ready = [ready for ready in client.ready if ready[2] == stream]
         of_it = 1 if unfinished[3] else 0  # the rest of the message whose fragment completed it
@@ -228,7 +228,7 @@ class Processor:
         return True
 
     def try_again(self, now: float) -> None:
-        """Go on with streams that stopped: soon after each sample that DDS took, else at growing intervals."""
+        """Retry stopped streams: soon after each sample that DDS accepted, else at growing intervals."""
         self._turns.round([client for client in self._stopped if client.retry_at <= now], now, self._go_on)
         self.flush()
 

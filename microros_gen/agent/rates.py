@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How often a client may do what costs much: create, delete, and speak outside of its session."""
+"""Rate limits of expensive operations: create, delete, and messages outside of a session."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ BURST_S = 10.0
 
 
 class Rate:
-    """So many a second, in the long run."""
+    """A number of operations per second, on average."""
 
     def __init__(self, per_second: int) -> None:
         self._per_second = per_second
@@ -27,7 +27,7 @@ class Rate:
 
 
 class Rates:
-    """Of each key one, also after its client has gone; of at most `limit` keys."""
+    """Rates by key, kept after the client has left; at most `limit` keys."""
 
     def __init__(self, per_second: int, limit: int) -> None:
         self._per_second = per_second

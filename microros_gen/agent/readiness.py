@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tells a service manager how far the agent is (sd_notify(3)); without one, nothing happens."""
+"""Reports the agent's state to a service manager (sd_notify(3)); does nothing without one."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from collections.abc import Mapping
 
 
 def notify(state: str, environ: Mapping[str, str] = os.environ) -> None:
-    """Send `state`, as `READY=1`, to the socket that NOTIFY_SOCKET names; a manager that is gone is ignored."""
+    """Send `state`, such as `READY=1`, to the socket that NOTIFY_SOCKET names; errors are ignored."""
     place = environ.get("NOTIFY_SOCKET", "")
     if not place.startswith(("/", "@")):
         return

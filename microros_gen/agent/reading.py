@@ -57,7 +57,7 @@ DATA = int(SubmessageId.DATA)
 
 
 class Reading:
-    """What a client asked for with one READ_DATA, and how far it is done."""
+    """What a client requested with one READ_DATA, and its progress."""
 
     def __init__(self, client: Client, entity: Entity, wanted: ReadData, now: float, log: EventLog) -> None:
         control = wanted.delivery or ONCE
@@ -94,18 +94,19 @@ class Reading:
         self._received_at = -NEVER
 
     def attach(self, source: Readable | None) -> None:
-        """Take from `source` from now on."""
+        """Read from `source` from now on."""
         self.source = source
         self._from_ros = _nothing if source is None else source.take
 
     def has_room(self) -> bool:
-        """Return whether its stream takes a message now."""
+        """Return whether its stream accepts a message now."""
         return self.client.session.output(self.stream).has_room()
 
     def deliver(self, now: float) -> float | None:
-        """Hand on what ROS has and the client has credit for.
+        """Deliver what ROS 2 has and the client has credit for.
 
-        Returns the moment to be called again; None when that is up to ROS, to an acknowledgement, or never (`over`).
+        Return the time of the next call; None if that depends on ROS 2 or an acknowledgement, or if no further call is
+        due (`over`).
         """
         client = self.client
         output = client.session.output(self.stream)
@@ -147,13 +148,13 @@ class Reading:
         return now
 
     def give_back(self) -> None:
-        """Keep what was taken for a DATA for which there was no room: this reading is over, another may follow."""
+        """Keep the samples of a DATA for which there was no room; this reading ends, another one may follow."""
         if self._pending is not None and self._keeps:
             self.entity.keep(self._raw, self.client.shares)
         self._pending = None
 
     def save(self) -> int:
-        """Keep the samples that ROS holds for a client that timed out; return how many did not fit."""
+        """Keep the samples that ROS 2 holds for a client that timed out; return how many did not fit."""
         if not self._keeps or self.source is None:
             return 0
         taken: list[bytes] = []
@@ -166,7 +167,7 @@ class Reading:
         self.entity.kept.append(sample)
 
     def _next(self, now: float) -> tuple[bytes, int]:
-        """Return the next DATA and how many samples it has; empty: ROS has nothing; 0: one was skipped."""
+        """Return the next DATA and its number of samples; empty: ROS 2 has none; 0: one was skipped."""
         if self._calls:
             return self._next_call()
         taken = self._take()
@@ -188,7 +189,7 @@ class Reading:
         return self._from_ros()  # type: ignore[no-any-return]
 
     def _next_call(self) -> tuple[bytes, int]:
-        """Return the DATA of the next request or reply; its number or identity goes in front."""
+        """Return the DATA of the next request or reply, preceded by its number or identity."""
         taken = self._from_ros()
         if taken is None:
             return b"", 0
@@ -200,7 +201,7 @@ class Reading:
         return (self._data(ids, data), 1) if ids else (data, 0)
 
     def _data(self, prefix: bytes, data: bytes) -> bytes:
-        """Return a DATA with what ROS gave, whose first four bytes are the encapsulation header."""
+        """Return a DATA with a sample of ROS 2, whose first four bytes are the encapsulation header."""
         size = len(prefix) + len(data)  # the ids take the place of the header
         if size > 0xFFFF:
             size = 0  # takes everything to its end: as clients say it, and in fragments anyway

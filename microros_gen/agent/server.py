@@ -48,9 +48,9 @@ class Server:
         os.eventfd_write(self._wake, 1)
 
     def run(self, ready: Ready, clock: Callable[[], float]) -> None:
-        """Serve; `ready` is called once for each transport, when its messages are taken.
+        """Serve clients until `stop`; call `ready` for each transport once it accepts messages.
 
-        Afterwards all clients are gone.
+        Afterwards all clients are removed.
         """
         try:
             with select.epoll() as epoll:
@@ -119,7 +119,7 @@ class Server:
 
 
 class Stoppable(Protocol):
-    """What a signal stops."""
+    """What a signal can stop."""
 
     def stop(self) -> None:
         """Let what runs end soon; called from a signal handler."""

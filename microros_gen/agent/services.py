@@ -22,7 +22,7 @@ ENCAPSULATION = (b"\x00\x00\x00\x00", b"\x00\x01\x00\x00")
 
 
 class Calls:
-    """The open requests of a client; at most `limit` of each requester and replier, and what `holder` has room for."""
+    """Open requests of a client; at most `limit` per requester and replier, within the budget of `holder`."""
 
     def __init__(self, log: EventLog, limit: int, name: str, holder: Holder | None = None) -> None:
         self._log = log
@@ -31,11 +31,10 @@ class Calls:
         self._name = name
 
     def write(self, entity: Entity, ids: bytes, payload: bytes, flags: int) -> int:
-        """Carry out a WRITE_DATA to a requester or a replier; `ids`: its request and object id.
+        """Process a WRITE_DATA to a requester or a replier; `ids`: its request and object id.
 
-        Returns how many requests or replies went to ROS 2, 0 or 1.
-
-        MalformedError when the identity is cut off, BridgeError when ROS 2 refuses.
+        Return how many requests or replies were sent to ROS 2, 0 or 1. Raises MalformedError if the identity is
+        incomplete, BridgeError if ROS 2 refuses.
         """
         side = entity.source
         little = flags & FLAG_LITTLE
@@ -50,11 +49,11 @@ class Calls:
         return 1
 
     def add_request(self, replier: Entity, identity: bytes) -> None:
-        """Note that a request went to the client."""
+        """Record a request that was sent to the client."""
         self._note(replier, identity, b"")
 
     def answered(self, requester: Entity, number: int) -> bytes:
-        """Return the ids of the request that a reply is for; empty when nobody waits for it any more."""
+        """Return the ids of the request that a reply is for; empty if it is not open any more."""
         ids = requester.outstanding.pop(number, b"")
         if ids:
             self._count(requester)

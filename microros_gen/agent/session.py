@@ -30,12 +30,12 @@ of that submessage went to ROS 2 already. What fragments made goes before the re
 
 
 class Session:
-    """Session `link.session` of the client `link.key`; streams come into being when they are first used."""
+    """Session `link.session` of the client `link.key`; streams are created on first use."""
 
     def __init__(
         self, link: Link, limits: Limits, holder: Holder | None = None, output: Holder | None = None
     ) -> None:
-        """`holder` holds what of its input is not complete, or waits; `output` what the client has not acknowledged."""
+        """Use `holder` for incomplete or waiting input, and `output` for unacknowledged output."""
         self._limits = limits
         self._holder = holder or Holder()
         self._output = output or Holder()
@@ -52,11 +52,11 @@ class Session:
         self._unfinished: dict[int, list[Ready]] = {}
 
     def reset(self, link: Link | None = None) -> None:
-        """Begin all streams again at 0: a RESET, or the client came again (then with its new `link`)."""
+        """Restart all streams at 0, after a RESET or a new CREATE_CLIENT (then with its new `link`)."""
         self._open(link or self.link)
 
     def incoming(self, stream: int, sequence: int, data: bytes) -> tuple[bytes, ...]:
-        """Take a message from the client; return the messages to process now, in order."""
+        """Accept a message from the client; return the messages to process now, in order."""
         if stream >= STREAM_RELIABLE:
             reliable = self._reliable_in.get(stream)
             return (reliable or self._open_reliable(stream)).push(sequence, data)
@@ -66,7 +66,7 @@ class Session:
         return (data,) if (best_effort or self._open_best_effort(stream)).accept(sequence) else ()
 
     def announced(self, heartbeat: Heartbeat) -> tuple[bytes, ...]:
-        """Take a HEARTBEAT; return what to process now. A skipped gap ends the fragments before it."""
+        """Process a HEARTBEAT; return the messages to process now. A skipped gap drops incomplete fragments."""
         if not is_reliable(heartbeat.stream):
             raise MalformedError("heartbeat_stream", f"stream {heartbeat.stream:#04x}")
         reliable = self._reliable_in.get(heartbeat.stream) or self._open_reliable(heartbeat.stream)
@@ -79,7 +79,7 @@ class Session:
 
     @property
     def held(self) -> int:
-        """Bytes of input that are not complete, or wait."""
+        """Bytes of incomplete or waiting input."""
         return self._holder.held
 
     @property
@@ -102,7 +102,7 @@ class Session:
         return True
 
     def go_on(self) -> list[Ready]:
-        """Return what was stopped, to be processed now."""
+        """Return the messages of stopped streams, to be processed now."""
         start = len(self.link.header(STREAM_NONE, 0))
         ready: list[Ready] = []
         for stream, unfinished in list(self._unfinished.items()):
@@ -115,7 +115,7 @@ class Session:
         self._holder.add(-sum(len(part[0]) for part in self._unfinished.pop(stream, ())))
 
     def rest(self) -> int:
-        """Hold nothing for a client that says nothing; return how many messages are lost that it had begun."""
+        """Drop incomplete input of a silent client; return how many messages are lost."""
         for reliable in self._reliable_in.values():
             reliable.forget()
         unfinished = [reassembly for reassembly in self._reassembly.values() if reassembly.unfinished]
@@ -124,11 +124,11 @@ class Session:
         return len(unfinished)
 
     def begin(self, stream: int, first: int) -> None:
-        """Let reliable input stream `stream` begin at `first`: what was before, another agent had."""
+        """Let reliable input stream `stream` start at `first`: an earlier agent received what precedes it."""
         self._open_reliable(stream).next = first
 
     def fragment(self, stream: int, fragment: Fragment) -> bytes | None:
-        """Take a FRAGMENT that came on `stream`; return the submessages that it completes."""
+        """Add a FRAGMENT of `stream`; return the submessages that it completes."""
         if not is_reliable(stream):
             raise MalformedError("fragment_stream", f"stream {stream:#04x}")
         reassembly = self._reassembly.get(stream)
@@ -158,7 +158,7 @@ class Session:
         return self.link.header(STREAM_NONE, 0) + bytes(body)
 
     def last_received(self) -> int:
-        """Return the number of the last message that was taken from the client's built-in reliable stream."""
+        """Return the number of the last accepted message of the client's built-in reliable stream."""
         reliable = self._reliable_in.get(STREAM_RELIABLE)
         return (reliable.next - 1) & 0xFFFF if reliable else 0xFFFF
 
@@ -172,17 +172,17 @@ class Session:
         return self.link.header(STREAM_NONE, 0) + encode(submessage, little)
 
     def output(self, stream: int) -> BestEffortOut | ReliableOut:
-        """Return the stream to the client with an id (1 to 255); it comes into being when it is first asked for."""
+        """Return the stream to the client with an id (1 to 255), created on first use."""
         found = self._outputs.get(stream)
         return found if found is not None else self._open_output(stream)
 
     def may_send_on(self, stream: int) -> bool:
-        """Return whether a stream to the client is open, or there may be one more of its kind."""
+        """Return whether a stream to the client exists, or another one of its kind is allowed."""
         alike = sum(is_reliable(known) == is_reliable(stream) for known in self._outputs)
         return stream in self._outputs or alike < self._limits.streams
 
     def acknowledged(self, stream: int, first: int, missing: int, now: float) -> list[bytes]:
-        """Take what an ACKNACK says; return the messages to send now."""
+        """Process an ACKNACK; return the messages to send now."""
         output = self._outputs.get(stream)
         return output.acknowledge(first, missing, now) if output else []
 
@@ -192,7 +192,7 @@ class Session:
         return [self.unnumbered(heartbeat) for heartbeat in due if heartbeat]
 
     def undelivered(self) -> list[Kept]:
-        """Return what was sent, or waits to be sent, on reliable streams and is not acknowledged."""
+        """Return the messages on reliable streams that are sent or waiting, and not acknowledged."""
         streams = (output for output in self._outputs.values() if isinstance(output, ReliableOut))
         return [kept for stream in streams for kept in stream.undelivered()]
 

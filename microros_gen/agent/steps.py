@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Work that may take long, as a generator: it rests (`yield`) where others may have their turn."""
+"""Long work as a generator, which pauses (`yield`) where other clients may have their turn."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Steps = Generator[None, None, T]
 
 
 def finish(steps: Steps[T]) -> T:
-    """Do all steps at once; return what they come to."""
+    """Run all steps at once; return their result."""
     while True:
         try:
             next(steps)

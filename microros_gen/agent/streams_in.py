@@ -20,7 +20,7 @@ class BestEffortIn:
         self._last: int | None = None
 
     def accept(self, sequence: int) -> bool:
-        """Return whether the message is to be processed."""
+        """Return whether the message is newer and has to be processed."""
         if self._last is not None:
             ahead = (sequence - self._last) & 0xFFFF
             if ahead == 0 or ahead >= HALF:
@@ -30,9 +30,9 @@ class BestEffortIn:
 
 
 class ReliableIn:
-    """Hands messages on in order and once each; holds those after a gap, at most `hold_bytes` of them.
+    """Returns messages in order, once each; holds those after a gap, at most `hold_bytes`.
 
-    `holder` says whether there is room for them among all clients.
+    `holder` decides whether there is room among all clients.
     """
 
     def __init__(self, hold_bytes: int, holder: Holder | None = None) -> None:
@@ -46,13 +46,13 @@ class ReliableIn:
 
     @property
     def stopped(self) -> bool:
-        """Whether it was told to `stop`, and not to go on yet."""
+        """Whether it was stopped and not continued yet."""
         return self._stopped
 
     def stop(self, followers: Sequence[bytes]) -> None:
-        """Acknowledge no further: the caller could not finish a message, and returns the `followers` of it.
+        """Stop acknowledging: the caller could not finish a message, and returns its `followers`.
 
-        Nothing is handed on until `go_on`; meanwhile what comes is held as after a gap.
+        Nothing is returned until `go_on`; messages that arrive meanwhile are held as after a gap.
         """
         self._stopped = True
         returned = (b"", *followers)  # the caller keeps the first
@@ -63,14 +63,14 @@ class ReliableIn:
             self._count(len(message))
 
     def go_on(self) -> tuple[bytes, ...]:
-        """Return what follows the message at which it was stopped: the caller takes that one up again."""
+        """Return what follows the message at which it was stopped, which the caller continues itself."""
         self._stopped = False
         del self._held[self.next]
         self._advance()
         return self._ready()
 
     def push(self, sequence: int, data: bytes) -> tuple[bytes, ...]:
-        """Take a message; return those that can be processed now, in order. Duplicates are dropped."""
+        """Add a message; return those that can be processed now, in order. Duplicates are dropped."""
         if sequence == self.next and not self._stopped:
             self._advance()
             return (data, *self._ready()) if self._held else (data,)
@@ -127,7 +127,7 @@ class ReliableIn:
         self._announced = max(0, self._announced - skip)
 
     def forget(self) -> None:
-        """Give up what is after a gap: the client sends it again."""
+        """Drop what is after a gap: the client sends it again."""
         if not self._stopped:
             for data in self._held.values():
                 self._count(-len(data))
@@ -144,7 +144,7 @@ class ReliableIn:
 
 
 class Reassembly:
-    """Joins the FRAGMENTs of one reliable stream; never holds more than `limit` bytes, or than `holder` lets it."""
+    """Joins the FRAGMENTs of one reliable stream; holds at most `limit` bytes, within the budget of `holder`."""
 
     def __init__(self, limit: int, holder: Holder | None = None) -> None:
         self._holder = holder or Holder()
@@ -153,10 +153,9 @@ class Reassembly:
         self._refusing = False
 
     def add(self, fragment: bytes, last: bool) -> bytes | None:
-        """Take a piece; return the whole with the last one, else None.
+        """Add a fragment; return the complete message with the last one, else None.
 
-        MalformedError once for each whole that is larger than the limit, or for which the pool has no room; all of its
-        pieces are dropped.
+        Raises MalformedError once per message that exceeds the limit or the budget; all of its fragments are dropped.
         """
         if self._refusing:
             self._refusing = not last
@@ -176,11 +175,11 @@ class Reassembly:
 
     @property
     def unfinished(self) -> bool:
-        """Whether a whole began and did not end."""
+        """Whether a message is incomplete."""
         return bool(self._received)
 
     def drop(self) -> None:
-        """Forget what was gathered: a message between two pieces is lost. What comes is no whole any more."""
+        """Drop the collected fragments, since a message between them is lost; later ones are dropped, too."""
         self._refuse(last=False)
 
     def _refuse(self, last: bool) -> None:

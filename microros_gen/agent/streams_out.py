@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Streams to a client: number its messages; reliable ones are kept and repeated until acknowledged."""
+"""Streams to a client: number its messages; reliable ones are stored and repeated until acknowledged."""
 
 from __future__ import annotations
 
@@ -42,12 +42,12 @@ class Link:
         return header_bytes(self.session, stream, sequence, self.key)
 
     def room(self) -> int:
-        """Return the bytes of submessages, with their headers, that fit one message."""
+        """Return the bytes of submessages, with their headers, that fit into one message."""
         return self.mtu - (4 if self.session >= 0x80 else 8)
 
 
 class BestEffortOut:
-    """Numbers messages; keeps none."""
+    """Numbers messages; stores none."""
 
     def __init__(self, link: Link, stream: int) -> None:
         self._link = link
@@ -56,7 +56,7 @@ class BestEffortOut:
         self._room = link.room()
 
     def has_room(self) -> bool:
-        """Return whether a submessage can be taken: always."""
+        """Return whether a submessage is accepted: always."""
         return True
 
     def may_take(self, size: int) -> bool:
@@ -64,7 +64,7 @@ class BestEffortOut:
         return size <= self._room
 
     def push(self, submessage: bytes, now: float = 0.0, kept: Kept | None = None) -> list[bytes] | None:
-        """Return the message that carries `submessage`, or None when it does not fit one message."""
+        """Return the message with `submessage`, or None if it does not fit into one message."""
         if len(submessage) > self._room:
             return None
         message = self._link.header(self._stream, self._sequence) + submessage
@@ -72,7 +72,7 @@ class BestEffortOut:
         return [message]
 
     def acknowledge(self, first: int, missing: int, now: float) -> list[bytes]:
-        """Take an ACKNACK; it means nothing here."""
+        """Ignore an ACKNACK, which has no meaning here."""
         return []
 
     def heartbeat(self, now: float) -> Heartbeat | None:
@@ -81,15 +81,15 @@ class BestEffortOut:
 
 
 class ReliableOut:
-    """Window of unacknowledged messages, and after it a backlog of at most `backlog_bytes`.
+    """Window of unacknowledged messages, followed by a backlog of at most `backlog_bytes`.
 
-    A submessage of up to `largest` bytes is taken nevertheless when nothing waits.
+    A submessage of up to `largest` bytes is accepted if nothing waits.
     """
 
     def __init__(
         self, link: Link, stream: int, backlog_bytes: int, largest: int = 0, holder: Holder | None = None
     ) -> None:
-        """`holder` says whether there is room among all clients; one submessage may wait in any case."""
+        """Use `holder` as the budget of all clients; one submessage may wait in any case."""
         self._holder = holder or Holder()
         self._bytes = 0
         """What is in the window and the backlog, with the samples in it; the holder counts `_told` of it."""
@@ -159,7 +159,7 @@ class ReliableOut:
         return self._release(now)
 
     def acknowledge(self, first: int, missing: int, now: float) -> list[bytes]:
-        """Take an ACKNACK; return the messages to send: what it asks for, then what has room now."""
+        """Process an ACKNACK; return the messages to send: the missing ones, then those that have room now."""
         done = (first - self._first()) & 0xFFFF
         if done > len(self._unacknowledged):
             return []  # older than what is known, or never sent
@@ -179,7 +179,7 @@ class ReliableOut:
         return again + self._release(now)
 
     def _went_on(self, first: int, now: float) -> None:
-        """Note that the client has everything before `first` since now."""
+        """Record that the client has received everything before `first`."""
         if self._timed is not None and 0 < (first - self._timed[0]) & 0xFFFF < HALF:
             self._round_trip, self._timed = now - self._timed[1], None
         self._progress_at = now
@@ -207,7 +207,7 @@ class ReliableOut:
         return again
 
     def repeated_part(self) -> float:
-        """Return which part of what was sent of late was sent again; a few messages say nothing."""
+        """Return which part of the recent messages was sent again, 0 to 1; 0 for few messages."""
         sent = self._numbered - self._recent + self._again
         part = self._again / sent if sent >= RELIABLE_WINDOW else 0.0
         if sent >= MANY:  # what was long ago counts less
@@ -234,11 +234,11 @@ class ReliableOut:
         return (self._first() - 1) & 0xFFFF
 
     def undelivered(self) -> list[Kept]:
-        """Return what the client has not acknowledged, or not all of it, in order."""
+        """Return what the client has not acknowledged completely, in order."""
         return [kept for _, kept, _ in self._kept]
 
     def _report(self) -> None:
-        """Tell the holder what is here: in steps, as this changes with each message."""
+        """Report the stored bytes to the holder, in steps, since they change with each message."""
         self._holder.add(self._bytes - self._reported)
         self._reported = self._bytes
 

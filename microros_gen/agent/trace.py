@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What messages say, for -v (one line each) and -vv (every submessage decoded by name, and all bytes), both ways."""
+"""Messages for -v (one line each) and -vv (every submessage decoded by name, and all bytes), in both directions."""
 
 from __future__ import annotations
 

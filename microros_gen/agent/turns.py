@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Work of clients that does not end within their turn: it rests, and goes on when they are next.
+"""Work of clients that does not finish within their turn: it pauses, and continues in their next turn.
 
-What a client waits for is done in order: first its jobs (its entities come, leave, or are made in steps), then its
-messages. Only clients whose turn was over are known here; all others were served at once.
+The work of a client is done in order: first its jobs (its entities are created or removed in steps), then its messages.
+Only clients whose turn was over are known here; all others were served at once.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ INBOX_BYTES = 65_536
 
 
 class Turns:
-    """Who goes on next, and until when."""
+    """Which client continues next, and until when."""
 
     def __init__(
         self,
@@ -32,9 +32,9 @@ class Turns:
         fault: Callable[[Exception], None],
         processor: Callable[[], float],
     ) -> None:
-        """A turn of one client lasts `turn_s`; `fault` is told of what should not happen.
+        """Give each turn `turn_s` seconds; call `fault` for unexpected errors.
 
-        `processor` is the processor time of this thread: changes of the ROS graph are counted by it.
+        `processor` is the processor time of this thread, in seconds, by which changes of the ROS graph are charged.
         """
         self._processor = processor
         self.clock = clock
@@ -58,7 +58,7 @@ class Turns:
         return self.clock() >= self.end
 
     def begin(self, client: Client, job: Job) -> bool:
-        """Do a job after those that the client has, as far as its turn goes; return whether it is done."""
+        """Start a job after the other jobs of the client, as far as its turn goes; return whether it is done."""
         client.work.append(job)
         if len(client.work) > 1:
             return False
@@ -72,16 +72,16 @@ class Turns:
         return done
 
     def put_off(self, client: Client) -> None:
-        """Go on with what `client` has in its next turn."""
+        """Continue the work of `client` in its next turn."""
         self._waiting.add(client)
         client.account.busy = client.turn_at <= self.clock()
 
     def waits(self, client: Client) -> bool:
-        """Return whether a client has something that was put off."""
+        """Return whether a client has postponed work."""
         return client in self._waiting
 
     def takes(self, client: Client, size: int) -> bool:
-        """Return whether a further message of a client that waits may wait too."""
+        """Return whether a further message of a waiting client may wait, too."""
         if client.inbox_bytes >= INBOX_BYTES:  # some of it is done by now: see how much waits
             client.inbox_bytes = sum(len(ready[0]) for ready in client.ready)
         if client.inbox_bytes >= INBOX_BYTES:
@@ -90,15 +90,15 @@ class Turns:
         return True
 
     def due(self) -> float | None:
-        """Return when `run` has something to do."""
+        """Return the time at which `run` is due."""
         return min((client.turn_at for client in self._waiting), default=None) if self._waiting else None
 
     def run(self, now: float) -> None:
-        """Let clients go on in turn, for a round."""
+        """Continue the work of clients in turn, for one round."""
         self.round([client for client in self._waiting if client.turn_at <= now], now, self._go_on)
 
     def round(self, clients: list[Client], now: float, go_on: Callable[[Client], None]) -> None:
-        """Let some clients go on, in their order; those for whom the time does not suffice stay as they are."""
+        """Continue the work of some clients, in their order; those without enough time left stay as they are."""
         self._fair.order(clients)
         for client in clients:
             began = self.clock()
@@ -110,7 +110,7 @@ class Turns:
             client.account.bill(ended - began, ended)
 
     def finish(self) -> None:
-        """Do all jobs at once."""
+        """Finish all jobs at once."""
         for client in self._waiting:
             for job in client.work:
                 finish(job.steps)
@@ -133,7 +133,7 @@ class Turns:
         client.inbox_bytes = 0
 
     def _work(self, client: Client) -> bool:
-        """Do steps of the jobs of a client until its turn is over; return whether all are done."""
+        """Run steps of the jobs of a client until its turn is over; return whether all are done."""
         account = client.account
         while client.work:
             job, now = client.work[0], self.clock()

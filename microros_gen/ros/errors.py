@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What can go wrong between this process and ROS 2."""
+"""Errors between this process and ROS 2."""
 
 from __future__ import annotations
 

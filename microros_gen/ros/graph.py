@@ -48,7 +48,7 @@ class Graph:
         self._node = node
 
     def nodes(self) -> tuple[str, ...]:
-        """Return the fully qualified names of all nodes, sorted; a name that two nodes share is there for each."""
+        """Return the fully qualified names of all nodes, sorted; a name that two nodes share is listed twice."""
         found = self._node.get_node_names_and_namespaces()
         return tuple(sorted(full_name(name, namespace) for name, namespace in found))
 
@@ -61,22 +61,22 @@ class Graph:
         return _names(self._handles.rclpy_get_service_names_and_types(self._node))
 
     def publishers_of(self, node: str) -> Names | None:
-        """Return the topics that the node publishes; None: there is no such node."""
+        """Return the topics that the node publishes; None if no such node exists."""
         ask = functools.partial(self._handles.rclpy_get_publisher_names_and_types_by_node, self._node, False)
         return self._of_node(ask, node)
 
     def subscriptions_of(self, node: str) -> Names | None:
-        """Return the topics that the node subscribes; None: there is no such node."""
+        """Return the topics that the node subscribes to; None if no such node exists."""
         ask = functools.partial(self._handles.rclpy_get_subscriber_names_and_types_by_node, self._node, False)
         return self._of_node(ask, node)
 
     def services_of(self, node: str) -> Names | None:
-        """Return the services that the node serves; None: there is no such node."""
+        """Return the services that the node serves; None if no such node exists."""
         ask = functools.partial(self._handles.rclpy_get_service_names_and_types_by_node, self._node)
         return self._of_node(ask, node)
 
     def clients_of(self, node: str) -> Names | None:
-        """Return the services that the node has clients of; None: there is no such node."""
+        """Return the services that the node has clients of; None if no such node exists."""
         ask = functools.partial(self._handles.rclpy_get_client_names_and_types_by_node, self._node)
         return self._of_node(ask, node)
 
@@ -118,7 +118,7 @@ class Graph:
 
 
 class GraphChanges:
-    """Waits for changes of the ROS graph; `spin_once` of the peer calls back once for all that happened."""
+    """Waits for changes of the ROS graph; `spin_once` of the peer calls back once for several changes."""
 
     kind = "guard_condition"
 

@@ -124,7 +124,7 @@ class Peer:
         return Graph(self._handles, self._node)
 
     def on_graph_change(self, callback: Callable[[], object]) -> None:
-        """Let `spin_once` call `callback` after changes of the ROS graph, once for several that came together."""
+        """Let `spin_once` call `callback` after changes of the ROS graph, once for several changes."""
         self._waited.append(GraphChanges(self._node, self._raw.libraries, callback))
 
     def spin_once(self, timeout_s: float = 0.0) -> bool:

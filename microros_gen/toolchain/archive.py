@@ -23,7 +23,7 @@ class Member:
 
 
 def read_archive(path: Path) -> Iterator[Member]:
-    """Yield the objects of a library; nothing of a file that is none, up to where it is cut off."""
+    """Yield the objects of a library; none if the file is no library, and those before the end if it is truncated."""
     try:
         data = read_bytes(path, LARGEST_IMAGE)
     except OSError:

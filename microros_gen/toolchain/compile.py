@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Compiles an output folder: objects that are up to date stay, the rest is compiled side by side."""
+"""Compiles an output folder: up-to-date objects stay, the others are compiled in parallel."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ _OVERFLOW = re.compile(r"region `?(\w+)'? overflowed by (\d+) bytes")
 
 @dataclass(frozen=True)
 class BuildReport:
-    """What was built (paths relative to the output folder), and where the objects are from.
+    """What was built (paths relative to the output folder), and where the objects come from.
 
-    They were compiled, copied from the store of objects, or kept from the last build.
+    They were compiled, copied from the object store, or kept from the last build.
     """
 
     library: str
@@ -47,9 +47,9 @@ class BuildReport:
 def compile_project(
     out: Path, project: Project, tools: Toolchain, store: ObjectStore | None = None
 ) -> BuildReport:
-    """Compile the sources that `project` was written to `out` with, and link its example where it can be.
+    """Compile the sources of `project` in `out`, and link its example if possible.
 
-    What `store` has is not compiled.
+    Objects in `store` are copied. Raises UserError with status 1 and the compiler's output when a step fails.
     """
     sources = (out / "sources.txt").read_text(encoding="utf-8").split("\n")[:-1]
     image = None if project.lacks_image else project.image
@@ -67,10 +67,10 @@ def compile_tree(
 ) -> BuildReport:
     """Compile `sources` (relative paths) to lib/libmicroros.a, and `example` with it to bin/`image`.
 
-    `image` None: the example is compiled and not linked. `script` is the linker script of an image for a board,
-    which also gets bin/`image` as .hex and .bin.
+    `image` None: the example is compiled and not linked. `script` is the linker script of an image for a board, which
+    is also converted to .hex and .bin.
 
-    Raises UserError with status 1 and the compiler's own words when a step fails.
+    Raises UserError with status 1 and the compiler's output when a step fails.
     """
     identity = identify(tools.compiler, os.environ)
     library_units = [_unit(source, tools, identity) for source in sources]
@@ -97,7 +97,7 @@ def compile_tree(
 
 
 def object_name(source: str) -> str:
-    """Return the object of a C file, below the output folder; members of the library have their own names.
+    """Return the path of the object of a C file, below the output folder; members of the library have unique names.
 
     `src/std_msgs/int32__functions.c` → `.build/src/std_msgs/std_msgs__int32__functions.o`.
     """
@@ -116,7 +116,7 @@ def _unit(source: str, tools: Toolchain, identity: Identity) -> Unit:
 
 
 def _record(out: Path, tools: Toolchain, identity: Identity) -> None:
-    """Say what built this folder, for `size` and `explain`."""
+    """Write which tools built this folder, for `size` and `explain`."""
     data = {"compiler": tools.compiler, "archiver": tools.archiver, "call_graph": identity.call_graph}
     (out / TOOLS).write_text(json.dumps(data, sort_keys=True), encoding="utf-8")
 
@@ -132,7 +132,7 @@ def _archive(out: Path, objects: Sequence[str], tools: Toolchain) -> None:
 def _images(
     out: Path, image: str, main_object: str, tools: Toolchain, script: str | None, stale: bool
 ) -> tuple[str, ...]:
-    """Link what is not up to date; return the files below bin/, the one with symbols first."""
+    """Link outdated images; return the files below bin/, the one with symbols first."""
     products = [image]
     if script is not None and tools.objcopy is not None:
         products += [str(PurePosixPath(image).with_suffix(suffix)) for suffix in _FLASH_FORMATS]
@@ -160,7 +160,7 @@ def _link(out: Path, main_object: str, image: str, tools: Toolchain, script: str
 
 
 def _too_large(message: str) -> str | None:
-    """Return what to do where the linker says that a memory region is too small."""
+    """Return a hint if the linker reports that a memory region is too small."""
     match = _OVERFLOW.search(message)
     if match is None:
         return None

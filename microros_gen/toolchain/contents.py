@@ -19,10 +19,10 @@ _DEFINE = re.compile(r"#define ([A-Za-z_]\w*)(.*)")
 
 
 class Contents:
-    """The files of an output folder, and those that they include from elsewhere; each is read once."""
+    """The files of an output folder, and the files that they include from elsewhere; each is read once."""
 
     def __init__(self, out: Path) -> None:
-        """Read nothing yet; the files must not change while this is used."""
+        """Prepare to read `out`, whose files must not change while this object is used."""
         self._out = out
         self._bytes: dict[str, bytes | None] = {}
         self._digests: dict[str, str] = {}
@@ -38,7 +38,7 @@ class Contents:
         return found
 
     def of_files(self, files: Sequence[str]) -> str:
-        """Return the digest of everything in `files` that counts: of CONFIG the lines that the others can see."""
+        """Return the digest of all relevant contents of `files`: of CONFIG, only the lines that the others use."""
         others = [name for name in files if name != CONFIG]
         lines: tuple[str, ...] = ()
         if len(others) < len(files):
@@ -46,7 +46,7 @@ class Contents:
         return joined([*files, *map(self.of_file, others), *lines])
 
     def read(self, name: str) -> bytes | None:
-        """Return the bytes of a file; None where it cannot be read."""
+        """Return the bytes of a file, or None if it cannot be read."""
         if name not in self._bytes:
             try:
                 self._bytes[name] = (self._out / name).read_bytes()
@@ -72,7 +72,7 @@ class Config:
     """The definitions of microros_config.h."""
 
     def __init__(self, text: str) -> None:
-        """Split the text in lines `#define NAME value` and others."""
+        """Split the text into lines `#define NAME value` and others."""
         matches = [(line, _DEFINE.fullmatch(line)) for line in text.splitlines()]
         self._always = tuple(line for line, match in matches if match is None or line.endswith("\\"))
         self._defined = {match[1]: match[2] for _, match in matches if match is not None}

@@ -30,11 +30,11 @@ class Machine:
 
     @classmethod
     def of(cls, data: Mapping[str, Any]) -> Machine:
-        """Read it from a manifest."""
+        """Create it from the value in a manifest."""
         return cls(data["program"], data["package"], tuple(data["arguments"]))
 
     def find(self) -> str:
-        """Return the path of the program. Raises UserError that names what to install."""
+        """Return the path of the program. Raises UserError that names the package to install."""
         found = shutil.which(self.program)
         if found is None:
             message = f"the image runs in {self.program}, which is not on the PATH"
@@ -52,10 +52,10 @@ class Machine:
 
 
 class Emulator:
-    """A running emulator whose standard input and output are pipes."""
+    """A running emulator with pipes for its standard input and output."""
 
     def __init__(self, process: subprocess.Popen[str]) -> None:
-        """Greet it. Raises UserError with its own words when it ends at once."""
+        """Negotiate the protocol. Raises UserError with the emulator's output if it ends at once."""
         self._process = process
         self.call("qmp_capabilities")
 
@@ -77,7 +77,7 @@ class Emulator:
             pass
 
     def call(self, name: str, **arguments: Any) -> Any:
-        """Give a command of the machine protocol; return what it returns. Raises UserError when it is refused."""
+        """Send a command of the machine protocol; return its result. Raises UserError if it is refused."""
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         try:
@@ -100,7 +100,7 @@ class Emulator:
 
 
 def _message(line: str) -> dict[str, Any]:
-    """Return one message of the protocol; nothing where the line is none ("char device redirected to …")."""
+    """Return one message of the protocol; empty if the line is none ("char device redirected to …")."""
     try:
         answer = json.loads(line)
     except ValueError:

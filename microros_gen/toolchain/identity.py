@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a compiler is: what it says of itself, the state of its programs, and what it takes from the environment."""
+"""The identity of a compiler: its own description, the state of its programs, and its environment variables."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ _PROGRAM = re.compile(r'^ "?(/[^" ]+)', re.MULTILINE)
 
 @dataclass(frozen=True)
 class Identity:
-    """A compiler: a digest of everything that decides what it makes, and whether it knows CALL_GRAPH."""
+    """A compiler: a digest of everything that decides its output, and whether it accepts CALL_GRAPH."""
 
     digest: str
     call_graph: bool
 
 
 def identify(compiler: str, environ: Mapping[str, str]) -> Identity:
-    """Ask a compiler what it is."""
+    """Return the identity of a compiler, which is run for that."""
     probe = ["-v", "-E", "-x", "c", os.devnull, "-o", os.devnull]
     folder = Path(Path.cwd().anchor)  # clang says in which folder it runs
     probed = run([compiler, CALL_GRAPH, *probe], folder)
@@ -49,7 +49,7 @@ def identify(compiler: str, environ: Mapping[str, str]) -> Identity:
 
 
 def _states(compiler: str, probed: str) -> Iterator[str]:
-    """Yield the states of the driver and of the programs that it says to run."""
+    """Yield the states of the driver and of the programs that it runs."""
     for name in (compiler, *_PROGRAM.findall(probed)):
         try:
             found = Path(name).stat()

@@ -22,7 +22,7 @@ class Usage:
 
 
 def measure_library(out: Path, tools: Toolchain) -> Usage | None:
-    """Return what `size` says of the library; None where the tool chain has no `size`."""
+    """Return the output of `size` for the library; None if the tool chain has no `size`."""
     program = sibling(tools.archiver, "ar", "size")
     if program is None:
         return None

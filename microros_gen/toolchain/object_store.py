@@ -36,7 +36,7 @@ _Digest = Callable[[Sequence[str]], str]
 
 @dataclass(frozen=True)
 class Found:
-    """A compilation that was found: the files that it read, and what it made, by ending (`.o`, `.d`, `.ci`)."""
+    """A compilation that was found: the files that it read, and its outputs by ending (`.o`, `.d`, `.ci`)."""
 
     files: list[str]
     outputs: Mapping[str, bytes]
@@ -46,23 +46,23 @@ class ObjectStore:
     """The objects in `folder`, which is created when the first one is kept."""
 
     def __init__(self, folder: Path, largest: int = LARGEST_STORE) -> None:
-        """Nothing is read or written yet."""
+        """Use `folder`, up to `largest` bytes; nothing is read or written yet."""
         self._folder = folder
         self._largest = largest
         self._added = 0
 
     @staticmethod
     def of_user(environ: Mapping[str, str]) -> ObjectStore | None:
-        """Return the store in the user's cache folder, or where `environ` says; None: it is off."""
+        """Return the store in the user's cache folder or in that of `environ`; None if it is disabled."""
         chosen = environ.get(VARIABLE, "")
         if chosen == "off":
             return None
         return ObjectStore(Path(chosen) if chosen else cache_folder(environ) / "objects")
 
     def find(self, key: str, digest: _Digest) -> Found | None:
-        """Return what was made by a compilation with this key that read files of the same content.
+        """Return the outputs of an earlier compilation with this key and the same contents; None if none exists.
 
-        `key` identifies compiler, arguments and source; `digest` gives that of everything that `files` contain now.
+        `key` identifies compiler, arguments and source; `digest` returns that of the current contents of `files`.
         """
         for files in self._lists(key):
             path = self._object(key, digest(files))
@@ -75,7 +75,7 @@ class ObjectStore:
         return None
 
     def keep(self, key: str, digest: _Digest, found: Found) -> None:
-        """Keep what a compilation made. A store that cannot be written is no error: the compiler will run again."""
+        """Store the outputs of a compilation. Write errors are ignored: the compiler will run again."""
         files = found.files
         others = [other for other in self._lists(key) if other != files]
         lists = json.dumps([files, *others][:_LISTS]).encode()
@@ -86,7 +86,7 @@ class ObjectStore:
             self._added += len(packed) + len(lists)
 
     def close(self) -> None:
-        """Note how much was added, and remove what was not used for longest where the store is too large."""
+        """Record how much was added, and remove the least recently used entries if the store is too large."""
         if not self._added:
             return
         line, self._added = f"{self._added}\n".encode(), 0
@@ -111,7 +111,7 @@ class ObjectStore:
         _write(self._folder / _JOURNAL, f"{total}\n".encode())
 
     def _entries(self) -> Iterator[tuple[int, int, Path]]:
-        """Yield age, size and path of every file but the journal; of those too that a killed build left."""
+        """Yield age, size and path of every file except for the journal, including those of interrupted builds."""
         for path in self._folder.glob("??/*"):
             with suppress(OSError):
                 found = path.stat()
@@ -159,7 +159,7 @@ def _unpacked(path: Path) -> dict[str, bytes] | None:
 
 
 def _write(path: Path, content: bytes) -> None:
-    """Write a file that appears under its name complete."""
+    """Write a file that appears complete under its name."""
     path.parent.mkdir(parents=True, exist_ok=True)
     fresh = path.with_suffix(f".{os.urandom(8).hex()}")
     try:

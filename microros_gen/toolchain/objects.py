@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the objects of an output folder: copies what the store has, and compiles the rest side by side."""
+"""Creates the objects of an output folder: copies those in the store, and compiles the others in parallel."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _TIME = re.compile(rb"\b__(DATE|TIME|TIMESTAMP)__\b")
 
 @dataclass(frozen=True)
 class Unit:
-    """A source and the call of the compiler that makes its object; `compiler` identifies the compiler."""
+    """A source and the compiler call that creates its object; `compiler` identifies the compiler."""
 
     source: str
     object: str
@@ -48,20 +48,20 @@ class Objects:
     """The objects of the output folder `out`; without a store each is compiled."""
 
     def __init__(self, out: Path, contents: Contents, stamps: Stamps, store: ObjectStore | None) -> None:
-        """Do nothing yet."""
+        """Prepare to create objects in `out`."""
         self._out = out
         self._contents = contents
         self._stamps = stamps
         self._store = store
 
     def copy(self, units: Sequence[Unit]) -> list[Unit]:
-        """Copy the objects that the store has; return the units of the others."""
+        """Copy the objects that the store has; return the other units."""
         for folder in {(self._out / unit.object).parent for unit in units}:
             folder.mkdir(parents=True, exist_ok=True)
         return [unit for unit in units if not self._copied(unit)]
 
     def compile(self, units: Sequence[Unit]) -> None:
-        """Compile the units. Raises UserError with status 1 and the compiler's own words if one fails."""
+        """Compile the units. Raises UserError with status 1 and the compiler's output if one fails."""
         with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
             results = list(pool.map(lambda unit: run(unit.command, self._out), units))
         failed = []
@@ -75,7 +75,7 @@ class Objects:
             raise UserError(failed, status=1)
 
     def close(self) -> None:
-        """Bring the store to its size."""
+        """Reduce the store to its maximum size."""
         if self._store is not None:
             self._store.close()
 
@@ -104,7 +104,7 @@ class Objects:
         self._store.keep(self._key(unit), self._contents.of_files, Found(files, contents))
 
     def _key(self, unit: Unit) -> str:
-        """Return what identifies a compilation before it is known what it reads."""
+        """Return what identifies a compilation before the files that it reads are known."""
         place = self._place if any(map(_DEBUG.match, unit.command)) else ""
         return joined([unit.identity, place, self._contents.of_file(unit.source)])
 

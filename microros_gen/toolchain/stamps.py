@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which objects of an output folder are up to date: a digest of the command and of what an object was made from."""
+"""Which objects of an output folder are up to date: digests of the command and of the files that it read."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from microros_gen.toolchain.contents import Contents, joined
 
 
 class Stamps:
-    """The stamps of one output folder, read from and kept in `path`."""
+    """The stamps of one output folder, stored in `path`."""
 
     def __init__(self, out: Path, path: Path, contents: Contents) -> None:
-        """Read the stamps of the last run; nothing is up to date where they cannot be read."""
+        """Read the stamps of the last run; if they cannot be read, nothing is up to date."""
         self._out = out
         self._path = path
         self._contents = contents
@@ -27,9 +27,9 @@ class Stamps:
             self._stamps = {}
 
     def is_fresh(self, name: str, command: str) -> bool:
-        """Return whether the object `name` is there, and `command` would make it from what it was made from.
+        """Return whether the object `name` exists and `command` would create it from unchanged files.
 
-        `command` identifies the call of the compiler, and the compiler.
+        `command` identifies the compiler and its call.
         """
         stamp = self._stamps.get(name)
         if not isinstance(stamp, dict) or not (self._out / name).is_file():
@@ -38,11 +38,11 @@ class Stamps:
         return isinstance(files, list) and stamp.get("digest") == self._digest(command, files)
 
     def record(self, name: str, command: str, files: list[str]) -> None:
-        """Note that `command` has made the object `name` from `files`."""
+        """Record that `command` created the object `name` from `files`."""
         self._stamps[name] = {"digest": self._digest(command, files), "files": files}
 
     def save(self, names: Iterable[str]) -> None:
-        """Keep the stamps of these objects."""
+        """Write the stamps of these objects."""
         kept = {name: self._stamps[name] for name in names if name in self._stamps}
         self._path.parent.mkdir(parents=True, exist_ok=True)
         self._path.write_text(json.dumps(kept, sort_keys=True), encoding="utf-8")

@@ -39,9 +39,9 @@ class Toolchain:
 
 
 def find_toolchain(target: Target, environ: Mapping[str, str]) -> Toolchain:
-    """Return the target's tool chain; for the host CC, AR and CFLAGS of `environ` win.
+    """Return the target's tool chain; for the host, CC, AR and CFLAGS of `environ` take precedence.
 
-    Raises UserError that names what to install when a program is missing.
+    Raises UserError that names the package to install if a program is missing.
     """
     is_host = target.name == "host"
     compilers = ((environ["CC"],) if is_host and environ.get("CC") else ()) or target.compilers
@@ -61,7 +61,7 @@ def find_toolchain(target: Target, environ: Mapping[str, str]) -> Toolchain:
 
 
 def run(command: Sequence[str], folder: Path) -> subprocess.CompletedProcess[str]:
-    """Run `command` in `folder`; its output is text (stderr joined to stdout)."""
+    """Run `command` in `folder`; its output is text, with stderr joined to stdout."""
     return subprocess.run(
         list(command), cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False
     )

@@ -12,7 +12,7 @@ from microros_gen.records import dataclass
 
 
 class BridgeError(Exception):
-    """ROS 2 refused something; the text says what and what to do, `status` is what the client is told."""
+    """ROS 2 refused something; the text gives reason and remedy, `status` is sent to the client."""
 
     def __init__(self, reason: str, status: Status = Status.DDS_ERROR) -> None:
         super().__init__(reason)
@@ -20,9 +20,9 @@ class BridgeError(Exception):
 
 
 class BusyError(BridgeError):
-    """DDS has no room for a sample now, as readers have not taken those before: later it may have.
+    """DDS has no room for a sample now, since readers have not taken earlier ones; it may have later.
 
-    `done`: how many samples of the same submessage it took before.
+    `done`: how many samples of the same submessage it accepted before.
     """
 
     def __init__(self, reason: str, done: int = 0) -> None:
@@ -50,7 +50,7 @@ class Matched:
 
 @dataclass(frozen=True)
 class Incompatible:
-    """Somebody offers or wants another quality of service; `policy` is the last that differed (`reliability`, …)."""
+    """Another node has incompatible QoS; `policy` is the last one that differed (`reliability`, …)."""
 
     node: str
     kind: str
@@ -67,7 +67,7 @@ class Incompatible:
 
 @dataclass(frozen=True)
 class HashMismatch:
-    """Another node announces the same type by name with another definition: what it says will be misread."""
+    """Another node announces a type of this name with another definition: its samples will be misread."""
 
     node: str
     endpoint: str
@@ -100,7 +100,7 @@ class TypeMismatch:
 
 @dataclass(frozen=True)
 class HashUnknown:
-    """Nobody knows the definition of a type: it is bridged, but its endpoints announce no type hash. Told once."""
+    """No interface file defines a type: it is bridged, but its endpoints announce no hash. Reported once."""
 
     type: str
 
@@ -110,7 +110,7 @@ class HashUnknown:
 
 @dataclass(frozen=True)
 class OtherDomain:
-    """A client asked for another ROS domain than that of the agent's shell. Told once for each domain."""
+    """A client requested another ROS domain than that of the agent's shell. Reported once per domain."""
 
     node: str
     domain: int
@@ -126,7 +126,7 @@ class OtherDomain:
 
 @dataclass(frozen=True)
 class NoServer:
-    """A request was dropped; `lost`: how many were since the service was last there."""
+    """A request was dropped; `lost`: how many since the service was last available."""
 
     node: str
     endpoint: str
@@ -154,7 +154,7 @@ class ServerFound:
 
 @dataclass(frozen=True)
 class NoClient:
-    """A reply was dropped, as whoever asked is not there to receive it; the service has lost `lost`."""
+    """A reply was dropped because its client is gone; the service has lost `lost` replies."""
 
     node: str
     endpoint: str
@@ -196,17 +196,17 @@ class Writer(Protocol):
         """
 
     def settled(self) -> bool:
-        """Return whether all readers have acknowledged everything, now."""
+        """Return whether all readers have acknowledged everything."""
 
     def destroy(self) -> None:
         """Leave the ROS graph; nothing else is called afterwards."""
 
 
 class Source(Protocol):
-    """Something of a client that ROS 2 gives data to: a reader, a replier or a requester.
+    """An entity of a client that receives data from ROS 2: a reader, a replier or a requester.
 
-    `take` of each returns what came next, None when nothing is there. `Bridge.ready` names a source again only after
-    it had nothing: who stops taking before None has to come back by itself.
+    `take` of each returns the next item, or None when it is empty. `Bridge.ready` reports a source again only after it
+    was empty: whoever stops before None has to continue without a report.
     """
 
     @property
@@ -214,7 +214,7 @@ class Source(Protocol):
         """Names and types on the ROS side, for the log."""
 
     def unread(self) -> int:
-        """Return about how many arrived since it was last empty; expensive."""
+        """Return about how many items arrived since it was last empty; expensive."""
 
     def destroy(self) -> None:
         """Leave the ROS graph; nothing else is called afterwards."""
@@ -228,7 +228,7 @@ class Reader(Source, Protocol):
 
 
 class Replier(Source, Protocol):
-    """A ROS service of a client: the client answers."""
+    """A ROS service, which the client answers."""
 
     def take(self) -> tuple[bytes, bytes] | None:
         """Return the next request: SampleIdentity as on the XRCE wire (24 bytes), and encapsulation with CDR body."""
@@ -241,7 +241,7 @@ class Replier(Source, Protocol):
 
 
 class Requester(Source, Protocol):
-    """A ROS service client of a client: the client asks."""
+    """A ROS service client, with which the client calls."""
 
     def request(self, serialized: bytes) -> int:
         """Send a request (encapsulation header, then CDR body); return the number that its reply will have.
@@ -291,13 +291,13 @@ class Bridge(Protocol):
         """
 
     def fileno(self) -> int:
-        """Return the descriptor that is readable while `ready` has something to name."""
+        """Return the descriptor that is readable while `ready` has something to report."""
 
     def ready(self) -> list[Source]:
-        """Return the sources that got something since they were last named here, each once. Never waits."""
+        """Return the sources that received data since their last report, each once. Never waits."""
 
     def trim(self) -> None:
-        """Give memory that is free back to the system; takes some milliseconds."""
+        """Return free memory to the system; takes some milliseconds."""
 
     def close(self) -> None:
-        """Give everything back; nodes are destroyed before."""
+        """Release everything; nodes are destroyed before."""

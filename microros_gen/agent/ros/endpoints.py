@@ -23,7 +23,7 @@ millisecond in DDS, and so does everybody else."""
 
 
 class Ros:
-    """What all entities of a bridge share: the libraries, the wake-ups, and one buffer that samples are taken into."""
+    """What all entities of a bridge share: libraries, wake-ups, and one buffer into which samples are taken."""
 
     def __init__(self, types: RawTypes, report: Callable[[GraphReport], None], request_wait_s: float) -> None:
         self.report = report
@@ -34,7 +34,7 @@ class Ros:
         self.taken = SerializedMessage(allocator=self.libraries.default_allocator())
 
     def close(self) -> None:
-        """Give everything back, after all entities are destroyed."""
+        """Release everything, after all entities are destroyed."""
         self.wakeups.close()
         self.libraries.free_message(byref(self.taken))
 
@@ -101,7 +101,7 @@ class RawWriter(Entity):
 
 
 class RawSource(Entity):
-    """What ROS 2 wakes up the agent for, until it is destroyed."""
+    """An entity for which ROS 2 wakes the agent, until it is destroyed."""
 
     def __init__(
         self, handle: Any, ros: Ros, notify: Notify, events: Events, endpoints: tuple[Endpoint, ...]
@@ -137,7 +137,7 @@ class RawSource(Entity):
         return self._arrived
 
     def failed(self, doing: str) -> BridgeError:
-        """Return the error that ROS 2 gave while `doing` something."""
+        """Return the error that ROS 2 reported while `doing` something."""
         return BridgeError(f"{doing} on {self.label}: {self._libraries.error()}")
 
 

@@ -79,7 +79,7 @@ class TopicTypes:
         self._by_topic: dict[str, set[Endpoint]] = {}
 
     def claim(self, endpoints: Iterable[Endpoint]) -> None:
-        """Note what will be created; BridgeError when a topic has another type already."""
+        """Record what will be created. Raises BridgeError if the topic has another type."""
         for endpoint in endpoints:
             other = next(iter(self._by_topic.get(endpoint.topic, ())), None)
             if other is not None and other.type != endpoint.type:
@@ -136,7 +136,7 @@ class Comparison(Watcher):
         )
 
     def forget(self, topics: TopicTypes, endpoint: Endpoint) -> None:
-        """Do not look at an endpoint any more."""
+        """Stop comparing an endpoint."""
         place = (topics, endpoint.topic, endpoint.mangled)
         due = self._due.get(place, {})
         due.pop(endpoint, None)
@@ -265,7 +265,7 @@ class Events(Watcher):
                 event.destroy_when_not_in_use()
 
     def close(self) -> None:
-        """Destroy what the node still has, and give the descriptor back: only then nobody writes to it."""
+        """Destroy the remaining entities of the node, then close the descriptor, to which nothing writes any more."""
         for entity in list(self.entities):
             entity.destroy()
         for descriptor in (self._descriptor, self._timer):

@@ -41,11 +41,11 @@ class Waiter(Protocol):
     """Waits for a service or client to appear in the graph."""
 
     def still_waits(self) -> bool:
-        """Look for who is waited for, and go on when there is somebody; return whether to look again."""
+        """Look for the other side, and continue when it is there; return whether to look again."""
 
 
 class Patience(Watcher):
-    """Comes back to those who wait for the other side of a service: ROS 2 has no event for that."""
+    """Polls for the other side of a service, for which ROS 2 has no event."""
 
     def __init__(self, wakeups: Wakeups[Any]) -> None:
         self._wakeups = wakeups
@@ -55,7 +55,7 @@ class Patience(Watcher):
         """What all that wait hold."""
 
     def wait_for(self, waiter: Waiter) -> None:
-        """Call `still_waits` of `waiter` again and again until it does not."""
+        """Call `still_waits` of `waiter` repeatedly until it returns False."""
         if not self._waiting:
             self._wakeups.set_timer(self._timer, _LOOK_AGAIN_S)
         self._waiting.add(waiter)
@@ -68,7 +68,7 @@ class Patience(Watcher):
 
 
 class Held:
-    """Calls that wait for the other side, each until a moment (of the monotonic clock), the oldest first."""
+    """Calls that wait for the other side, each until a time (of the monotonic clock), the oldest first."""
 
     def __init__(self, patience: Patience) -> None:
         self._patience = patience
@@ -79,7 +79,7 @@ class Held:
         return len(self._calls)
 
     def put(self, until: float, key: Any, serialized: bytes) -> bool:
-        """Hold a call; False when it does not fit."""
+        """Hold a call; return False if it does not fit."""
         size = len(serialized)
         if (
             len(self._calls) >= HELD_CALLS
@@ -96,7 +96,7 @@ class Held:
         return bool(self._calls) and self._calls[0][0] <= now
 
     def pop(self) -> tuple[float, Any, bytes]:
-        """Return the oldest: its moment, its key, its bytes."""
+        """Remove and return the oldest call: its time, key and bytes."""
         call = self._calls.popleft()
         self._count(-len(call[2]))
         return call

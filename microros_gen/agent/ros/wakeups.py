@@ -27,7 +27,7 @@ class Watcher:
     """Something that is woken up and is no source of data."""
 
     def look(self) -> None:
-        """See what has happened, and do what it needs."""
+        """Check what has happened, and react."""
         raise NotImplementedError
 
 
@@ -75,12 +75,12 @@ class Wakeups(Generic[T]):
 
     @staticmethod
     def set_timer(descriptor: int, seconds: float) -> None:
-        """Let a timer wake up once, so many seconds from now."""
+        """Let a timer wake up once, after this number of seconds."""
         deadline = _Time(first_s=int(seconds), first_ns=round(seconds % 1 * 1e9))
         _libc().timerfd_settime(descriptor, 0, ctypes.byref(deadline), None)
 
     def remove(self, descriptor: int) -> None:
-        """Close an eventfd that nobody writes to any more."""
+        """Close an eventfd to which nothing writes any more."""
         self._epoll.unregister(descriptor)
         del self._known[descriptor]
         os.close(descriptor)
@@ -90,7 +90,7 @@ class Wakeups(Generic[T]):
         return [self._known[descriptor] for descriptor, _ in self._epoll.poll(0)]
 
     def close(self) -> None:
-        """Close everything; nobody writes any more."""
+        """Close everything; nothing writes any more."""
         for descriptor in list(self._known):
             self.remove(descriptor)
         self._epoll.close()

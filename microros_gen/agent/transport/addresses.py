@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The addresses of this machine's interfaces, as Linux tells them (netdevice(7), ipv6(7))."""
+"""The addresses of this machine's interfaces, as reported by Linux (netdevice(7), ipv6(7))."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ class OwnAddress:
 def own_addresses() -> tuple[OwnAddress, ...]:
     """Return the addresses of all interfaces, IPv4 first: the first IPv4 address of each, and every IPv6 address.
 
-    Those of IPv6 that hold on one link only are left out. What cannot be read is not there.
+    IPv6 addresses that are valid on one link only are left out, as are those that cannot be read.
     """
     return (*_ipv4(), *_ipv6())
 
 
 def parse_address(text: str) -> Address:
-    """Return the address that `text` says, also one with a zone (`fe80::1%eth0`)."""
+    """Return the address in `text`, also with a zone (`fe80::1%eth0`)."""
     return ipaddress.ip_address(text.partition("%")[0])
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the agent needs of a transport. A stream transport cuts its stream into messages itself."""
+"""What the agent needs of a transport. A stream transport splits its stream into messages itself."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ Receive = Callable[[bytes, Hashable, "Transport"], None]
 
 
 class Transport(Protocol):
-    """One way to clients. Addresses are its own, hashable, and differ from those of other transports."""
+    """One way to clients. Its addresses are hashable, and differ from those of other transports."""
 
     @property
     def label(self) -> str:
-        """Kind and own address for the log and the ready line, as `udp4 127.0.0.1:8888`."""
+        """Kind and address for the log and the ready line, such as `udp4 127.0.0.1:8888`."""
 
     @property
     def ready(self) -> bool:
-        """Whether messages are taken: not before a serial device is there."""
+        """Whether messages are accepted; False until a serial device exists."""
 
     @property
     def forgeable(self) -> bool:
-        """Whether a message may come from elsewhere than its address says."""
+        """Whether the sender of a message can be another one than its address says."""
 
     def fileno(self) -> int:
         """Return the descriptor that is readable while `pump` has something to do.
@@ -34,13 +34,13 @@ class Transport(Protocol):
         """
 
     def pump(self, receive: Receive) -> None:
-        """Write what waits, hand on what has arrived; not more than a batch of it, without waiting. Never raises."""
+        """Write waiting output and deliver a batch of what has arrived, without waiting. Never raises."""
 
     def tick(self, now: float) -> None:
-        """Do what time brings (`now`: seconds, monotonic); called some ten times a second. Never raises."""
+        """Do what is due at `now` (seconds, monotonic); called some ten times a second. Never raises."""
 
     def claim(self, address: Hashable, account: Account) -> None:
-        """Note that a client is in session at an address: what comes from there is read in its turn. Never raises."""
+        """Note that a client is in session at an address: its input is read in its turn. Never raises."""
 
     def release(self, address: Hashable, moved: bool = False) -> None:
         """Note that none is there any more; `moved`: it sends from elsewhere now, and what is unread is too old.
@@ -49,10 +49,10 @@ class Transport(Protocol):
         """
 
     def send(self, data: bytes, address: Hashable) -> None:
-        """Send one message without waiting; one that cannot go out is lost. Never raises."""
+        """Send one message without waiting; a message that cannot be sent is lost. Never raises."""
 
     def name_of(self, address: Hashable) -> str:
         """Return an address as the log shows it."""
 
     def close(self) -> None:
-        """Give every descriptor back."""
+        """Close every descriptor."""

@@ -44,7 +44,7 @@ SocketTransport = Udp | Tcp
 
 
 class Discovery:
-    """A socket in the multicast group; it hands no message on."""
+    """A socket in the multicast group; it answers by itself and delivers no message."""
 
     def __init__(
         self,
@@ -79,7 +79,7 @@ class Discovery:
 
     @property
     def ready(self) -> bool:
-        """See Transport: when an interface is there."""
+        """See Transport: when an interface exists."""
         return bool(self._joined)
 
     @property
@@ -150,7 +150,7 @@ class Discovery:
         return asker.is_loopback or any(own.address == asker for own in self._own)
 
     def _reachable(self, host: Address, asker: Address) -> list[Address]:
-        """Return the addresses of `host`; first the one from which `asker` would be answered."""
+        """Return the addresses of `host`, first the one from which `asker` would be answered."""
         if not host.is_unspecified:
             return [host]
         own = [o.address for o in self._own if o.address.version == host.version]
@@ -178,7 +178,7 @@ class Discovery:
             self._socket.sendto(head.encode() + encode(info), asker)
 
     def _refresh(self) -> None:
-        """Join the group on interfaces that are new; forget those that are gone."""
+        """Join the group on new interfaces; remove those that have disappeared."""
         self._own = tuple(self._addresses())
         wanted = {own.interface for own in self._own if own.address.version == 4}
         self._joined &= wanted

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A serial line: frames on a descriptor that may vanish and come back.
+"""A serial line: frames on a descriptor that may disappear and return.
 
 Several clients may share a line: each frame names its source, and the pair of line and source is an address.
 """
@@ -29,7 +29,7 @@ Open = Callable[[], int]
 
 
 class Line:
-    """One line, `name` by its path. Not there yet or lost: it is looked for until it is there."""
+    """One line, `name` by its path. While its device is missing, the line looks for it."""
 
     def __init__(self, name: str, open_line: Open, log: EventLog) -> None:
         self._name = name
@@ -56,7 +56,7 @@ class Line:
 
     @property
     def writing(self) -> bool:
-        """Whether something waits for the line to take it."""
+        """Whether output waits for the line."""
         return bool(self._outbox)
 
     @property
@@ -106,7 +106,7 @@ class Line:
             self._write()
 
     def start(self) -> None:
-        """Open the line before the first tick; OSError says why it is not open."""
+        """Open the line before the first tick. Raises OSError if it cannot be opened."""
         try:
             self._fd = self._open()
         except OSError as error:
@@ -117,7 +117,7 @@ class Line:
         self._was_open = True
 
     def wait(self) -> None:
-        """Tell that a line which could not be opened is waited for."""
+        """Report that the line waits for its device."""
         text = "serial {device} cannot be opened ({why}); waiting for it"
         self._report("device_waiting", text, why=self._reported)
 

@@ -28,7 +28,7 @@ def is_sample(message: bytes) -> bool:
 
 
 class Outbox:
-    """Frames in order; one that the limit has no room for is not taken, so the stream stays well-formed."""
+    """Frames in order; a frame beyond the limit is refused as a whole, so the stream stays well-formed."""
 
     def __init__(self, limit: int, dropped: Callable[[], None], holder: Holder | None = None) -> None:
         """Hold at most `limit` bytes, and what `holder` has room for; `dropped` is told of each sample that gives way
@@ -62,7 +62,7 @@ class Outbox:
         return True
 
     def write(self, descriptor: int) -> bool:
-        """Write what the descriptor takes without waiting; return whether it took anything. OSError: it is broken."""
+        """Write what the descriptor accepts without waiting; return whether it accepted anything. Raises OSError."""
         before = self._bytes
         while self._frames:
             try:
@@ -85,7 +85,7 @@ class Outbox:
         return self._bytes < before
 
     def clear(self) -> None:
-        """Forget everything."""
+        """Drop everything."""
         self._frames.clear()
         self._samples.clear()
         self._holder.clear()

@@ -25,13 +25,13 @@ _ABSENT = (errno.ENOENT, errno.ENXIO, errno.ENODEV, errno.EIO)
 
 
 def speeds() -> list[int]:
-    """Return the rates in bit/s that this system has a name for."""
+    """Return the rates in bit/s that this system has a constant for."""
     names = (re.fullmatch(r"B([1-9][0-9]*)", name) for name in dir(termios))
     return sorted(int(match[1]) for match in names if match)
 
 
 def serial_line(device: str, baud: int, log: EventLog) -> Line:
-    """Return the line of a device, opened when it is there; UserError when it can never be one."""
+    """Return the line of a device, opened if it exists. Raises UserError if it can never be opened."""
     if baud not in speeds():
         raise UserError([_no_such_speed(baud)])
     line = Line(device, lambda: open_device(device, baud), log)
@@ -46,9 +46,9 @@ def serial_line(device: str, baud: int, log: EventLog) -> Line:
 
 
 def open_device(device: str, baud: int) -> int:
-    """Open a terminal device for bytes as they are, 8N1 without flow control, for this process alone.
+    """Open a terminal device, raw, 8N1 without flow control, for this process alone.
 
-    OSError when it is not there, is in use (EBUSY), or is no terminal (ENOTTY).
+    Raises OSError if it does not exist, is in use (EBUSY), or is no terminal (ENOTTY).
     """
     descriptor = os.open(device, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK | os.O_CLOEXEC)
     try:
@@ -71,11 +71,11 @@ def open_device(device: str, baud: int) -> int:
 class Pty(Line):
     """A pseudo-terminal: the agent has its master; its slave, for the client, stays open as long as the agent.
 
-    So a client that closes and opens it again finds the same one.
+    A client that closes and opens it again finds the same one.
     """
 
     def __init__(self, log: EventLog, link: Path | None = None) -> None:
-        """Make it, and a symbolic link to it; UserError when that is not possible."""
+        """Create it, and a symbolic link to it. Raises UserError if that is not possible."""
         self._master, self._slave = os.openpty()
         os.set_blocking(self._master, False)
         _make_raw(self._slave, DEFAULT_BAUD)
@@ -117,7 +117,7 @@ def _make_raw(descriptor: int, baud: int) -> None:
 
 
 def _make_link(link: Path, device: str) -> None:
-    """Make the link; one that an agent left behind is replaced, anything else is not."""
+    """Create the link; one that an agent left is replaced, anything else is not."""
     if link.is_symlink() and str(link.readlink()).startswith("/dev/"):
         link.unlink()
     link.symlink_to(device)

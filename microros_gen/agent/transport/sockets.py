@@ -26,12 +26,12 @@ class Protocol:
 
     @property
     def loopback(self) -> str:
-        """The address where this machine alone reaches the agent: the default."""
+        """The address at which only this machine reaches the agent: the default."""
         return "127.0.0.1" if self.family == socket.AF_INET else "::1"
 
     @property
     def everywhere(self) -> str:
-        """The address that means every address of this machine."""
+        """The address that represents every address of this machine."""
         return "0.0.0.0" if self.family == socket.AF_INET else "::"
 
     @property
@@ -53,9 +53,9 @@ PROTOCOLS = {protocol.name: protocol for protocol in (UDP4, UDP6, TCP4, TCP6)}
 
 
 def open_socket(protocol: Protocol, host: str, port: int) -> socket.socket:
-    """Return a socket that does not block, bound to `host` and `port` (0: a free one); UserError when it cannot be.
+    """Return a non-blocking socket, bound to `host` and `port` (0: a free one). Raises UserError if that fails.
 
-    One for IPv6 takes IPv6 alone, so that the same port of IPv4 is free for another transport.
+    A socket for IPv6 accepts IPv6 alone, so that the same port of IPv4 is free for another transport.
     """
     kind = socket.SOCK_STREAM if protocol.stream else socket.SOCK_DGRAM
     try:

@@ -46,7 +46,7 @@ _KEEPALIVE = (("TCP_KEEPIDLE", 30), ("TCP_KEEPINTVL", 10), ("TCP_KEEPCNT", 3))
 
 @dataclass(frozen=True)
 class TcpLimits:
-    """What connections may take; times in seconds."""
+    """Limits of connections; times in seconds."""
 
     connections: int = 256
     """Connections of one port. One more takes the place of a silent one, or is refused."""
@@ -60,7 +60,7 @@ class TcpLimits:
 
 
 class Connection:
-    """One connection: the address of its client. It is equal to itself alone."""
+    """One connection, which is also the address of its client. It is equal to itself alone."""
 
     def __init__(
         self,
@@ -96,7 +96,7 @@ class Connection:
 
     @property
     def closed(self) -> bool:
-        """Whether it is of the past; messages to it are lost."""
+        """Whether it was closed; messages to it are lost."""
         return self.descriptor < 0
 
 
@@ -115,9 +115,10 @@ class Tcp:
         fair: Fairness | None = None,
         strangers: Account | None = None,
     ) -> None:
-        """Bind to `host` and `port` (0: a free one); UserError when that is not possible.
+        """Bind to `host` and `port` (0: a free one). Raises UserError if that is not possible.
 
-        The pools and `fair` are the agent's, and `strangers`, who pays for connections without a client.
+        The pools and `fair` are those of the agent; the account `strangers` is charged for connections without a
+        client.
         """
         self._fair = fair or Fairness()
         self._strangers = strangers or Account()
@@ -153,7 +154,7 @@ class Tcp:
 
     @property
     def forgeable(self) -> bool:
-        """See Transport: who connects was there."""
+        """See Transport: a connection proves the address."""
         return False
 
     def fileno(self) -> int:

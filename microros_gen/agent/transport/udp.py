@@ -31,17 +31,17 @@ Peer = Any
 
 
 class Queue:
-    """A socket that is read: the one for everybody, or that of one client."""
+    """A socket that is read: the shared one, or that of one client."""
 
     def __init__(self, opened: socket.socket, account: Account, peer: Peer = None) -> None:
-        """`peer`: whose it is; None: everybody's who has none."""
+        """Read for `peer`; None: for every sender without a separate socket."""
         self.socket = opened
         self.account = account
         self.peer = peer
 
 
 class Udp:
-    """A bound socket that does not block, and one for each client in session."""
+    """A bound non-blocking socket, and one for each client in session."""
 
     def __init__(
         self,
@@ -51,9 +51,10 @@ class Udp:
         fair: Fairness | None = None,
         strangers: Account | None = None,
     ) -> None:
-        """Bind to `host` and `port` (0: a free one); UserError when that is not possible.
+        """Bind to `host` and `port` (0: a free one). Raises UserError if that is not possible.
 
-        `fair` orders the clients, `strangers` pays for who is none; both are the agent's.
+        `fair` orders the clients, the account `strangers` is charged for senders without a session; both are the
+        agent's.
         """
         self._fair = fair or Fairness()
         self._socket = open_socket(protocol, host, port)
@@ -78,11 +79,11 @@ class Udp:
         return True
 
     def tick(self, now: float) -> None:
-        """See Transport: a socket needs no care."""
+        """See Transport: a socket needs nothing."""
 
     @property
     def forgeable(self) -> bool:
-        """See Transport: nobody checks where a datagram says to come from."""
+        """See Transport: the sender's address of a datagram is not verified."""
         return True
 
     def fileno(self) -> int:
@@ -99,7 +100,7 @@ class Udp:
             continue
 
     def _round(self, receive: Receive) -> bool:
-        """Read queues in their order, until it is time to look who else has something; return whether all were."""
+        """Read queues in their order, until it is time to look for other input; return whether all were read."""
         ready = [self._queues[descriptor] for descriptor, _ in self._epoll.poll(0)]
         self._fair.order(ready)
         end = time.monotonic() + LOOK_S
