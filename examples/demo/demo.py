@@ -11,12 +11,14 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent
 ROOT = FOLDER.parent.parent
 OUT = ROOT / "build" / "demo"
+LAMP = FOLDER.parent / "parameters"
+TOOL = (sys.executable, "-m", "microros_gen")
 PORTS = range(8888, 8908)
 BOARD = "qemu-mps2-an386"
 FIRMWARE_NEEDS = (
@@ -36,6 +38,7 @@ def main() -> int:
         port = free_port()
         build(port)
         show(port)
+        show_parameters(port)
         show_firmware()
     except PartFailedError as error:
         print(f"demo: {error}", file=sys.stderr)
@@ -58,36 +61,40 @@ def free_port() -> int:
 def build(port: int) -> None:
     """Generate and compile the application for the host."""
     start = time.monotonic()
-    command = [
-        sys.executable,
-        "-m",
-        "microros_gen",
-        "build",
-        "-c",
-        str(FOLDER / "microros.yaml"),
-        "-o",
-        str(OUT),
-    ]
-    command += ["--agent", f"127.0.0.1:{port}"]
-    print(f"1. build: microros-gen build -c {(FOLDER / 'microros.yaml').relative_to(ROOT)}")
-    if subprocess.run(command, check=False).returncode != 0:
-        raise PartFailedError("build: the image could not be built (see above)")
+    config = FOLDER / "microros.yaml"
+    print(f"1. build: microros-gen build -c {config.relative_to(ROOT)}")
+    run_build("build", config, OUT, "--agent", f"127.0.0.1:{port}")
     print(f"   {time.monotonic() - start:.1f} s")
+
+
+def run_build(name: str, config: Path, out: Path, *options: str) -> None:
+    """Run `build` of an application file."""
+    command = [*TOOL, "build", "-c", str(config), "-o", str(out), *options]
+    if subprocess.run(command, check=False).returncode != 0:
+        raise PartFailedError(f"{name}: the image could not be built (see above)")
+
+
+def environment() -> dict[str, str]:
+    """Return the environment of a part: ROS on this machine alone, lines that are printed at once."""
+    return {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", **os.environ, "PYTHONUNBUFFERED": "1"}
+
+
+def agent(port: int) -> AbstractContextManager[subprocess.Popen[str]]:
+    """Start an agent in the domain of the ROS nodes; end it afterwards."""
+    command = [*TOOL, "agent", "udp4", "--port", str(port)]
+    return part("agent", [*command, "--domain", os.environ.get("ROS_DOMAIN_ID") or "0"], "agent ready")
 
 
 def show(port: int) -> None:
     """Run agent, listener and image together until the listener has enough."""
-    environment = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", **os.environ, "PYTHONUNBUFFERED": "1"}
     with ExitStack() as stack:
         print(f"2. agent: microros-gen agent udp4 --port {port}")
-        agent_command = [sys.executable, "-m", "microros_gen", "agent", "udp4", "--port", str(port)]
-        agent_command += ["--domain", os.environ.get("ROS_DOMAIN_ID") or "0"]  # the listener's, too
-        stack.enter_context(part("agent", agent_command, environment, "agent ready"))
+        stack.enter_context(agent(port))
         print("3. listener: an rclpy node in a separate process")
         listener_command = [sys.executable, str(FOLDER / "subscriber.py")]
-        listener = stack.enter_context(part("listener", listener_command, environment, "listener ready"))
+        listener = stack.enter_context(part("listener", listener_command, "listener ready"))
         print(f"4. image: {(OUT / 'bin/pure_sender').relative_to(ROOT)}")
-        image = stack.enter_context(part("image", [str(OUT / "bin/pure_sender")], environment, None))
+        image = stack.enter_context(part("image", [str(OUT / "bin/pure_sender")], None))
         assert listener.stdout is not None
         for line in listener.stdout:
             print(f"   {line}", end="")
@@ -98,24 +105,44 @@ def show(port: int) -> None:
             raise PartFailedError(f"listener: it did not get its samples; the image {state}")
 
 
+def show_parameters(port: int) -> None:
+    """Set a parameter of an image from ROS: what it sends changes."""
+    out = OUT.with_name("demo_parameters")
+    program = out / "lamp"
+    print(f"5. parameters: {LAMP.relative_to(ROOT)}, whose gain an rclpy node sets")
+    run_build("parameters", LAMP / "microros.yaml", out, "--agent", f"127.0.0.1:{port}")
+    compiler = os.environ.get("CC") or "cc"
+    command = [compiler, "-std=c99", f"-I{out / 'include'}", str(LAMP / "main.c")]
+    command += [str(out / "lib" / "libmicroros.a"), "-o", str(program)]
+    if subprocess.run(command, check=False).returncode != 0:
+        raise PartFailedError("parameters: the program could not be compiled (see above)")
+    with ExitStack() as stack:
+        stack.enter_context(agent(port))
+        node = [sys.executable, str(FOLDER / "set_gain.py")]
+        operator = stack.enter_context(part("operator", node, "operator ready"))
+        stack.enter_context(part("lamp", [str(program)], None))
+        assert operator.stdout is not None
+        for line in operator.stdout:
+            print(f"   {line}", end="")
+        if operator.wait() != 0:
+            raise PartFailedError("parameters: the new gain was not seen")
+
+
 def show_firmware() -> None:
     """Build a board's image, run it in QEMU, and let rclpy hear it; say what to install where something lacks."""
-    print(f"5. firmware: the same node for {BOARD}")
+    print(f"6. firmware: the first node for {BOARD}")
     missing = [package for program, package in FIRMWARE_NEEDS if shutil.which(program) is None]
     if missing:
         print(f"   left out; to see it: apt-get install {' '.join(missing)}")
         return
-    tool = [sys.executable, "-m", "microros_gen"]
-    config, out = str(FOLDER / "firmware.yaml"), str(OUT.with_name("demo_firmware"))
-    if subprocess.run([*tool, "build", "-c", config, "-o", out], check=False).returncode != 0:
-        raise PartFailedError("firmware: the image could not be built (see above)")
-    environment = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", **os.environ, "PYTHONUNBUFFERED": "1"}
+    out = OUT.with_name("demo_firmware")
+    run_build("firmware", FOLDER / "firmware.yaml", out)
     domain = os.environ.get("ROS_DOMAIN_ID") or "0"
     listen = [sys.executable, str(FOLDER / "subscriber.py"), "--samples", "5"]
     with ExitStack() as stack:
-        listener = stack.enter_context(part("listener", listen, environment, "listener ready"))
-        run = [*tool, "run", out, "--domain", domain]
-        stack.enter_context(part("firmware", run, environment, "agent ready"))
+        listener = stack.enter_context(part("listener", listen, "listener ready"))
+        run = [*TOOL, "run", str(out), "--domain", domain]
+        stack.enter_context(part("firmware", run, "agent ready"))
         assert listener.stdout is not None
         for line in listener.stdout:
             if not line.startswith("latency"):  # a board without a clock stamps from 0 on
@@ -125,12 +152,10 @@ def show_firmware() -> None:
 
 
 @contextmanager
-def part(
-    name: str, command: list[str], environment: dict[str, str], ready: str | None
-) -> Iterator[subprocess.Popen[str]]:
+def part(name: str, command: list[str], ready: str | None) -> Iterator[subprocess.Popen[str]]:
     """Start a process, wait for the line that says it is ready, and end it afterwards."""
     output = subprocess.PIPE if ready else None
-    process = subprocess.Popen(command, env=environment, stdout=output, text=True)
+    process = subprocess.Popen(command, env=environment(), stdout=output, text=True)
     try:
         if ready:
             wait_for(process, name, ready)

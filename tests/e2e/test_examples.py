@@ -251,6 +251,19 @@ def test_custom_transport(examples: Examples, domain: int, fresh: Observer) -> N
     assert values == list(range(values[0], values[0] + len(values)))
 
 
+def test_parameters(examples: Examples, agent: AgentProcess, fresh: Observer) -> None:
+    """`make demo` sets them; here the example runs with sanitizers."""
+    wanted = {"/brightness": "std_msgs/msg/Float64", "/diagnostics": "diagnostic_msgs/msg/DiagnosticArray"}
+    listen(fresh, wanted)
+    found: Samples = {}
+    with examples.running("parameters"):
+        collect(fresh, found, {"/brightness": 20, "/diagnostics": 1})
+    assert {sample["data"] for sample in found["/brightness"]} == {0.0, 1.0, 2.0, 3.0, 4.0, 5.0}
+    (status,) = found["/diagnostics"][0]["status"]
+    assert (status["name"], status["message"]) == ("dimmer", "the lamp is on")
+    assert status["values"] == [{"key": "changes", "value": "0"}]
+
+
 def test_the_page_has_every_example() -> None:
     """A row each, and the commands that this file runs: build, compile, an agent, the program."""
     for name in NAMES:

@@ -146,12 +146,25 @@ def test_run_with_the_port_in_use(profile_image: Image, relay: Relay, domain: in
 
 # The demo, in a copy: its output folder lies two above it
 
+SET_BY_ROS = [
+    "/brightness rises to 5.0",
+    "set gain to 10.0: accepted",
+    "set gain to 1000.0: refused: Parameter {gain} doesn't comply with floating point range.",
+    "set color to green: refused: rejected by the callback",
+    "/brightness rises to 50.0",
+    "/diagnostics reports 1 change",
+    "/rosout: gain changes",
+    "/rosout: there is no light of the color green",
+]
+
 
 @pytest.fixture(scope="module")
 def demo(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("demo") / "examples" / "demo"
-    shutil.copytree(ROOT / "examples" / "demo", folder)
-    return folder
+    examples = tmp_path_factory.mktemp("demo") / "examples"
+    for name in ("demo", "parameters"):
+        shutil.copytree(ROOT / "examples" / name, examples / name)
+    shutil.copy(ROOT / "examples" / "example.h", examples)
+    return examples / "demo"
 
 
 def run_demo(demo: Path, domain: int, **variables: str) -> subprocess.CompletedProcess[str]:
@@ -164,8 +177,11 @@ def test_the_demo(demo: Path, domain: int) -> None:
     done = run_demo(demo, domain)
     assert done.returncode == 0, done.stdout + done.stderr
     printed = [line.strip() for line in done.stdout.splitlines()]
-    (firmware,) = (i for i, line in enumerate(printed) if line.startswith("5. firmware"))
-    lines, board = printed[:firmware], printed[firmware:]
+    parameters, firmware = (
+        next(i for i, line in enumerate(printed) if line.startswith(part))
+        for part in ("5. parameters", "6. firmware")
+    )
+    lines, board = printed[:parameters], printed[firmware:]
     measured = [line for line in lines if line.startswith("received /imu/data  stamp=")]
     counted = [int(line.partition("data=")[2]) for line in lines if line.startswith("received /count")]
     assert len(measured) >= 20
@@ -177,6 +193,8 @@ def test_the_demo(demo: Path, domain: int) -> None:
     (latency,) = (line for line in lines if line.startswith("latency"))
     median, worst = map(float, re.findall(r"([0-9.]+) ms", latency))
     assert 0 < median <= worst < 1000
+    shown = [line for line in printed[parameters:firmware] if line.startswith(("set ", "/"))]
+    assert shown == SET_BY_ROS
     if shutil.which("arm-none-eabi-gcc") and shutil.which("qemu-system-arm"):
         from_board = [int(line.partition("data=")[2]) for line in board if line.startswith("received /count")]
         assert len(from_board) >= 5
